@@ -1,0 +1,2 @@
+//! The `ppum` program.
+fn main() {}

@@ -1,0 +1,300 @@
+//! The dataset: everything needed to evaluate a solution exactly, nothing of the solver's inner state.
+//!
+//! A dataset is a series of quasi-static [`Step`]s over one domain. Each step has its own cover,
+//! cracks, functions and fields. On patch ω_i a field is a sum of function × polynomial,
+//!
+//! ```text
+//! v_i(x) = Σ_b f_b(x) Σ_{|k| ≤ d_b} c_{b,k} ξ^k        v = Σ_i φ_i v_i        ξ = (x − origin_i) / scale_i
+//! ```
+//!
+//! so that smooth parts (f = 1), jumps (f = side of a crack) and tip functions differ in nothing but
+//! the function their [blocks](FieldData) name. `ppum-format` stores this structure, `ppum-solve`
+//! makes it, [`Field`](crate::field::Field) evaluates it.
+
+use crate::crack::{Crack, TipId};
+use crate::function::Function;
+use crate::vec2::{Rect, Vec2};
+use crate::weight::WeightFunction;
+
+/// A solved problem, or a field from elsewhere in the same representation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dataset {
+    /// One line that names the problem.
+    pub title: String,
+    /// Name and version of the program that made it, e.g. `ppum 0.1.0`.
+    pub program: String,
+    /// The problem file's text, if there was one.
+    pub problem: Option<String>,
+    /// The box Ω. Outside it nothing is defined.
+    pub domain: Rect,
+    /// What was solved; decides which quantities have a meaning.
+    pub equation: Equation,
+    /// Quasi-static series, at least one.
+    pub steps: Vec<Step>,
+}
+
+/// The differential equation behind a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Equation {
+    /// Linear elasticity, two displacement components.
+    Elasticity(Material),
+    /// −∇·(κ ∇u) = f, one component.
+    Poisson {
+        /// κ > 0.
+        conductivity: f64,
+    },
+}
+
+impl Equation {
+    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        match self {
+            Self::Elasticity(_) => 2,
+            Self::Poisson { .. } => 1,
+        }
+    }
+
+    /// The material, if the equation has stresses.
+    #[must_use]
+    pub fn material(&self) -> Option<Material> {
+        match self {
+            Self::Elasticity(material) => Some(*material),
+            Self::Poisson { .. } => None,
+        }
+    }
+}
+
+/// Isotropic linear elastic material in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus E > 0, a stress.
+    pub young: f64,
+    /// Poisson's ratio, −1 < ν < 1/2 (plane stress: −1 < ν ≤ 1/2).
+    pub poisson: f64,
+    /// Plane strain or plane stress.
+    pub state: StressState,
+}
+
+/// What is assumed of the third direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StressState {
+    /// ε_zz = 0.
+    PlaneStrain,
+    /// σ_zz = 0.
+    PlaneStress,
+}
+
+impl Material {
+    /// Shear modulus μ = E / (2 (1 + ν)).
+    #[must_use]
+    pub fn mu(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
+
+    /// Lamé's λ of the plane law σ = 2μ ε + λ tr(ε) I over the in-plane components:
+    /// Eν / ((1+ν)(1−2ν)) in plane strain, Eν / (1−ν²) in plane stress.
+    #[must_use]
+    pub fn lambda(&self) -> f64 {
+        let (e, nu) = (self.young, self.poisson);
+        match self.state {
+            StressState::PlaneStrain => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            StressState::PlaneStress => e * nu / (1.0 - nu * nu),
+        }
+    }
+
+    /// Kolosov's constant κ: 3 − 4ν in plane strain, (3 − ν)/(1 + ν) in plane stress.
+    #[must_use]
+    pub fn kolosov(&self) -> f64 {
+        match self.state {
+            StressState::PlaneStrain => 3.0 - 4.0 * self.poisson,
+            StressState::PlaneStress => (3.0 - self.poisson) / (1.0 + self.poisson),
+        }
+    }
+
+    /// E′ of G = K²/E′: E/(1 − ν²) in plane strain, E in plane stress.
+    #[must_use]
+    pub fn effective_young(&self) -> f64 {
+        match self.state {
+            StressState::PlaneStrain => self.young / (1.0 - self.poisson * self.poisson),
+            StressState::PlaneStress => self.young,
+        }
+    }
+
+    /// σ_zz / (σ_xx + σ_yy): ν in plane strain, 0 in plane stress.
+    #[must_use]
+    pub fn out_of_plane(&self) -> f64 {
+        match self.state {
+            StressState::PlaneStrain => self.poisson,
+            StressState::PlaneStress => 0.0,
+        }
+    }
+}
+
+/// One state of a quasi-static series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Load factor or pseudo-time of the step.
+    pub load: f64,
+    /// The partition of unity.
+    pub partition: Partition,
+    /// The cracks.
+    pub cracks: Vec<Crack>,
+    /// The functions f_b that the fields' blocks name.
+    pub functions: Vec<Function>,
+    /// The fields; a solver's dataset has one, `displacement` or `potential`.
+    pub fields: Vec<FieldData>,
+    /// Named values, one a patch.
+    pub attributes: Vec<Attribute>,
+    /// Stress intensity factors found by the solver.
+    pub intensities: Vec<TipIntensity>,
+    /// What the solver reports: residual, unknowns, functions cut off, seconds per phase.
+    pub history: Vec<Record>,
+}
+
+/// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
+/// W_i(x) = w(|x − center_i,x| / half_i,x) · w(|y − center_i,y| / half_i,y).
+///
+/// Structure of arrays; all vectors have one entry a patch. The polynomial frame (`origin`,
+/// `scale`) is kept apart from the support (`center`, `half`); the solver makes them equal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Partition {
+    /// The weight function w of t = |ξ|.
+    pub weight: WeightFunction,
+    /// Centre of the support box.
+    pub center: Vec<Vec2>,
+    /// Half-extent of the support box, positive.
+    pub half: Vec<Vec2>,
+    /// Origin of the polynomial coordinates ξ.
+    pub origin: Vec<Vec2>,
+    /// Scale of the polynomial coordinates ξ, positive.
+    pub scale: Vec<Vec2>,
+    /// The leaf cell C_i that generated the patch; the cells tile the domain.
+    pub cell: Vec<Rect>,
+    /// Level of the cell in its tree, 0 at the root.
+    pub level: Vec<u8>,
+    /// Index into `points` of the point that generated the patch, if one did.
+    pub point: Vec<Option<u32>>,
+    /// The scattered points the cover was made from; empty for uniform covers.
+    pub points: Vec<Vec2>,
+}
+
+impl Partition {
+    /// Number of patches.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.center.len()
+    }
+
+    /// True if there is no patch.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.center.is_empty()
+    }
+
+    /// The support ω_i as a box.
+    #[must_use]
+    pub fn support(&self, patch: usize) -> Rect {
+        Rect::around(self.center[patch], self.half[patch])
+    }
+}
+
+/// A field's blocks and coefficients in compressed rows.
+///
+/// Patch `i` owns blocks `patch_blocks[i] .. patch_blocks[i + 1]`. Block `b` is function
+/// `block_function[b]` times a polynomial of degree `block_degree[b]` whose coefficients start at
+/// `block_offset[b]` in each component's array. Monomials are ordered by total degree, then by
+/// descending power of x: 1, ξ, η, ξ², ξη, η², …
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldData {
+    /// Name, e.g. `displacement`.
+    pub name: String,
+    /// Unit of the values, for labels; may be empty.
+    pub unit: String,
+    /// Names of the components as used by quantities, e.g. `ux`, `uy`.
+    pub components: Vec<String>,
+    /// Compressed rows: patch → blocks; one entry more than there are patches.
+    pub patch_blocks: Vec<u32>,
+    /// Function of each block.
+    pub block_function: Vec<u32>,
+    /// Polynomial degree of each block, at most [`MAX_DEGREE`].
+    pub block_degree: Vec<u8>,
+    /// First coefficient of each block.
+    pub block_offset: Vec<u64>,
+    /// Coefficients, one array a component.
+    pub coefficients: Vec<Vec<f64>>,
+    /// Formulas of x and y of the exact solution, one a component; empty if unknown.
+    pub exact: Vec<String>,
+}
+
+/// Highest polynomial degree of a block.
+pub const MAX_DEGREE: usize = 8;
+
+/// Number of monomials of total degree at most `degree`: (d + 1)(d + 2)/2.
+#[must_use]
+pub const fn monomials(degree: usize) -> usize {
+    (degree + 1) * (degree + 2) / 2
+}
+
+impl FieldData {
+    /// The blocks of a patch as a range of block indices.
+    #[must_use]
+    pub fn blocks(&self, patch: usize) -> std::ops::Range<usize> {
+        self.patch_blocks[patch] as usize..self.patch_blocks[patch + 1] as usize
+    }
+
+    /// The coefficients of one block and component.
+    #[must_use]
+    pub fn block_coefficients(&self, block: usize, component: usize) -> &[f64] {
+        let start = self.block_offset[block] as usize;
+        let count = monomials(self.block_degree[block] as usize);
+        &self.coefficients[component][start..start + count]
+    }
+}
+
+/// Named values, one a patch: order, enrichment, functions cut off, …
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    /// Name, e.g. `unknowns`.
+    pub name: String,
+    /// One value a patch.
+    pub values: Vec<f64>,
+}
+
+/// One number of the solver's report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Name, e.g. `residual` or `assembly`.
+    pub name: String,
+    /// Value.
+    pub value: f64,
+    /// Unit, e.g. `s`; empty for plain numbers.
+    pub unit: String,
+}
+
+/// Stress intensity factors at one tip, from interaction integrals over several discs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TipIntensity {
+    /// The tip.
+    pub tip: TipId,
+    /// Value of the preferred ring, K_I \[stress·length^½\].
+    pub k1: f64,
+    /// Value of the preferred ring, K_II.
+    pub k2: f64,
+    /// All rings.
+    pub rings: Vec<Ring>,
+}
+
+/// One evaluation of the interaction integral: the cut-off is one inside `r1` and zero outside `r2`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Inner radius (0 when the cut-off falls from the tip on).
+    pub r1: f64,
+    /// Outer radius.
+    pub r2: f64,
+    /// K_I.
+    pub k1: f64,
+    /// K_II.
+    pub k2: f64,
+}

@@ -1,0 +1,61 @@
+//! The function table: the f_b of function × polynomial.
+
+use crate::crack::TipId;
+use crate::vec2::Vec2;
+
+/// One entry of a step's function table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Name for reports, e.g. `westergaard 1 of crack 0 end`.
+    pub name: String,
+    /// What it is.
+    pub kind: FunctionKind,
+}
+
+/// The kinds of functions a block can multiply its polynomial with.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum FunctionKind {
+    /// f = 1: the smooth part.
+    One,
+    /// f = +1 on the left of the crack's direction, −1 on the right: a jump.
+    Side {
+        /// Index of the crack.
+        crack: u32,
+    },
+    /// f = a formula of x, y, r, theta of its frame.
+    Formula {
+        /// The formula.
+        text: String,
+        /// Where x, y, r and theta are measured.
+        frame: Frame,
+        /// Named constants the formula may use.
+        parameters: Vec<(String, f64)>,
+    },
+}
+
+/// The coordinates of a formula. In each of them r = √(x² + y²) and θ ∈ \[−π, π\] is the polar angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Frame {
+    /// World coordinates.
+    World,
+    /// A fixed origin and x axis.
+    Fixed {
+        /// Origin.
+        origin: Vec2,
+        /// Angle of the x axis, radians.
+        angle: f64,
+    },
+    /// A crack tip: origin at the tip, x along the direction of growth; θ jumps on the crack itself,
+    /// kinks included.
+    Tip(TipId),
+}
+
+/// The four Westergaard functions in the order of equation (6) of Üffinger et al. 2011.
+pub const WESTERGAARD: [&str; 4] = [
+    "sqrt(r)*cos(theta/2)",
+    "sqrt(r)*sin(theta/2)",
+    "sqrt(r)*sin(theta)*sin(theta/2)",
+    "sqrt(r)*sin(theta)*cos(theta/2)",
+];

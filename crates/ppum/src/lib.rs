@@ -1,0 +1,6 @@
+//! Particle-partition of unity fields, evaluated exactly.
+pub mod crack;
+pub mod dataset;
+pub mod function;
+pub mod vec2;
+pub mod weight;
