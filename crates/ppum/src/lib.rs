@@ -1,8 +1,11 @@
 //! Particle-partition of unity fields, evaluated exactly.
 pub mod box_tree;
+pub mod cover;
 pub mod crack;
 pub mod dataset;
 pub mod function;
 mod morton;
+#[cfg(test)]
+mod random;
 pub mod vec2;
 pub mod weight;
