@@ -2,5 +2,8 @@
 pub mod crack;
 pub mod dataset;
 pub mod function;
+pub mod jet;
+pub mod polynomial;
+pub mod real;
 pub mod vec2;
 pub mod weight;
