@@ -4,6 +4,9 @@ pub mod cover;
 pub mod crack;
 pub mod dataset;
 pub mod function;
+pub mod jet;
+pub mod polynomial;
+pub mod real;
 mod morton;
 #[cfg(test)]
 mod random;
