@@ -5,10 +5,10 @@ pub mod crack;
 pub mod dataset;
 pub mod function;
 pub mod jet;
-pub mod polynomial;
-pub mod real;
 mod morton;
+pub mod polynomial;
 #[cfg(test)]
 mod random;
+pub mod real;
 pub mod vec2;
 pub mod weight;
