@@ -2,10 +2,13 @@
 pub mod box_tree;
 pub mod crack;
 pub mod dataset;
+pub mod field;
+pub mod formula;
 pub mod function;
 pub mod jet;
-pub mod polynomial;
-pub mod real;
 mod morton;
+pub mod polynomial;
+pub mod quantity;
+pub mod real;
 pub mod vec2;
 pub mod weight;
