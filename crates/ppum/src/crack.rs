@@ -81,7 +81,5 @@ impl Crack {
 
 /// All tips of a set of cracks, in order of crack and end.
 pub fn tips(cracks: &[Crack]) -> impl Iterator<Item = TipId> + '_ {
-    (0u32..)
-        .zip(cracks)
-        .flat_map(|(crack, c)| c.tips().map(move |end| TipId { crack, end }))
+    (0u32..).zip(cracks).flat_map(|(crack, c)| c.tips().map(move |end| TipId { crack, end }))
 }
