@@ -1,1 +1,2 @@
 //! ppum-solve
+pub mod quadrature;
