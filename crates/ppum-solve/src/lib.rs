@@ -1,5 +1,3 @@
-//! From a problem to a dataset: elasticity and Poisson problems with cracks, solved by the
-//! particle-partition of unity method.
-pub mod problem;
 //! ppum-solve
+pub mod problem;
 pub mod quadrature;

@@ -7,10 +7,7 @@ use ppum::vec2::Vec2;
 
 /// A scalar given by a number or a formula of x and y.
 #[derive(Clone, Debug)]
-pub struct Expression {
-    text: String,
-    formula: Formula,
-}
+pub struct Expression(Formula);
 
 impl Expression {
     /// The expression of a formula's text.
@@ -18,8 +15,7 @@ impl Expression {
     /// # Errors
     /// The text is no formula of x and y.
     pub fn parse(text: &str) -> Result<Self, FormulaError> {
-        let formula = Formula::parse(text, &Scope::cartesian())?;
-        Ok(Self { text: text.to_owned(), formula })
+        Formula::parse(text, &Scope::cartesian()).map(Self)
     }
 
     /// A finite number.
@@ -36,26 +32,26 @@ impl Expression {
     /// The formula's text; reads back as the same expression.
     #[must_use]
     pub fn text(&self) -> &str {
-        &self.text
+        self.0.text()
     }
 
     /// The value at a point; not finite where the formula has none.
     #[must_use]
     pub fn value(&self, p: Vec2) -> f64 {
-        self.formula.evaluate(&[p.x, p.y])
+        self.0.evaluate(&[p.x, p.y])
     }
 
     /// The formula, for derivatives.
     #[must_use]
     pub fn formula(&self) -> &Formula {
-        &self.formula
+        &self.0
     }
 }
 
 /// Expressions are equal when their texts are.
 impl PartialEq for Expression {
     fn eq(&self, other: &Self) -> bool {
-        self.text == other.text
+        self.text() == other.text()
     }
 }
 
