@@ -1,4 +1,3 @@
-//! ppum-solve
 //! Solves two-dimensional problems of elasticity and Poisson's equation with cracks by the
 //! particle-partition of unity method.
 
