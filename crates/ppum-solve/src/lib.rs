@@ -23,10 +23,3 @@ pub mod solve;
 pub mod space;
 mod system;
 mod transform;
-//! ppum-solve
-pub mod block_matrix;
-pub mod eigen;
-pub mod pencil;
-#[cfg(test)]
-pub(crate) mod random;
-pub mod transform;
