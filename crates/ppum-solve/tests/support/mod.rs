@@ -47,3 +47,17 @@ pub fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Error
     let (energy, l2) = difference.relative_to(&reference);
     Errors { energy, l2 }
 }
+
+/// ∫ σ:∇u and ∫ |u|² of the first field.
+pub fn squares(dataset: &Dataset) -> (f64, f64) {
+    let space = Space::new(&dataset.steps[0]).expect("functions that compile");
+    let field = Field::new(dataset, 0).expect("a field");
+    let zero = |_: Vec2, _: Vec2| [Jet::constant(0.0); 2];
+    let [own, ..] = norms(&field, &space, &zero);
+    (own.energy, own.l2)
+}
+
+/// Strain energy ½ ∫ σ:ε.
+pub fn strain_energy(dataset: &Dataset) -> f64 {
+    0.5 * squares(dataset).0
+}
