@@ -1,4 +1,5 @@
 //! Particle-partition of unity fields, evaluated exactly.
+pub mod check;
 pub mod crack;
 pub mod dataset;
 pub mod function;
