@@ -1,0 +1,49 @@
+//! The words the format uses for the data model's enumerations.
+
+use ppum::crack::{CrackEnd, End};
+use ppum::dataset::StressState;
+use ppum::weight::WeightFunction;
+
+/// Words of a closed set of values.
+pub(crate) type Words<T> = [(T, &'static str)];
+
+pub(crate) const WEIGHTS: &Words<WeightFunction> = &[
+    (WeightFunction::Linear, "linear"),
+    (WeightFunction::Quadratic, "quadratic"),
+    (WeightFunction::Cubic, "cubic"),
+];
+
+pub(crate) const STRESS_STATES: &Words<StressState> =
+    &[(StressState::PlaneStrain, "plane-strain"), (StressState::PlaneStress, "plane-stress")];
+
+pub(crate) const CRACK_ENDS: &Words<CrackEnd> =
+    &[(CrackEnd::Tip, "tip"), (CrackEnd::Mouth, "mouth"), (CrackEnd::Junction, "junction")];
+
+pub(crate) const ENDS: &Words<End> = &[(End::Start, "start"), (End::Last, "last")];
+
+/// The word of a value, if the format has one.
+pub(crate) fn word<T: PartialEq>(words: &Words<T>, value: T) -> Option<&'static str> {
+    words.iter().find(|(v, _)| *v == value).map(|(_, word)| *word)
+}
+
+/// The value of a word.
+///
+/// # Errors
+///
+/// A message that lists the words known here.
+pub(crate) fn value<T: Copy>(words: &Words<T>, word: &str) -> Result<T, String> {
+    words.iter().find(|(_, w)| *w == word).map(|(v, _)| *v).ok_or_else(|| {
+        let known: Vec<&str> = words.iter().map(|(_, w)| *w).collect();
+        format!("unknown word `{word}`, expected one of: {}", known.join(", "))
+    })
+}
+
+/// The t ≥ 0 at which a weight function is not smooth as a function of ξ = ±t.
+pub(crate) fn breakpoints(weight: WeightFunction) -> Option<&'static [f64]> {
+    match weight {
+        WeightFunction::Linear => Some(&[0.0, 1.0]),
+        WeightFunction::Quadratic => Some(&[1.0 / 3.0, 1.0]),
+        WeightFunction::Cubic => Some(&[0.0, 0.5, 1.0]),
+        _ => None,
+    }
+}
