@@ -1,7 +1,10 @@
 //! The function table: the f_b of function × polynomial.
 
+mod westergaard;
+
 use crate::crack::TipId;
 use crate::vec2::Vec2;
+pub use westergaard::westergaard;
 
 /// One entry of a step's function table.
 #[derive(Clone, Debug, PartialEq)]
