@@ -8,6 +8,12 @@ use std::collections::BTreeMap;
 /// attribute's is that of its object, `@` and its own (`steps/0000@load`; of the root: `@title`).
 pub(crate) type Content = BTreeMap<String, Array>;
 
+/// Name of an array (`name`) or an attribute (`@name`) of the group at `path`; the root's is empty.
+pub(crate) fn join(path: &str, name: &str) -> String {
+    let separator = if path.is_empty() || name.starts_with('@') { "" } else { "/" };
+    format!("{path}{separator}{name}")
+}
+
 /// A rectangular array, row-major. A scalar has the shape `[]`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Array {
@@ -84,9 +90,7 @@ impl Array {
     }
 
     /// A matrix of `N` columns.
-    pub(crate) fn rows<T: Element, const N: usize>(
-        rows: impl IntoIterator<Item = [T; N]>,
-    ) -> Self {
+    pub(crate) fn rows<T: Element, const N: usize>(rows: impl IntoIterator<Item = [T; N]>) -> Self {
         let values: Vec<T> = rows.into_iter().flatten().collect();
         Self { shape: vec![(values.len() / N) as u64, N as u64], values: T::wrap(values) }
     }

@@ -6,10 +6,11 @@ use ppum::dataset::{
 };
 use ppum::function::{Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
 
-use crate::content::{Array, Content, Element, Values};
+use crate::content::{Array, Content, Element, Values, join};
 use crate::error::ReadError;
-use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, WEIGHTS, Words, breakpoints, value};
+use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, Words, value};
 
 type Read<T> = Result<T, ReadError>;
 
@@ -56,7 +57,7 @@ impl Group<'_> {
     }
 
     fn path_of(&self, name: &str) -> String {
-        if self.path.is_empty() { name.to_owned() } else { format!("{}/{name}", self.path) }
+        join(&self.path, name)
     }
 
     fn has(&self, name: &str) -> bool {
@@ -65,21 +66,19 @@ impl Group<'_> {
 
     /// True if there is anything in the group.
     fn exists(&self) -> bool {
-        let mut from_here = self.content.range(self.path.clone()..);
-        let inside = |k: &str| {
-            k.strip_prefix(&self.path).is_some_and(|rest| rest.starts_with(['/', '@']))
-        };
-        from_here.any(|(key, _)| inside(key))
+        let path = self.path.as_str();
+        let from_here = self.content.range(path.to_owned()..).map(|(key, _)| key);
+        let mut rests = from_here.map_while(|key| key.strip_prefix(path));
+        rests.any(|rest| rest.starts_with(['/', '@']))
     }
 
     fn error(&self, name: &str, problem: impl Into<String>) -> ReadError {
         ReadError::object(&self.path_of(name), problem)
     }
 
-    /// An array of rank one, or of rank two with `columns` columns; of any rank if `None`.
+    /// The values of an array of the given shape.
     fn take<T: Element>(&mut self, key: &str, shape: &[Extent]) -> Read<Vec<T>> {
-        let array =
-            self.content.remove(key).ok_or_else(|| ReadError::object(key, "is missing"))?;
+        let array = self.content.remove(key).ok_or_else(|| ReadError::object(key, "is missing"))?;
         let fits = array.shape.len() == shape.len()
             && array.shape.iter().zip(shape).all(|(n, extent)| extent.allows(*n));
         if !fits {
@@ -100,7 +99,7 @@ impl Group<'_> {
     }
 
     fn attribute<T: Element>(&mut self, name: &str) -> Read<T> {
-        let key = format!("{}@{name}", self.path);
+        let key = self.path_of(&format!("@{name}"));
         self.one(&key)
     }
 
@@ -110,7 +109,7 @@ impl Group<'_> {
     }
 
     fn attribute_point(&mut self, name: &str) -> Read<Vec2> {
-        let key = format!("{}@{name}", self.path);
+        let key = self.path_of(&format!("@{name}"));
         let p = self.take::<f64>(&key, &[Extent::Is(2)])?;
         Ok(vec2(p[0], p[1]))
     }
@@ -257,9 +256,9 @@ fn optional<T>(
 fn partition(group: &mut Group) -> Read<Partition> {
     expect_kind(group, "shepard-box")?;
     let word: String = group.attribute("weight")?;
-    let weight = group.word(WEIGHTS, &word, "@weight")?;
-    let breaks = group.vector::<f64>("weight_breakpoints")?;
-    if breakpoints(weight) != Some(&breaks) {
+    let weight = WeightFunction::from_name(&word)
+        .ok_or_else(|| group.error("@weight", format!("unknown weight function `{word}`")))?;
+    if group.vector::<f64>("weight_breakpoints")? != weight.breakpoints() {
         return Err(group.error("weight_breakpoints", format!("are not those of `{word}`")));
     }
     let center = group.points("center")?;
@@ -366,9 +365,7 @@ impl Columns {
                 crack: self.crack_index(group, k)?,
                 end: group.word(ENDS, &self.end[k], "frame_end")?,
             })),
-            other => {
-                Err(group.error("frame", format!("function {k} has unknown frame `{other}`")))
-            }
+            other => Err(group.error("frame", format!("function {k} has unknown frame `{other}`"))),
         }
     }
 

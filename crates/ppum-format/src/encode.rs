@@ -5,9 +5,9 @@ use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, TipIn
 use ppum::function::{Frame, Function, FunctionKind};
 use ppum::vec2::Rect;
 
-use crate::content::{Array, Content, Element};
+use crate::content::{Array, Content, Element, join};
 use crate::error::WriteError;
-use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, WEIGHTS, Words, breakpoints, word};
+use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, Words, word};
 
 type Written = Result<(), WriteError>;
 
@@ -46,7 +46,7 @@ impl Group<'_> {
     }
 
     fn path_of(&self, name: &str) -> String {
-        if self.path.is_empty() { name.to_owned() } else { format!("{}/{name}", self.path) }
+        join(&self.path, name)
     }
 
     fn array(&mut self, name: &str, array: Array) {
@@ -54,7 +54,7 @@ impl Group<'_> {
     }
 
     fn attribute(&mut self, name: &str, array: Array) {
-        self.content.insert(format!("{}@{name}", self.path), array);
+        self.content.insert(self.path_of(&format!("@{name}")), array);
     }
 
     fn vector<T: Element>(&mut self, name: &str, values: impl IntoIterator<Item = T>) {
@@ -97,7 +97,7 @@ fn equation(group: &mut Group, equation: &Equation) -> Written {
 
 fn step(group: &mut Group, step: &Step) -> Written {
     group.attribute("load", Array::scalar(step.load));
-    partition(&mut group.group("partition"), &step.partition)?;
+    partition(&mut group.group("partition"), &step.partition);
     cracks(&mut group.group("cracks"), &step.cracks)?;
     functions(&mut group.group("functions"), &step.functions)?;
     for (k, f) in step.fields.iter().enumerate() {
@@ -113,12 +113,11 @@ fn step(group: &mut Group, step: &Step) -> Written {
     Ok(())
 }
 
-fn partition(group: &mut Group, partition: &Partition) -> Written {
-    let weight = group.word(WEIGHTS, partition.weight, "weight")?;
-    let breaks = breakpoints(partition.weight).ok_or_else(|| group.unknown("weight"))?;
+fn partition(group: &mut Group, partition: &Partition) {
+    let weight = partition.weight;
     group.attribute("kind", Array::scalar("shepard-box".to_owned()));
-    group.attribute("weight", Array::scalar(weight));
-    group.vector("weight_breakpoints", breaks.iter().copied());
+    group.attribute("weight", Array::scalar(weight.name().to_owned()));
+    group.vector("weight_breakpoints", weight.breakpoints().iter().copied());
     for (name, points) in [
         ("center", &partition.center),
         ("half", &partition.half),
@@ -132,7 +131,6 @@ fn partition(group: &mut Group, partition: &Partition) -> Written {
     group.array("cell", Array::rows(partition.cell.iter().map(corners)));
     group.vector("level", partition.level.iter().copied());
     group.vector("point", partition.point.iter().map(|p| p.map_or(-1, i64::from)));
-    Ok(())
 }
 
 /// Compressed rows: where each part starts, and where the last one ends.
@@ -150,10 +148,7 @@ fn cracks(group: &mut Group, cracks: &[Crack]) -> Written {
     let mut ends = Vec::with_capacity(cracks.len());
     for crack in cracks {
         let [start, last] = crack.ends;
-        ends.push([
-            group.word(CRACK_ENDS, start, "ends")?,
-            group.word(CRACK_ENDS, last, "ends")?,
-        ]);
+        ends.push([group.word(CRACK_ENDS, start, "ends")?, group.word(CRACK_ENDS, last, "ends")?]);
     }
     group.array("points", Array::rows(points.map(|&p| <[f64; 2]>::from(p))));
     group.array("offsets", offsets(cracks.iter().map(|c| c.points.len())));

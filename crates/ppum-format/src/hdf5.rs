@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use hdf5_pure::{
-    AttrValue, DType, Dataset, DatasetBuilder, File, FileBuilder, FinishedGroup, Group,
-    GroupBuilder, Layout, VlenStringReadOptions,
+    AttrValue, DType, Dataset, DatasetBuilder, File, FileBuilder, FinishedGroup, FormatError,
+    Group, GroupBuilder, Layout, VlenStringReadOptions,
 };
 
-use crate::content::{Array, Content, Element, Values};
+use crate::content::{Array, Content, Element, Values, join};
 use crate::error::{ReadError, WriteError};
 
 /// Root group that is neither read nor part of the checksum: for additions by anybody.
@@ -119,9 +119,7 @@ fn attribute_value(name: &str, array: &Array) -> Result<AttrValue, WriteError> {
         (Values::F64(v), 0) => Ok(AttrValue::F64(v[0])),
         (Values::F64(v), _) => Ok(AttrValue::F64Array(v.clone())),
         (Values::U32(v), 1) => Ok(AttrValue::U32Array(v.clone())),
-        (other, _) => {
-            Err(WriteError::object(name, format!("cannot store {}", other.type_name())))
-        }
+        (other, _) => Err(WriteError::object(name, format!("cannot store {}", other.type_name()))),
     }
 }
 
@@ -187,9 +185,13 @@ impl Walk {
         Ok(())
     }
 
-    fn attributes(&mut self, path: &str, attributes: impl IntoIterator<Item = (String, AttrValue)>) {
+    fn attributes(
+        &mut self,
+        path: &str,
+        attributes: impl IntoIterator<Item = (String, AttrValue)>,
+    ) {
         for (name, value) in attributes {
-            self.content.insert(format!("{path}@{name}"), attribute_array(value));
+            self.content.insert(join(path, &format!("@{name}")), attribute_array(value));
         }
     }
 
@@ -256,12 +258,15 @@ impl Array {
     }
 }
 
-fn join(path: &str, name: &str) -> String {
-    if path.is_empty() { name.to_owned() } else { format!("{path}/{name}") }
-}
-
 fn object_error(path: &str, e: hdf5_pure::Error) -> ReadError {
-    ReadError::object(if path.is_empty() { "/" } else { path }, e.to_string())
+    let remedy = match e {
+        hdf5_pure::Error::Format(FormatError::InvalidLayoutVersion(_)) => {
+            "; its layout is newer than HDF5 1.14 (h5py: libver=\"latest\"), copy the file with \
+             h5repack or write it without `latest`"
+        }
+        _ => "",
+    };
+    ReadError::object(if path.is_empty() { "/" } else { path }, format!("{e}{remedy}"))
 }
 
 fn attribute_array(value: AttrValue) -> Array {
@@ -286,9 +291,7 @@ fn attribute_array(value: AttrValue) -> Array {
         }
         other => match other.as_strings() {
             Some(strings) => Array::vector(strings.to_vec()),
-            None => {
-                Array { shape: vec![], values: Values::Other(other.type_name().to_owned()) }
-            }
+            None => Array { shape: vec![], values: Values::Other(other.type_name().to_owned()) },
         },
     }
 }

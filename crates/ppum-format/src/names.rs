@@ -2,16 +2,9 @@
 
 use ppum::crack::{CrackEnd, End};
 use ppum::dataset::StressState;
-use ppum::weight::WeightFunction;
 
 /// Words of a closed set of values.
 pub(crate) type Words<T> = [(T, &'static str)];
-
-pub(crate) const WEIGHTS: &Words<WeightFunction> = &[
-    (WeightFunction::Linear, "linear"),
-    (WeightFunction::Quadratic, "quadratic"),
-    (WeightFunction::Cubic, "cubic"),
-];
 
 pub(crate) const STRESS_STATES: &Words<StressState> =
     &[(StressState::PlaneStrain, "plane-strain"), (StressState::PlaneStress, "plane-stress")];
@@ -36,14 +29,4 @@ pub(crate) fn value<T: Copy>(words: &Words<T>, word: &str) -> Result<T, String> 
         let known: Vec<&str> = words.iter().map(|(_, w)| *w).collect();
         format!("unknown word `{word}`, expected one of: {}", known.join(", "))
     })
-}
-
-/// The t ≥ 0 at which a weight function is not smooth as a function of ξ = ±t.
-pub(crate) fn breakpoints(weight: WeightFunction) -> Option<&'static [f64]> {
-    match weight {
-        WeightFunction::Linear => Some(&[0.0, 1.0]),
-        WeightFunction::Quadratic => Some(&[1.0 / 3.0, 1.0]),
-        WeightFunction::Cubic => Some(&[0.0, 0.5, 1.0]),
-        _ => None,
-    }
 }

@@ -455,10 +455,7 @@ mod tests {
             place_after(|d| d.steps[0].cracks[0].points.push(doubled)),
             "steps[0].cracks[0].segment[1]"
         );
-        assert_eq!(
-            place_after(|d| d.steps[0].cracks[0].points.truncate(1)),
-            "steps[0].cracks[0]"
-        );
+        assert_eq!(place_after(|d| d.steps[0].cracks[0].points.truncate(1)), "steps[0].cracks[0]");
         assert_eq!(
             place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Side { crack: 1 }),
             "steps[0].functions[1].crack"
