@@ -6,7 +6,6 @@
 Needs cargo: the datasets come from the example `fixture` of `ppum-format`.
 """
 
-import json
 import math
 import pathlib
 import subprocess
@@ -26,33 +25,53 @@ FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="ppum-"))
 mpmath.mp.dps = 40
 
 
-def fixture(*arguments):
-    """Runs the example; its exit status and what it says."""
+def fixture(*arguments, input=None):
+    """Runs the example: exit status, answer, complaints."""
     command = ["cargo", "run", "-q", "-p", "ppum-format", "--example", "fixture", "--"]
-    done = subprocess.run(command + [str(a) for a in arguments], cwd=ROOT, capture_output=True, text=True)
-    return done.returncode, done.stdout + done.stderr
+    command += [str(a) for a in arguments]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, input=input)
+    return done.returncode, done.stdout, done.stderr
 
 
 def files():
     if not any(FOLDER.iterdir()):
-        status, message = fixture("write", FOLDER, COUNT)
+        status, _, message = fixture("write", FOLDER, COUNT)
         assert status == 0, message
     found = sorted(FOLDER.glob("0*.h5"))
     assert len(found) == COUNT
     return found
 
 
-def points(field, count=25):
-    """Random points, and points close to tips and kinks, all inside the domain."""
+def points(field, distances, count=25):
+    """(anchor, offset): random points, points close to tips and kinks, and middles of cracks."""
     random = np.random.default_rng(1)
-    yield from field.min + (field.max - field.min) * random.random((count, 2))
+    for point in field.min + (field.max - field.min) * random.random((count, 2)):
+        yield point, np.zeros(2)
     for crack in field.cracks:
         for vertex in crack:
-            for distance in (1e-2, 1e-6):
+            for distance in distances:
                 angle = random.random() * 2 * math.pi
-                point = vertex + distance * np.array([math.cos(angle), math.sin(angle)])
-                if (point > field.min).all() and (point < field.max).all():
-                    yield point
+                offset = distance * np.array([math.cos(angle), math.sin(angle)])
+                if (vertex + offset > field.min).all() and (vertex + offset < field.max).all():
+                    yield vertex, offset
+        for middle in (crack[:-1] + crack[1:]) / 2:
+            yield middle, distances[-1] * (random.random(2) - 0.5)
+
+
+def exact_sum(anchor, offset):
+    return [mpmath.mpf(float(a)) + mpmath.mpf(float(b)) for a, b in zip(anchor, offset)]
+
+
+def difference(jets, exact):
+    """Largest difference of values and of gradients, relative to the local size of values and of
+    values and gradients."""
+    values, all = max(abs(jet[0]) for jet in exact), scale(exact)
+    sizes = (values, all, all)
+    return max(
+        float(abs(u - v) / size)
+        for jet, other in zip(jets, exact, strict=True)
+        for u, v, size in zip(jet, other, sizes)
+    )
 
 
 def scale(jets):
@@ -68,26 +87,42 @@ def test_h5py_reads_and_the_checksum_agrees():
             assert checksum(file) == text(file.attrs["sha256"])
 
 
-def test_double_agrees_with_extended_precision():
+def test_the_program_agrees_with_extended_precision():
+    worst = 0
+    for path in files():
+        with h5py.File(path) as file:
+            field = Field(file, numbers=mpmath)
+            asked = [(*p, side) for p in points(field, [1e-2, 1e-6, 1e-13]) for side in (1, -1)]
+            lines = [" ".join(map(repr, map(float, [*a, *o, s]))) for a, o, s in asked]
+            status, answer, message = fixture("values", path, input="\n".join(lines))
+            assert status == 0, message
+            for (anchor, offset, side), line in zip(asked, answer.splitlines(), strict=True):
+                numbers = list(map(float, line.split()))
+                jets = [numbers[k : k + 3] for k in range(0, len(numbers), 3)]
+                exact = field.evaluate(*exact_sum(anchor, offset), side)
+                worst = max(worst, difference(jets, exact))
+    print(f"    largest difference {worst:.1e} of the local size")
+    assert worst < 1e-12
+
+
+def test_the_reader_in_double_agrees_with_extended_precision():
     worst = 0
     for path in files():
         with h5py.File(path) as file:
             double, exact = Field(file), Field(file, numbers=mpmath)
-            for point in points(double):
-                a, b = double.evaluate(*point), exact.evaluate(*point)
-                difference = max(abs(u - v) for p, q in zip(a, b) for u, v in zip(p, q))
-                worst = max(worst, difference / scale(b))
-    print(f"    largest difference {float(worst):.1e} of the local scale")
-    # the offsets from a tip 1e-6 away keep ten digits in double precision
-    assert worst < 1e-9
+            for anchor, offset in points(double, [1e-2]):
+                p = anchor + offset
+                worst = max(worst, difference(double.evaluate(*p), exact.evaluate(*p)))
+    print(f"    largest difference {worst:.1e} of the local size")
+    assert worst < 1e-11  # it has no anchors
 
 
 def test_gradients_are_those_of_the_values():
     for path in files()[:3]:
         with h5py.File(path) as file:
             field, h = Field(file, numbers=mpmath), mpmath.mpf(10) ** -18
-            for x, y in list(points(field))[::3]:
-                x, y = mpmath.mpf(float(x)), mpmath.mpf(float(y))
+            for anchor, offset in list(points(field, [1e-2, 1e-6]))[::3]:
+                x, y = exact_sum(anchor, offset)
                 here = field.evaluate(x, y)
                 for axis, (dx, dy) in enumerate([(h, 0), (0, h)], 1):
                     after, before = field.evaluate(x + dx, y + dy), field.evaluate(x - dx, y - dy)
@@ -109,9 +144,8 @@ def test_both_sides_of_a_crack():
                 for side in (1, -1):
                     beside = [m + side * mpmath.mpf(10) ** -25 * n for m, n in zip(middle, left)]
                     on, near = field.evaluate(*middle, side), field.evaluate(*beside)
-                    difference = max(abs(p[0] - q[0]) for p, q in zip(on, near))
                     assert field.nearest(middle, k) == 0
-                    assert difference < 1e-12 * max(1, scale(on))
+                    assert all(abs(p[0] - q[0]) < 1e-12 * scale(on) for p, q in zip(on, near))
                 above, below = field.evaluate(*middle, 1), field.evaluate(*middle, -1)
                 jumps += any(abs(p[0] - q[0]) > 1e-3 for p, q in zip(above, below))
     assert jumps > 0
@@ -129,22 +163,22 @@ def test_the_program_reads_what_h5py_writes():
     with h5py.File(original) as source, h5py.File(copy, "w") as target:
         recreate(source, target)
         target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
-    status, message = fixture("same", original, copy)
+    status, _, message = fixture("same", original, copy)
     assert status == 0, message
     with h5py.File(copy, "a") as target:
         target["steps/0000/from-the-future"] = np.arange(3.0)
         target.attrs["format_version"] = np.array([1, 7], dtype="u4")
         target.attrs["sha256"] = checksum(target)
-    status, message = fixture("same", original, copy)
+    status, _, message = fixture("same", original, copy)
     assert status == 0, message
     with h5py.File(copy, "a") as target:
         target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
-    status, message = fixture("same", original, copy)
+    status, _, message = fixture("same", original, copy)
     assert status != 0 and "checksum" in message, message
     with h5py.File(copy, "a") as target:
         del target.attrs["sha256"]
         target["steps/0000/partition/half"][3, 1] = math.nan
-    status, message = fixture("same", original, copy)
+    status, _, message = fixture("same", original, copy)
     assert status != 0 and "partition.half[3]" in message, message
 
 
@@ -165,7 +199,7 @@ def test_the_newest_hdf5_layout_is_refused_with_a_remedy():
     original, copy = files()[2], FOLDER / "latest.h5"
     with h5py.File(original) as source, h5py.File(copy, "w", libver="latest") as target:
         recreate(source, target)
-    status, message = fixture("same", original, copy)
+    status, _, message = fixture("same", original, copy)
     assert status == 0 or "h5repack" in message, message
 
 
@@ -174,7 +208,7 @@ def test_a_newer_major_version_is_refused():
     copy.write_bytes(files()[0].read_bytes())
     with h5py.File(copy, "a") as target:
         target.attrs["format_version"] = np.array([2, 0], dtype="u4")
-    status, message = fixture("same", copy, copy)
+    status, _, message = fixture("same", copy, copy)
     assert status != 0 and "2.0" in message and "newer" in message, message
 
 
