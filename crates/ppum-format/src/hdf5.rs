@@ -25,6 +25,16 @@ const DEFLATE_RATIO: u64 = 1032;
 /// Limit of what compressed arrays may grow to; plain ones are limited by the file's length.
 const EXPANDED_BYTES: u64 = 1 << 32;
 
+/// Arrays from this length on are stored in chunks, shuffled and deflated. Geometry and indices shrink
+/// to a few percent, coefficients to some 80 %.
+const COMPRESSED_ELEMENTS: u64 = 1 << 12;
+
+/// Elements of a chunk: 1 MiB of doubles, which h5py's default cache just holds.
+const CHUNK_ELEMENTS: u64 = 1 << 17;
+
+/// Higher levels take longer and gain nothing on these data.
+const DEFLATE_LEVEL: u32 = 4;
+
 pub(crate) fn to_bytes(content: &Content) -> Result<Vec<u8>, WriteError> {
     let mut file = FileBuilder::new();
     let entries: Vec<Entry> = content.iter().map(|(k, a)| (k.as_str(), k.as_str(), a)).collect();
@@ -106,7 +116,26 @@ fn store(builder: &mut DatasetBuilder, name: &str, array: &Array) -> Result<(), 
         Values::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
     }
     .with_shape(&array.shape);
+    if array.len() >= COMPRESSED_ELEMENTS && !matches!(array.values, Values::Text(_)) {
+        builder.with_chunks(&chunk(&array.shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
+    }
     Ok(())
+}
+
+/// The largest block of whole rows with at most [`CHUNK_ELEMENTS`] elements.
+fn chunk(shape: &[u64]) -> Vec<u64> {
+    let mut left = CHUNK_ELEMENTS;
+    let mut chunk: Vec<u64> = shape
+        .iter()
+        .rev()
+        .map(|&n| {
+            let extent = n.min(left).max(1);
+            left /= extent;
+            extent
+        })
+        .collect();
+    chunk.reverse();
+    chunk
 }
 
 /// Attributes of the format are scalars of text or f64, or short vectors.

@@ -7,10 +7,7 @@
 //! not depend on how HDF5 lays out its bytes.
 //!
 //! Files are not trusted: whatever their bytes are, reading ends in a checked [`Dataset`] or in a
-//! [`ReadError`] that names the object at fault, and allocates in proportion to the file's size.
-//!
-//! Chunked and compressed arrays are read; what is written is plain, because coefficients do not
-//! compress and plain arrays are read fastest.
+//! [`ReadError`] that names the object at fault, and what is allocated is bounded by the file's size.
 //!
 //! ```
 //! # fn main() -> Result<(), ppum_format::ReadError> {
@@ -28,6 +25,9 @@ mod error;
 mod file;
 mod hdf5;
 mod names;
+#[cfg(test)]
+#[path = "../examples/fixture/synthetic.rs"]
+mod synthetic;
 
 use ppum::dataset::Dataset;
 
