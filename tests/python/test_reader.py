@@ -21,7 +21,8 @@ from ppum_reader import Field, checksum, text
 
 ROOT = pathlib.Path(__file__).parents[2]
 COUNT = 6
-FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="ppum-"))
+TEMPORARY = tempfile.TemporaryDirectory(prefix="ppum-")
+FOLDER = pathlib.Path(TEMPORARY.name)
 mpmath.mp.dps = 40
 
 

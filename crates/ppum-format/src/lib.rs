@@ -1,6 +1,6 @@
 //! [`Dataset`] ↔ HDF5, as `FORMAT.md` describes it.
 //!
-//! [`write`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where there
+//! [`write()`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where there
 //! is no file system). Between a dataset and HDF5 stands the content: a sorted map from the names of
 //! arrays and attributes to their values. Names and shapes meet the data model in `encode` and
 //! `decode`, HDF5 is known to `hdf5` alone, and the checksum is taken over the content, so it does
