@@ -201,7 +201,7 @@ fn damage_that_no_checksum_finds() {
 }
 
 fn position(bytes: &[u8], pattern: &[u8]) -> usize {
-    bytes.windows(pattern.len()).position(|w| w == pattern).unwrap()
+    bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
 }
 
 /// Makes the checksum of an object header right again.
