@@ -89,7 +89,6 @@ fn equation(group: &mut Group, equation: &Equation) -> Written {
             group.attribute("conductivity", Array::scalar(conductivity));
             "poisson"
         }
-        _ => return Err(group.unknown("kind")),
     };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     Ok(())
