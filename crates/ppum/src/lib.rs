@@ -1,5 +1,6 @@
 //! Particle-partition of unity fields, evaluated exactly.
 pub mod box_tree;
+pub mod check;
 pub mod cover;
 pub mod crack;
 pub mod dataset;
