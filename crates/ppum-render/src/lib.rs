@@ -1,1 +1,3 @@
 //! ppum-render
+pub mod raster;
+pub mod view;
