@@ -165,7 +165,7 @@ mod tests {
         for (name, scale) in
             [("turbo", Scale::Linear), ("viridis_r", Scale::Log), ("coolwarm", Scale::SymLog)]
         {
-            let raster = Raster::from_fn([500, 4], |i, j| 0.01 + f64::from(4 * i + j).powi(2));
+            let raster = Raster::from_fn([500, 4], |i, j| f64::from(40 + 4 * i + j).powi(2));
             let style = Style { scale, ..Style::named(name).unwrap() };
             let picture = Picture::bare(&raster, &view(500, 4), &style).unwrap();
             for (i, j) in [(0, 0), (3, 1), (77, 2), (250, 0), (499, 3)] {
