@@ -461,7 +461,7 @@ mod tests {
         };
         let places = (rows..SIZE[1]).flat_map(|y| (0..SIZE[0] - columns).map(move |x| [x, y]));
         let found =
-            places.filter(|&[x, y]| last_row(x, y)).last().expect("the plot is on the page");
+            places.filter(|&[x, y]| last_row(x, y)).next_back().expect("the plot is on the page");
         [found[0], found[1] + 1 - rows]
     }
 
