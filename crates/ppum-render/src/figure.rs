@@ -459,9 +459,8 @@ mod tests {
         let last_row = |x: u32, y: u32| {
             (0..columns).all(|i| page.pixel(x + i, y) == picture.image.pixel(i, rows - 1))
         };
-        let places = (rows..SIZE[1]).flat_map(|y| (0..SIZE[0] - columns).map(move |x| [x, y]));
-        let found =
-            places.filter(|&[x, y]| last_row(x, y)).next_back().expect("the plot is on the page");
+        let mut places = (rows..SIZE[1]).flat_map(|y| (0..SIZE[0] - columns).map(move |x| [x, y]));
+        let found = places.rfind(|&[x, y]| last_row(x, y)).expect("the plot is on the page");
         [found[0], found[1] + 1 - rows]
     }
 
