@@ -103,7 +103,8 @@ impl<'a> Border<'a> {
             out
         };
         let value_rows: Vec<_> = numbers.iter().map(|k| k * c + i).collect();
-        let all_rows: Vec<_> = numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
+        let all_rows: Vec<_> =
+            numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
         let t = tractions.as_ref();
         add_at(&mut self.mass, &value_rows, &value_rows, &product(values, values));
         add_at(&mut self.consistency, &value_rows, &all_rows, &product(values, t));

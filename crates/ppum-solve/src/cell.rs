@@ -241,7 +241,8 @@ impl Products {
         let (n, c) = (self.xx.nrows(), law.components);
         for b in 0..n {
             for a in 0..n {
-                let parts = [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
+                let parts =
+                    [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
                 for j in 0..c {
                     for i in 0..c {
                         matrix[(a * c + i, b * c + j)] += law.contract(i, j, &parts);

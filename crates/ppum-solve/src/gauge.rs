@@ -40,7 +40,9 @@ pub(crate) fn free_motions(
     let eigen = SymmetricEigen::new(held.as_ref())?;
     let largest = eigen.values.first().copied().unwrap_or(0.0);
     let free = (0..n).filter(|&k| eigen.values[k] <= FREE * largest);
-    Ok(free.map(|k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 })).collect())
+    Ok(free
+        .map(|k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 }))
+        .collect())
 }
 
 /// Checks that the loads do no work on the free motions.
@@ -70,7 +72,9 @@ pub(crate) fn gauge(
         return;
     }
     // the cell with the fewest functions: away from cracks, where nothing is nearly dependent
-    let size = |cell: &usize| space.coverers[*cell].iter().map(|&p| space.sizes[p as usize]).sum::<usize>();
+    let size = |cell: &usize| {
+        space.coverers[*cell].iter().map(|&p| space.sizes[p as usize]).sum::<usize>()
+    };
     let cell = (0..space.coverers.len()).min_by_key(size).expect("a cover has a cell");
     let functions = CellFunctions::new(space, cell);
     let moments = moments(space, cell, &functions, motions, free, components);

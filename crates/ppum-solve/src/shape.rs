@@ -84,7 +84,12 @@ impl<'s> ShapeEvaluator<'s> {
         let n_functions = patches.iter().map(|&p| space.sizes[p as usize]).sum();
         out.resize(n_functions, offsets.len());
         let groups = groups_of(space, patches);
-        let mut at = Point { space, anchor, offset: Vec2::ZERO, jets: vec![[ZERO; GROUP]; space.functions.groups()] };
+        let mut at = Point {
+            space,
+            anchor,
+            offset: Vec2::ZERO,
+            jets: vec![[ZERO; GROUP]; space.functions.groups()],
+        };
         let mut weights = Vec::with_capacity(patches.len());
         for (point, &offset) in offsets.iter().enumerate() {
             at.offset = offset;
@@ -153,10 +158,18 @@ impl Point<'_> {
     }
 
     /// Writes the functions of one patch from index `function` on; returns the index after them.
-    fn shapes(&self, patch: usize, phi: Jet<f64>, point: usize, function: usize, out: &mut Shapes) -> usize {
+    fn shapes(
+        &self,
+        patch: usize,
+        phi: Jet<f64>,
+        point: usize,
+        function: usize,
+        out: &mut Shapes,
+    ) -> usize {
         let data = self.space.data;
         let inverse = reciprocal(self.space.partition.scale[patch]);
-        let monomials = Monomials::new(self.local(self.space.partition.origin[patch], inverse), inverse);
+        let monomials =
+            Monomials::new(self.local(self.space.partition.origin[patch], inverse), inverse);
         let mut next = function;
         for block in data.blocks(patch) {
             let factor = match self.space.functions.of(data.block_function[block]) {

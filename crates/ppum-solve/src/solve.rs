@@ -89,10 +89,7 @@ pub enum SolveError {
 ///
 /// # Errors
 /// See [`SolveError`].
-pub fn solve(
-    problem: &Problem,
-    report: &mut dyn FnMut(Progress),
-) -> Result<Dataset, SolveError> {
+pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Dataset, SolveError> {
     let mut clock = Clock::new();
     report(Progress { phase: Phase::Cover, done: 0, total: 1 });
     let mut step = discretise(problem)?;
@@ -214,7 +211,9 @@ fn transformed(
     for (i, Transform { matrix: t, .. }) in transforms.iter().enumerate() {
         let load = &load[matrix.unknowns(i)];
         for part in load.chunks_exact(load.len() / components) {
-            out.extend((0..t.nrows()).map(|k| (0..t.ncols()).map(|a| t[(k, a)] * part[a]).sum::<f64>()));
+            out.extend(
+                (0..t.nrows()).map(|k| (0..t.ncols()).map(|a| t[(k, a)] * part[a]).sum::<f64>()),
+            );
         }
     }
     out
@@ -228,7 +227,9 @@ fn back(transforms: &[Transform], solution: &[f64], components: usize) -> Vec<f6
         for _ in 0..components {
             let (part, tail) = rest.split_at(t.nrows());
             rest = tail;
-            out.extend((0..t.ncols()).map(|a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>()));
+            out.extend(
+                (0..t.ncols()).map(|a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>()),
+            );
         }
     }
     out
@@ -244,7 +245,8 @@ impl Solution {
     fn store(self, step: &mut Step, components: usize) {
         let data = &mut step.fields[0];
         let mut rest = self.coefficients.as_slice();
-        let mut starts = data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
+        let mut starts =
+            data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
         let mut first = starts.next().flatten().unwrap_or(0) as usize;
         let all = data.coefficients[0].len();
         for next in starts {

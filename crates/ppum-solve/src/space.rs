@@ -49,7 +49,8 @@ impl<'d> Space<'d> {
             found
         });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let singular = tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
+        let singular =
+            tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
         Ok(Self {
             partition,
             step,
@@ -126,7 +127,8 @@ pub enum SpaceError {
 /// A cover that cannot be built or refined, an order formula that gives no order.
 pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
-    let partition = cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
+    let partition =
+        cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
     let functions = Functions::new(&problem.cracks);
     let enricher = Enricher::new(problem, &functions);
     let mut blocks = Vec::with_capacity(partition.len());

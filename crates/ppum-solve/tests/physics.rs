@@ -7,7 +7,9 @@ mod support;
 
 use ppum::dataset::{Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Enrichment, Expression, Order, Problem};
+use ppum_solve::problem::{
+    Cells, Condition, Discretization, Edge, Enrichment, Expression, Order, Problem,
+};
 use ppum_testkit::exact::{ExactField, Smooth, Williams};
 use support::{Errors, errors, solved};
 
@@ -66,7 +68,8 @@ fn rollers() {
     let solution = solved(&problem);
     // plane strain: ε_yy = (1 − ν²)/E, ε_xx = −ν(1 + ν)/E
     let (exx, eyy) = (-0.3 * 1.3, 1.0 - 0.09);
-    let exact = |p: Vec2| ([exx * (p.x + 1.0), eyy * (p.y + 1.0)], [vec2(exx, 0.0), vec2(0.0, eyy)]);
+    let exact =
+        |p: Vec2| ([exx * (p.x + 1.0), eyy * (p.y + 1.0)], [vec2(exx, 0.0), vec2(0.0, eyy)]);
     let e = errors(&solution, &exact);
     assert!(e.energy < 1e-12, "{e:?}");
 }
@@ -91,7 +94,10 @@ fn smooth_field_converges_at_the_optimal_rate() {
         for pair in e.windows(2) {
             let rate = (pair[0].energy / pair[1].energy).log2();
             let rate_l2 = (pair[0].l2 / pair[1].l2).log2();
-            println!("p = {order}: energy {:.3e} rate {rate:.2}, L2 {:.3e} rate {rate_l2:.2}", pair[1].energy, pair[1].l2);
+            println!(
+                "p = {order}: energy {:.3e} rate {rate:.2}, L2 {:.3e} rate {rate_l2:.2}",
+                pair[1].energy, pair[1].l2
+            );
             assert!((rate - order as f64).abs() < 0.15, "p = {order}: rate {rate}, {e:?}");
         }
     }
@@ -105,8 +111,8 @@ fn oblique() -> (Vec2, Vec2) {
 fn cracked(field: &Williams, tip: Vec2, axis: Vec2, set: Discretization) -> Problem {
     let back = (tip.x + 1.0) / axis.x;
     let mouth = vec2(-1.0, tip.y - back * axis.y);
-    let mut problem = Problem::elasticity(square(), steel(), set)
-        .with_crack(&[mouth.into(), tip.into()]);
+    let mut problem =
+        Problem::elasticity(square(), steel(), set).with_crack(&[mouth.into(), tip.into()]);
     problem.exact = expressions(field.formulas());
     for edge in Edge::ALL {
         problem = problem.with_exact_boundary(edge);
@@ -148,15 +154,17 @@ fn tables() {
         (3, "R=.4", Enrichment::Zone, 0),
         (3, "R=.4 WxP1", Enrichment::Zone, 1),
     ] {
-        let e: Vec<_> = [2, 3, 4].map(|level| {
-            let mut set = discretization(level, order);
-            set.enrichment = enrichment;
-            set.enrichment_radius = (enrichment == Enrichment::Zone).then_some(0.4);
-            set.tip_degree = degree;
-            let solution = solved(&cracked(&field, tip, axis, set));
-            let n: usize = solution.steps[0].fields[0].coefficients.iter().map(Vec::len).sum();
-            (n, errors(&solution, &|p| support::both(field.evaluate(p))).energy)
-        }).to_vec();
+        let e: Vec<_> = [2, 3, 4]
+            .map(|level| {
+                let mut set = discretization(level, order);
+                set.enrichment = enrichment;
+                set.enrichment_radius = (enrichment == Enrichment::Zone).then_some(0.4);
+                set.tip_degree = degree;
+                let solution = solved(&cracked(&field, tip, axis, set));
+                let n: usize = solution.steps[0].fields[0].coefficients.iter().map(Vec::len).sum();
+                (n, errors(&solution, &|p| support::both(field.evaluate(p))).energy)
+            })
+            .to_vec();
         println!("p={order} {name}: {e:?}");
     }
 }

@@ -39,7 +39,8 @@ pub fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Error
     let field = Field::new(dataset, 0).expect("a field");
     let jets = |anchor: Vec2, offset: Vec2| {
         let (values, gradients) = exact(anchor + offset);
-        let jet = |k: usize| Jet { x: gradients[k].x, y: gradients[k].y, ..Jet::constant(values[k]) };
+        let jet =
+            |k: usize| Jet { x: gradients[k].x, y: gradients[k].y, ..Jet::constant(values[k]) };
         [jet(0), jet(1)]
     };
     let [_, reference, difference] = norms(&field, &space, &jets);

@@ -56,7 +56,7 @@ pub struct FunctionError {
     /// Name of the function.
     pub name: String,
     /// What is wrong.
-    pub source: CompileError,
+    pub source: Box<CompileError>,
 }
 
 /// Why a formula cannot be used as a function.
@@ -83,7 +83,7 @@ impl FunctionTable {
             let slot = table.slot(&function.kind).map_err(|source| FunctionError {
                 index,
                 name: function.name.clone(),
-                source,
+                source: Box::new(source),
             })?;
             table.slots.push(slot);
         }
