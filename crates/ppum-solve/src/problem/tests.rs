@@ -612,3 +612,14 @@ fn nothing_is_refused_without_a_reason() {
         }
     }
 }
+
+#[test]
+fn the_mistakes_of_the_documentation() {
+    let page = include_str!("../../../../docs/problem-file.md");
+    let blocks: Vec<_> = page.split("```").collect();
+    let text = edited(blocks[1].trim_start_matches("toml\n"), "young", "yong");
+    let text = edited(&text, "[0.5, 0.0]", "[5.0, 0.0]");
+    let text = edited(&text, "[0.0, 1.0]", "[0.0, \"1 + z\"]");
+    let error = Problem::parse(&text, "plate.toml", Path::new("")).expect_err("three mistakes");
+    assert_eq!(blocks[3].trim_start_matches("text\n").trim_end(), error.to_string());
+}
