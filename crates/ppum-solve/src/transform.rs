@@ -29,7 +29,7 @@ use crate::eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 ///
 /// T K Tᵀ amplifies the rounding of K by up to 1/ε: with 1e−12 the smallest eigenvalue was seen
 /// at −1e−7, while from 1e−6 on functions that matter are lost.
-pub const CUT_OFF: f64 = 1e-9;
+pub const CUT_OFF: f64 = 1e-13;
 
 /// Diagonal entries up to this fraction of the largest belong to functions that vanish on the
 /// patch. Smaller ones would ask for coefficients beyond 1e20, which single precision cannot hold.
