@@ -59,19 +59,6 @@ impl BlockPattern {
         &self.columns[self.starts[i]..self.starts[i + 1]]
     }
 
-    /// The patches coupled to each patch in both directions, without the patch itself, ascending.
-    pub(crate) fn neighbours(&self) -> Vec<Vec<u32>> {
-        let mut neighbours = vec![Vec::new(); self.len()];
-        for i in 0..self.len() {
-            for &j in &self.row(i)[1..] {
-                neighbours[i].push(j);
-                neighbours[j as usize].push(i as u32);
-            }
-        }
-        neighbours.iter_mut().for_each(|row| row.sort_unstable());
-        neighbours
-    }
-
     /// Position of block (i, j) among all blocks.
     fn position(&self, i: usize, j: usize) -> Option<usize> {
         self.row(i).binary_search(&(j as u32)).ok().map(|k| self.starts[i] + k)
@@ -210,9 +197,9 @@ impl BlockMatrix {
     }
 
     /// The lower triangle as compressed columns, for the factorisation.
-    pub(crate) fn lower_triangle(&self) -> SparseColMat<u32, f64> {
+    pub(crate) fn lower_triangle(&self) -> SparseColMat<usize, f64> {
         let n = self.n_unknowns();
-        let (mut starts, mut rows, mut values) = (vec![0_u32], Vec::new(), Vec::new());
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
         for i in 0..self.pattern.len() {
             for a in 0..self.unknowns(i).len() {
                 // Column a of patch i of the lower triangle is row a of the upper one.
@@ -221,9 +208,9 @@ impl BlockMatrix {
                     let skip = if k == self.pattern.starts[i] { a } else { 0 };
                     let first = self.block_starts[k] + a * unknowns.len();
                     values.extend_from_slice(&self.values[first + skip..first + unknowns.len()]);
-                    rows.extend(unknowns.skip(skip).map(|row| row as u32));
+                    rows.extend(unknowns.skip(skip));
                 }
-                starts.push(rows.len() as u32);
+                starts.push(rows.len());
             }
         }
         SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
@@ -370,11 +357,6 @@ mod tests {
         let patches: Vec<usize> = (0..9).map(|u| blocks.patch_of(u)).collect();
         assert_eq!(patches, [0, 0, 0, 1, 1, 3, 3, 3, 3]);
         assert_eq!(blocks.unknowns(2), 5..5);
-    }
-
-    #[test]
-    fn neighbours_go_both_ways() {
-        assert_eq!(pattern().neighbours(), [vec![1, 3], vec![0, 2], vec![1], vec![0]]);
     }
 
     #[test]
