@@ -1,1 +1,3 @@
-//! ppum-testkit
+//! Development tools of `ppum`: exact solutions to compare with.
+
+pub mod exact;

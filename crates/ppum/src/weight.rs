@@ -1,15 +1,175 @@
-//! Weight functions w(t), t = |ξ| ∈ \[0, 1\]: the generators of the partition of unity.
+//! Weight functions w(t), t = |ξ|: the generators of the partition of unity.
 
-/// A one-dimensional even B-spline on \[−1, 1\], scaled to w(0) = 1 where that is exact.
-/// The scale is irrelevant: φ_i = W_i / Σ W does not see it.
+use crate::jet::Jet;
+use crate::real::Real;
+
+/// A one-dimensional even B-spline with support \[−1, 1\], scaled so that w(0) = 1 (the scale does not
+/// matter: φ_i = W_i / Σ W does not see it).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WeightFunction {
     /// Degree 1: w = 1 − t.
     #[default]
     Linear,
-    /// Degree 2, knots at ±1/3 and ±1.
+    /// Degree 2, knots at ±1/3, ±1: w = 1 − 3t² for t ≤ 1/3, else 3/2 (1 − t)².
     Quadratic,
-    /// Degree 3, knots at 0, ±1/2 and ±1.
+    /// Degree 3, knots at 0, ±1/2, ±1: w = 1 − 6t² + 6t³ for t ≤ 1/2, else 2 (1 − t)³.
     Cubic,
+}
+
+impl WeightFunction {
+    /// All weight functions.
+    pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Cubic];
+
+    /// Name in problem files and datasets.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Quadratic => "quadratic",
+            Self::Cubic => "cubic",
+        }
+    }
+
+    /// The weight function of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|w| w.name() == name)
+    }
+
+    /// Places t = |ξ| in \[0, 1) where a derivative of w(|ξ|) jumps; quadrature splits there.
+    #[must_use]
+    pub fn breakpoints(self) -> &'static [f64] {
+        match self {
+            Self::Linear => &[0.0],
+            Self::Quadratic => &[1.0 / 3.0],
+            Self::Cubic => &[0.0, 0.5],
+        }
+    }
+
+    /// w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
+    ///
+    /// Where a derivative jumps, the one from the right is taken, so that a border belongs to the
+    /// patch on its right or upper side.
+    #[inline(always)]
+    pub fn spline<R: Real>(self, xi: R) -> [R; 3] {
+        let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+        let t = xi.abs();
+        let s = R::sign(xi.ge(zero), one);
+        let [w, slope, curvature] = match self {
+            Self::Linear => [one - t, -one, zero],
+            Self::Quadratic => quadratic(xi, t),
+            Self::Cubic => cubic(t),
+        };
+        let inside = |v| R::select(one.gt(xi), R::select(xi.ge(-one), v, zero), zero);
+        [w.max(zero), inside(s * slope), inside(curvature)]
+    }
+
+    /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
+    #[inline(always)]
+    pub fn tensor<R: Real, const D: usize>(self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
+        let [a, ax, axx] = self.spline(xi[0]);
+        let [b, by, byy] = self.spline(xi[1]);
+        let (ix, iy) = (a.lit(inverse[0]), a.lit(inverse[1]));
+        let mut w = Jet::constant(a * b);
+        if D >= 1 {
+            w.x = ax * ix * b;
+            w.y = a * (by * iy);
+        }
+        if D >= 2 {
+            w.xx = axx * (ix * ix) * b;
+            w.xy = ax * ix * (by * iy);
+            w.yy = a * (byy * (iy * iy));
+        }
+        w
+    }
+}
+
+/// Quadratic spline and its derivatives by t; the knots ±1/3 belong to the piece on their right.
+#[inline(always)]
+fn quadratic<R: Real>(xi: R, t: R) -> [R; 3] {
+    let (one, third) = (t.lit(1.0), t.lit(1.0 / 3.0));
+    let u = (one - t).max(t.lit(0.0));
+    let pick =
+        |core: R, flank: R| R::select(xi.ge(-third), R::select(third.gt(xi), core, flank), flank);
+    [
+        pick(one - t.lit(3.0) * t * t, t.lit(1.5) * u * u),
+        pick(t.lit(-6.0) * t, t.lit(-3.0) * u),
+        pick(t.lit(-6.0), t.lit(3.0)),
+    ]
+}
+
+/// Cubic spline and its derivatives by t; its second derivative is continuous.
+#[inline(always)]
+fn cubic<R: Real>(t: R) -> [R; 3] {
+    let (one, six) = (t.lit(1.0), t.lit(6.0));
+    let u = (one - t).max(t.lit(0.0));
+    let pick = |core: R, flank: R| R::select(t.lit(0.5).gt(t), core, flank);
+    [
+        pick(one - six * t * t * u, t.lit(2.0) * u * u * u),
+        pick(t * (t.lit(18.0) * t - t.lit(12.0)), -six * u * u),
+        pick(t.lit(36.0) * t - t.lit(12.0), t.lit(12.0) * u),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cox–de Boor recursion over the weight's own knots: an independent evaluation.
+    fn b_spline(knots: &[f64], x: f64) -> f64 {
+        if knots.len() == 2 {
+            return f64::from(x >= knots[0] && x < knots[1]);
+        }
+        let n = knots.len() - 1;
+        let left = (x - knots[0]) / (knots[n - 1] - knots[0]) * b_spline(&knots[..n], x);
+        let right = (knots[n] - x) / (knots[n] - knots[1]) * b_spline(&knots[1..], x);
+        left + right
+    }
+
+    fn knots(weight: WeightFunction) -> Vec<f64> {
+        let n = match weight {
+            WeightFunction::Linear => 2,
+            WeightFunction::Quadratic => 3,
+            WeightFunction::Cubic => 4,
+        };
+        (0..=n).map(|k| -1.0 + 2.0 * f64::from(k) / f64::from(n)).collect()
+    }
+
+    #[test]
+    fn proportional_to_the_b_spline() {
+        for weight in WeightFunction::ALL {
+            let knots = knots(weight);
+            let scale = b_spline(&knots, 0.0);
+            for k in -120..=120 {
+                let xi = f64::from(k) / 100.0;
+                let expected = b_spline(&knots, xi) / scale;
+                assert!((weight.spline(xi)[0] - expected).abs() < 1e-15, "{weight:?} {xi}");
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_against_differences() {
+        for weight in WeightFunction::ALL {
+            for k in -110..110 {
+                let (xi, h) = (f64::from(k) / 100.0 + 0.0037, 1e-5);
+                let [_, d, dd] = weight.spline(xi);
+                let ([p, dp, _], [m, dm, _]) = (weight.spline(xi + h), weight.spline(xi - h));
+                assert!((d - (p - m) / (2.0 * h)).abs() < 1e-8, "{weight:?} {xi}");
+                assert!((dd - (dp - dm) / (2.0 * h)).abs() < 1e-7, "{weight:?} {xi}");
+            }
+        }
+    }
+
+    #[test]
+    fn borders_belong_to_the_right() {
+        for (weight, slope) in [(WeightFunction::Linear, 1.0), (WeightFunction::Quadratic, 0.0)] {
+            assert_eq!(weight.spline(-1.0)[1], slope);
+            assert_eq!(weight.spline(1.0)[1], 0.0);
+        }
+        assert_eq!(WeightFunction::Linear.spline(0.0)[1], -1.0);
+        assert_eq!(WeightFunction::Quadratic.spline(1.0 / 3.0)[2], 3.0);
+        assert_eq!(WeightFunction::Quadratic.spline(-1.0 / 3.0)[2], -6.0);
+    }
 }

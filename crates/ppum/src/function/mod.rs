@@ -1,7 +1,12 @@
 //! The function table: the f_b of function × polynomial.
 
+mod table;
+mod westergaard;
+
 use crate::crack::TipId;
 use crate::vec2::Vec2;
+pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
+pub use westergaard::westergaard;
 
 /// One entry of a step's function table.
 #[derive(Clone, Debug, PartialEq)]

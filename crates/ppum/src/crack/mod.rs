@@ -1,4 +1,4 @@
-//! Cracks as polylines: their ends, tips and sides.
+//! Cracks as polylines: their ends, tips and sides; [`LocalCrack`] and [`LocalTip`] evaluate them.
 
 use crate::vec2::Vec2;
 
@@ -29,6 +29,17 @@ pub enum End {
     Start,
     /// The last vertex.
     Last,
+}
+
+impl End {
+    /// `start` or `end`, as in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Last => "end",
+        }
+    }
 }
 
 /// A tip: one end of one crack.
@@ -81,7 +92,8 @@ impl Crack {
 
 /// All tips of a set of cracks, in order of crack and end.
 pub fn tips(cracks: &[Crack]) -> impl Iterator<Item = TipId> + '_ {
-    (0u32..)
-        .zip(cracks)
-        .flat_map(|(crack, c)| c.tips().map(move |end| TipId { crack, end }))
+    (0u32..).zip(cracks).flat_map(|(crack, c)| c.tips().map(move |end| TipId { crack, end }))
 }
+
+mod local;
+pub use local::{LocalCrack, LocalTip, TipPoint};

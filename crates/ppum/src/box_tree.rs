@@ -1,0 +1,227 @@
+//! A static search tree over axis-parallel boxes: which of them contain a point or meet a box?
+//!
+//! The boxes are sorted along the Morton curve through their centres and cut into short runs; the
+//! runs are the leaves of a complete binary tree of bounding boxes, stored as a heap (node `n` has
+//! children `2n` and `2n + 1`). This serves patches of any cover, graded or not, without looking at
+//! the quadtree that made it.
+
+use crate::morton::morton;
+use crate::vec2::{Rect, Vec2};
+
+/// Boxes a leaf. Four `Rect`s are two cache lines; longer runs test more boxes in vain.
+const RUN: usize = 4;
+
+/// The bounding box of nothing: neutral for `union`, meets nothing.
+const NOTHING: Rect = Rect::new(
+    Vec2 { x: f64::INFINITY, y: f64::INFINITY },
+    Vec2 { x: f64::NEG_INFINITY, y: f64::NEG_INFINITY },
+);
+
+/// Boxes in Morton order below a heap of bounding boxes.
+///
+/// Built in O(N log N); a query costs O(log N + k) for k boxes found when the boxes overlap a bounded
+/// number of others, as the patches of a cover do.
+#[derive(Clone, Debug)]
+pub struct BoxTree {
+    /// The boxes in Morton order of their centres.
+    boxes: Vec<Rect>,
+    /// Index of each of them in the caller's slice.
+    index: Vec<u32>,
+    /// Bounding boxes; the root is `nodes[1]`, the leaves are the last half.
+    nodes: Vec<Rect>,
+}
+
+impl BoxTree {
+    /// The tree over `boxes`, which keep their indices.
+    ///
+    /// # Panics
+    /// If there are more than `u32::MAX` boxes.
+    #[must_use]
+    pub fn new(boxes: &[Rect]) -> Self {
+        let index = morton_order(boxes);
+        let boxes: Vec<_> = index.iter().map(|&i| boxes[i as usize]).collect();
+        let n_leaves = boxes.len().div_ceil(RUN).next_power_of_two();
+        let mut nodes = vec![NOTHING; 2 * n_leaves];
+        for (leaf, run) in boxes.chunks(RUN).enumerate() {
+            nodes[n_leaves + leaf] = run.iter().fold(NOTHING, |bound, b| bound.union(b));
+        }
+        for n in (1..n_leaves).rev() {
+            nodes[n] = nodes[2 * n].union(&nodes[2 * n + 1]);
+        }
+        Self { boxes, index, nodes }
+    }
+
+    /// Appends, in ascending order, the indices of the boxes that contain `p`; a box is taken closed
+    /// on the left and below, open on the right and above.
+    pub fn query_point(&self, p: Vec2, out: &mut Vec<u32>) {
+        let holds = |b: &Rect| p.x >= b.min.x && p.x < b.max.x && p.y >= b.min.y && p.y < b.max.y;
+        self.collect(holds, out);
+    }
+
+    /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps) `query`:
+    /// touching along a border is not enough.
+    pub fn query_box(&self, query: &Rect, out: &mut Vec<u32>) {
+        self.collect(|b| b.overlaps(query), out);
+    }
+
+    /// Appends the boxes that pass a `test` which every larger box passes as well.
+    fn collect(&self, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
+        let start = out.len();
+        let n_leaves = self.nodes.len() / 2;
+        // Each level leaves at most one node waiting, and there are fewer than 32 levels.
+        let mut waiting = [0; 32];
+        let mut n_waiting = 1;
+        waiting[0] = 1;
+        while n_waiting > 0 {
+            n_waiting -= 1;
+            let n = waiting[n_waiting];
+            if !test(&self.nodes[n]) {
+                continue;
+            }
+            if n < n_leaves {
+                waiting[n_waiting] = 2 * n + 1;
+                waiting[n_waiting + 1] = 2 * n;
+                n_waiting += 2;
+            } else {
+                let first = RUN * (n - n_leaves);
+                let run = first..self.boxes.len().min(first + RUN);
+                out.extend(run.filter(|&k| test(&self.boxes[k])).map(|k| self.index[k]));
+            }
+        }
+        out[start..].sort_unstable();
+    }
+}
+
+/// The indices of the boxes, sorted by the Morton codes of their centres.
+fn morton_order(boxes: &[Rect]) -> Vec<u32> {
+    assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
+    let all = boxes.iter().fold(NOTHING, |bound, b| bound.union(b));
+    let size = all.size();
+    let code = |b: &Rect| {
+        let offset = b.center() - all.min;
+        morton(quantize(offset.x / size.x), quantize(offset.y / size.y))
+    };
+    let mut order: Vec<_> = boxes.iter().map(code).zip(0u32..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, i)| i).collect()
+}
+
+/// A fraction in \[0, 1\] as a 32 bit integer; NaN (no extent at all) becomes 0.
+fn quantize(fraction: f64) -> u32 {
+    (fraction * f64::from(u32::MAX)) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use crate::vec2::vec2;
+
+    /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
+    fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {
+        let lattice = |v: Vec2| vec2((v.x * 8.0).floor() / 8.0, (v.y * 8.0).floor() / 8.0);
+        (0..n)
+            .map(|k| {
+                let (p, size) = (random.point(), random.point());
+                match k % 4 {
+                    0 => Rect::new(lattice(p), lattice(p) + vec2(0.125, 0.25)),
+                    1 => Rect::around(p, size * 0.3),
+                    _ => Rect::around(p, size * 1e-3),
+                }
+            })
+            .collect()
+    }
+
+    fn containing(boxes: &[Rect], p: Vec2) -> Vec<u32> {
+        let holds = |b: &Rect| b.min.x <= p.x && p.x < b.max.x && b.min.y <= p.y && p.y < b.max.y;
+        (0u32..).zip(boxes).filter(|(_, b)| holds(b)).map(|(i, _)| i).collect()
+    }
+
+    fn overlapping(boxes: &[Rect], q: &Rect) -> Vec<u32> {
+        (0u32..).zip(boxes).filter(|(_, b)| b.overlaps(q)).map(|(i, _)| i).collect()
+    }
+
+    #[test]
+    fn agrees_with_testing_every_box() {
+        let mut random = Random(1);
+        for n in [1, 2, 3, 4, 5, 8, 17, 100, 1000] {
+            let boxes = random_boxes(n, &mut random);
+            let tree = BoxTree::new(&boxes);
+            for _ in 0..200 {
+                let mut found = Vec::new();
+                let p = random.point();
+                tree.query_point(p, &mut found);
+                assert_eq!(found, containing(&boxes, p));
+                let q = Rect::around(p, random.point() * 0.1);
+                found.clear();
+                tree.query_box(&q, &mut found);
+                assert_eq!(found, overlapping(&boxes, &q));
+            }
+        }
+    }
+
+    #[test]
+    fn corners_of_boxes_are_ties_to_the_right_and_upper_box() {
+        let mut random = Random(2);
+        let boxes = random_boxes(300, &mut random);
+        let tree = BoxTree::new(&boxes);
+        for b in &boxes {
+            for p in [b.min, b.max, vec2(b.min.x, b.max.y), vec2(b.max.x, b.min.y)] {
+                let mut found = Vec::new();
+                tree.query_point(p, &mut found);
+                assert_eq!(found, containing(&boxes, p));
+            }
+        }
+        let halves =
+            [Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)), Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0))];
+        let mut found = Vec::new();
+        BoxTree::new(&halves).query_point(vec2(1.0, 0.0), &mut found);
+        assert_eq!(found, [1]);
+        found.clear();
+        BoxTree::new(&halves).query_box(&halves[0], &mut found);
+        assert_eq!(found, [0]);
+    }
+
+    #[test]
+    fn nothing_duplicates_and_appending() {
+        let mut found = vec![7];
+        BoxTree::new(&[]).query_point(Vec2::ZERO, &mut found);
+        BoxTree::new(&[]).query_box(&Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), &mut found);
+        assert_eq!(found, [7]);
+        let same = [Rect::around(vec2(0.5, 0.5), vec2(0.1, 0.1)); 50];
+        BoxTree::new(&same).query_point(vec2(0.5, 0.5), &mut found);
+        assert_eq!(found[0], 7);
+        assert!(found[1..].iter().copied().eq(0..50));
+        // Boxes without extent contain no point, and do not hide others.
+        let mixed = [Rect::around(vec2(0.5, 0.5), Vec2::ZERO), same[0]];
+        found.clear();
+        BoxTree::new(&mixed).query_point(vec2(0.5, 0.5), &mut found);
+        assert_eq!(found, [1]);
+    }
+
+    #[test]
+    fn a_million_patches_and_a_graded_set() {
+        // Cells (i, j) of a 1024² lattice, stretched by 1.3: 1, 2 or 4 cover a point.
+        let n = 1024u32;
+        let centre = |k: u32| vec2(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5);
+        let boxes: Vec<_> = (0..n * n).map(|k| Rect::around(centre(k), vec2(0.65, 0.65))).collect();
+        let tree = BoxTree::new(&boxes);
+        let mut found = Vec::new();
+        tree.query_point(vec2(500.5, 300.5), &mut found);
+        assert_eq!(found, [300 * n + 500]);
+        found.clear();
+        tree.query_point(vec2(500.1, 300.0), &mut found);
+        assert_eq!(found, [299 * n + 499, 299 * n + 500, 300 * n + 499, 300 * n + 500]);
+        // Boxes halving towards a point: far below the resolution of the Morton codes.
+        let nested: Vec<_> = (0..300)
+            .map(|k| 0.5f64.powi(k))
+            .map(|h| Rect::new(vec2(h, 0.0), vec2(2.0 * h, h)))
+            .collect();
+        let tree = BoxTree::new(&nested);
+        for (k, b) in (0u32..).zip(&nested) {
+            found.clear();
+            tree.query_point(b.center(), &mut found);
+            assert_eq!(found, [k]);
+        }
+    }
+}

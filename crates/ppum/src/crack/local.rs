@@ -1,0 +1,305 @@
+//! Cracks and tips seen from an anchor.
+//!
+//! Points are `anchor + offset`. The distances of the anchor to the crack's lines and tips are
+//! formed once, in f64, without cancellation; evaluation adds the offset only. So a view
+//! 10⁻¹² of the domain wide has no noise, at a tip, at a kink or in the middle of an oblique crack.
+
+use super::{Crack, End, Side};
+use crate::real::Real;
+use crate::vec2::Vec2;
+
+/// Two squared distances closer than this, relatively, count as equal: they belong to the vertex two
+/// segments share, and rounding must not choose between them.
+const TIE: f64 = 1e-12;
+
+/// A crack seen from an anchor.
+#[derive(Clone, Debug)]
+pub struct LocalCrack {
+    segments: Vec<LocalSegment>,
+}
+
+/// One segment: coordinates of a point are `along` its line, from its start, and `distance` from
+/// it, positive on the left.
+#[derive(Clone, Copy, Debug)]
+struct LocalSegment {
+    tangent: Vec2,
+    along: f64,
+    distance: f64,
+    lo: f64,
+    hi: f64,
+}
+
+impl LocalSegment {
+    fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
+        let (tangent, length) = ((b - a).unit(), (b - a).length());
+        let along = tangent.dot(anchor - a);
+        let distance = exact_cross(a, b, anchor) / length;
+        Self { tangent, along, distance, lo: 0.0, hi: length }
+    }
+
+    #[inline(always)]
+    fn distance<R: Real>(&self, offset: [R; 2]) -> R {
+        let [x, y] = offset;
+        x.lit(self.tangent.x).mul_add(y, x.lit(-self.tangent.y).mul_add(x, x.lit(self.distance)))
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, offset: [R; 2]) -> R {
+        let [x, y] = offset;
+        x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y).mul_add(y, x.lit(self.along)))
+    }
+}
+
+/// (b − a) × (p − a), correctly rounded but for a last bit: products and differences are carried
+/// with their rounding errors (Dekker 1971, Shewchuk 1997).
+fn exact_cross(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+    let product = |u: (f64, f64), v: (f64, f64)| {
+        let high = u.0 * v.0;
+        let low = u.0.mul_add(v.0, -high) + (u.0 * v.1 + u.1 * v.0);
+        (high, low)
+    };
+    let (ux, uy) = (two_difference(b.x, a.x), two_difference(b.y, a.y));
+    let (vx, vy) = (two_difference(p.x, a.x), two_difference(p.y, a.y));
+    let (left, right) = (product(ux, vy), product(uy, vx));
+    let (high, low) = two_difference(left.0, right.0);
+    high + (low + (left.1 - right.1))
+}
+
+/// a − b as its rounded value and the rounding error.
+fn two_difference(a: f64, b: f64) -> (f64, f64) {
+    let d = a - b;
+    let bb = a - d;
+    (d, (a - (d + bb)) + (bb - b))
+}
+
+impl LocalCrack {
+    /// The crack seen from `anchor`.
+    #[must_use]
+    pub fn new(crack: &Crack, anchor: Vec2) -> Self {
+        let mut segments: Vec<_> =
+            crack.points.windows(2).map(|s| LocalSegment::new(s[0], s[1], anchor)).collect();
+        if let Some(first) = segments.first_mut() {
+            first.lo = f64::NEG_INFINITY;
+        }
+        if let Some(last) = segments.last_mut() {
+            last.hi = f64::INFINITY;
+        }
+        Self { segments }
+    }
+
+    /// +1 on the left of the crack, −1 on its right; `side` decides on the crack itself.
+    ///
+    /// The first and the last segment are extended to infinity. The line of the nearest segment
+    /// decides; where two are equally near (the sector behind a kink) that with the larger line
+    /// distance.
+    #[inline(always)]
+    pub fn side<R: Real>(&self, offset: [R; 2], side: Side) -> R {
+        sign(self.nearest_distance(offset), side)
+    }
+
+    #[inline(always)]
+    fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
+        let mut nearest = self.segments[0].distance(offset);
+        if self.segments.len() == 1 {
+            return nearest;
+        }
+        let mut square = self.square(0, offset, nearest);
+        let mut k = 1;
+        while k < self.segments.len() {
+            let distance = self.segments[k].distance(offset);
+            let candidate = self.square(k, offset, distance);
+            let nearer = (square * square.lit(1.0 - TIE)).gt(candidate);
+            let farther = candidate.gt(square * square.lit(1.0 + TIE));
+            let larger = distance.abs().gt(nearest.abs());
+            let tied = R::select(larger, distance, nearest);
+            nearest = R::select(nearer, distance, R::select(farther, nearest, tied));
+            square = square.min(candidate);
+            k += 1;
+        }
+        nearest
+    }
+
+    /// Squared distance to the (extended) segment.
+    #[inline(always)]
+    fn square<R: Real>(&self, k: usize, offset: [R; 2], distance: R) -> R {
+        let s = &self.segments[k];
+        let along = s.along(offset);
+        let beyond = along - along.max(along.lit(s.lo)).min(along.lit(s.hi));
+        beyond.mul_add(beyond, distance * distance)
+    }
+}
+
+/// +1 or −1 by a signed distance; zero counts as the given side.
+#[inline(always)]
+fn sign<R: Real>(distance: R, side: Side) -> R {
+    let (zero, one) = (distance.lit(0.0), distance.lit(1.0));
+    match side {
+        Side::Above => R::sign(distance.ge(zero), one),
+        Side::Below => R::sign(distance.gt(zero), one),
+    }
+}
+
+/// A crack tip seen from an anchor.
+#[derive(Clone, Debug)]
+pub struct LocalTip {
+    /// Anchor minus tip.
+    from_tip: Vec2,
+    /// Unit direction of growth.
+    pub axis: Vec2,
+    crack: LocalCrack,
+    segment: usize,
+    /// +1 at the last vertex, −1 at the first, where the crack's left is the tip's right.
+    orientation: f64,
+}
+
+/// A point in the frame of a tip.
+#[derive(Clone, Copy, Debug)]
+pub struct TipPoint<R> {
+    /// Distance ahead of the tip along the direction of growth.
+    pub x: R,
+    /// Distance to its left.
+    pub y: R,
+    /// Sign of the polar angle before the branch is taken: that of `y`, decided on the crack's line
+    /// by the chosen side.
+    pub sign: R,
+    /// −1 where the point lies between a kinked crack and the straight extension of its last
+    /// segment, so that θ must be shifted by ∓2π; else +1.
+    pub branch: R,
+}
+
+impl LocalTip {
+    /// The tip at `end` of `crack`, seen from `anchor`.
+    #[must_use]
+    pub fn new(crack: &Crack, end: End, anchor: Vec2) -> Self {
+        let local = LocalCrack::new(crack, anchor);
+        let (segment, orientation) = match end {
+            End::Start => (0, -1.0),
+            End::Last => (local.segments.len() - 1, 1.0),
+        };
+        Self {
+            from_tip: anchor - crack.end_point(end),
+            axis: local.segments[segment].tangent * orientation,
+            crack: local,
+            segment,
+            orientation,
+        }
+    }
+
+    /// The point `anchor + offset` in the tip's frame.
+    ///
+    /// Where the tip's own segment is the nearest, the branch is +1 by construction: both signs come
+    /// from the same number.
+    #[inline(always)]
+    pub fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
+        let one = offset[0].lit(1.0);
+        let dx = offset[0] + one.lit(self.from_tip.x);
+        let dy = offset[1] + one.lit(self.from_tip.y);
+        let distance = self.crack.segments[self.segment].distance(offset);
+        let line_side = sign(distance, side);
+        let branch = if self.crack.segments.len() == 1 {
+            one
+        } else {
+            line_side * sign(self.crack.nearest_distance(offset), side)
+        };
+        let orientation = one.lit(self.orientation);
+        TipPoint {
+            x: one.lit(self.axis.x).mul_add(dx, one.lit(self.axis.y) * dy),
+            y: orientation * distance,
+            sign: orientation * line_side,
+            branch,
+        }
+    }
+}
+
+impl TipPoint<f64> {
+    /// Distance to the tip and polar angle on the branch that jumps on the crack itself.
+    #[must_use]
+    pub fn polar(&self) -> (f64, f64) {
+        let angle = self.sign * self.y.abs().atan2(self.x);
+        let shift = if self.branch < 0.0 { -2.0 * std::f64::consts::PI * self.sign } else { 0.0 };
+        (self.x.hypot(self.y), angle + shift)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::CrackEnd;
+    use super::*;
+    use crate::vec2::vec2;
+
+    fn crack(points: &[(f64, f64)]) -> Crack {
+        let points = points.iter().map(|&(x, y)| vec2(x, y)).collect();
+        Crack { points, ends: [CrackEnd::Tip; 2] }
+    }
+
+    /// Points of an integer lattice small enough for the cross product to be exact.
+    #[test]
+    fn cross_product_of_nearly_collinear_points() {
+        let (a, b) = (vec2(0.1, 0.1), vec2(0.7, 0.7));
+        assert_eq!(exact_cross(a, b, vec2(0.3, 0.3)), 0.0);
+        let up = vec2(0.3, 0.3 + f64::EPSILON / 4.0);
+        assert!((exact_cross(a, b, up) / (0.6 * (up.y - 0.3)) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn sides_of_a_sharp_kink() {
+        let v = LocalCrack::new(&crack(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]), Vec2::ZERO);
+        for (p, expected) in
+            [([0.0, 0.5], 1.0), ([0.0, -0.5], -1.0), ([-3.0, 0.0], -1.0), ([3.0, 4.0], 1.0)]
+        {
+            assert_eq!(v.side(p, Side::Above), expected, "{p:?}");
+        }
+        // the sector behind the kink, where both segments are equally near
+        for k in -40..=40 {
+            let angle = f64::from(k) / 40.0 * 0.7 - std::f64::consts::FRAC_PI_2;
+            let p = [1e-9 * angle.cos(), 1e-9 * angle.sin()];
+            assert_eq!(v.side(p, Side::Above), -1.0, "{p:?}");
+        }
+    }
+
+    #[test]
+    fn the_caller_chooses_the_side_on_the_crack() {
+        let c = crack(&[(0.25, 0.5), (0.75, 0.5)]);
+        let local = LocalCrack::new(&c, vec2(0.5, 0.5));
+        assert_eq!(local.side([0.125, 0.0], Side::Above), 1.0);
+        assert_eq!(local.side([0.125, 0.0], Side::Below), -1.0);
+        let start = LocalTip::new(&c, End::Start, vec2(0.5, 0.5));
+        let (r, theta) = start.point([0.0, 0.0], Side::Above).polar();
+        assert_eq!((r, theta), (0.25, -std::f64::consts::PI));
+        let (_, theta) = start.point([0.0, 0.0], Side::Below).polar();
+        assert_eq!(theta, std::f64::consts::PI);
+    }
+
+    /// Walks round the tip of a kinked crack: θ is continuous but for one jump of 2π, on the crack.
+    #[test]
+    fn the_angle_jumps_on_the_crack_only() {
+        let c = crack(&[(-1.0, 0.6), (-0.4, 0.3), (0.0, 0.0)]);
+        let tip = LocalTip::new(&c, End::Last, Vec2::ZERO);
+        for radius in [0.2, 0.8, 1.4] {
+            let at = |k: i32| {
+                let phi = f64::from(k) / 2000.0 * std::f64::consts::TAU;
+                let p = [radius * phi.cos(), radius * phi.sin()];
+                (p, tip.point(p, Side::Above).polar().1)
+            };
+            let jumps: Vec<_> =
+                (0..2000).filter(|&k| (at(k + 1).1 - at(k).1).abs() > 1.0).map(at).collect();
+            assert_eq!(jumps.len(), 1, "radius {radius}");
+            let p = jumps[0].0;
+            let local = LocalCrack::new(&c, Vec2::ZERO);
+            assert!(local.nearest_distance(p).abs() < radius * 0.01, "jump at {p:?}");
+        }
+    }
+
+    /// The distance of a point 1e-13 above an oblique crack, far from the origin.
+    #[test]
+    fn anchored_distances_do_not_cancel() {
+        let c = crack(&[(3.1, 7.3), (5.7, 8.9)]);
+        let anchor = vec2(4.4, 8.1);
+        let normal = c.growth_direction(End::Last).left();
+        let base = LocalCrack::new(&c, anchor).nearest_distance([0.0, 0.0]);
+        let moved =
+            LocalCrack::new(&c, anchor).nearest_distance([normal.x * 1e-13, normal.y * 1e-13]);
+        assert!(((moved - base) / 1e-13 - 1.0).abs() < 1e-2);
+        assert_eq!(LocalCrack::new(&c, c.points[1]).nearest_distance([0.0, 0.0]), 0.0);
+    }
+}

@@ -1,0 +1,107 @@
+//! Bivariate polynomials in the order of the dataset: by total degree, then descending power of ξ.
+
+use crate::dataset::monomials;
+use crate::jet::Jet;
+use crate::real::Real;
+
+/// Σ c_k ξ^a η^b over all monomials of total degree at most `degree`, with derivatives by (ξ, η),
+/// by nested Horner schemes: inner in ξ, outer in η.
+#[inline(always)]
+pub fn polynomial<R: Real, const D: usize>(
+    coefficients: &[f64],
+    degree: usize,
+    xi: [R; 2],
+) -> Jet<R> {
+    let mut jet = Jet::constant(xi[0].lit(0.0));
+    let mut power = degree + 1;
+    while power > 0 {
+        power -= 1;
+        let [p, px, pxx] = inner::<R, D>(coefficients, degree, power, xi[0]);
+        jet = outer::<R, D>(jet, [p, px, pxx], xi[1]);
+    }
+    jet.yy = jet.yy + jet.yy;
+    jet
+}
+
+/// The factor of η^`power`: Σ_a c ξ^a with its first two derivatives.
+#[inline(always)]
+fn inner<R: Real, const D: usize>(c: &[f64], degree: usize, power: usize, xi: R) -> [R; 3] {
+    let zero = xi.lit(0.0);
+    let (mut p, mut px, mut pxx) = (zero, zero, zero);
+    let mut a = degree - power + 1;
+    while a > 0 {
+        a -= 1;
+        let total = a + power;
+        let index = monomials(total) - 1 - a;
+        if D >= 2 {
+            pxx = pxx.mul_add(xi, px + px);
+        }
+        if D >= 1 {
+            px = px.mul_add(xi, p);
+        }
+        p = p.mul_add(xi, zero.lit(c[index]));
+    }
+    [p, px, pxx]
+}
+
+/// One outer Horner step; `yy` carries half the second derivative until the end.
+#[inline(always)]
+fn outer<R: Real, const D: usize>(mut j: Jet<R>, [p, px, pxx]: [R; 3], eta: R) -> Jet<R> {
+    if D >= 2 {
+        j.yy = j.yy.mul_add(eta, j.y);
+        j.xy = j.xy.mul_add(eta, j.x);
+        j.xx = j.xx.mul_add(eta, pxx);
+    }
+    if D >= 1 {
+        j.y = j.y.mul_add(eta, j.v);
+        j.x = j.x.mul_add(eta, px);
+    }
+    j.v = j.v.mul_add(eta, p);
+    j
+}
+
+/// The exponents (a, b) of the monomials ξ^a η^b up to `degree`, in the order of the dataset.
+pub fn exponents(degree: usize) -> impl Iterator<Item = (i32, i32)> {
+    (0..=degree as i32).flat_map(|total| (0..=total).map(move |b| (total - b, b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn against_powers() {
+        let (x, y) = (0.7f64, -0.4f64);
+        for degree in 0..=8 {
+            let c: Vec<f64> = (0..monomials(degree)).map(|k| 1.0 / (k as f64 + 1.5)).collect();
+            let jet = polynomial::<f64, 2>(&c, degree, [x, y]);
+            let mut sum = [0.0; 6];
+            for ((a, b), c) in exponents(degree).zip(&c) {
+                let (fa, fb) = (f64::from(a), f64::from(b));
+                let m = |da: i32, db: i32| {
+                    let power = |z: f64, k: i32| if k < 0 { 0.0 } else { z.powi(k) };
+                    c * power(x, a - da) * power(y, b - db)
+                };
+                for (s, term) in sum.iter_mut().zip([
+                    m(0, 0),
+                    fa * m(1, 0),
+                    fb * m(0, 1),
+                    fa * (fa - 1.0) * m(2, 0),
+                    fa * fb * m(1, 1),
+                    fb * (fb - 1.0) * m(0, 2),
+                ]) {
+                    *s += term;
+                }
+            }
+            for (p, q) in [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy].into_iter().zip(sum) {
+                assert!((p - q).abs() < 1e-13, "degree {degree}: {jet:?} {sum:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn order_of_the_monomials() {
+        let order: Vec<_> = exponents(2).collect();
+        assert_eq!(order, [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]);
+    }
+}

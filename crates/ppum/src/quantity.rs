@@ -1,0 +1,495 @@
+//! Quantities: the scalar that is drawn, probed or compared, from a field's value and gradient.
+//!
+//! With displacement u, strain ε = (∇u + ∇uᵀ)/2 and stress σ = λ tr(ε) I + 2μ ε. Where a derivative
+//! does not exist (at a crack tip) quantities of the gradient are +∞: nothing is clamped.
+
+use crate::crack::Side;
+use crate::dataset::{Equation, Material};
+use crate::field::{Field, LocalField};
+use crate::jet::Jet;
+use crate::real::Real;
+use crate::vec2::Vec2;
+
+/// A scalar made of a field. Parsed from its name with [`Quantity::from_name`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// One component of the field: `ux`, `uy`, `u`.
+    Component(u8),
+    /// Euclidean norm of all components: `magnitude`.
+    Magnitude,
+    /// ∂u_c/∂x or ∂u_c/∂y: `dux_dx`, `dux_dy`, …
+    Derivative(u8, Axis),
+    /// Frobenius norm of the gradient: `gradient`.
+    GradientNorm,
+    /// ∂u_x/∂x + ∂u_y/∂y: `divergence`.
+    Divergence,
+    /// ∂u_y/∂x − ∂u_x/∂y: `curl`.
+    Curl,
+    /// Strain component ε_xx, ε_yy, ε_xy (tensor, not engineering): `exx`, `eyy`, `exy`.
+    Strain(Axis, Axis),
+    /// Stress component σ_xx, σ_yy, σ_xy: `sxx`, `syy`, `sxy`.
+    Stress(Axis, Axis),
+    /// σ_zz: `szz`.
+    StressOut,
+    /// √(3/2 s:s) of the deviator s of the full stress tensor: `von-mises`.
+    VonMises,
+    /// Largest difference of principal stresses, the third included: `tresca`.
+    Tresca,
+    /// Larger in-plane principal stress: `s1`.
+    Principal1,
+    /// Smaller in-plane principal stress: `s2`.
+    Principal2,
+    /// Angle of the direction of s1 from the x axis, in (−π/2, π/2], radians: `direction`.
+    PrincipalDirection,
+    /// tr(σ)/3 of the full tensor: `hydrostatic`.
+    Hydrostatic,
+    /// ½ σ:ε, or ½ κ |∇u|²: `energy`.
+    EnergyDensity,
+    /// |u − u_exact|: `error`.
+    Error,
+    /// S = Σ W_i: `weight-sum`.
+    WeightSum,
+    /// Number of patches that cover the point: `overlap`.
+    Overlap,
+    /// φ_i of patch i: `phi:7`.
+    PartitionFunction(u32),
+}
+
+/// A coordinate direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Horizontal.
+    X,
+    /// Vertical.
+    Y,
+}
+
+/// What a quantity is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The field's values.
+    Values,
+    /// The field's gradient.
+    Gradient,
+    /// The values and the exact solution.
+    Exact,
+    /// The partition of unity alone.
+    Partition,
+}
+
+/// A quantity that is not known, or has no meaning for the field.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum QuantityError {
+    /// No such name.
+    #[error("there is no quantity `{name}`; known are {known}")]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// All names that have a meaning for the field.
+        known: String,
+    },
+    /// Needs the exact solution.
+    #[error(
+        "`{0}` needs the exact solution, which this dataset does not hold; give it as [exact] in the problem file"
+    )]
+    NoExact(String),
+    /// A patch that does not exist.
+    #[error("there is no patch {patch}; the partition has {count} (numbered from 0)")]
+    Patch {
+        /// The patch asked for.
+        patch: u32,
+        /// Number of patches.
+        count: usize,
+    },
+}
+
+use Quantity as Q;
+
+/// Names of the quantities every field of the equation has, besides components and derivatives.
+const GENERAL: [(&str, Quantity); 6] = [
+    ("magnitude", Q::Magnitude),
+    ("gradient", Q::GradientNorm),
+    ("energy", Q::EnergyDensity),
+    ("error", Q::Error),
+    ("weight-sum", Q::WeightSum),
+    ("overlap", Q::Overlap),
+];
+
+/// Names of the quantities of elasticity.
+const ELASTIC: [(&str, Quantity); 15] = [
+    ("divergence", Q::Divergence),
+    ("curl", Q::Curl),
+    ("exx", Q::Strain(Axis::X, Axis::X)),
+    ("eyy", Q::Strain(Axis::Y, Axis::Y)),
+    ("exy", Q::Strain(Axis::X, Axis::Y)),
+    ("sxx", Q::Stress(Axis::X, Axis::X)),
+    ("syy", Q::Stress(Axis::Y, Axis::Y)),
+    ("sxy", Q::Stress(Axis::X, Axis::Y)),
+    ("szz", Q::StressOut),
+    ("von-mises", Q::VonMises),
+    ("tresca", Q::Tresca),
+    ("s1", Q::Principal1),
+    ("s2", Q::Principal2),
+    ("direction", Q::PrincipalDirection),
+    ("hydrostatic", Q::Hydrostatic),
+];
+
+/// All names with a meaning for a field with these components, with their quantities; the φ of a
+/// patch, `phi:N`, comes on top.
+#[must_use]
+pub fn names(equation: Equation, components: &[String]) -> Vec<(String, Quantity)> {
+    let mut all = Vec::new();
+    for (c, name) in (0u8..).zip(components) {
+        all.push((name.clone(), Q::Component(c)));
+        all.push((format!("d{name}_dx"), Q::Derivative(c, Axis::X)));
+        all.push((format!("d{name}_dy"), Q::Derivative(c, Axis::Y)));
+    }
+    let elastic: &[_] = if equation.material().is_some() { &ELASTIC } else { &[] };
+    all.extend(GENERAL.iter().chain(elastic).map(|&(name, q)| (name.to_owned(), q)));
+    all
+}
+
+impl Quantity {
+    /// The quantity of a name, for a field with these components.
+    ///
+    /// # Errors
+    /// [`QuantityError::Unknown`], which lists what there is.
+    pub fn from_name(
+        name: &str,
+        equation: Equation,
+        components: &[String],
+    ) -> Result<Self, QuantityError> {
+        if let Some(patch) = name.strip_prefix("phi:").and_then(|n| n.parse().ok()) {
+            return Ok(Self::PartitionFunction(patch));
+        }
+        let all = names(equation, components);
+        all.iter().find(|(known, _)| known == name).map(|&(_, quantity)| quantity).ok_or_else(
+            || {
+                let mut known: Vec<_> = all.iter().map(|(known, _)| known.as_str()).collect();
+                known.push("phi:N");
+                QuantityError::Unknown { name: name.into(), known: known.join(", ") }
+            },
+        )
+    }
+
+    /// What the quantity is made of.
+    #[must_use]
+    pub fn source(self) -> Source {
+        match self {
+            Q::Component(_) | Q::Magnitude => Source::Values,
+            Q::Error => Source::Exact,
+            Q::WeightSum | Q::Overlap | Q::PartitionFunction(_) => Source::Partition,
+            _ => Source::Gradient,
+        }
+    }
+
+    /// Evaluates a quantity of values and gradients. `exact` holds the exact values and is read by
+    /// [`Quantity::Error`] alone; quantities of the partition give NaN here.
+    #[inline(always)]
+    pub fn of_field<R: Real>(self, equation: &Equation, u: &[Jet<R>], exact: &[R]) -> R {
+        let value = match self {
+            Q::Component(c) => return u[c as usize].v,
+            Q::Magnitude => return norm(u.iter().map(|jet| jet.v), u[0].v),
+            Q::Error => return norm(u.iter().zip(exact).map(|(jet, &e)| jet.v - e), u[0].v),
+            Q::Derivative(c, Axis::X) => u[c as usize].x,
+            Q::Derivative(c, Axis::Y) => u[c as usize].y,
+            Q::GradientNorm => norm(u.iter().flat_map(|jet| [jet.x, jet.y]), u[0].v),
+            _ => match equation {
+                Equation::Elasticity(material) => self.of_strain(material, &Strain::new(u)),
+                Equation::Poisson { conductivity } => {
+                    let square = u[0].x.mul_add(u[0].x, u[0].y * u[0].y);
+                    square * square.lit(0.5 * conductivity)
+                }
+            },
+        };
+        R::select(value.ge(value), value, value.lit(f64::INFINITY))
+    }
+
+    #[inline(always)]
+    fn of_strain<R: Real>(self, material: &Material, e: &Strain<R>) -> R {
+        let s = e.stress(material);
+        match self {
+            Q::Divergence => e.xx + e.yy,
+            Q::Curl => e.curl,
+            Q::Strain(Axis::X, Axis::X) => e.xx,
+            Q::Strain(Axis::Y, Axis::Y) => e.yy,
+            Q::Strain(..) => e.xy,
+            Q::Stress(Axis::X, Axis::X) => s.xx,
+            Q::Stress(Axis::Y, Axis::Y) => s.yy,
+            Q::Stress(..) => s.xy,
+            Q::StressOut => s.zz,
+            Q::VonMises => s.von_mises(),
+            Q::Tresca => s.tresca(),
+            Q::Principal1 => s.center() + s.radius(),
+            Q::Principal2 => s.center() - s.radius(),
+            Q::PrincipalDirection => s.direction(),
+            Q::Hydrostatic => (s.xx + s.yy + s.zz) * s.xx.lit(1.0 / 3.0),
+            Q::EnergyDensity => e.energy(&s),
+            _ => s.xx.lit(f64::NAN),
+        }
+    }
+
+    /// Checks that the field has what the quantity needs.
+    ///
+    /// # Errors
+    /// No exact solution, no such patch.
+    pub fn check(self, field: &Field<'_>) -> Result<(), QuantityError> {
+        let count = field.step.partition.len();
+        match self {
+            Q::Error if !field.has_exact() => Err(QuantityError::NoExact("error".into())),
+            Q::PartitionFunction(patch) if patch as usize >= count => {
+                Err(QuantityError::Patch { patch, count })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The quantity at `anchor + offset`, the reference of every other evaluator; NaN outside the
+    /// domain. On a crack the given side is taken.
+    pub fn at(self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> f64 {
+        let field = local.field;
+        let mut u = vec![Jet::constant(0.0); field.components()];
+        let inside = match self.source() {
+            Source::Partition => return self.of_partition(local, offset).unwrap_or(f64::NAN),
+            Source::Gradient => local.evaluate::<1>(offset, side, &mut u),
+            Source::Values | Source::Exact => local.evaluate::<0>(offset, side, &mut u),
+        };
+        if !inside {
+            return f64::NAN;
+        }
+        let point = local.anchor + offset;
+        let exact = match self.source() {
+            Source::Exact => (0..u.len()).map(|c| field.exact(c, point)).collect(),
+            _ => Vec::new(),
+        };
+        self.of_field(&field.equation, &u, &exact)
+    }
+
+    /// A quantity of the partition; `None` outside the domain and for other quantities.
+    fn of_partition(self, local: &mut LocalField<'_>, offset: Vec2) -> Option<f64> {
+        match self {
+            Q::WeightSum => Some(local.covering::<0>(offset)?.weight_sum.v),
+            Q::Overlap => Some(local.covering::<0>(offset)?.overlap as f64),
+            Q::PartitionFunction(patch) => {
+                Some(local.partition_function::<0>(patch as usize, offset)?.v)
+            }
+            _ => None,
+        }
+    }
+
+    /// The symbol of the quantity, for labels.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Q::Component(0) => "u_x",
+            Q::Component(_) => "u_y",
+            Q::Magnitude => "|u|",
+            Q::Derivative(0, Axis::X) => "∂u_x/∂x",
+            Q::Derivative(0, Axis::Y) => "∂u_x/∂y",
+            Q::Derivative(_, Axis::X) => "∂u_y/∂x",
+            Q::Derivative(_, Axis::Y) => "∂u_y/∂y",
+            Q::GradientNorm => "|∇u|",
+            Q::Divergence => "div u",
+            Q::Curl => "curl u",
+            Q::Strain(Axis::X, Axis::X) => "ε_xx",
+            Q::Strain(Axis::Y, Axis::Y) => "ε_yy",
+            Q::Strain(..) => "ε_xy",
+            Q::Stress(Axis::X, Axis::X) => "σ_xx",
+            Q::Stress(Axis::Y, Axis::Y) => "σ_yy",
+            Q::Stress(..) => "σ_xy",
+            Q::StressOut => "σ_zz",
+            Q::VonMises => "von Mises stress",
+            Q::Tresca => "Tresca stress",
+            Q::Principal1 => "principal stress σ₁",
+            Q::Principal2 => "principal stress σ₂",
+            Q::PrincipalDirection => "direction of σ₁",
+            Q::Hydrostatic => "hydrostatic stress",
+            Q::EnergyDensity => "energy density",
+            Q::Error => "|u − u_exact|",
+            Q::WeightSum => "Σ W",
+            Q::Overlap => "patches covering",
+            Q::PartitionFunction(_) => "φ",
+        }
+    }
+}
+
+/// √Σ v²
+#[inline(always)]
+fn norm<R: Real>(values: impl Iterator<Item = R>, like: R) -> R {
+    let mut square = like.lit(0.0);
+    for v in values {
+        square = v.mul_add(v, square);
+    }
+    square.sqrt()
+}
+
+/// Strain tensor and rotation.
+struct Strain<R> {
+    xx: R,
+    yy: R,
+    xy: R,
+    curl: R,
+}
+
+/// Stress tensor.
+struct Stress<R> {
+    xx: R,
+    yy: R,
+    xy: R,
+    zz: R,
+}
+
+impl<R: Real> Strain<R> {
+    #[inline(always)]
+    fn new(u: &[Jet<R>]) -> Self {
+        let half = u[0].v.lit(0.5);
+        let curl = u[1].x - u[0].y;
+        Self { xx: u[0].x, yy: u[1].y, xy: (u[0].y + u[1].x) * half, curl }
+    }
+
+    #[inline(always)]
+    fn stress(&self, material: &Material) -> Stress<R> {
+        let double_mu = self.xx.lit(2.0 * material.mu());
+        let pressure = self.xx.lit(material.lambda()) * (self.xx + self.yy);
+        let (xx, yy) = (double_mu.mul_add(self.xx, pressure), double_mu.mul_add(self.yy, pressure));
+        let zz = xx.lit(material.out_of_plane()) * (xx + yy);
+        Stress { xx, yy, xy: double_mu * self.xy, zz }
+    }
+
+    /// ½ σ:ε; the third direction does no work in plane strain nor in plane stress.
+    #[inline(always)]
+    fn energy(&self, s: &Stress<R>) -> R {
+        let half = self.xx.lit(0.5);
+        half * s.xx.mul_add(self.xx, s.yy * self.yy) + s.xy * self.xy
+    }
+}
+
+impl<R: Real> Stress<R> {
+    #[inline(always)]
+    fn center(&self) -> R {
+        (self.xx + self.yy) * self.xx.lit(0.5)
+    }
+
+    /// Radius of Mohr's circle.
+    #[inline(always)]
+    fn radius(&self) -> R {
+        let half = (self.xx - self.yy) * self.xx.lit(0.5);
+        half.mul_add(half, self.xy * self.xy).sqrt()
+    }
+
+    #[inline(always)]
+    fn von_mises(&self) -> R {
+        let (a, b, c) = (self.xx - self.yy, self.yy - self.zz, self.zz - self.xx);
+        let normal = a.mul_add(a, b.mul_add(b, c * c)) * a.lit(0.5);
+        (self.xy * self.xy).mul_add(a.lit(3.0), normal).sqrt()
+    }
+
+    #[inline(always)]
+    fn tresca(&self) -> R {
+        let (high, low) = (self.center() + self.radius(), self.center() - self.radius());
+        high.max(self.zz) - low.min(self.zz)
+    }
+
+    /// ½ atan2(2σ_xy, σ_xx − σ_yy). Lanes have no arc tangent of two numbers; the half-angle form
+    /// atan(σ_xy / (radius + half difference)) needs one, and falls back to ±π/2 on its pole.
+    #[inline(always)]
+    fn direction(&self) -> R {
+        let half = (self.xx - self.yy) * self.xx.lit(0.5);
+        let radius = self.radius();
+        let zero = half.lit(0.0);
+        // tan = xy/(r + h) = (r − h)/xy: the form that does not cancel
+        let ahead = half.ge(zero);
+        let (up, down) =
+            (R::select(ahead, self.xy, radius - half), R::select(ahead, radius + half, self.xy));
+        let tangent = R::select(radius.gt(zero), up / down, zero);
+        tangent.map(|t| if t == f64::NEG_INFINITY { t.abs() } else { t }.atan())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::StressState;
+
+    fn material(state: StressState) -> Material {
+        Material { young: 1.0, poisson: 0.3, state }
+    }
+
+    /// Displacement gradient that produces a given stress, by the inverse law written out.
+    fn gradient(m: &Material, sxx: f64, syy: f64, sxy: f64) -> [Jet<f64>; 2] {
+        let (e, nu) = (m.young, m.poisson);
+        let szz = m.out_of_plane() * (sxx + syy);
+        let strain = |a: f64, b: f64, c: f64| (a - nu * (b + c)) / e;
+        let shear = (1.0 + nu) / e * sxy;
+        let jet = |x, y| Jet { x, y, ..Jet::constant(0.0) };
+        [jet(strain(sxx, syy, szz), shear), jet(shear, strain(syy, sxx, szz))]
+    }
+
+    fn value(m: Material, u: &[Jet<f64>], name: &str) -> f64 {
+        let names = ["ux".to_owned(), "uy".to_owned()];
+        let equation = Equation::Elasticity(m);
+        let quantity = Quantity::from_name(name, equation, &names).expect("known name");
+        quantity.of_field(&equation, u, &[])
+    }
+
+    #[test]
+    fn stresses_from_the_inverse_law() {
+        for state in [StressState::PlaneStrain, StressState::PlaneStress] {
+            let m = material(state);
+            let u = gradient(&m, 3.0, -1.0, 2.0);
+            let szz = if state == StressState::PlaneStrain { 0.6 } else { 0.0 };
+            let radius = 8f64.sqrt();
+            let energy = 0.5 * (3.0 * u[0].x - u[1].y + 4.0 * u[0].y);
+            let mises = (0.5 * (16.0 + (1.0 + szz) * (1.0 + szz) + (szz - 3.0) * (szz - 3.0))
+                + 12.0f64)
+                .sqrt();
+            for (name, expected) in [
+                ("sxx", 3.0),
+                ("syy", -1.0),
+                ("sxy", 2.0),
+                ("szz", szz),
+                ("s1", 1.0 + radius),
+                ("s2", 1.0 - radius),
+                ("tresca", 2.0 * radius),
+                ("von-mises", mises),
+                ("hydrostatic", (2.0 + szz) / 3.0),
+                ("direction", 0.5 * 4f64.atan2(4.0)),
+                ("energy", energy),
+                ("divergence", u[0].x + u[1].y),
+                ("curl", 0.0),
+            ] {
+                assert!((value(m, &u, name) - expected).abs() < 1e-14, "{name} {state:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn direction_all_round() {
+        let m = material(StressState::PlaneStress);
+        for k in -49..=50 {
+            let angle = f64::from(k) / 100.0 * std::f64::consts::PI;
+            let (c, s) = ((2.0 * angle).cos(), (2.0 * angle).sin());
+            let found = value(m, &gradient(&m, 1.0 + c, 1.0 - c, s), "direction");
+            let mut apart = (found - angle).abs();
+            apart = apart.min(std::f64::consts::PI - apart);
+            assert!(apart < 1e-12, "{angle} {found}");
+        }
+    }
+
+    #[test]
+    fn infinite_where_the_gradient_does_not_exist() {
+        let m = material(StressState::PlaneStrain);
+        let nan = Jet { x: f64::NAN, y: f64::NAN, ..Jet::constant(0.0) };
+        assert_eq!(value(m, &[nan, nan], "von-mises"), f64::INFINITY);
+        assert_eq!(value(m, &[nan, nan], "ux"), 0.0);
+    }
+
+    #[test]
+    fn unknown_names_list_the_known() {
+        let equation = Equation::Poisson { conductivity: 1.0 };
+        let error = Quantity::from_name("sxx", equation, &["u".to_owned()]).expect_err("no stress");
+        assert!(error.to_string().contains("du_dx"), "{error}");
+    }
+}
