@@ -136,7 +136,7 @@ impl Formula {
     /// The value, if it is the same whatever the inputs.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
-        Graph::from_ops(self.program.ops()).value(self.root())
+        self.program.ops()[self.root().index()].value()
     }
 
     /// True if its value or the choice of a branch depends on the input of this name. A
@@ -244,7 +244,7 @@ impl FormulaJet {
 
     /// Number of operations of one evaluation, constants and inputs included.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn n_operations(&self) -> usize {
         self.program.ops().len()
     }
 }
