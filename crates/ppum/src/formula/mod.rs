@@ -70,8 +70,8 @@ pub const MAX_DEPTH: usize = 200;
 pub const MAX_LENGTH: usize = 1 << 16;
 
 /// Most operations of a formula with its derivatives. Hand-written formulas have a hundred; this
-/// many still fit in some tens of megabytes.
-pub const MAX_NODES: usize = 1 << 20;
+/// many still fit in some tens of megabytes and are made within a second.
+pub const MAX_NODES: usize = 1 << 18;
 
 /// A formula of the variables of a [`Scope`], ready for evaluation.
 ///

@@ -4,6 +4,9 @@ use std::f64::consts::{E, PI};
 
 use super::{Formula, Scope, parse, value};
 
+type Unary = fn(f64) -> f64;
+type Binary = fn(f64, f64) -> f64;
+
 #[test]
 fn precedence_and_grouping() {
     for (text, expected) in [
@@ -92,7 +95,7 @@ fn constants_and_parameters() {
 
 #[test]
 fn functions_of_one_number() {
-    let cases: [(&str, fn(f64) -> f64); 17] = [
+    let cases: [(&str, Unary); 17] = [
         ("sqrt", f64::sqrt),
         ("cbrt", f64::cbrt),
         ("exp", f64::exp),
@@ -123,7 +126,7 @@ fn functions_of_one_number() {
 
 #[test]
 fn functions_of_several_numbers() {
-    let cases: [(&str, fn(f64, f64) -> f64); 8] = [
+    let cases: [(&str, Binary); 8] = [
         ("atan2(x, y)", f64::atan2),
         ("hypot(x, y)", f64::hypot),
         ("min(x, y)", f64::min),
