@@ -9,10 +9,7 @@
 //! transformation acts alike. Unknowns of the whole system run through the patches in order.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Accum, Mat, MatMut, MatRef, Par, linalg::matmul::matmul};
-use rayon::prelude::*;
-
-use crate::transform::Transform;
+use faer::{MatMut, MatRef};
 
 /// The pairs of coupled patches i ≤ j, row by row (CSR).
 ///
@@ -133,35 +130,6 @@ impl BlockMatrix {
         sum += block;
     }
 
-    /// T K Tᵀ: block (i, j) becomes (I ⊗ T_i) K_ij (I ⊗ T_j)ᵀ, with the identity over `components`.
-    ///
-    /// The blocks are transformed in parallel, each by itself.
-    ///
-    /// # Panics
-    /// If the transformations do not fit the blocks.
-    #[must_use]
-    pub(crate) fn congruence(&self, transforms: &[Transform], components: usize) -> Self {
-        for (i, transform) in transforms.iter().enumerate() {
-            let unknowns = self.unknowns(i).len();
-            assert_eq!(unknowns, components * transform.matrix.ncols(), "patch {i}");
-        }
-        let sizes: Vec<usize> = transforms.iter().map(|t| components * t.matrix.nrows()).collect();
-        let mut result = Self::new(&sizes, self.pattern.clone());
-        let mut rest = result.values.as_mut_slice();
-        let mut jobs = Vec::with_capacity(self.pattern.columns.len());
-        for (k, (i, j)) in self.pattern.pairs().enumerate() {
-            let (values, tail) = rest.split_at_mut(sizes[i] * sizes[j]);
-            rest = tail;
-            let block = MatMut::from_row_major_slice_mut(values, sizes[i], sizes[j]);
-            jobs.push((k, i, j, block));
-        }
-        jobs.into_par_iter().for_each(|(k, i, j, block)| {
-            let (left, right) = (&transforms[i].matrix, &transforms[j].matrix);
-            transform_block(self.stored_block(k, i, j), left, right, components, block);
-        });
-        result
-    }
-
     /// K x.
     ///
     /// # Panics
@@ -210,32 +178,6 @@ impl BlockMatrix {
     }
 }
 
-/// `out` = (I ⊗ L) K (I ⊗ R)ᵀ, one scalar block after the other.
-fn transform_block(
-    block: MatRef<'_, f64>,
-    left: &Mat<f64>,
-    right: &Mat<f64>,
-    components: usize,
-    mut out: MatMut<'_, f64>,
-) {
-    let (rows, columns) = (left.ncols(), right.ncols());
-    let mut half = Mat::zeros(left.nrows(), columns);
-    for c in 0..components {
-        for d in 0..components {
-            let scalar = block.submatrix(c * rows, d * columns, rows, columns);
-            let (kept_rows, kept_columns) = (left.nrows(), right.nrows());
-            let target = out.as_mut().submatrix_mut(
-                c * kept_rows,
-                d * kept_columns,
-                kept_rows,
-                kept_columns,
-            );
-            matmul(half.as_mut(), Accum::Replace, left, scalar, 1.0, Par::Seq);
-            matmul(target, Accum::Replace, &half, right.transpose(), 1.0, Par::Seq);
-        }
-    }
-}
-
 /// 0, x₀, x₀ + x₁, …
 fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
     let sums = sizes.scan(0, |sum, size| {
@@ -249,6 +191,7 @@ fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
 mod tests {
     use super::*;
     use crate::random::Random;
+    use faer::Mat;
 
     /// Patches 0–1–2 and 0–3 coupled, with different sizes, one of them empty.
     fn pattern() -> BlockPattern {
@@ -312,31 +255,6 @@ mod tests {
         assert_eq!(sum[(1, 6 + 2)], full[(1, 6 + 2)] + 12.0);
         assert_eq!(sum[(6 + 3, 2)], full[(6 + 3, 2)] + 23.0);
         assert!(blocks.block(1, 3).is_none());
-    }
-
-    #[test]
-    fn congruence_is_that_of_the_full_matrix() {
-        let (functions, kept, components) = ([3, 2, 1, 4], [2, 2, 0, 3], 2);
-        let (blocks, full) = random_matrix(&functions.map(|n| components * n));
-        let mut random = Random::new(23);
-        let transforms: Vec<Transform> = (0..4)
-            .map(|i| Transform {
-                matrix: Mat::from_fn(kept[i], functions[i], |_, _| random.signed()),
-                dropped: functions[i] - kept[i],
-            })
-            .collect();
-        let result = blocks.congruence(&transforms, components);
-        let mut t = Mat::<f64>::zeros(result.n_unknowns(), blocks.n_unknowns());
-        for i in 0..4 {
-            for c in 0..components {
-                let row = result.unknowns(i).start + c * kept[i];
-                let column = blocks.unknowns(i).start + c * functions[i];
-                t.submatrix_mut(row, column, kept[i], functions[i])
-                    .copy_from(&transforms[i].matrix);
-            }
-        }
-        assert_eq!(result.n_unknowns(), 14);
-        assert!((in_full(&result) - &t * full * t.transpose()).norm_max() < 1e-13);
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! From a problem to a dataset.
 
 use crate::basis::StableBasis;
-use crate::block_matrix::BlockMatrix;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
@@ -179,55 +178,15 @@ impl Solver<'_> {
         gauge(&mut system, &space, &basis, &motions, &free);
         clock.lap(Phase::Assembly);
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solution = Cholesky::new(&matrix)?.solve(&load)?;
+        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
-            coefficients: back(&transforms, &solution.unknowns, components),
-            dropped: transforms.iter().map(|t| t.dropped).collect(),
-            unknowns: system.matrix.n_unknowns(),
+            coefficients: basis.plain(&space, &solution.unknowns, components),
+            dropped: basis.dropped().collect(),
+            unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
         })
     }
-}
-
-fn transforms(space: &Space<'_>, system: &System) -> Result<Vec<Transform>, EigenError> {
-    let gram = system.gram.par_iter().enumerate();
-    gram.map(|(i, m)| Transform::new(m.as_ref(), space.n_polynomials(i), CUT_OFF)).collect()
-}
-
-/// T f.
-fn transformed(
-    matrix: &BlockMatrix,
-    transforms: &[Transform],
-    load: &[f64],
-    components: usize,
-) -> Vec<f64> {
-    let mut out = Vec::with_capacity(load.len());
-    for (i, Transform { matrix: t, .. }) in transforms.iter().enumerate() {
-        let load = &load[matrix.unknowns(i)];
-        for part in load.chunks_exact(load.len() / components) {
-            out.extend(
-                (0..t.nrows()).map(|k| (0..t.ncols()).map(|a| t[(k, a)] * part[a]).sum::<f64>()),
-            );
-        }
-    }
-    out
-}
-
-/// Tᵀ u.
-fn back(transforms: &[Transform], solution: &[f64], components: usize) -> Vec<f64> {
-    let mut rest = solution;
-    let mut out = Vec::new();
-    for Transform { matrix: t, .. } in transforms {
-        for _ in 0..components {
-            let (part, tail) = rest.split_at(t.nrows());
-            rest = tail;
-            out.extend(
-                (0..t.ncols()).map(|a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>()),
-            );
-        }
-    }
-    out
 }
 
 impl Solution {

@@ -3,15 +3,13 @@
 //! Every expected number comes from a closed form or from an independent computation, named where
 //! it is used.
 
-mod support;
-
+use crate::support::{self, Errors, errors, solved};
 use ppum::dataset::{Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{
     Cells, Condition, Discretization, Edge, Enrichment, Expression, Order, Problem,
 };
 use ppum_testkit::exact::{ExactField, Slit, Smooth, Williams};
-use support::{Errors, errors, solved};
 
 fn steel() -> Material {
     Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain }
