@@ -1,1 +1,5 @@
 //! ppum-render
+pub mod colormap;
+pub mod image;
+pub mod raster;
+pub mod view;
