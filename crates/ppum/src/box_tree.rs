@@ -114,21 +114,8 @@ fn quantize(fraction: f64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
     use crate::vec2::vec2;
-
-    /// Uniform numbers in [0, 1) from a 64 bit linear congruential generator (Knuth's constants).
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (self.0 >> 11) as f64 / (1u64 << 53) as f64
-        }
-
-        fn point(&mut self) -> Vec2 {
-            vec2(self.next(), self.next())
-        }
-    }
 
     /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
     fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {

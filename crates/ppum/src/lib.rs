@@ -1,5 +1,6 @@
 //! Particle-partition of unity fields, evaluated exactly.
 pub mod box_tree;
+pub mod cover;
 pub mod crack;
 pub mod dataset;
 pub mod field;
@@ -8,6 +9,8 @@ pub mod function;
 pub mod jet;
 mod morton;
 pub mod polynomial;
+#[cfg(test)]
+mod random;
 pub mod quantity;
 pub mod real;
 pub mod vec2;
