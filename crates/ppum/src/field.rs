@@ -210,6 +210,9 @@ impl<'f> LocalField<'f> {
         for sum in &mut out[..components] {
             *sum = sum.over::<D>(weight_sum);
         }
+        if let &[alone] = patches {
+            weight_sum = self.partition_weight::<R, D>(alone as usize, offset);
+        }
         Covering { weight_sum, overlap: patches.len() }
     }
 

@@ -9,9 +9,9 @@ pub mod function;
 pub mod jet;
 mod morton;
 pub mod polynomial;
+pub mod quantity;
 #[cfg(test)]
 mod random;
-pub mod quantity;
 pub mod real;
 pub mod vec2;
 pub mod weight;
