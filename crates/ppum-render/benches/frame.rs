@@ -1,0 +1,83 @@
+//! Milliseconds a frame on one thread: 1024 × 768, order 2, two components, linear weights, four
+//! Westergaard functions on a quarter of the area, von Mises stress. Wall time of a pool of one
+//! thread, minimum over repetitions, which on a busy machine comes nearest to the processor time.
+
+#[path = "../tests/support/synthetic.rs"]
+mod synthetic;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::real::Scalar;
+use ppum::vec2::vec2;
+use ppum_render::raster::Sample;
+use ppum_render::reference::reference;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use synthetic::{Recipe, dataset, domain};
+
+/// A view that shows the domain but for a part of a cell, commensurate with none.
+fn view() -> View {
+    View::new(domain().center() + vec2(0.00123, -0.00171), 1.3297, [1024, 768]).expect("a view")
+}
+
+/// Least milliseconds of a frame.
+fn time(mut frame: impl FnMut(), repetitions: usize) -> f64 {
+    let mut least = f64::INFINITY;
+    for _ in 0..repetitions {
+        let start = Instant::now();
+        frame();
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e3
+}
+
+fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
+    let draw = || {
+        black_box(render::<T>(field, &view(), Quantity::VonMises, None).expect("a stress"));
+    };
+    time(draw, 60)
+}
+
+fn row(name: &str, dataset: &Dataset) -> [f64; 2] {
+    let field = Field::new(dataset, 0).expect("a field");
+    let patches = field.step.partition.len();
+    let enriched = (0..patches).filter(|&i| field.data.blocks(i).len() > 2).count();
+    let times = [frame::<f64>(&field), frame::<f32>(&field)];
+    println!("{name:10} {patches:6} {enriched:6} {:8.2} {:8.2}", times[0], times[1]);
+    times
+}
+
+fn main() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    pool.install(|| {
+        println!("cover     patches   tips   f64 ms   f32 ms");
+        let mut uniform = Vec::new();
+        for level in 0..6 {
+            let recipe = uniform_recipe(level);
+            uniform.push(row("uniform", &dataset(&recipe)));
+        }
+        for (level, tip_level) in [(1, 8), (2, 12), (3, 12), (4, 12)] {
+            row("graded", &dataset(&Recipe { tip_level, ..uniform_recipe(level) }));
+        }
+        let ratio = |k: usize| {
+            let times = uniform.iter().map(|row| row[k]);
+            times.clone().fold(0.0, f64::max) / times.fold(f64::INFINITY, f64::min)
+        };
+        println!("largest / smallest, uniform: {:.2} {:.2}", ratio(0), ratio(1));
+        let dataset = dataset(&uniform_recipe(3));
+        let field = Field::new(&dataset, 0).expect("a field");
+        let draw = || {
+            black_box(reference(&field, &view(), Quantity::VonMises, None).expect("a stress"));
+        };
+        println!("scalar reference, 1024 patches: {:.0} ms", time(draw, 1));
+    });
+}
+
+/// 16 · 4^level cells, a quarter of them near the tips.
+fn uniform_recipe(level: u8) -> Recipe {
+    Recipe { cells: [4, 4], level, tip_level: level, zone: 0.2303, ..Recipe::default() }
+}
