@@ -45,7 +45,7 @@ fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
 fn row(name: &str, dataset: &Dataset) -> [f64; 2] {
     let field = Field::new(dataset, 0).expect("a field");
     let patches = field.step.partition.len();
-    let enriched = (0..patches).filter(|&i| field.data.blocks(i).len() > 2).count();
+    let enriched = (0..patches).filter(|&i| field.data.blocks(i).len() > 1).count();
     let times = [frame::<f64>(&field), frame::<f32>(&field)];
     println!("{name:10} {patches:6} {enriched:6} {:8.2} {:8.2}", times[0], times[1]);
     times
@@ -79,5 +79,6 @@ fn main() {
 
 /// 16 · 4^level cells, a quarter of them near the tips.
 fn uniform_recipe(level: u8) -> Recipe {
-    Recipe { cells: [4, 4], level, tip_level: level, zone: 0.2303, ..Recipe::default() }
+    let jumps = false;
+    Recipe { cells: [4, 4], level, tip_level: level, zone: 0.2303, jumps, ..Recipe::default() }
 }

@@ -11,11 +11,9 @@
 use ppum::dataset::monomials;
 use ppum::real::{Real, Scalar};
 
-use super::plan::Affine;
-
 /// Rows of a tile, and of the tables here: one vector of lanes.
 #[inline(always)]
-pub(super) const fn rows<T: Scalar>() -> usize {
+pub(super) const fn height<T: Scalar>() -> usize {
     T::VECTOR
 }
 
@@ -28,7 +26,7 @@ pub(super) const fn polynomials<const D: usize>() -> usize {
 /// Length of a block's table.
 #[inline(always)]
 pub(super) const fn table_len<T: Scalar, const D: usize>(degree: usize) -> usize {
-    (degree + 1) * polynomials::<D>() * rows::<T>()
+    (degree + 1) * polynomials::<D>() * height::<T>()
 }
 
 /// The factor b(η) of the weight and its derivative by y on lanes of rows.
@@ -38,33 +36,71 @@ pub(super) struct Factor<R> {
     pub(super) slope: R,
 }
 
-/// Writes the table of one block: for k from the degree down to 0 the lanes of A_k, B_k and D_k.
-///
-/// `shift` is subtracted from the constant coefficient; `eta` are the rows in the polynomials'
-/// frame.
+/// A number known only at run time, where a constant is asked for.
+pub(super) const ANY: usize = usize::MAX;
+
+/// `constant` unless it is [`ANY`]: loops up to a constant unroll.
+#[inline(always)]
+pub(super) const fn known(constant: usize, number: usize) -> usize {
+    if constant == ANY { number } else { constant }
+}
+
+/// [`collapse_degree`] with the common degrees as constants.
 #[inline(always)]
 pub(super) fn collapse<R: Real, const D: usize>(
     coefficients: &[f64],
     degree: usize,
     shift: f64,
-    frame: [Affine; 2],
-    eta: R,
-    factor: Factor<R>,
+    rows: &Rows<R>,
     table: &mut [R::Scalar],
 ) {
-    let n = rows::<R::Scalar>();
+    match degree {
+        0 => collapse_degree::<R, D, 0>(coefficients, degree, shift, rows, table),
+        1 => collapse_degree::<R, D, 1>(coefficients, degree, shift, rows, table),
+        2 => collapse_degree::<R, D, 2>(coefficients, degree, shift, rows, table),
+        3 => collapse_degree::<R, D, 3>(coefficients, degree, shift, rows, table),
+        _ => collapse_degree::<R, D, ANY>(coefficients, degree, shift, rows, table),
+    }
+}
+
+/// Lanes of rows of a patch.
+pub(super) struct Rows<R> {
+    /// Coordinates η of the polynomials.
+    pub(super) eta: R,
+    /// Factor of the weight.
+    pub(super) factor: Factor<R>,
+    /// Derivatives of ξ and η by x and y.
+    pub(super) scale: [f64; 2],
+}
+
+/// Writes the table of one block: for k from the degree down to 0 the lanes of A_k, B_k and D_k.
+///
+/// `shift` is subtracted from the constant coefficient.
+#[inline(always)]
+fn collapse_degree<R: Real, const D: usize, const P: usize>(
+    coefficients: &[f64],
+    degree: usize,
+    shift: f64,
+    rows: &Rows<R>,
+    table: &mut [R::Scalar],
+) {
+    let degree = known(P, degree);
+    let n = height::<R::Scalar>();
+    let coefficients = &coefficients[..monomials(degree)];
+    // The last lanes of the table may belong to the rows before these.
+    let table = &mut table[..(degree + 1) * polynomials::<D>() * n - n + R::LANES];
+    let scaled = rows.factor.value * rows.eta.lit(rows.scale[1]);
     let mut k = degree + 1;
     let mut at = 0;
-    let scaled = factor.value * eta.lit(frame[1].scale);
     while k > 0 {
         k -= 1;
-        let [a, b] = inner::<R, D>(coefficients, degree, k, shift, eta);
-        let weighted = factor.value * a;
+        let [a, b] = inner::<R, D>(coefficients, degree, k, shift, rows.eta);
+        let weighted = rows.factor.value * a;
         weighted.store(&mut table[at..]);
         if D >= 1 {
-            factor.slope.mul_add(a, scaled * b).store(&mut table[at + n..]);
+            rows.factor.slope.mul_add(a, scaled * b).store(&mut table[at + n..]);
             if k > 0 {
-                let slope = weighted * eta.lit(k as f64 * frame[0].scale);
+                let slope = weighted * rows.eta.lit(k as f64 * rows.scale[0]);
                 slope.store(&mut table[at + 5 * n..]);
             }
         }
@@ -99,15 +135,17 @@ fn inner<R: Real, const D: usize>(
 }
 
 /// A block on lanes of columns: Σ A_k ξ^k and its derivatives by x and y. `table` begins at the
-/// row.
+/// row; `P` is the degree or [`ANY`].
 #[inline(always)]
-pub(super) fn evaluate<R: Real, const D: usize>(
+pub(super) fn evaluate<R: Real, const D: usize, const P: usize>(
     table: &[R::Scalar],
     degree: usize,
     xi: R,
 ) -> [R; 3] {
-    let n = rows::<R::Scalar>();
+    let degree = known(P, degree);
+    let n = height::<R::Scalar>();
     let zero = xi.lit(0.0);
+    let table = &table[..((degree + 1) * polynomials::<D>() - 1) * n + 1];
     let mut v = splat(zero, table[0]);
     let (mut vx, mut vy) = (zero, zero);
     if D >= 1 {
@@ -121,7 +159,11 @@ pub(super) fn evaluate<R: Real, const D: usize>(
         v = v.mul_add(xi, splat(zero, table[at]));
         if D >= 1 {
             vy = vy.mul_add(xi, splat(zero, table[at + n]));
-            vx = vx.mul_add(xi, splat(zero, table[at + 2 * n]));
+            vx = if k == 1 {
+                splat(zero, table[at + 2 * n])
+            } else {
+                vx.mul_add(xi, splat(zero, table[at + 2 * n]))
+            };
         }
     }
     [v, vx, vy]

@@ -22,7 +22,9 @@
 //! unity reproduces, before weights and displacements are multiplied.
 
 mod collapse;
+mod finish;
 mod plan;
+mod spread;
 mod tile;
 
 use ppum::dataset::Equation;

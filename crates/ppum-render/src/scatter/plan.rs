@@ -11,7 +11,7 @@ use ppum::vec2::{Rect, Vec2};
 use crate::view::View;
 
 /// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
-pub(super) const COLUMNS: usize = 64;
+pub(super) const COLUMNS: usize = 32;
 
 /// ξ = `scale` · offset + `shift` in one direction.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +41,19 @@ pub(super) struct Patch {
     /// Coordinates of the polynomials.
     pub(super) frame: [Affine; 2],
     /// Columns of pixels that may be covered.
-    pub(super) columns: Range<usize>,
+    pub(super) columns: Range<u32>,
     /// Rows of pixels that may be covered.
-    pub(super) rows: Range<usize>,
+    pub(super) rows: Range<u32>,
     /// Its blocks; the first is of function 1, unless the plan has no components.
-    pub(super) blocks: Range<usize>,
+    pub(super) blocks: Range<u32>,
+}
+
+impl Patch {
+    /// Its blocks in the plan's list.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> Range<usize> {
+        self.blocks.start as usize..self.blocks.end as usize
+    }
 }
 
 /// Everything about one view, made once in f64. The anchor is the view's centre.
@@ -102,12 +110,12 @@ impl<'f> Plan<'f> {
 
     /// The constant coefficient of a patch's first block.
     pub(super) fn constant(&self, patch: u32, component: usize) -> f64 {
-        let block = &self.blocks[self.patches[patch as usize].blocks.start];
+        let block = &self.blocks[self.patches[patch as usize].blocks.start as usize];
         self.block_coefficients(block, component)[0]
     }
 
     /// Adds the blocks of a patch, one of function 1 first.
-    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: Quantity) -> Range<usize> {
+    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: Quantity) -> Range<u32> {
         let start = self.blocks.len();
         if let Quantity::PartitionFunction(of) = quantity {
             let offset = (of as usize == patch).then_some(0);
@@ -125,7 +133,7 @@ impl<'f> Plan<'f> {
                 None => self.blocks.insert(start, Block::NOTHING),
             }
         }
-        start..self.blocks.len()
+        start as u32..self.blocks.len() as u32
     }
 }
 
@@ -138,7 +146,7 @@ fn coefficients(data: &FieldData, quantity: Quantity) -> Vec<&[f64]> {
     }
 }
 
-fn patch(field: &Field, index: usize, pixels: &Pixels, blocks: Range<usize>) -> Patch {
+fn patch(field: &Field, index: usize, pixels: &Pixels, blocks: Range<u32>) -> Patch {
     let partition = &field.step.partition;
     let (center, half) = (partition.center[index] - pixels.anchor, partition.half[index]);
     let [columns, rows] = pixels.covered(&Rect::around(center, half));
@@ -180,15 +188,15 @@ impl<'v> Pixels<'v> {
     }
 
     /// The columns and rows whose pixels may lie in a box given relative to the anchor.
-    fn covered(&self, b: &Rect) -> [Range<usize>; 2] {
+    fn covered(&self, b: &Rect) -> [Range<u32>; 2] {
         let [nx, ny] = self.view.pixels.map(f64::from);
         let from = |position: f64, count: f64| (position - self.margin).ceil().clamp(0.0, count);
         let to = |position: f64, count: f64| {
-            ((position + self.margin).floor() + 1.0).clamp(0.0, count) as usize
+            ((position + self.margin).floor() + 1.0).clamp(0.0, count) as u32
         };
         let range = |lo: f64, hi: f64, count: f64| {
             let middle = 0.5 * (count - 1.0);
-            let start = from(middle + lo * self.density, count) as usize;
+            let start = from(middle + lo * self.density, count) as u32;
             start..to(middle + hi * self.density, count).max(start)
         };
         [range(b.min.x, b.max.x, nx), range(-b.max.y, -b.min.y, ny)]
@@ -259,9 +267,14 @@ impl Tiles {
 }
 
 fn for_each_tile(patch: &Patch, columns: usize, rows: usize, mut f: impl FnMut(usize)) {
-    for row in patch.rows.start / rows..patch.rows.end.div_ceil(rows) {
-        for column in patch.columns.start / COLUMNS..patch.columns.end.div_ceil(COLUMNS) {
+    for row in tiles(&patch.rows, rows) {
+        for column in tiles(&patch.columns, COLUMNS) {
             f(row * columns + column);
         }
     }
+}
+
+/// The tiles of `size` pixels that a range meets.
+fn tiles(pixels: &Range<u32>, size: usize) -> Range<usize> {
+    pixels.start as usize / size..(pixels.end as usize).div_ceil(size)
 }

@@ -27,6 +27,8 @@ pub(crate) struct Recipe {
     pub(crate) tip_degree: u8,
     /// Patches closer than this to a tip have its functions.
     pub(crate) zone: f64,
+    /// Patches that the crack cuts have jumps.
+    pub(crate) jumps: bool,
     /// Components.
     pub(crate) components: usize,
     /// Weight function.
@@ -44,6 +46,7 @@ impl Default for Recipe {
             degrees: &[2],
             tip_degree: 0,
             zone: 0.2,
+            jumps: true,
             components: 2,
             weight: WeightFunction::Linear,
             own_frames: false,
@@ -179,7 +182,7 @@ impl Maker<'_> {
         let zone = TIPS.iter().position(|tip| {
             (self.cracks[0].end_point(tip.end) - center).length() < self.recipe.zone
         });
-        match self.nearest_on_crack(patch) {
+        match self.nearest_on_crack(patch).filter(|_| self.recipe.jumps) {
             Some((at, normal)) => {
                 let step = normal * 1e-9;
                 let above = self.remainder(at + step, zone);
