@@ -13,7 +13,7 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::reference::reference;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use synthetic::{Recipe, crack, dataset, domain};
+use synthetic::{KINKED, Recipe, dataset, domain};
 
 /// A view of the whole domain whose pixels are commensurate with no cell.
 fn whole(pixels: [u32; 2]) -> View {
@@ -184,7 +184,7 @@ fn views_partly_and_wholly_outside() {
 fn deep_views() {
     let dataset = dataset(&Recipe { tip_level: 9, ..Recipe::default() });
     let field = Field::new(&dataset, 0).unwrap();
-    let points = crack().points;
+    let points = KINKED;
     let middle = points[0] + (points[1] - points[0]) * 0.63;
     for (place, at) in [("tip", points[2]), ("kink", points[1]), ("middle", middle)] {
         for zoom in [1.0, 1e3, 1e6, 1e9, 1e12] {
@@ -203,7 +203,7 @@ fn deep_views() {
 fn infinite_at_a_tip() {
     let dataset = dataset(&Recipe::default());
     let field = Field::new(&dataset, 0).unwrap();
-    let view = View::new(crack().points[2], 1e-3, [41, 21]).unwrap();
+    let view = View::new(KINKED[2], 1e-3, [41, 21]).unwrap();
     fn check<T: Scalar + Sample>(field: &Field, view: &View) {
         let raster = render::<T>(field, view, Quantity::VonMises, None).unwrap();
         assert_eq!(raster.value(20, 10).into(), f64::INFINITY);

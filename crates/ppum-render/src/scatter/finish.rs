@@ -46,60 +46,54 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             many.as_mut_slice()
         };
         let mut exact = Vec::new();
+        let equation = self.scene.equation;
+        let n = height::<T>();
         let stride = size::<R, D>() * (1 + components);
         let width = self.scene.view.pixels[0] as usize;
         let [mut column, first_row] = self.corner();
         let end = width.min(column + COLUMNS);
-        for cells in scratch.sums.chunks_exact_mut(height::<T>() * stride) {
-            if column >= end {
-                break;
-            }
-            let lines = out.chunks_exact_mut(width).zip(cells.chunks_exact_mut(stride));
-            for (row, (line, cell)) in lines.enumerate() {
+        let mut start = 0;
+        while column < end {
+            for (row, line) in out.chunks_exact_mut(width).enumerate() {
+                let cell = &mut scratch.sums[start + row * stride..][..stride];
                 if quantity.source() == Source::Exact {
                     exact.resize(components, zero);
                     let pixel = [column, first_row + row];
                     self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
                 }
-                let value = self.value(quantity, cell, &scratch.shift, jets, &exact, zero);
+                let weight = divide::<R, D>(cell, jets, zero);
+                let value = match quantity.source() {
+                    Source::Partition if components == 0 => weight,
+                    Source::Partition => jets[0].v + zero.lit(scratch.shift[0]),
+                    Source::Values => {
+                        for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
+                            jet.v = jet.v + zero.lit(shift);
+                        }
+                        quantity.of_field(&equation, jets, &exact)
+                    }
+                    Source::Gradient | Source::Exact => quantity.of_field(&equation, jets, &exact),
+                };
                 clear(cell, zero);
                 store(value, &mut line[column..]);
             }
             column += R::LANES;
+            start += n * stride;
         }
     }
+}
 
-    /// The quantity at a vector of points.
-    #[inline(always)]
-    fn value<R: Real<Scalar = T>>(
-        &self,
-        quantity: Quantity,
-        cell: &[T],
-        shift: &[f64],
-        jets: &mut [Jet<R>],
-        exact: &[R],
-        zero: R,
-    ) -> R {
-        let size = size::<R, D>();
-        let weight = load_jet::<R, D>(cell, zero);
-        let mut component = 0;
-        while component < jets.len() {
-            let sum = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
-            jets[component] = sum.over::<D>(weight);
-            component += 1;
-        }
-        match quantity.source() {
-            Source::Partition if jets.is_empty() => return weight.v,
-            Source::Partition => return jets[0].v + zero.lit(shift[0]),
-            Source::Values => {
-                for (jet, &shift) in jets.iter_mut().zip(shift) {
-                    jet.v = jet.v + zero.lit(shift);
-                }
-            }
-            Source::Gradient | Source::Exact => {}
-        }
-        quantity.of_field(&self.scene.equation, jets, exact)
+/// The quotients of the sums, and the sum of the weights.
+#[inline(always)]
+fn divide<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero: R) -> R {
+    let size = size::<R, D>();
+    let weight = load_jet::<R, D>(cell, zero);
+    let mut component = 0;
+    while component < jets.len() {
+        let sum = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
+        jets[component] = sum.over::<D>(weight);
+        component += 1;
     }
+    weight.v
 }
 
 #[inline(always)]

@@ -11,7 +11,7 @@ use ppum::vec2::{Rect, Vec2};
 use crate::view::View;
 
 /// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
-pub(super) const COLUMNS: usize = 32;
+pub(super) const COLUMNS: usize = 64;
 
 /// ξ = `scale` · offset + `shift` in one direction.
 #[derive(Clone, Copy, Debug)]

@@ -161,15 +161,15 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let [column, row] = self.corner();
         let functions = &self.scene.functions;
         let group = active.group as usize;
-        let count = functions.table().group_len(group);
-        let mut jets = [Jet::constant(zero); GROUP];
         for vector in active.part.vectors.clone() {
             let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
             for k in active.part.rows.clone() {
                 let y = splat(zero, self.scene.ys[row + k]);
+                // All are stored, however many the group has: so they stay in registers.
+                let mut jets = [Jet::constant(zero); GROUP];
                 functions.evaluate::<R, D>(group, [x, y], Side::Above, &mut jets);
                 let start = (vector * height::<T>() + k) * stride;
-                store_jets::<R, D>(&jets[..count], &mut basis[start..start + stride]);
+                store_jets::<R, D>(&jets, &mut basis[start..start + stride]);
             }
         }
     }
@@ -211,13 +211,17 @@ pub(super) fn load_jet<R: Real, const D: usize>(from: &[R::Scalar], like: R) -> 
 }
 
 #[inline(always)]
-fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>], to: &mut [R::Scalar]) {
-    for (jet, to) in jets.iter().zip(to.chunks_exact_mut(size::<R, D>())) {
-        jet.v.store(to);
+fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scalar]) {
+    let to = &mut to[..basis_stride::<R, D>()];
+    let mut k = 0;
+    while k < GROUP {
+        let to = &mut to[k * size::<R, D>()..];
+        jets[k].v.store(to);
         if D >= 1 {
-            jet.x.store(&mut to[R::LANES..]);
-            jet.y.store(&mut to[2 * R::LANES..]);
+            jets[k].x.store(&mut to[R::LANES..]);
+            jets[k].y.store(&mut to[2 * R::LANES..]);
         }
+        k += 1;
     }
 }
 

@@ -27,6 +27,8 @@ pub(crate) struct Recipe {
     pub(crate) tip_degree: u8,
     /// Patches closer than this to a tip have its functions.
     pub(crate) zone: f64,
+    /// Vertices of the crack.
+    pub(crate) crack: &'static [Vec2],
     /// Patches that the crack cuts have jumps.
     pub(crate) jumps: bool,
     /// Components.
@@ -46,6 +48,7 @@ impl Default for Recipe {
             degrees: &[2],
             tip_degree: 0,
             zone: 0.2,
+            crack: &KINKED,
             jumps: true,
             components: 2,
             weight: WeightFunction::Linear,
@@ -60,10 +63,8 @@ pub(crate) fn domain() -> Rect {
 }
 
 /// A crack with a kink, in the middle of the domain, along no axis.
-pub(crate) fn crack() -> Crack {
-    let points = vec![vec2(0.5713, 0.0931), vec2(0.8642, 0.2817), vec2(1.1831, 0.1973)];
-    Crack { points, ends: [CrackEnd::Tip; 2] }
-}
+pub(crate) const KINKED: [Vec2; 3] =
+    [vec2(0.5713, 0.0931), vec2(0.8642, 0.2817), vec2(1.1831, 0.1973)];
 
 const TIPS: [TipId; 2] = [TipId { crack: 0, end: End::Start }, TipId { crack: 0, end: End::Last }];
 
@@ -110,7 +111,8 @@ struct Maker<'a> {
 
 /// A dataset after a recipe.
 pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
-    let (cracks, functions) = (vec![crack()], functions());
+    let crack = Crack { points: recipe.crack.to_vec(), ends: [CrackEnd::Tip; 2] };
+    let (cracks, functions) = (vec![crack], functions());
     let table = FunctionTable::new(&functions).expect("built-in functions");
     let partition = partition(recipe);
     let mut maker = Maker { recipe, cracks, table, partition, data: empty(recipe.components) };
@@ -159,8 +161,7 @@ fn empty(components: usize) -> FieldData {
 fn partition(recipe: &Recipe) -> Partition {
     let mut cover = Cover::grid(domain(), recipe.cells).expect("a grid");
     while cover.refine(|_, level| level < recipe.level).expect("a level") > 0 {}
-    let crack = crack();
-    let tips = TIPS.map(|tip| crack.end_point(tip.end));
+    let tips = [recipe.crack[0], recipe.crack[recipe.crack.len() - 1]];
     let near = |cell: Rect| tips.iter().any(|&tip| cell.contains(tip));
     while cover.refine(|cell, level| level < recipe.tip_level && near(cell)).expect("a level") > 0 {
     }
