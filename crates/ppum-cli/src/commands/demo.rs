@@ -53,13 +53,13 @@ impl Args {
         self.write_problem()?;
         writeln!(out, "wrote {}", self.path(&format!("{NAME}.toml")).display())?;
         for line in TOUR {
-            writeln!(out, "\n$ ppum {}", self.shown(line))?;
+            writeln!(out, "\n$ {}", self.shown(line))?;
             out.flush()?;
             Cli::try_parse_from(self.words(line))?.command.run(out)?;
         }
         writeln!(out, "\nOpen the pictures in {}. Then try:", self.output.display())?;
         for line in NEXT {
-            writeln!(out, "  ppum {}", self.shown(line))?;
+            writeln!(out, "  {}", self.shown(line))?;
         }
         Ok(())
     }
@@ -84,12 +84,14 @@ impl Args {
         ["ppum"].into_iter().chain(line.split(' ')).map(word).collect()
     }
 
-    /// The command line as one would type it.
+    /// The command line as one would type it, with the program as this one was called.
     fn shown(&self, line: &str) -> String {
+        let program = std::env::args_os().next().unwrap_or_else(|| "ppum".into());
         let quoted = |word: &OsString| {
             let text = word.to_string_lossy();
             if text.contains(' ') { format!("'{text}'") } else { text.into_owned() }
         };
-        self.words(line)[1..].iter().map(quoted).collect::<Vec<_>>().join(" ")
+        let words = self.words(line);
+        [&program].into_iter().chain(&words[1..]).map(quoted).collect::<Vec<_>>().join(" ")
     }
 }
