@@ -1,6 +1,14 @@
 //! Numbers in results.
 
+use std::io::{self, Write};
+
 use serde::{Serialize, Serializer};
+
+/// Prints a result as JSON.
+pub(crate) fn json(out: &mut dyn Write, result: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, result)?;
+    writeln!(out)
+}
 
 /// A number that may not be finite. JSON has finite numbers only: +∞ is the string `"inf"`, −∞ is
 /// `"-inf"`, and what is undefined (NaN) is `null`. Finite numbers are written with the digits that
@@ -28,6 +36,25 @@ pub(crate) fn short(value: f64) -> String {
         Some(e @ -4..=5) => format!("{value:.*}", (5 - e) as usize),
         _ => scientific,
     }
+}
+
+/// As [`short`], without zeros at the end; whole numbers in full.
+pub(crate) fn trimmed(value: f64) -> String {
+    // f64 holds every whole number up to 2^53
+    if value.fract() == 0.0 && value.abs() < 9e15 {
+        return (value as i64).to_string();
+    }
+    let text = short(value);
+    let (mantissa, exponent) = text.find('e').map_or((&*text, ""), |e| text.split_at(e));
+    let has_point = mantissa.contains('.');
+    let kept =
+        if has_point { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    format!("{kept}{exponent}")
+}
+
+/// A point for people.
+pub(crate) fn point([x, y]: [f64; 2]) -> String {
+    format!("({}, {})", trimmed(x), trimmed(y))
 }
 
 /// `1 tip`, `2 tips`.
@@ -62,5 +89,7 @@ mod tests {
         ] {
             assert_eq!(short(value), text);
         }
+        assert_eq!(point([-0.5, 2e-7]), "(-0.5, 2e-7)");
+        assert_eq!([-0.0, 1_234_567.0, 1.5].map(trimmed), ["0", "1234567", "1.5"]);
     }
 }

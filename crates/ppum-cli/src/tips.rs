@@ -1,11 +1,12 @@
 //! Stress intensity factors as `solve`, `info` and `sif` show them.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use ppum::dataset::{Ring, Step, TipIntensity};
 use serde::Serialize;
 
-use crate::number::{Number, short};
+use crate::number::{Number, point, short};
 
 /// The stress intensity factors at a tip.
 #[derive(Debug, Serialize)]
@@ -63,18 +64,19 @@ fn spread(intensity: &TipIntensity) -> f64 {
     pairs.fold(f64::NAN, f64::max) / intensity.k1.hypot(intensity.k2)
 }
 
-/// A table, one line a tip.
+/// A table, one line a tip; tips are numbered in each step.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
-    let many_steps = tips.iter().any(|tip| tip.step != tips[0].step);
-    let head = if many_steps { "step  " } else { "" };
-    writeln!(out, "{head}crack  {:>25}  {:>12}  {:>12}  {:>8}", "tip", "K_I", "K_II", "spread")?;
-    for tip in tips {
-        if many_steps {
-            write!(out, "{:>4}  ", tip.step)?;
+    let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
+    let step = |text: &dyn Display| if has_steps { format!("{text:>4}  ") } else { String::new() };
+    let head = format!("{:>24}  {:>12}  {:>12}  {:>7}", "position", "K_I", "K_II", "spread");
+    writeln!(out, "{}tip  crack  {head}", step(&"step"))?;
+    for group in tips.chunk_by(|a, b| a.step == b.step) {
+        for (number, tip) in group.iter().enumerate() {
+            let Tip { crack, tip: at, spread, .. } = tip;
+            let [k1, k2] = [tip.k1, tip.k2].map(|k| short(k.0));
+            let row = format!("{:>24}  {k1:>12}  {k2:>12}  {:>7.0e}", point(*at), spread.0);
+            writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;
         }
-        let at = format!("({}, {})", short(tip.tip[0]), short(tip.tip[1]));
-        let [k1, k2] = [tip.k1, tip.k2].map(|k| short(k.0));
-        writeln!(out, "{:>5}  {at:>25}  {k1:>12}  {k2:>12}  {:>8.1e}", tip.crack, tip.spread.0)?;
     }
     Ok(())
 }

@@ -31,9 +31,8 @@ const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
 const NAME: &str = "centre-crack";
 
 /// The commands that are run. `@` stands for the folder.
-const TOUR: [&str; 6] = [
+const TOUR: [&str; 5] = [
     "solve @/centre-crack.toml",
-    "sif @/centre-crack.h5",
     "render @/centre-crack.h5 -o @/von-mises.png --figure",
     "render @/centre-crack.h5 -o @/displacement.png -q magnitude --colormap magma --figure",
     "render @/centre-crack.h5 -o @/tip.png --tip 1 --zoom 1000 --scale log --figure",
@@ -41,8 +40,9 @@ const TOUR: [&str; 6] = [
 ];
 
 /// Commands to go on with.
-const NEXT: [&str; 4] = [
+const NEXT: [&str; 5] = [
     "info @/centre-crack.h5",
+    "sif @/centre-crack.h5",
     "probe @/centre-crack.h5 --at 0,0",
     "render @/centre-crack.h5 -o @/deep.png --tip 1 --zoom 1e12 --scale log --figure",
     "render --help",

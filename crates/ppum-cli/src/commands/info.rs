@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use crate::dataset::open;
+use crate::number::json;
 
 /// Show what is inside a dataset
 #[derive(Debug, clap::Args)]
@@ -30,8 +31,7 @@ impl Args {
         let dataset = open(&self.file)?;
         let report = report::Report::new(self.file.display().to_string(), &dataset)?;
         if self.json {
-            serde_json::to_writer_pretty(&mut *out, &report)?;
-            writeln!(out)?;
+            json(out, &report)?;
         } else {
             text::write(out, &report)?;
         }

@@ -12,7 +12,7 @@ use serde::ser::Serializer;
 
 use crate::arguments::point;
 use crate::dataset::{field, open, quantity};
-use crate::number::Number;
+use crate::number::{Number, json};
 use crate::sides::on_crack;
 
 /// Print exact values at points
@@ -86,8 +86,7 @@ impl Args {
         let rows = self.at.iter().flat_map(|&at| self.rows(&field, &quantities, at));
         let points: Vec<_> = rows.collect();
         if self.json {
-            serde_json::to_writer_pretty(&mut *out, &Report { points })?;
-            writeln!(out)?;
+            json(out, &Report { points })?;
         } else {
             points.iter().try_for_each(|row| row.write(out))?;
         }

@@ -25,7 +25,7 @@ use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::dataset::{field, open, quantity};
-use crate::number::short;
+use crate::number::trimmed;
 use crate::threads;
 use window::{Frame, Window};
 
@@ -132,7 +132,7 @@ impl Args {
         let texts = picture.description(&dataset.title, &self.file.display().to_string(), name);
         png::write(&self.output, &image, &texts)?;
         let [columns, rows] = image.size;
-        let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(short);
+        let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
         let target = self.output.display();
         writeln!(
             out,

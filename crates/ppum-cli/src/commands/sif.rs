@@ -13,6 +13,7 @@ use ppum_solve::space::Space;
 use serde::Serialize;
 
 use crate::dataset::open;
+use crate::number::json;
 use crate::tips::{Tip, table};
 
 /// Print the stress intensity factors of all crack tips
@@ -52,8 +53,7 @@ impl Args {
         }
         let tips = tips(&dataset, &self.file)?;
         if self.json {
-            serde_json::to_writer_pretty(&mut *out, &Report { file, tips })?;
-            writeln!(out)?;
+            json(out, &Report { file, tips })?;
         } else if tips.is_empty() {
             writeln!(out, "{file}: no crack tips, so no stress intensity factors")?;
         } else {

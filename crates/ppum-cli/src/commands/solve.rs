@@ -9,7 +9,7 @@ use ppum::dataset::{Dataset, Record, Step};
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 
-use crate::number::short;
+use crate::number::trimmed;
 use crate::progress::Bar;
 use crate::threads;
 use crate::tips::{Tip, table};
@@ -95,16 +95,11 @@ fn history(out: &mut dyn Write, step: &Step) -> anyhow::Result<()> {
     let line = |records: &[&Record]| {
         let part = |r: &&Record| match r.unit.as_str() {
             "s" => format!("{} {:.2} s", r.name, r.value),
-            unit => format!("{} {} {unit}", r.name, plain(r.value)).trim_end().to_owned(),
+            unit => format!("{} {} {unit}", r.name, trimmed(r.value)).trim_end().to_owned(),
         };
         records.iter().map(part).collect::<Vec<_>>().join(", ")
     };
     writeln!(out, "patches {}, {}", step.partition.len(), line(&numbers))?;
     writeln!(out, "{}", line(&times))?;
     Ok(())
-}
-
-/// Counts without decimals, other numbers short.
-fn plain(value: f64) -> String {
-    if value.fract() == 0.0 && value.abs() < 1e15 { value.to_string() } else { short(value) }
 }

@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, Report, StepReport};
-use crate::number::{count, short};
+use super::report::{CrackRow, EquationRow, FieldRow, FunctionRow, HistoryRow, Report, StepReport};
+use crate::number::{count, point, trimmed};
 use crate::tips::table;
 
 /// Width of the column of names.
@@ -40,7 +40,7 @@ impl Page<'_> {
     fn step(&mut self, step: &StepReport, n_steps: usize) -> io::Result<()> {
         if n_steps > 1 {
             writeln!(self.0)?;
-            self.line("step", &format!("{}, load {}", step.step, short(step.load)))?;
+            self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
         }
         self.line("patches", &cover(step))?;
         let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
@@ -48,8 +48,7 @@ impl Page<'_> {
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
         self.lines("cracks", step.cracks.iter().map(crack))?;
-        let functions = step.functions.iter().filter(|f| f.blocks > 0);
-        self.lines("functions", functions.map(|f| format!("{} ({})", f.name, blocks(f.blocks))))?;
+        self.lines("functions", functions(&step.functions).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &step.unknowns.to_string())?;
         self.lines("history", step.history.iter().map(history))?;
@@ -62,8 +61,16 @@ impl Page<'_> {
     }
 }
 
-fn blocks(n: usize) -> String {
-    count(n, "block", "blocks")
+/// The functions by kind; JSON has them one by one.
+fn functions(rows: &[FunctionRow]) -> Vec<String> {
+    let kinds = ["one", "side", "formula", "other"];
+    let line = |kind| {
+        let of_kind = rows.iter().filter(|row| row.kind == kind);
+        let (n, blocks) = of_kind.fold((0, 0), |(n, blocks), row| (n + 1, blocks + row.blocks));
+        let functions = count(n, "function", "functions");
+        (n > 0).then(|| format!("{kind}: {functions} in {}", count(blocks, "block", "blocks")))
+    };
+    kinds.into_iter().filter_map(line).collect()
 }
 
 fn joined(parts: impl Iterator<Item = String>) -> String {
@@ -94,10 +101,6 @@ fn equation(equation: &EquationRow) -> String {
     }
 }
 
-fn point([x, y]: [f64; 2]) -> String {
-    format!("({x}, {y})")
-}
-
 fn cover(step: &StepReport) -> String {
     let points = match step.points {
         0 => String::new(),
@@ -119,7 +122,5 @@ fn field(field: &FieldRow) -> String {
 }
 
 fn history(row: &HistoryRow) -> String {
-    let value = row.value.0;
-    let number = if value.fract() == 0.0 { value.to_string() } else { short(value) };
-    format!("{} {number} {}", row.name, row.unit).trim_end().to_owned()
+    format!("{} {} {}", row.name, trimmed(row.value.0), row.unit).trim_end().to_owned()
 }
