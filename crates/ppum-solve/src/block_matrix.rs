@@ -9,16 +9,13 @@
 //! transformation acts alike. Unknowns of the whole system run through the patches in order.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use faer::{Accum, Mat, MatMut, MatRef, Par, linalg::matmul::matmul};
-use rayon::prelude::*;
-
-use crate::transform::Transform;
+use faer::{MatMut, MatRef};
 
 /// The pairs of coupled patches i ≤ j, row by row (CSR).
 ///
 /// Row i holds `columns[starts[i] .. starts[i + 1]]`, ascending, and begins with i itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BlockPattern {
+pub(crate) struct BlockPattern {
     starts: Vec<usize>,
     columns: Vec<u32>,
 }
@@ -29,7 +26,7 @@ impl BlockPattern {
     /// # Panics
     /// If a row does not begin with its diagonal block, or is not ascending, or leaves the range.
     #[must_use]
-    pub fn new(starts: Vec<usize>, columns: Vec<u32>) -> Self {
+    pub(crate) fn new(starts: Vec<usize>, columns: Vec<u32>) -> Self {
         assert!(starts.first() == Some(&0) && starts.last() == Some(&columns.len()));
         let pattern = Self { starts, columns };
         for i in 0..pattern.len() {
@@ -43,33 +40,14 @@ impl BlockPattern {
 
     /// Number of patches.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.starts.len() - 1
-    }
-
-    /// True without patches.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Patches j ≥ i coupled to patch i, ascending, i first.
     #[must_use]
-    pub fn row(&self, i: usize) -> &[u32] {
+    pub(crate) fn row(&self, i: usize) -> &[u32] {
         &self.columns[self.starts[i]..self.starts[i + 1]]
-    }
-
-    /// The patches coupled to each patch in both directions, without the patch itself, ascending.
-    pub(crate) fn neighbours(&self) -> Vec<Vec<u32>> {
-        let mut neighbours = vec![Vec::new(); self.len()];
-        for i in 0..self.len() {
-            for &j in &self.row(i)[1..] {
-                neighbours[i].push(j);
-                neighbours[j as usize].push(i as u32);
-            }
-        }
-        neighbours.iter_mut().for_each(|row| row.sort_unstable());
-        neighbours
     }
 
     /// Position of block (i, j) among all blocks.
@@ -85,7 +63,7 @@ impl BlockPattern {
 
 /// A symmetric matrix of dense blocks; see the module's head for the order of the unknowns.
 #[derive(Clone, Debug)]
-pub struct BlockMatrix {
+pub(crate) struct BlockMatrix {
     pattern: BlockPattern,
     /// First unknown of each patch, and their number [patches + 1].
     offsets: Vec<usize>,
@@ -101,7 +79,7 @@ impl BlockMatrix {
     /// # Panics
     /// If the numbers of patches differ.
     #[must_use]
-    pub fn new(sizes: &[usize], pattern: BlockPattern) -> Self {
+    pub(crate) fn new(sizes: &[usize], pattern: BlockPattern) -> Self {
         assert_eq!(sizes.len(), pattern.len(), "one size a patch");
         let offsets = running_sum(sizes.iter().copied());
         let block_starts = running_sum(pattern.pairs().map(|(i, j)| sizes[i] * sizes[j]));
@@ -111,13 +89,13 @@ impl BlockMatrix {
 
     /// Number of unknowns.
     #[must_use]
-    pub fn n_unknowns(&self) -> usize {
+    pub(crate) fn n_unknowns(&self) -> usize {
         self.offsets[self.pattern.len()]
     }
 
     /// Unknowns of patch i.
     #[must_use]
-    pub fn unknowns(&self, i: usize) -> std::ops::Range<usize> {
+    pub(crate) fn unknowns(&self, i: usize) -> std::ops::Range<usize> {
         self.offsets[i]..self.offsets[i + 1]
     }
 
@@ -126,20 +104,14 @@ impl BlockMatrix {
     /// # Panics
     /// If there is no such unknown.
     #[must_use]
-    pub fn patch_of(&self, u: usize) -> usize {
+    pub(crate) fn patch_of(&self, u: usize) -> usize {
         assert!(u < self.n_unknowns(), "unknown {u} of {}", self.n_unknowns());
         self.offsets.partition_point(|&start| start <= u) - 1
     }
 
-    /// The pairs of coupled patches.
-    #[must_use]
-    pub fn pattern(&self) -> &BlockPattern {
-        &self.pattern
-    }
-
     /// Block (i, j) with i ≤ j, or nothing if the patches are not coupled.
     #[must_use]
-    pub fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
+    pub(crate) fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
         self.pattern.position(i, j).map(|k| self.stored_block(k, i, j))
     }
 
@@ -149,7 +121,7 @@ impl BlockMatrix {
     ///
     /// # Panics
     /// If i > j, the patches are not coupled, or the shape is wrong.
-    pub fn add_block(&mut self, i: usize, j: usize, block: MatRef<'_, f64>) {
+    pub(crate) fn add_block(&mut self, i: usize, j: usize, block: MatRef<'_, f64>) {
         let (rows, columns) = (self.unknowns(i).len(), self.unknowns(j).len());
         assert_eq!((block.nrows(), block.ncols()), (rows, columns), "shape of block ({i}, {j})");
         let k = self.pattern.position(i, j).expect("a block (i, j) of coupled patches, i ≤ j");
@@ -158,41 +130,12 @@ impl BlockMatrix {
         sum += block;
     }
 
-    /// T K Tᵀ: block (i, j) becomes (I ⊗ T_i) K_ij (I ⊗ T_j)ᵀ, with the identity over `components`.
-    ///
-    /// The blocks are transformed in parallel, each by itself.
-    ///
-    /// # Panics
-    /// If the transformations do not fit the blocks.
-    #[must_use]
-    pub fn congruence(&self, transforms: &[Transform], components: usize) -> Self {
-        for (i, transform) in transforms.iter().enumerate() {
-            let unknowns = self.unknowns(i).len();
-            assert_eq!(unknowns, components * transform.matrix.ncols(), "patch {i}");
-        }
-        let sizes: Vec<usize> = transforms.iter().map(|t| components * t.matrix.nrows()).collect();
-        let mut result = Self::new(&sizes, self.pattern.clone());
-        let mut rest = result.values.as_mut_slice();
-        let mut jobs = Vec::with_capacity(self.pattern.columns.len());
-        for (k, (i, j)) in self.pattern.pairs().enumerate() {
-            let (values, tail) = rest.split_at_mut(sizes[i] * sizes[j]);
-            rest = tail;
-            let block = MatMut::from_row_major_slice_mut(values, sizes[i], sizes[j]);
-            jobs.push((k, i, j, block));
-        }
-        jobs.into_par_iter().for_each(|(k, i, j, block)| {
-            let (left, right) = (&transforms[i].matrix, &transforms[j].matrix);
-            transform_block(self.stored_block(k, i, j), left, right, components, block);
-        });
-        result
-    }
-
     /// K x.
     ///
     /// # Panics
     /// If `x` has not one entry for each unknown.
     #[must_use]
-    pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn multiply(&self, x: &[f64]) -> Vec<f64> {
         assert_eq!(x.len(), self.n_unknowns(), "one entry for each unknown");
         let mut y = vec![0.0; x.len()];
         for (k, (i, j)) in self.pattern.pairs().enumerate() {
@@ -210,9 +153,9 @@ impl BlockMatrix {
     }
 
     /// The lower triangle as compressed columns, for the factorisation.
-    pub(crate) fn lower_triangle(&self) -> SparseColMat<u32, f64> {
+    pub(crate) fn lower_triangle(&self) -> SparseColMat<usize, f64> {
         let n = self.n_unknowns();
-        let (mut starts, mut rows, mut values) = (vec![0_u32], Vec::new(), Vec::new());
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
         for i in 0..self.pattern.len() {
             for a in 0..self.unknowns(i).len() {
                 // Column a of patch i of the lower triangle is row a of the upper one.
@@ -221,9 +164,9 @@ impl BlockMatrix {
                     let skip = if k == self.pattern.starts[i] { a } else { 0 };
                     let first = self.block_starts[k] + a * unknowns.len();
                     values.extend_from_slice(&self.values[first + skip..first + unknowns.len()]);
-                    rows.extend(unknowns.skip(skip).map(|row| row as u32));
+                    rows.extend(unknowns.skip(skip));
                 }
-                starts.push(rows.len() as u32);
+                starts.push(rows.len());
             }
         }
         SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
@@ -232,32 +175,6 @@ impl BlockMatrix {
     fn stored_block(&self, k: usize, i: usize, j: usize) -> MatRef<'_, f64> {
         let values = &self.values[self.block_starts[k]..self.block_starts[k + 1]];
         MatRef::from_row_major_slice(values, self.unknowns(i).len(), self.unknowns(j).len())
-    }
-}
-
-/// `out` = (I ⊗ L) K (I ⊗ R)ᵀ, one scalar block after the other.
-fn transform_block(
-    block: MatRef<'_, f64>,
-    left: &Mat<f64>,
-    right: &Mat<f64>,
-    components: usize,
-    mut out: MatMut<'_, f64>,
-) {
-    let (rows, columns) = (left.ncols(), right.ncols());
-    let mut half = Mat::zeros(left.nrows(), columns);
-    for c in 0..components {
-        for d in 0..components {
-            let scalar = block.submatrix(c * rows, d * columns, rows, columns);
-            let (kept_rows, kept_columns) = (left.nrows(), right.nrows());
-            let target = out.as_mut().submatrix_mut(
-                c * kept_rows,
-                d * kept_columns,
-                kept_rows,
-                kept_columns,
-            );
-            matmul(half.as_mut(), Accum::Replace, left, scalar, 1.0, Par::Seq);
-            matmul(target, Accum::Replace, &half, right.transpose(), 1.0, Par::Seq);
-        }
     }
 }
 
@@ -274,6 +191,7 @@ fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
 mod tests {
     use super::*;
     use crate::random::Random;
+    use faer::Mat;
 
     /// Patches 0–1–2 and 0–3 coupled, with different sizes, one of them empty.
     fn pattern() -> BlockPattern {
@@ -340,41 +258,11 @@ mod tests {
     }
 
     #[test]
-    fn congruence_is_that_of_the_full_matrix() {
-        let (functions, kept, components) = ([3, 2, 1, 4], [2, 2, 0, 3], 2);
-        let (blocks, full) = random_matrix(&functions.map(|n| components * n));
-        let mut random = Random::new(23);
-        let transforms: Vec<Transform> = (0..4)
-            .map(|i| Transform {
-                matrix: Mat::from_fn(kept[i], functions[i], |_, _| random.signed()),
-                dropped: functions[i] - kept[i],
-            })
-            .collect();
-        let result = blocks.congruence(&transforms, components);
-        let mut t = Mat::<f64>::zeros(result.n_unknowns(), blocks.n_unknowns());
-        for i in 0..4 {
-            for c in 0..components {
-                let row = result.unknowns(i).start + c * kept[i];
-                let column = blocks.unknowns(i).start + c * functions[i];
-                t.submatrix_mut(row, column, kept[i], functions[i])
-                    .copy_from(&transforms[i].matrix);
-            }
-        }
-        assert_eq!(result.n_unknowns(), 14);
-        assert!((in_full(&result) - &t * full * t.transpose()).norm_max() < 1e-13);
-    }
-
-    #[test]
     fn unknowns_and_patches_match() {
         let (blocks, _) = random_matrix(&[3, 2, 0, 4]);
         let patches: Vec<usize> = (0..9).map(|u| blocks.patch_of(u)).collect();
         assert_eq!(patches, [0, 0, 0, 1, 1, 3, 3, 3, 3]);
         assert_eq!(blocks.unknowns(2), 5..5);
-    }
-
-    #[test]
-    fn neighbours_go_both_ways() {
-        assert_eq!(pattern().neighbours(), [vec![1, 3], vec![0, 2], vec![1], vec![0]]);
     }
 
     #[test]

@@ -27,7 +27,10 @@ const VANISHING: f64 = 1e-40;
 ///
 /// # Errors
 /// An entry that is not finite.
-pub fn largest_eigenvalue(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Result<f64, EigenError> {
+pub(crate) fn largest_eigenvalue(
+    a: MatRef<'_, f64>,
+    b: MatRef<'_, f64>,
+) -> Result<f64, EigenError> {
     let d = inverse_root_diagonal(a, VANISHING);
     let eigen = SymmetricEigen::new(scaled(a, &d).as_ref())?;
     let largest = eigen.values.first().copied().unwrap_or(0.0);

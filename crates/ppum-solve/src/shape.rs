@@ -1,4 +1,6 @@
 //! Shape functions φ_i ψ at quadrature points.
+//!
+//! Sides of cracks enter shifted, see [`Space::shifts`].
 
 use crate::space::Space;
 use faer::MatRef;
@@ -28,7 +30,8 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    fn resize(&mut self, functions: usize, points: usize) {
+    /// Makes room for functions and points, all zero.
+    pub(crate) fn resize(&mut self, functions: usize, points: usize) {
         (self.functions, self.points) = (functions, points);
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {
             array.clear();
@@ -175,7 +178,9 @@ impl Point<'_> {
             let factor = match self.space.functions.of(data.block_function[block]) {
                 Slot::One => phi,
                 Slot::Jet { group, entry } => {
-                    phi.times::<1>(self.jets[group as usize][entry as usize])
+                    let mut function = self.jets[group as usize][entry as usize];
+                    function.v -= self.space.shifts[block];
+                    phi.times::<1>(function)
                 }
             };
             for (a, b) in exponents(data.block_degree[block] as usize) {

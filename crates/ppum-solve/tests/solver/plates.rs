@@ -1,13 +1,11 @@
 //! Stress intensity factors of finite plates against independently computed reference values
 //! (complex-potential least squares, cross-checked with handbooks): F = K/(σ√(πa)).
 
-mod support;
-
+use crate::support::solved;
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Expression, Problem};
 use std::f64::consts::PI;
-use support::solved;
 
 fn material(young: f64, poisson: f64) -> Material {
     Material { young, poisson, state: StressState::PlaneStrain }
@@ -114,4 +112,16 @@ fn edge_crack_under_end_shear() {
     println!("{:?}", tip.rings);
     near(tip.k1, 34.0425413592, 1e-3, "end shear, K_I");
     near(tip.k2, 4.5369400294, 1e-3, "end shear, K_II");
+}
+
+/// The same bits with one and with two threads.
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let solve_with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let mut plate = pool.install(|| pulled(1.0, [8, 8], &[[-0.5, 0.1], [0.4, -0.03]]));
+        plate.steps[0].history.retain(|record| record.unit != "s");
+        plate
+    };
+    assert_eq!(solve_with(1), solve_with(2));
 }
