@@ -72,7 +72,7 @@ fn gradients_and_hessians_against_differences() {
                     let scale = 100.0 * size.powi(-order);
                     let error = (exact - difference).abs();
                     assert!(
-                        error < 1e-9 * scale.max(exact.abs()),
+                        error < 1e-8 * scale.max(exact.abs()),
                         "{weight:?} {seed} {name} at {p:?}: {exact} {difference} ({error:.1e})"
                     );
                 }

@@ -24,11 +24,11 @@ pub(crate) fn entries(jet: &Jet<f64>) -> [f64; 6] {
 /// The order of the derivative each of the [`entries`] is.
 pub(crate) const ORDERS: [i32; 6] = [0, 1, 1, 2, 2, 2];
 
-/// Asserts that two jets agree: derivatives of order k to `tolerance` · size / length^k.
+/// Asserts that two jets agree: derivatives of order k to `tolerance` · size / length^k, or relatively.
 #[track_caller]
 pub(crate) fn assert_close(a: &Jet<f64>, b: &Jet<f64>, tolerance: f64, size: f64, length: f64) {
     for ((a, b), order) in entries(a).into_iter().zip(entries(b)).zip(ORDERS) {
-        let scale = size / length.powi(order);
+        let scale = (size / length.powi(order)).max(b.abs());
         assert!(
             (a - b).abs() <= tolerance * scale,
             "derivative of order {order}: {a} against {b}, apart {:.1e} of {scale:.1e}",
