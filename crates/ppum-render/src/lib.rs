@@ -1,1 +1,13 @@
 //! ppum-render
+pub mod colormap;
+pub mod figure;
+pub mod image;
+pub mod overlay;
+pub mod picture;
+pub mod png;
+pub mod range;
+pub mod raster;
+pub mod scale;
+mod text;
+pub mod ticks;
+pub mod view;

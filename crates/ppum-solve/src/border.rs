@@ -8,12 +8,13 @@
 //! ∫_Γ |σ(N) n|² against K: β > λ_max is just what keeps the system positive definite, and a cell cut
 //! into slivers gets the larger value it needs (Griebel & Schweitzer 2003).
 
+use crate::basis::BasisEvaluator;
 use crate::cell::{CellSystem, Data, square};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pencil::largest_eigenvalue;
 use crate::quadrature::EdgeRule;
-use crate::shape::{ShapeEvaluator, Shapes};
+use crate::shape::Shapes;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::vec2::{Vec2, vec2};
@@ -44,6 +45,8 @@ pub(crate) struct Border<'a> {
     value_load: Vec<f64>,
     /// ∫ (σ(N) n)·g
     traction_load: Vec<f64>,
+    /// True once a value is given.
+    held: bool,
 }
 
 impl<'a> Border<'a> {
@@ -55,6 +58,7 @@ impl<'a> Border<'a> {
             mass: square(unknowns),
             value_load: vec![0.0; unknowns],
             traction_load: vec![0.0; unknowns],
+            held: false,
         }
     }
 
@@ -62,7 +66,7 @@ impl<'a> Border<'a> {
     pub(crate) fn add(
         &mut self,
         piece: &BorderPiece<'_>,
-        evaluator: &mut ShapeEvaluator<'_>,
+        evaluator: &mut BasisEvaluator<'_>,
         shapes: &mut Shapes,
         system: &mut CellSystem,
     ) {
@@ -93,6 +97,7 @@ impl<'a> Border<'a> {
     /// Adds the points of one component whose value is given; shapes and values carry the roots of
     /// the weights.
     fn hold(&mut self, i: usize, normal: Vec2, numbers: &[usize], shapes: &Shapes, given: &[f64]) {
+        self.held = true;
         let c = self.law.components;
         let tractions = self.tractions(i, normal, shapes);
         let n = shapes.functions;
@@ -103,7 +108,8 @@ impl<'a> Border<'a> {
             out
         };
         let value_rows: Vec<_> = numbers.iter().map(|k| k * c + i).collect();
-        let all_rows: Vec<_> = numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
+        let all_rows: Vec<_> =
+            numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
         let t = tractions.as_ref();
         add_at(&mut self.mass, &value_rows, &value_rows, &product(values, values));
         add_at(&mut self.consistency, &value_rows, &all_rows, &product(values, t));
@@ -132,6 +138,9 @@ impl<'a> Border<'a> {
     /// # Errors
     /// Entries that are not finite.
     pub(crate) fn finish(self, system: &mut CellSystem) -> Result<(), EigenError> {
+        if !self.held {
+            return Ok(());
+        }
         let beta = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
         system.matrix -= &self.consistency;
         system.matrix -= self.consistency.transpose();

@@ -1,16 +1,16 @@
-//! The contribution of one leaf cell to the system: stiffness, load and the Gram matrices of the
-//! patches.
+//! The contribution of one leaf cell to the system, in the stable basis.
 //!
 //! ```text
-//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b        M_i = ∫_C ∇(φ_i ψ)·∇(φ_i ψ′) + h_i⁻² φ_i² ψ ψ′
+//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
 //! ```
 
+use crate::basis::{BasisEvaluator, StableBasis};
 use crate::border::{Border, BorderPiece};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::quadrature::Rule;
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
-use crate::shape::{ShapeEvaluator, Shapes};
+use crate::shape::Shapes;
 use crate::space::Space;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -28,8 +28,6 @@ pub(crate) struct CellSystem {
     pub(crate) matrix: Mat<f64>,
     /// Right-hand side.
     pub(crate) load: Vec<f64>,
-    /// Per patch, the scalar Gram matrix M_i.
-    pub(crate) gram: Vec<Mat<f64>>,
     /// Work of body forces and tractions on the rigid motions.
     pub(crate) resultant: PerMotion,
     /// ∫ of the loads' magnitude on the border and in the cell.
@@ -49,11 +47,11 @@ pub(crate) struct CellFunctions {
 }
 
 impl CellFunctions {
-    pub(crate) fn new(space: &Space<'_>, cell: usize) -> Self {
+    pub(crate) fn new(space: &Space<'_>, basis: &StableBasis, cell: usize) -> Self {
         let patches = space.coverers[cell].clone();
         let mut first = vec![0];
         for &patch in &patches {
-            first.push(first[first.len() - 1] + space.sizes[patch as usize]);
+            first.push(first[first.len() - 1] + basis.sizes[patch as usize]);
         }
         Self { patches, first }
     }
@@ -86,16 +84,22 @@ impl CellFunctions {
 /// Works on the cells of a space.
 pub(crate) struct CellAssembler<'s> {
     space: &'s Space<'s>,
+    basis: &'s StableBasis,
     law: &'s Law,
     motions: RigidMotions,
-    evaluator: ShapeEvaluator<'s>,
+    evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
 
 impl<'s> CellAssembler<'s> {
-    pub(crate) fn new(space: &'s Space<'s>, law: &'s Law, motions: RigidMotions) -> Self {
-        let (evaluator, shapes) = (ShapeEvaluator::new(space), Shapes::default());
-        Self { space, law, motions, evaluator, shapes }
+    pub(crate) fn new(
+        space: &'s Space<'s>,
+        basis: &'s StableBasis,
+        law: &'s Law,
+        motions: RigidMotions,
+    ) -> Self {
+        let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
+        Self { space, basis, law, motions, evaluator, shapes }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -109,11 +113,9 @@ impl<'s> CellAssembler<'s> {
         source: Option<Data<'_>>,
         border: &[BorderPiece<'_>],
     ) -> Result<CellSystem, EigenError> {
-        let functions = CellFunctions::new(self.space, cell);
+        let functions = CellFunctions::new(self.space, self.basis, cell);
         let (n, components) = (functions.len(), self.law.components);
-        let sizes = functions.patches.iter().map(|&p| self.space.sizes[p as usize]);
         let mut system = CellSystem {
-            gram: sizes.map(square).collect(),
             matrix: square(n * components),
             load: vec![0.0; n * components],
             resultant: [0.0; MOTIONS],
@@ -127,12 +129,11 @@ impl<'s> CellAssembler<'s> {
             self.volume(rule, source, &mut products, &mut system);
         }
         products.add_to(&mut system.matrix, self.law);
-        system.add_gradients_to_gram(&products);
-        let mut on_border = Border::new(self.law, n * components);
-        for piece in border {
-            on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
-        }
-        if border.iter().any(|piece| piece.held.contains(&true)) {
+        if !border.is_empty() {
+            let mut on_border = Border::new(self.law, n * components);
+            for piece in border {
+                on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
+            }
             on_border.finish(&mut system)?;
         }
         Ok(system)
@@ -157,7 +158,6 @@ impl<'s> CellAssembler<'s> {
         }
         shapes.scale(&rule.weights);
         products.add(&numbers, shapes);
-        system.add_mass(&rule.patches, shapes, self.space);
     }
 }
 
@@ -190,28 +190,6 @@ impl CellSystem {
         }
         self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
     }
-
-    /// Adds h⁻² φ² ψ ψ′ to the Gram matrices; the shapes carry the roots of the weights.
-    fn add_mass(&mut self, patches: &[u32], shapes: &Shapes, space: &Space<'_>) {
-        let mut first = 0;
-        for &patch in patches {
-            let size = space.sizes[patch as usize];
-            let h = space.partition.half[patch as usize];
-            let values = shapes.rows(&shapes.value, first..first + size);
-            let gram = &mut self.gram[self.functions.position(patch)];
-            let factor = 1.0 / (h.x * h.y);
-            matmul(gram.as_mut(), Accum::Add, values, values.transpose(), factor, Par::Seq);
-            first += size;
-        }
-    }
-
-    fn add_gradients_to_gram(&mut self, products: &Products) {
-        for (k, gram) in self.gram.iter_mut().enumerate() {
-            let (from, size) = (self.functions.first[k], gram.nrows());
-            *gram += products.xx.submatrix(from, from, size, size);
-            *gram += products.yy.submatrix(from, from, size, size);
-        }
-    }
 }
 
 /// The products ∫ ∂_k N ∂_l Nᵀ over the cell's functions; yx is the transpose of xy.
@@ -241,7 +219,8 @@ impl Products {
         let (n, c) = (self.xx.nrows(), law.components);
         for b in 0..n {
             for a in 0..n {
-                let parts = [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
+                let parts =
+                    [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
                 for j in 0..c {
                     for i in 0..c {
                         matrix[(a * c + i, b * c + j)] += law.contract(i, j, &parts);

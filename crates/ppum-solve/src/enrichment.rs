@@ -157,7 +157,8 @@ pub(crate) fn length_inside(crack: &Crack, open: &Rect) -> f64 {
 fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
     let d = b - a;
     let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (start, step, lo, hi) in [(a.x, d.x, open.min.x, open.max.x), (a.y, d.y, open.min.y, open.max.y)]
+    for (start, step, lo, hi) in
+        [(a.x, d.x, open.min.x, open.max.x), (a.y, d.y, open.min.y, open.max.y)]
     {
         if step == 0.0 {
             if start <= lo || start >= hi {

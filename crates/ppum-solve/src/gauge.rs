@@ -1,11 +1,11 @@
 //! Supports: which rigid motions the boundary values leave free, whether the loads allow it, and
 //! the penalty that fixes them.
 
+use crate::basis::{BasisEvaluator, StableBasis};
 use crate::cell::CellFunctions;
 use crate::eigen::{EigenError, SymmetricEigen};
-use crate::quadrature::Quadrature;
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
-use crate::shape::{ShapeEvaluator, Shapes};
+use crate::shape::Shapes;
 use crate::space::Space;
 use crate::system::System;
 use faer::Mat;
@@ -40,7 +40,9 @@ pub(crate) fn free_motions(
     let eigen = SymmetricEigen::new(held.as_ref())?;
     let largest = eigen.values.first().copied().unwrap_or(0.0);
     let free = (0..n).filter(|&k| eigen.values[k] <= FREE * largest);
-    Ok(free.map(|k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 })).collect())
+    Ok(free
+        .map(|k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 }))
+        .collect())
 }
 
 /// Checks that the loads do no work on the free motions.
@@ -62,18 +64,21 @@ pub(crate) fn check_balance(system: &System, free: &[PerMotion]) -> Result<(), U
 pub(crate) fn gauge(
     system: &mut System,
     space: &Space<'_>,
+    basis: &StableBasis,
     motions: &RigidMotions,
     free: &[PerMotion],
-    components: usize,
 ) {
+    let components = motions.components();
     if free.is_empty() {
         return;
     }
     // the cell with the fewest functions: away from cracks, where nothing is nearly dependent
-    let size = |cell: &usize| space.coverers[*cell].iter().map(|&p| space.sizes[p as usize]).sum::<usize>();
+    let size = |cell: &usize| {
+        space.coverers[*cell].iter().map(|&p| space.sizes[p as usize]).sum::<usize>()
+    };
     let cell = (0..space.coverers.len()).min_by_key(size).expect("a cover has a cell");
-    let functions = CellFunctions::new(space, cell);
-    let moments = moments(space, cell, &functions, motions, free, components);
+    let functions = CellFunctions::new(space, basis, cell);
+    let moments = moments(space, basis, cell, &functions, motions, free);
     let length = moments.iter().flatten().fold(0.0f64, |m, v| m.max(v * v));
     let largest = functions.patches.iter().map(|&p| largest_diagonal(system, p as usize));
     let gamma = largest.fold(0.0, f64::max) / length;
@@ -97,14 +102,15 @@ fn largest_diagonal(system: &System, patch: usize) -> f64 {
 /// r_k over the unknowns of a cell.
 fn moments(
     space: &Space<'_>,
+    basis: &StableBasis,
     cell: usize,
     functions: &CellFunctions,
     motions: &RigidMotions,
     free: &[PerMotion],
-    components: usize,
 ) -> Vec<Vec<f64>> {
-    let quadrature: Quadrature<'_> = space.quadrature(0);
-    let (mut evaluator, mut shapes) = (ShapeEvaluator::new(space), Shapes::default());
+    let components = motions.components();
+    let quadrature = space.quadrature(0);
+    let (mut evaluator, mut shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
     let mut moments = vec![vec![0.0; functions.len() * components]; free.len()];
     for rule in quadrature.cell(&space.partition.cell[cell], &space.coverers[cell]) {
         evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut shapes);

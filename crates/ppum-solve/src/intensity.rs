@@ -93,11 +93,13 @@ impl Interaction<'_> {
         let center = self.field.step.cracks[self.tip.crack as usize].end_point(self.tip.end);
         let quadrature = self.space.quadrature(0);
         let cells = &self.space.partition.cell;
-        let near: Vec<_> = (0..cells.len()).filter(|&c| cells[c].distance(center) < radius).collect();
+        let near: Vec<_> =
+            (0..cells.len()).filter(|&c| cells[c].distance(center) < radius).collect();
         let parts: Vec<[f64; 2]> = near
             .par_iter()
             .map(|&c| {
-                let rules = quadrature.disc(&cells[c], &self.space.coverers[c], center, radius, ORDER);
+                let rules =
+                    quadrature.disc(&cells[c], &self.space.coverers[c], center, radius, ORDER);
                 sum(rules.iter().map(|rule| self.rule(rule, radius)))
             })
             .collect();
@@ -136,9 +138,7 @@ impl Interaction<'_> {
     fn density(&self, u: &[Vec2; 2], aux: &[Vec2; 2], dq: Vec2) -> f64 {
         let (s, sa) = (self.law.flux(u), self.law.flux(aux));
         let work = s[0][0] * aux[0].x + s[0][1] * (aux[0].y + aux[1].x) + s[1][1] * aux[1].y;
-        let flow = |j: usize| {
-            (0..2).map(|i| s[i][j] * aux[i].x + sa[i][j] * u[i].x).sum::<f64>()
-        };
+        let flow = |j: usize| (0..2).map(|i| s[i][j] * aux[i].x + sa[i][j] * u[i].x).sum::<f64>();
         (flow(0) - work) * dq.x + flow(1) * dq.y
     }
 }

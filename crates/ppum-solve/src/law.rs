@@ -20,11 +20,17 @@ impl Law {
         let entry = |i: usize, k: usize, j: usize, l: usize| match equation {
             Equation::Elasticity(material) => elastic(material, i, k, j, l),
             Equation::Poisson { conductivity } => {
-                if i == 0 && j == 0 && k == l { *conductivity } else { 0.0 }
+                if i == 0 && j == 0 && k == l {
+                    *conductivity
+                } else {
+                    0.0
+                }
             }
         };
         let tensor = std::array::from_fn(|i| {
-            std::array::from_fn(|k| std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l))))
+            std::array::from_fn(|k| {
+                std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l)))
+            })
         });
         Self { components: equation.components(), tensor }
     }

@@ -1,6 +1,8 @@
 //! Solves two-dimensional problems of elasticity and Poisson's equation with cracks by the
 //! particle-partition of unity method.
 
+mod basis;
+mod batch;
 mod block_matrix;
 mod border;
 mod cell;

@@ -22,6 +22,11 @@ impl RigidMotions {
         Self { center: domain.center(), size: domain.size().length(), components }
     }
 
+    /// Components of the field.
+    pub(crate) fn components(&self) -> usize {
+        self.components
+    }
+
     /// Number of motions.
     pub(crate) fn count(&self) -> usize {
         if self.components == 1 { 1 } else { MOTIONS }

@@ -1,4 +1,6 @@
 //! Shape functions φ_i ψ at quadrature points.
+//!
+//! Sides of cracks enter shifted, see [`Space::shifts`].
 
 use crate::space::Space;
 use faer::MatRef;
@@ -28,7 +30,8 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    fn resize(&mut self, functions: usize, points: usize) {
+    /// Makes room for functions and points, all zero.
+    pub(crate) fn resize(&mut self, functions: usize, points: usize) {
         (self.functions, self.points) = (functions, points);
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {
             array.clear();
@@ -84,7 +87,12 @@ impl<'s> ShapeEvaluator<'s> {
         let n_functions = patches.iter().map(|&p| space.sizes[p as usize]).sum();
         out.resize(n_functions, offsets.len());
         let groups = groups_of(space, patches);
-        let mut at = Point { space, anchor, offset: Vec2::ZERO, jets: vec![[ZERO; GROUP]; space.functions.groups()] };
+        let mut at = Point {
+            space,
+            anchor,
+            offset: Vec2::ZERO,
+            jets: vec![[ZERO; GROUP]; space.functions.groups()],
+        };
         let mut weights = Vec::with_capacity(patches.len());
         for (point, &offset) in offsets.iter().enumerate() {
             at.offset = offset;
@@ -153,16 +161,26 @@ impl Point<'_> {
     }
 
     /// Writes the functions of one patch from index `function` on; returns the index after them.
-    fn shapes(&self, patch: usize, phi: Jet<f64>, point: usize, function: usize, out: &mut Shapes) -> usize {
+    fn shapes(
+        &self,
+        patch: usize,
+        phi: Jet<f64>,
+        point: usize,
+        function: usize,
+        out: &mut Shapes,
+    ) -> usize {
         let data = self.space.data;
         let inverse = reciprocal(self.space.partition.scale[patch]);
-        let monomials = Monomials::new(self.local(self.space.partition.origin[patch], inverse), inverse);
+        let monomials =
+            Monomials::new(self.local(self.space.partition.origin[patch], inverse), inverse);
         let mut next = function;
         for block in data.blocks(patch) {
             let factor = match self.space.functions.of(data.block_function[block]) {
                 Slot::One => phi,
                 Slot::Jet { group, entry } => {
-                    phi.times::<1>(self.jets[group as usize][entry as usize])
+                    let mut function = self.jets[group as usize][entry as usize];
+                    function.v -= self.space.shifts[block];
+                    phi.times::<1>(function)
                 }
             };
             for (a, b) in exponents(data.block_degree[block] as usize) {

@@ -1,6 +1,6 @@
 //! From a problem to a dataset.
 
-use crate::block_matrix::BlockMatrix;
+use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
@@ -9,13 +9,11 @@ use crate::law::Law;
 use crate::problem::Problem;
 use crate::rigid::RigidMotions;
 use crate::space::{Space, SpaceError, discretise};
-use crate::system::{System, assemble, source_at};
-use crate::transform::{CUT_OFF, Transform};
+use crate::system::{assemble, source_at};
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::function::FunctionError;
 use ppum::vec2::Vec2;
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// What the solver is doing, for progress bars.
@@ -34,10 +32,10 @@ pub struct Progress {
 pub enum Phase {
     /// Building the cover and the local spaces.
     Cover,
+    /// The stable basis of each patch.
+    Basis,
     /// Integrating over the cells.
     Assembly,
-    /// The stable transformation.
-    Transformation,
     /// Factorisation and solution.
     Solution,
     /// Stress intensity factors.
@@ -50,8 +48,8 @@ impl Phase {
     pub fn name(self) -> &'static str {
         match self {
             Self::Cover => "cover",
+            Self::Basis => "basis",
             Self::Assembly => "assembly",
-            Self::Transformation => "transformation",
             Self::Solution => "solution",
             Self::Intensity => "intensity",
         }
@@ -89,10 +87,7 @@ pub enum SolveError {
 ///
 /// # Errors
 /// See [`SolveError`].
-pub fn solve(
-    problem: &Problem,
-    report: &mut dyn FnMut(Progress),
-) -> Result<Dataset, SolveError> {
+pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Dataset, SolveError> {
     let mut clock = Clock::new();
     report(Progress { phase: Phase::Cover, done: 0, total: 1 });
     let mut step = discretise(problem)?;
@@ -158,7 +153,7 @@ struct Solution {
     dropped: Vec<usize>,
     /// Unknowns before the cut-off.
     unknowns: usize,
-    /// ‖f − K u‖ / ‖f‖ in the transformed system.
+    /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
 }
 
@@ -173,70 +168,25 @@ impl Solver<'_> {
         let law = Law::new(&self.problem.equation);
         let motions = RigidMotions::new(&self.problem.domain, components);
         let total = space.partition.len();
+        report(Progress { phase: Phase::Basis, done: 0, total: 1 });
+        let basis = StableBasis::new(&space)?;
+        clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, &space, &law, motions, &mut tell)?;
+        let mut system = assemble(self.problem, &space, &basis, &law, motions, &mut tell)?;
         let free = free_motions(&system, &motions)?;
         check_balance(&system, &free)?;
-        gauge(&mut system, &space, &motions, &free, components);
+        gauge(&mut system, &space, &basis, &motions, &free);
         clock.lap(Phase::Assembly);
-        report(Progress { phase: Phase::Transformation, done: 0, total: 1 });
-        let transforms = transforms(&space, &system)?;
-        let matrix = system.matrix.congruence(&transforms, components);
-        let load = transformed(&system.matrix, &transforms, &system.load, components);
-        clock.lap(Phase::Transformation);
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let cholesky = Cholesky::new(&matrix, &space.partition.center)?;
-        let solution = cholesky.solve(&load);
-        let residual = residual(&matrix, &solution, &load);
+        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
-            coefficients: back(&transforms, &solution, components),
-            dropped: transforms.iter().map(|t| t.dropped).collect(),
-            unknowns: system.matrix.n_unknowns(),
-            residual,
+            coefficients: basis.plain(&space, &solution.unknowns, components),
+            dropped: basis.dropped().collect(),
+            unknowns: space.sizes.iter().sum::<usize>() * components,
+            residual: solution.relative_residual,
         })
     }
-}
-
-fn transforms(space: &Space<'_>, system: &System) -> Result<Vec<Transform>, EigenError> {
-    let gram = system.gram.par_iter().enumerate();
-    gram.map(|(i, m)| Transform::new(m.as_ref(), space.n_polynomials(i), CUT_OFF)).collect()
-}
-
-/// T f.
-fn transformed(
-    matrix: &BlockMatrix,
-    transforms: &[Transform],
-    load: &[f64],
-    components: usize,
-) -> Vec<f64> {
-    let mut out = Vec::with_capacity(load.len());
-    for (i, Transform { matrix: t, .. }) in transforms.iter().enumerate() {
-        let load = &load[matrix.unknowns(i)];
-        for part in load.chunks_exact(load.len() / components) {
-            out.extend((0..t.nrows()).map(|k| (0..t.ncols()).map(|a| t[(k, a)] * part[a]).sum::<f64>()));
-        }
-    }
-    out
-}
-
-/// Tᵀ u.
-fn back(transforms: &[Transform], solution: &[f64], components: usize) -> Vec<f64> {
-    let mut rest = solution;
-    let mut out = Vec::new();
-    for Transform { matrix: t, .. } in transforms {
-        for _ in 0..components {
-            let (part, tail) = rest.split_at(t.nrows());
-            rest = tail;
-            out.extend((0..t.ncols()).map(|a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>()));
-        }
-    }
-    out
-}
-
-fn residual(matrix: &BlockMatrix, x: &[f64], f: &[f64]) -> f64 {
-    let difference = matrix.multiply(x).iter().zip(f).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-    (difference / f.iter().map(|v| v * v).sum::<f64>()).sqrt()
 }
 
 impl Solution {
@@ -244,7 +194,8 @@ impl Solution {
     fn store(self, step: &mut Step, components: usize) {
         let data = &mut step.fields[0];
         let mut rest = self.coefficients.as_slice();
-        let mut starts = data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
+        let mut starts =
+            data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
         let mut first = starts.next().flatten().unwrap_or(0) as usize;
         let all = data.coefficients[0].len();
         for next in starts {

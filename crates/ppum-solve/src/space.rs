@@ -6,7 +6,7 @@ use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
 use ppum::box_tree::BoxTree;
-use ppum::crack::tips;
+use ppum::crack::{LocalCrack, Side, tips};
 use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
 use ppum::function::{Frame, Function, FunctionError, FunctionKind, FunctionTable};
 use ppum::vec2::Vec2;
@@ -27,6 +27,12 @@ pub struct Space<'d> {
     pub coverers: Vec<Vec<u32>>,
     /// Of each patch, the number of functions of its local space.
     pub sizes: Vec<usize>,
+    /// Of each block, the constant σ its function is replaced by f − σ with while solving.
+    ///
+    /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
+    /// larger part of the patch: the jump across a sliver is a function of its own, not a small
+    /// difference of large ones. Zero for all other functions.
+    pub shifts: Vec<f64>,
     singular: Vec<Vec2>,
     patch_singular: Vec<Vec<u32>>,
 }
@@ -49,7 +55,8 @@ impl<'d> Space<'d> {
             found
         });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let singular = tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
+        let singular =
+            tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
         Ok(Self {
             partition,
             step,
@@ -57,6 +64,7 @@ impl<'d> Space<'d> {
             functions: FunctionTable::new(&step.functions)?,
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
+            shifts: shifts(step, data),
             singular: singular.collect(),
             patch_singular: (0..partition.len()).map(|i| singular_of(step, data, i)).collect(),
         })
@@ -93,6 +101,21 @@ fn block_size(data: &FieldData, block: usize) -> usize {
     monomials(data.block_degree[block] as usize)
 }
 
+fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
+    let shift = |patch: usize, block: usize| match &step.functions
+        [data.block_function[block] as usize]
+        .kind
+    {
+        FunctionKind::Side { crack } => {
+            let seen = LocalCrack::new(&step.cracks[*crack as usize], step.partition.center[patch]);
+            seen.side([0.0, 0.0], Side::Above)
+        }
+        _ => 0.0,
+    };
+    let patches = 0..step.partition.len();
+    patches.flat_map(|patch| data.blocks(patch).map(move |b| shift(patch, b))).collect()
+}
+
 /// The tips (in the order of [`tips`]) at which a function of the patch is singular.
 fn singular_of(step: &Step, data: &FieldData, patch: usize) -> Vec<u32> {
     let order: Vec<_> = tips(&step.cracks).collect();
@@ -126,7 +149,8 @@ pub enum SpaceError {
 /// A cover that cannot be built or refined, an order formula that gives no order.
 pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
-    let partition = cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
+    let partition =
+        cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
     let functions = Functions::new(&problem.cracks);
     let enricher = Enricher::new(problem, &functions);
     let mut blocks = Vec::with_capacity(partition.len());

@@ -1,8 +1,7 @@
-//! The whole system, summed over the cells.
-//!
-//! Cells are worked on by all cores, a batch at a time; their contributions are added in the order
-//! of the cells, so that no bit of the result depends on the number of cores.
+//! The whole system in the stable basis, summed over the cells.
 
+use crate::basis::StableBasis;
+use crate::batch::in_batches;
 use crate::block_matrix::{BlockMatrix, BlockPattern};
 use crate::border::BorderPiece;
 use crate::cell::{CellAssembler, CellSystem, Data};
@@ -12,20 +11,13 @@ use crate::problem::{BoundaryCondition, Condition, Problem};
 use crate::quadrature::Quadrature;
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use crate::space::Space;
-use faer::Mat;
 use ppum::vec2::Vec2;
-use rayon::prelude::*;
 
-/// Cells worked on between additions: enough for the cores, little enough for the memory.
-const BATCH: usize = 128;
-
-/// The assembled system in plain functions.
+/// The assembled system.
 pub(crate) struct System {
     pub(crate) matrix: BlockMatrix,
     /// Right-hand side, in the order of the matrix.
     pub(crate) load: Vec<f64>,
-    /// Per patch, the scalar Gram matrix of its weighted functions.
-    pub(crate) gram: Vec<Mat<f64>>,
     /// ∫ m_k·m_l over the border where values are given.
     pub(crate) held: [PerMotion; MOTIONS],
     /// Work of the loads on the rigid motions.
@@ -41,49 +33,48 @@ pub(crate) struct System {
 pub(crate) fn assemble(
     problem: &Problem,
     space: &Space<'_>,
+    basis: &StableBasis,
     law: &Law,
     motions: RigidMotions,
     progress: &mut dyn FnMut(usize),
 ) -> Result<System, EigenError> {
     let quadrature = space.quadrature(0);
-    let mut system = System::new(space, law.components);
+    let mut system = System::new(space, basis, law.components);
     let source = |x: Vec2| source_at(problem, x);
     let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
     let source: Option<Data<'_>> = has_source.then_some(&source);
-    let cells: Vec<_> = (0..space.partition.len()).collect();
-    for batch in cells.chunks(BATCH) {
-        let parts: Vec<_> = batch
-            .par_iter()
-            .map_init(
-                || CellAssembler::new(space, law, motions),
-                |assembler, &cell| {
-                    let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
-                    let rules = quadrature.cell(rect, coverers);
-                    let given: Vec<_> =
-                        problem.boundary.iter().map(|condition| Given::new(condition)).collect();
-                    let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
-                    let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
-                    assembler.assemble(cell, &rules, source, &pieces)
-                },
-            )
-            .collect();
-        for part in parts {
-            system.add(&part?, law.components);
-        }
-        progress(batch[batch.len() - 1] + 1);
-    }
-    Ok(system)
+    let given: Vec<_> = problem.boundary.iter().map(Given::new).collect();
+    let mut failed = None;
+    in_batches(
+        space.partition.len(),
+        || CellAssembler::new(space, basis, law, motions),
+        |assembler, cell| {
+            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+            let rules = quadrature.cell(rect, coverers);
+            let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
+            let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
+            assembler.assemble(cell, &rules, source, &pieces)
+        },
+        |cell, part| {
+            match part {
+                Ok(part) => system.add(&part, law.components),
+                Err(error) => failed = failed.or(Some(error)),
+            }
+            progress(cell + 1);
+        },
+    );
+    failed.map_or(Ok(system), Err)
 }
 
 /// A boundary condition with its data as a function of position.
 struct Given<'p> {
     condition: &'p BoundaryCondition,
-    values: Box<dyn Fn(Vec2) -> [f64; 2] + Sync + 'p>,
+    values: Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>,
 }
 
 impl<'p> Given<'p> {
     fn new(condition: &'p BoundaryCondition) -> Self {
-        let value = |x: Vec2| {
+        let value = move |x: Vec2| {
             values(condition.components.iter().map(|component| match component {
                 Condition::Free => 0.0,
                 Condition::Dirichlet(g) | Condition::Neumann(g) => g.value(x),
@@ -126,12 +117,11 @@ fn values(from: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 impl System {
-    fn new(space: &Space<'_>, components: usize) -> Self {
-        let sizes: Vec<_> = space.sizes.iter().map(|n| n * components).collect();
+    fn new(space: &Space<'_>, basis: &StableBasis, components: usize) -> Self {
+        let sizes: Vec<_> = basis.sizes.iter().map(|n| n * components).collect();
         let matrix = BlockMatrix::new(&sizes, pattern(space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
-            gram: space.sizes.iter().map(|&n| Mat::zeros(n, n)).collect(),
             matrix,
             held: [[0.0; MOTIONS]; MOTIONS],
             resultant: [0.0; MOTIONS],
@@ -143,7 +133,6 @@ impl System {
         let patches = &part.functions.patches;
         for (k, &p) in patches.iter().enumerate() {
             let p = p as usize;
-            self.gram[p] += &part.gram[k];
             let start = self.matrix.unknowns(p).start;
             for (row, &from) in part.functions.unknowns(k, components).iter().enumerate() {
                 self.load[start + row] += part.load[from];

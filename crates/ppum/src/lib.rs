@@ -126,6 +126,7 @@
 //!   their text, have a kernel of their own.
 
 pub mod box_tree;
+pub mod check;
 pub mod cover;
 pub mod crack;
 pub mod dataset;

@@ -66,7 +66,6 @@ fn check_equation(equation: &Equation) -> Vec<Violation> {
     match equation {
         Equation::Elasticity(material) => check_material(material),
         Equation::Poisson { conductivity } => positive("conductivity", *conductivity),
-        _ => Vec::new(),
     }
 }
 

@@ -576,3 +576,50 @@ fn the_example_of_the_documentation() {
     assert_eq!(problem.discretization, Discretization::new(Cells::Level(4)));
     assert_eq!(problem.boundary.len(), 2);
 }
+
+/// Every line left out, cut short, or given another value: what is refused is refused with a reason,
+/// and what is accepted passes the checks.
+#[test]
+fn nothing_is_refused_without_a_reason() {
+    const VALUES: [&str; 15] = [
+        "1",
+        "-1",
+        "1e300",
+        "nan",
+        "true",
+        "\"x\"",
+        "\"\"",
+        "\"free\"",
+        "\"exact\"",
+        "[]",
+        "[1]",
+        "[1, 2]",
+        "[[1, 2]]",
+        "{}",
+        "1979-05-27",
+    ];
+    let check = |lines: &[&str]| match parse(&lines.join("\n")) {
+        Ok(problem) => assert_eq!(problem.check(), Ok(()), "{}", lines.join("\n")),
+        Err(error) => assert!(!error.findings().is_empty(), "{}", lines.join("\n")),
+    };
+    for text in [PLATE, MEMBRANE] {
+        let lines: Vec<_> = text.lines().collect();
+        for (place, line) in lines.iter().enumerate() {
+            let with = |new: &str| check(&[&lines[..place], &[new], &lines[place + 1..]].concat());
+            (0..line.len()).for_each(|length| with(&line[..length]));
+            let Some((key, _)) = line.split_once(" = ") else { continue };
+            VALUES.iter().for_each(|value| with(&format!("{key} = {value}")));
+        }
+    }
+}
+
+#[test]
+fn the_mistakes_of_the_documentation() {
+    let page = include_str!("../../../../docs/problem-file.md");
+    let blocks: Vec<_> = page.split("```").collect();
+    let text = edited(blocks[1].trim_start_matches("toml\n"), "young", "yong");
+    let text = edited(&text, "[0.5, 0.0]", "[5.0, 0.0]");
+    let text = edited(&text, "[0.0, 1.0]", "[0.0, \"1 + z\"]");
+    let error = Problem::parse(&text, "plate.toml", Path::new("")).expect_err("three mistakes");
+    assert_eq!(blocks[3].trim_start_matches("text\n").trim_end(), error.to_string());
+}

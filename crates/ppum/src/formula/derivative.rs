@@ -92,6 +92,13 @@ impl Pass<'_> {
                 self.graph.select(positive, da, minus)
             }
             Unary::Sin => self.slope_times(Unary::Cos, a, da),
+            Unary::Tanh => {
+                // not 1 − tanh², which loses its digits far out
+                let (one, cosh) = (self.graph.constant(1.0), self.graph.unary(Unary::Cosh, a));
+                let sech = self.graph.binary(Binary::Div, one, cosh);
+                let slope = self.graph.power(sech, 2);
+                self.times(slope, da)
+            }
             Unary::Sinh => self.slope_times(Unary::Cosh, a, da),
             Unary::Cosh => self.slope_times(Unary::Sinh, a, da),
             Unary::Cos => {
@@ -131,10 +138,6 @@ impl Pass<'_> {
                 let cos = g.unary(Unary::Cos, a);
                 g.power(cos, 2)
             }
-            Unary::Tanh => {
-                let cosh = g.unary(Unary::Cosh, a);
-                g.power(cosh, 2)
-            }
             Unary::Atan => {
                 let square = g.power(a, 2);
                 g.binary(Binary::Add, one, square)
@@ -159,12 +162,7 @@ impl Pass<'_> {
                 let (left, right) = (self.times(da, b), self.times(a, db));
                 self.plus(left, right)
             }
-            Binary::Div => {
-                // (a/b)′ = (a′ − (a/b) b′) / b
-                let change = self.times(node, db);
-                let numerator = self.minus(da, change);
-                self.over(numerator, b)
-            }
+            Binary::Div => self.div(node, da, b, v),
             Binary::Pow => self.pow(node, a, b, da, db),
             Binary::Hypot => {
                 let (cos, sin) = (self.over(a, node), self.over(b, node));
@@ -184,6 +182,26 @@ impl Pass<'_> {
                 let (high, low) = if op == Binary::Max { (da, db) } else { (db, da) };
                 self.graph.select(upper, high, low)
             }
+        }
+    }
+
+    /// (a/b)′ = (a′ − (a/b) b′) / b; `node` = a/b.
+    fn div(&mut self, node: NodeId, da: NodeId, b: NodeId, v: usize) -> NodeId {
+        if let Some(growth) = self.relative_growth(b, v) {
+            let (change, decay) = (self.over(da, b), self.times(node, growth));
+            return self.minus(change, decay);
+        }
+        let change = self.times(node, self.d(b, v));
+        let numerator = self.minus(da, change);
+        self.over(numerator, b)
+    }
+
+    /// b′/b in closed form where b may overflow: then 1/b has the slope 0, not 0 · ∞.
+    fn relative_growth(&mut self, b: NodeId, v: usize) -> Option<NodeId> {
+        match self.graph.op(b) {
+            Op::Unary(Unary::Exp, u) => Some(self.d(u, v)),
+            Op::Unary(Unary::Cosh, u) => Some(self.slope_times(Unary::Tanh, u, self.d(u, v))),
+            _ => None,
         }
     }
 

@@ -55,6 +55,14 @@ impl Op {
         )
     }
 
+    /// The number it is, if it is one whatever the inputs.
+    pub(super) fn value(&self) -> Option<f64> {
+        match self {
+            Self::Constant(bits) => Some(f64::from_bits(*bits)),
+            _ => None,
+        }
+    }
+
     /// The operands, in order.
     pub(super) fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
         let array = match *self {
@@ -108,10 +116,7 @@ impl Graph {
 
     /// The number a node is, if it is one whatever the inputs.
     pub(super) fn value(&self, id: NodeId) -> Option<f64> {
-        match self.op(id) {
-            Op::Constant(bits) => Some(f64::from_bits(bits)),
-            _ => None,
-        }
+        self.op(id).value()
     }
 
     fn node(&mut self, op: Op) -> NodeId {

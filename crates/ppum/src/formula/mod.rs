@@ -70,8 +70,8 @@ pub const MAX_DEPTH: usize = 200;
 pub const MAX_LENGTH: usize = 1 << 16;
 
 /// Most operations of a formula with its derivatives. Hand-written formulas have a hundred; this
-/// many still fit in some tens of megabytes.
-pub const MAX_NODES: usize = 1 << 20;
+/// many still fit in some tens of megabytes and are made within a second.
+pub const MAX_NODES: usize = 1 << 18;
 
 /// A formula of the variables of a [`Scope`], ready for evaluation.
 ///
@@ -136,7 +136,7 @@ impl Formula {
     /// The value, if it is the same whatever the inputs.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
-        Graph::from_ops(self.program.ops()).value(self.root())
+        self.program.ops()[self.root().index()].value()
     }
 
     /// True if its value or the choice of a branch depends on the input of this name. A
@@ -244,7 +244,7 @@ impl FormulaJet {
 
     /// Number of operations of one evaluation, constants and inputs included.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn n_operations(&self) -> usize {
         self.program.ops().len()
     }
 }

@@ -12,29 +12,29 @@ use ppum_testkit::exact::Component;
 
 /// Relative errors.
 #[derive(Clone, Copy, Debug)]
-pub struct Errors {
+pub(crate) struct Errors {
     /// In the energy norm.
-    pub energy: f64,
+    pub(crate) energy: f64,
     /// In L².
-    pub l2: f64,
+    pub(crate) l2: f64,
 }
 
 /// Solves a problem that is in order.
-pub fn solved(problem: &Problem) -> Dataset {
+pub(crate) fn solved(problem: &Problem) -> Dataset {
     problem.check().expect("a problem in order");
     solve(problem, &mut |_| {}).expect("a solution")
 }
 
 /// Values and gradients of two components.
-pub type Both = ([f64; 2], [Vec2; 2]);
+pub(crate) type Both = ([f64; 2], [Vec2; 2]);
 
 /// Values and gradients of an exact field.
-pub fn both(components: [Component; 2]) -> Both {
+pub(crate) fn both(components: [Component; 2]) -> Both {
     (components.map(|c| c.value), components.map(|c| c.gradient))
 }
 
 /// Errors of the first field of the first step.
-pub fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Errors {
+pub(crate) fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Errors {
     let space = Space::new(&dataset.steps[0]).expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let jets = |anchor: Vec2, offset: Vec2| {
@@ -46,4 +46,18 @@ pub fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Error
     let [_, reference, difference] = norms(&field, &space, &jets);
     let (energy, l2) = difference.relative_to(&reference);
     Errors { energy, l2 }
+}
+
+/// ∫ σ:∇u and ∫ |u|² of the first field.
+pub(crate) fn squares(dataset: &Dataset) -> (f64, f64) {
+    let space = Space::new(&dataset.steps[0]).expect("functions that compile");
+    let field = Field::new(dataset, 0).expect("a field");
+    let zero = |_: Vec2, _: Vec2| [Jet::constant(0.0); 2];
+    let [own, ..] = norms(&field, &space, &zero);
+    (own.energy, own.l2)
+}
+
+/// Strain energy ½ ∫ σ:ε.
+pub(crate) fn strain_energy(dataset: &Dataset) -> f64 {
+    0.5 * squares(dataset).0
 }

@@ -1,0 +1,279 @@
+//! Colour maps: from the position in a range to a colour.
+//!
+//! | name | for |
+//! |---|---|
+//! | viridis, plasma, inferno, magma | magnitudes; lightness grows evenly |
+//! | cividis | the same, and alike for readers who do not see red and green apart |
+//! | turbo | much detail; lightness is *not* monotone |
+//! | coolwarm | signed values around zero |
+//!
+//! `_r` behind a name reverses a map. Each map has its own colours for values [below](Colormap::below)
+//! and [above](Colormap::above) the range, which do not occur in it: where lightness grows they are
+//! black (slate blue in the maps that begin with black) and white; turbo has grey and white,
+//! coolwarm cyan and yellow.
+
+use crate::image::Rgba;
+
+/// Names of the built-in maps.
+pub const NAMES: [&str; 7] =
+    ["viridis", "plasma", "inferno", "magma", "cividis", "turbo", "coolwarm"];
+
+const BLACK: Rgba = [0, 0, 0, 255];
+const WHITE: Rgba = [255, 255, 255, 255];
+const SLATE: Rgba = [61, 90, 128, 255];
+const GREY: Rgba = [140, 140, 140, 255];
+const CYAN: Rgba = [0, 190, 230, 255];
+const YELLOW: Rgba = [255, 212, 0, 255];
+
+/// A sequence of sRGB colours, linearly interpolated, for positions 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Colormap {
+    /// Its name, with `_r` if it is reversed.
+    pub name: String,
+    /// Colour of values below the range.
+    pub below: Rgba,
+    /// Colour of values above the range.
+    pub above: Rgba,
+    /// True if its middle stands for zero: an automatic range is then symmetric.
+    pub diverging: bool,
+    /// Red, green, blue, 0 to 255; at least two entries.
+    entries: Vec<[f64; 3]>,
+}
+
+/// Why there is no such colour map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ColormapError {
+    /// No map of that name.
+    #[error("no colour map is named '{name}'{}; there are {}, each also reversed with _r",
+        suggestion.map_or(String::new(), |s| format!(" (did you mean {s}?)")), NAMES.join(", "))]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// A similar name, if there is one.
+        suggestion: Option<&'static str>,
+    },
+    /// A line of a table is not a colour.
+    #[error(
+        "colour map '{name}', line {line}: '{text}' is not a colour; \
+        write red, green and blue, 0 to 255 or 0 to 1"
+    )]
+    Line {
+        /// Name of the map.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// The line's text.
+        text: String,
+    },
+    /// A table of fewer than two colours.
+    #[error("colour map '{0}' has fewer than two colours; give one a line")]
+    TooShort(String),
+}
+
+impl Colormap {
+    /// The built-in map of that name; `_r` behind it reverses the map.
+    ///
+    /// # Errors
+    /// An unknown name, with the nearest known one.
+    pub fn named(name: &str) -> Result<Self, ColormapError> {
+        if let Some(base) = name.strip_suffix("_r") {
+            return Self::named(base).map(Self::reversed);
+        }
+        let (table, below, above) = match name {
+            "viridis" => (include_str!("../data/viridis.txt"), BLACK, WHITE),
+            "plasma" => (include_str!("../data/plasma.txt"), BLACK, WHITE),
+            "inferno" => (include_str!("../data/inferno.txt"), SLATE, WHITE),
+            "magma" => (include_str!("../data/magma.txt"), SLATE, WHITE),
+            "cividis" => (include_str!("../data/cividis.txt"), BLACK, WHITE),
+            "turbo" => (include_str!("../data/turbo.txt"), GREY, WHITE),
+            "coolwarm" => (include_str!("../data/coolwarm.txt"), CYAN, YELLOW),
+            _ => {
+                let suggestion = similar_name(name);
+                return Err(ColormapError::Unknown { name: name.to_owned(), suggestion });
+            }
+        };
+        let map = Self::from_text(name, table)?;
+        Ok(Self { below, above, diverging: name == "coolwarm", ..map })
+    }
+
+    /// A map from a table: red, green and blue on each line, apart by blanks or commas, either all
+    /// within 0 to 1 or all within 0 to 255; `#` begins a comment. Below and above are black and
+    /// white until set otherwise.
+    ///
+    /// # Errors
+    /// A line that is no colour; fewer than two colours.
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
+        let mut entries = Vec::new();
+        for (index, line) in text.lines().enumerate() {
+            let content = line.split('#').next().unwrap_or_default().trim();
+            if !content.is_empty() {
+                let error = || ColormapError::Line {
+                    name: name.to_owned(),
+                    line: index + 1,
+                    text: line.to_owned(),
+                };
+                entries.push(parse_color(content).ok_or_else(error)?);
+            }
+        }
+        if entries.len() < 2 {
+            return Err(ColormapError::TooShort(name.to_owned()));
+        }
+        if entries.as_flattened().iter().all(|&c| c <= 1.0) {
+            entries.as_flattened_mut().iter_mut().for_each(|c| *c *= 255.0);
+        }
+        let name = name.to_owned();
+        Ok(Self { name, below: BLACK, above: WHITE, diverging: false, entries })
+    }
+
+    /// The map from its other end; below and above change places.
+    #[must_use]
+    pub fn reversed(mut self) -> Self {
+        self.entries.reverse();
+        std::mem::swap(&mut self.below, &mut self.above);
+        self.name = match self.name.strip_suffix("_r") {
+            Some(base) => base.to_owned(),
+            None => format!("{}_r", self.name),
+        };
+        self
+    }
+
+    /// The colour at position `t`, held at the ends outside \[0, 1\].
+    #[must_use]
+    pub fn color(&self, t: f64) -> Rgba {
+        let last = self.entries.len() - 1;
+        let at = t.clamp(0.0, 1.0) * last as f64;
+        let index = (at as usize).min(last - 1);
+        let (low, high, share) = (self.entries[index], self.entries[index + 1], at - index as f64);
+        let mix = |k: usize| (low[k] + share * (high[k] - low[k])).round() as u8;
+        [mix(0), mix(1), mix(2), 255]
+    }
+
+    /// `count` ≥ 2 colours at even positions, the ends included.
+    #[must_use]
+    pub fn palette(&self, count: usize) -> Vec<Rgba> {
+        (0..count).map(|k| self.color(k as f64 / (count - 1) as f64)).collect()
+    }
+}
+
+fn parse_color(text: &str) -> Option<[f64; 3]> {
+    let mut parts = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|p| !p.is_empty());
+    let mut next = || {
+        let value: f64 = parts.next()?.parse().ok()?;
+        (0.0..=255.0).contains(&value).then_some(value)
+    };
+    let color = [next()?, next()?, next()?];
+    parts.next().is_none().then_some(color)
+}
+
+/// The built-in name at most three edits away, the nearest one.
+fn similar_name(name: &str) -> Option<&'static str> {
+    let lower = name.to_lowercase();
+    let near = NAMES.into_iter().map(|known| (edit_distance(&lower, known), known)).min()?;
+    (near.0 <= 3).then_some(near.1)
+}
+
+/// Levenshtein's distance: insertions, deletions and replacements of characters.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// CIE lightness L* of an sRGB colour.
+    fn lightness(color: Rgba) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        let y = 0.2126 * linear(color[0]) + 0.7152 * linear(color[1]) + 0.0722 * linear(color[2]);
+        if y > 0.008856 { 116.0 * y.cbrt() - 16.0 } else { 903.3 * y }
+    }
+
+    #[test]
+    fn ends_are_the_published_colours() {
+        let ends = |name| {
+            let map = Colormap::named(name).unwrap();
+            assert_eq!(map.entries.len(), 256);
+            [map.color(0.0), map.color(1.0)].map(|c| [c[0], c[1], c[2]])
+        };
+        assert_eq!(ends("viridis"), [[68, 1, 84], [253, 231, 37]]);
+        assert_eq!(ends("plasma"), [[13, 8, 135], [240, 249, 33]]);
+        assert_eq!(ends("inferno"), [[0, 0, 4], [252, 255, 164]]);
+        assert_eq!(ends("magma"), [[0, 0, 4], [252, 253, 191]]);
+        assert_eq!(ends("cividis"), [[0, 34, 78], [254, 232, 56]]);
+        assert_eq!(ends("turbo"), [[48, 18, 59], [122, 4, 3]]);
+        assert_eq!(ends("coolwarm"), [[59, 76, 192], [180, 4, 38]]);
+        assert_eq!(ends("coolwarm_r"), [[180, 4, 38], [59, 76, 192]]);
+    }
+
+    #[test]
+    fn perceptual_maps_grow_lighter_everywhere() {
+        for name in ["viridis", "plasma", "inferno", "magma", "cividis"] {
+            let map = Colormap::named(name).unwrap();
+            let levels: Vec<f64> = map.palette(256).into_iter().map(lightness).collect();
+            // Bytes are rounded: neighbours may tie or fall by a rounding step, ten apart may not.
+            assert!(levels.windows(2).all(|w| w[1] > w[0] - 0.35), "{name}");
+            assert!(levels.windows(11).all(|w| w[10] > w[0] + 1.0), "{name}");
+        }
+        let turbo = Colormap::named("turbo").unwrap().palette(256);
+        assert!(lightness(turbo[255]) < lightness(turbo[128]), "the control must fail");
+    }
+
+    #[test]
+    fn coolwarm_is_lightest_in_the_middle() {
+        let map = Colormap::named("coolwarm").unwrap();
+        let levels: Vec<f64> = map.palette(255).into_iter().map(lightness).collect();
+        let peak = (0..255).max_by(|&a, &b| levels[a].total_cmp(&levels[b])).unwrap();
+        assert!((125..=129).contains(&peak), "{peak}");
+        // Moreland's map takes M = 88 there: L* = 88, no colour.
+        assert!((levels[127] - 88.0).abs() < 0.5 && map.diverging);
+    }
+
+    #[test]
+    fn below_and_above_do_not_occur_in_the_map() {
+        for name in NAMES {
+            let map = Colormap::named(name).unwrap();
+            for special in [map.below, map.above] {
+                let far = |c: Rgba| (0..3).map(|k| c[k].abs_diff(special[k])).max() > Some(30);
+                assert!(map.palette(256).into_iter().all(far), "{name} {special:?}");
+            }
+            assert_ne!(map.below, map.above);
+            assert_eq!(map.clone().reversed().below, map.above);
+            assert_eq!(map.clone().reversed().reversed(), map);
+        }
+    }
+
+    #[test]
+    fn colours_between_entries_are_interpolated() {
+        let map = Colormap::from_text("two", "0, 0, 0 # black\n\n1.0 0.5 0.2\n").unwrap();
+        assert_eq!(map.color(0.5), [128, 64, 26, 255]);
+        assert_eq!(map.color(-3.0), [0, 0, 0, 255]);
+        assert_eq!(map.color(7.0), [255, 128, 51, 255]);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let error = Colormap::named("Virdis").unwrap_err().to_string();
+        assert!(error.contains("did you mean viridis?"), "{error}");
+        let error = Colormap::named("rainbow").unwrap_err().to_string();
+        assert!(!error.contains("did you mean") && error.contains("turbo"), "{error}");
+        for (text, line) in [("0 0 0\n1 2\n", 2), ("0 0 x", 1), ("0 0 0\n0 0 300", 2)] {
+            let error = Colormap::from_text("mine", text).unwrap_err();
+            assert!(matches!(error, ColormapError::Line { line: l, .. } if l == line), "{error}");
+        }
+        assert!(matches!(Colormap::from_text("mine", "1 1 1"), Err(ColormapError::TooShort(_))));
+    }
+}

@@ -1,0 +1,222 @@
+//! Passes over a picture: cracks and the cells of the cover.
+//!
+//! Lines are placed through offsets from the view's centre, so they are where the field has them at
+//! any zoom: an oblique line through a view 1e-12 of the domain wide is drawn by its distance from the
+//! centre and its direction, not between end points that lie 10^15 pixels away.
+
+use ppum::crack::{Crack, tips};
+use ppum::dataset::Partition;
+use ppum::vec2::{Vec2, vec2};
+
+use crate::image::{Image, Mask, Rgba};
+use crate::view::View;
+
+/// Dark line of a crack, and the light seam that parts it from dark colours.
+const CRACK: Rgba = [16, 16, 20, 255];
+const SEAM: Rgba = [255, 255, 255, 150];
+/// Widths and radii in pixels of a picture 768 pixels high.
+const CRACK_WIDTH: f64 = 1.8;
+const TIP_RADIUS: f64 = 3.0;
+const SEAM_WIDTH: f64 = 1.0;
+const BORDER_WIDTH: f64 = 1.0;
+/// Opacity of cell borders.
+const BORDER_ALPHA: u8 = 120;
+/// White borders show on all but the lightest colours; black ones begin late, so that few lines change.
+const MOSTLY_LIGHT: f64 = 165.0;
+
+/// How much wider than in a picture of 1024 × 768 pixels lines and letters are; never narrower, lest
+/// they be unreadable.
+#[must_use]
+pub(crate) fn line_scale(size: [u32; 2]) -> f64 {
+    (f64::from(size[0]) / 1024.0).min(f64::from(size[1]) / 768.0).clamp(1.0, 20.0)
+}
+
+/// Draws the cracks as lines and their tips as dots.
+///
+/// # Panics
+/// If the picture does not have the view's size.
+pub fn cracks(image: &mut Image, view: &View, cracks: &[Crack]) {
+    let scale = line_scale(image.size);
+    for (extra, color) in [(SEAM_WIDTH, SEAM), (0.0, CRACK)] {
+        let mut mask = Mask::new(image.size);
+        for segment in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
+            if let Some([a, b]) = visible_part(view, segment[0], segment[1]) {
+                mask.line(a, b, (CRACK_WIDTH + 2.0 * extra) * scale);
+            }
+        }
+        for tip in tips(cracks) {
+            let at = view.pixel(cracks[tip.crack as usize].end_point(tip.end));
+            mask.disc(at, (TIP_RADIUS + extra) * scale);
+        }
+        image.paint(&mask, color);
+    }
+}
+
+/// Draws the borders of the cover's cells, light on dark colours and dark on light ones.
+///
+/// # Panics
+/// If the picture does not have the view's size.
+pub fn patches(image: &mut Image, view: &View, partition: &Partition) {
+    let half = 0.5 * BORDER_WIDTH * line_scale(image.size);
+    let mut mask = Mask::new(image.size);
+    let around = view.half() + vec2(view.pixel_size(), view.pixel_size()) * (1.0 + half);
+    for cell in &partition.cell {
+        let (min, max) = (cell.min - view.center, cell.max - view.center);
+        if max.x < -around.x || min.x > around.x || max.y < -around.y || min.y > around.y {
+            continue;
+        }
+        let corner = |p: Vec2| view.pixel_of_offset(p.max(-around).min(around));
+        let (a, b) = (corner(min), corner(max));
+        for x in [a.x, b.x] {
+            mask.rect(vec2(x - half, a.y), vec2(x + half, b.y));
+        }
+        for y in [a.y, b.y] {
+            mask.rect(vec2(a.x, y - half), vec2(b.x, y + half));
+        }
+    }
+    image.paint_with(&mask, contrasting);
+}
+
+/// A translucent black or white, whichever shows on `color`.
+fn contrasting(color: Rgba) -> Rgba {
+    let [r, g, b, alpha] = color.map(f64::from);
+    let light = (0.299 * r + 0.587 * g + 0.114 * b) * alpha / 255.0 + (255.0 - alpha);
+    if light < MOSTLY_LIGHT { [255, 255, 255, BORDER_ALPHA] } else { [0, 0, 0, BORDER_ALPHA] }
+}
+
+/// The part of a segment in or near the view, in continuous pixel coordinates.
+fn visible_part(view: &View, a: Vec2, b: Vec2) -> Option<[Vec2; 2]> {
+    let (from, to) = (a - view.center, b - view.center);
+    let along = (b - a).unit();
+    if !along.is_finite() {
+        return None;
+    }
+    let nearer = if from.length() < to.length() { from } else { to };
+    let normal = along.left();
+    let distance = nearer.dot(normal);
+    // Twice the half diagonal: line ends and widths beyond the border do not show.
+    let reach = 2.0 * view.half().length();
+    let [start, end] = [from, to].map(|p| p.dot(along).clamp(-reach, reach));
+    if distance.abs() > reach || start >= end {
+        return None;
+    }
+    let at = |s: f64| view.pixel_of_offset(normal * distance + along * s);
+    Some([at(start), at(end)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::CrackEnd;
+    use ppum::vec2::Rect;
+    use ppum::weight::WeightFunction;
+
+    const GREY: Rgba = [128, 128, 128, 255];
+
+    fn straight(a: Vec2, b: Vec2) -> Crack {
+        Crack { points: vec![a, b], ends: [CrackEnd::Tip, CrackEnd::Mouth] }
+    }
+
+    fn draw(view: &View, crack: Crack) -> Image {
+        let mut image = Image::filled(view.pixels, GREY);
+        cracks(&mut image, view, &[crack]);
+        image
+    }
+
+    #[test]
+    fn a_crack_is_dark_with_a_light_seam_and_a_dot_at_its_tip() {
+        let view = View::window(-1.0, -1.0, 1.0, 1.0, [201, 201]).unwrap();
+        let image = draw(&view, straight(Vec2::ZERO, vec2(1.0, 0.0)));
+        assert_eq!(image.pixel(150, 100), CRACK);
+        let seam = image.pixel(150, 98);
+        assert!(seam[0] > 150, "{seam:?}");
+        assert_eq!(image.pixel(150, 90), GREY);
+        assert_eq!(image.pixel(50, 100), GREY);
+        assert_eq!(image.pixel(100, 102), CRACK, "the dot of the tip");
+        let mouth = image.pixel(198, 104);
+        assert_eq!(mouth, GREY, "no dot at a mouth");
+    }
+
+    /// A crack from (0, 0) to (1, 3): the f64 nearest to its middle third is off the line by a known
+    /// part of a pixel, found here with exact integers.
+    #[test]
+    fn an_oblique_crack_is_in_place_at_a_width_of_1e_12() {
+        let center = vec2(0.123456789, 3.0 * 0.123456789);
+        let view = View::new(center, 1e-12, [201, 201]).unwrap();
+        let [a, b] = visible_part(&view, Vec2::ZERO, vec2(1.0, 3.0)).unwrap();
+        // y − 3x of the centre, exact as both are multiples of 2^-60.
+        let whole = |v: f64| (v * 2f64.powi(60)) as i128;
+        let excess = (whole(center.y) - 3 * whole(center.x)) as f64 / 2f64.powi(60);
+        let across = -excess / 10f64.sqrt() / view.pixel_size();
+        let middle = vec2(100.5, 100.5);
+        let found = (a - middle).cross((b - a).unit());
+        assert!((found.abs() - across.abs()).abs() < 0.05, "{found} {across}");
+        let slope = (b.y - a.y) / (b.x - a.x);
+        assert!((slope + 3.0).abs() < 1e-9);
+        assert!((b - a).length() > 400.0);
+    }
+
+    #[test]
+    fn a_tip_is_in_place_at_a_width_of_1e_12() {
+        let tip = vec2(0.7, -0.3);
+        let view = View::new(tip, 1e-12, [101, 101]).unwrap();
+        let image = draw(&view, straight(tip, vec2(0.2, -0.3)));
+        assert_eq!(image.pixel(50, 50), CRACK);
+        assert_eq!(image.pixel(10, 50), CRACK);
+        assert_eq!(image.pixel(60, 50), GREY);
+    }
+
+    #[test]
+    fn what_is_far_away_does_not_show() {
+        let view = View::new(Vec2::ZERO, 1e-6, [32, 32]).unwrap();
+        for crack in
+            [straight(vec2(0.1, -1.0), vec2(0.1, 1.0)), straight(vec2(0.5, 0.0), vec2(1.0, 0.0))]
+        {
+            assert_eq!(draw(&view, crack), Image::filled([32, 32], GREY));
+        }
+    }
+
+    fn cells(cell: Vec<Rect>) -> Partition {
+        let n = cell.len();
+        Partition {
+            weight: WeightFunction::Linear,
+            center: cell.iter().map(Rect::center).collect(),
+            half: cell.iter().map(|c| c.size() * 0.65).collect(),
+            origin: cell.iter().map(Rect::center).collect(),
+            scale: cell.iter().map(|c| c.size() * 0.65).collect(),
+            cell,
+            level: vec![1; n],
+            point: vec![None; n],
+            points: vec![],
+        }
+    }
+
+    #[test]
+    fn cell_borders_show_on_any_colour_and_do_not_add_up() {
+        let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
+        let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
+        let cover = cells(vec![unit, next]);
+        let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
+        for (color, border) in [([0, 0, 0, 255], 120), ([255, 255, 255, 255], 135)] {
+            let mut image = Image::filled(view.pixels, color);
+            patches(&mut image, &view, &cover);
+            assert_eq!(image.pixel(100, 50)[0], border, "the shared border, drawn once");
+            assert_eq!(image.pixel(50, 50), color);
+        }
+    }
+
+    #[test]
+    fn cell_borders_are_in_place_at_a_width_of_1e_12() {
+        let corner = vec2(0.3, 0.7);
+        let cover = cells(vec![Rect::new(Vec2::ZERO, corner), Rect::new(corner, vec2(1.0, 1.0))]);
+        let view = View::new(corner, 1e-12, [101, 101]).unwrap();
+        let mut image = Image::filled(view.pixels, [0, 0, 0, 255]);
+        patches(&mut image, &view, &cover);
+        // The first cell lies left of and below its corner, the second right of and above it.
+        for (column, row, expected) in [(50, 80, 120), (20, 50, 120), (50, 20, 120), (80, 50, 120)]
+        {
+            assert_eq!(image.pixel(column, row)[0], expected);
+        }
+        assert_eq!(image.pixel(20, 20)[0], 0);
+    }
+}

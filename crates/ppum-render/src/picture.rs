@@ -1,0 +1,228 @@
+//! From a raster of values to colours.
+
+use ppum::vec2::Vec2;
+use rayon::prelude::*;
+
+use crate::colormap::{Colormap, ColormapError};
+use crate::image::{Image, Rgba};
+use crate::png::Text;
+use crate::range::{Range, RangeError};
+use crate::raster::{Raster, Sample};
+use crate::scale::{Normalization, Scale};
+use crate::view::View;
+
+/// How values become colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Style {
+    /// The colours, those for values below and above the range included.
+    pub colormap: Colormap,
+    /// How values spread over the colours.
+    pub scale: Scale,
+    /// The range of values that the colours span.
+    pub range: Range,
+    /// The colour of pixels without a value; transparent unless set.
+    pub undefined: Rgba,
+}
+
+impl Style {
+    /// A named colour map on a linear scale with an automatic range.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub fn named(colormap: &str) -> Result<Self, ColormapError> {
+        let colormap = Colormap::named(colormap)?;
+        Ok(Self { colormap, scale: Scale::Linear, range: Range::Auto, undefined: [0; 4] })
+    }
+}
+
+impl Default for Style {
+    /// Viridis, linear, automatic range, transparent where nothing is defined.
+    fn default() -> Self {
+        Self::named("viridis").expect("viridis is built in")
+    }
+}
+
+/// A coloured raster, pixel for pixel, with what is needed to read it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The colours.
+    pub image: Image,
+    /// What is seen.
+    pub view: View,
+    /// Position of a value among the colours, the range found.
+    pub normalization: Normalization,
+    /// The colours.
+    pub colormap: Colormap,
+    /// True if some value lies below the range.
+    pub has_below: bool,
+    /// True if some value lies above the range; an infinite one always does.
+    pub has_above: bool,
+}
+
+/// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
+/// at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most one step.
+const PALETTE: usize = 4096;
+
+impl Picture {
+    /// The bare picture of a raster: one pixel a value, nothing else.
+    ///
+    /// # Errors
+    /// A fixed range that does not fit the scale.
+    ///
+    /// # Panics
+    /// If the raster does not have the view's size.
+    pub fn bare<T: Sample>(
+        raster: &Raster<T>,
+        view: &View,
+        style: &Style,
+    ) -> Result<Self, RangeError> {
+        assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
+        let Style { colormap, scale, range, undefined } = style;
+        let norm = range.normalization(*scale, colormap.diverging, raster)?;
+        let shades = Shades {
+            palette: colormap.palette(PALETTE),
+            norm,
+            undefined: *undefined,
+            below: colormap.below,
+            above: colormap.above,
+        };
+        let mut rgba = vec![0; 4 * raster.values.len()];
+        let columns = raster.size[0].max(1) as usize;
+        let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
+        let found = rows.map(|(pixels, values)| shades.paint(values, pixels.as_chunks_mut().0));
+        let (has_below, has_above) = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        Ok(Self {
+            image: Image { size: raster.size, rgba },
+            view: *view,
+            normalization: norm,
+            colormap: colormap.clone(),
+            has_below,
+            has_above,
+        })
+    }
+
+    /// What the picture shows, for the texts of its file: `Title`, `Software` and `Description`, then
+    /// under `ppum:` the dataset, quantity, view (centre, width, pixels: enough to draw it again to
+    /// the last bit), meaning of a pixel, range, scale and colour map.
+    #[must_use]
+    pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<Text> {
+        let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;
+        let norm = &self.normalization;
+        let software = concat!("ppum ", env!("CARGO_PKG_VERSION"));
+        let summary = format!("{quantity} of {dataset}, evaluated at every pixel's centre");
+        let entries = [
+            ("Title", title.to_owned()),
+            ("Software", software.to_owned()),
+            ("Description", summary),
+            ("ppum:dataset", dataset.to_owned()),
+            ("ppum:quantity", quantity.to_owned()),
+            ("ppum:view", format!("center {x:?},{y:?} width {width:?} pixels {columns}x{rows}")),
+            ("ppum:pixel", "value at pixel centre".to_owned()),
+            ("ppum:range", format!("{:?},{:?}", norm.min(), norm.max())),
+            ("ppum:scale", norm.scale().to_string()),
+            ("ppum:colormap", self.colormap.name.clone()),
+        ];
+        entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
+    }
+}
+
+/// What a value's colour is found with.
+struct Shades {
+    palette: Vec<Rgba>,
+    norm: Normalization,
+    undefined: Rgba,
+    below: Rgba,
+    above: Rgba,
+}
+
+impl Shades {
+    /// Colours a row; tells whether a value lay below, and above, the range.
+    fn paint<T: Sample>(&self, values: &[T], pixels: &mut [Rgba]) -> (bool, bool) {
+        let (min, max) = (self.norm.min(), self.norm.max());
+        let (mut has_below, mut has_above) = (false, false);
+        for (pixel, &value) in pixels.iter_mut().zip(values) {
+            let value = value.into();
+            has_below |= value < min;
+            has_above |= value > max;
+            *pixel = match value {
+                v if v.is_nan() => self.undefined,
+                v if v < min => self.below,
+                v if v > max => self.above,
+                v => self.inside(v),
+            };
+        }
+        (has_below, has_above)
+    }
+
+    fn inside(&self, value: f64) -> Rgba {
+        let index = (self.norm.position(value) * (PALETTE - 1) as f64 + 0.5) as usize;
+        self.palette[index.min(PALETTE - 1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::vec2;
+
+    fn view(columns: u32, rows: u32) -> View {
+        View::new(vec2(0.1, -0.2), 3e-7, [columns, rows]).unwrap()
+    }
+
+    #[test]
+    fn every_kind_of_value_has_its_colour() {
+        let inf = f64::INFINITY;
+        let values = vec![0.0, 2.0, 10.0, -0.1, 10.1, inf, -inf, f64::NAN];
+        let mut style = Style::named("magma").unwrap();
+        style.range = Range::Fixed(0.0, 10.0);
+        let map = &style.colormap;
+        let picture = Picture::bare(&Raster::new([4, 2], values), &view(4, 2), &style).unwrap();
+        let colors: Vec<Rgba> = (0..8).map(|k| picture.image.pixel(k % 4, k / 4)).collect();
+        let ends = [map.color(0.0), map.color(0.2), map.color(1.0)];
+        assert_eq!(colors[..3], ends);
+        assert_eq!(colors[3..], [map.below, map.above, map.above, map.below, [0; 4]]);
+        assert!(picture.has_below && picture.has_above);
+    }
+
+    #[test]
+    fn colours_are_those_of_the_map_within_one_step() {
+        for (name, scale) in
+            [("turbo", Scale::Linear), ("viridis_r", Scale::Log), ("coolwarm", Scale::SymLog)]
+        {
+            let raster = Raster::from_fn([500, 4], |i, j| f64::from(40 + 4 * i + j).powi(2));
+            let style = Style { scale, ..Style::named(name).unwrap() };
+            let picture = Picture::bare(&raster, &view(500, 4), &style).unwrap();
+            for (i, j) in [(0, 0), (3, 1), (77, 2), (250, 0), (499, 3)] {
+                let t = picture.normalization.position(raster.value(i, j));
+                let (found, exact) = (picture.image.pixel(i, j), picture.colormap.color(t));
+                let same = found.iter().zip(exact).all(|(a, b)| a.abs_diff(b) <= 1);
+                assert!(same, "{name} at {i}, {j}: {found:?} for {exact:?}");
+            }
+            assert!(!picture.has_below && !picture.has_above);
+        }
+    }
+
+    #[test]
+    fn single_precision_gives_the_same_picture() {
+        let wide = Raster::from_fn([64, 48], |i, j| f64::from(i * j) * 0.25);
+        let narrow = Raster::from_fn([64, 48], |i, j| (i * j) as f32 * 0.25);
+        let draw = |picture: Result<Picture, _>| picture.unwrap().image;
+        let style = Style::default();
+        assert_eq!(
+            draw(Picture::bare(&wide, &view(64, 48), &style)),
+            draw(Picture::bare(&narrow, &view(64, 48), &style))
+        );
+    }
+
+    #[test]
+    fn the_description_restores_the_view() {
+        let raster = Raster::from_fn([4, 2], |i, _| f64::from(i));
+        let picture = Picture::bare(&raster, &view(4, 2), &Style::default()).unwrap();
+        let texts = picture.description("Plate", "plate.h5", "von Mises");
+        let text = |key: &str| &texts.iter().find(|t| t.0 == key).unwrap().1;
+        assert_eq!(text("ppum:view"), "center 0.1,-0.2 width 3e-7 pixels 4x2");
+        assert_eq!(text("ppum:pixel"), "value at pixel centre");
+        assert_eq!(text("ppum:range"), "0.0,3.0");
+        assert_eq!(text("Title"), "Plate");
+    }
+}

@@ -1,0 +1,113 @@
+//! Values at the pixel centres of a view.
+
+use rayon::prelude::*;
+
+/// The number types of a raster: f64 and f32.
+pub trait Sample: Copy + Into<f64> + Send + Sync {}
+impl Sample for f64 {}
+impl Sample for f32 {}
+
+/// One value a pixel, row by row from the top; NaN where nothing is defined (outside the domain).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster<T = f64> {
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// Values, `size[0] * size[1]` of them.
+    pub values: Vec<T>,
+}
+
+/// What a raster holds. Minimum, maximum and mean are those of the finite values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Number of finite values.
+    pub finite: usize,
+    /// Number of NaN.
+    pub undefined: usize,
+    /// Number of infinite values.
+    pub infinite: usize,
+    /// Smallest finite value, +∞ if there is none.
+    pub min: f64,
+    /// Largest finite value, −∞ if there is none.
+    pub max: f64,
+    /// Mean of the finite values, NaN if there is none.
+    pub mean: f64,
+}
+
+impl<T: Sample> Raster<T> {
+    /// A raster from its values.
+    ///
+    /// # Panics
+    /// If the number of values is not columns × rows.
+    #[must_use]
+    pub fn new(size: [u32; 2], values: Vec<T>) -> Self {
+        let pixels = size[0] as usize * size[1] as usize;
+        assert_eq!(values.len(), pixels, "a raster needs one value a pixel");
+        Self { size, values }
+    }
+
+    /// The value `f(column, row)` at every pixel, rows in parallel.
+    #[must_use]
+    pub fn from_fn(size: [u32; 2], f: impl Fn(u32, u32) -> T + Sync) -> Self {
+        let row = |j| (0..size[0]).map(|i| f(i, j)).collect::<Vec<_>>();
+        Self::new(size, (0..size[1]).into_par_iter().flat_map_iter(row).collect())
+    }
+
+    /// The value of a pixel.
+    #[must_use]
+    pub fn value(&self, column: u32, row: u32) -> T {
+        self.values[row as usize * self.size[0] as usize + column as usize]
+    }
+
+    /// The values of a row.
+    #[must_use]
+    pub fn row(&self, row: u32) -> &[T] {
+        let columns = self.size[0] as usize;
+        &self.values[row as usize * columns..][..columns]
+    }
+
+    /// Counts, extremes and mean.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        let (mut min, mut max, mut sum) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        let (mut finite, mut undefined) = (0, 0);
+        for value in self.values.iter().map(|&v| v.into()) {
+            undefined += usize::from(value.is_nan());
+            if value.is_finite() {
+                finite += 1;
+                sum += value;
+                min = min.min(value);
+                max = max.max(value);
+            }
+        }
+        let infinite = self.values.len() - finite - undefined;
+        Statistics { finite, undefined, infinite, min, max, mean: sum / finite as f64 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statistics_count_what_is_not_finite_apart() {
+        let values = vec![1.0, f64::NAN, 3.0, f64::INFINITY, f64::NEG_INFINITY, 2.0];
+        let found = Raster::new([3, 2], values).statistics();
+        assert_eq!((found.finite, found.undefined, found.infinite), (3, 1, 2));
+        assert_eq!((found.min, found.max, found.mean), (1.0, 3.0, 2.0));
+    }
+
+    #[test]
+    fn statistics_of_nothing() {
+        let found = Raster::new([2, 1], vec![f32::NAN; 2]).statistics();
+        assert_eq!((found.finite, found.undefined), (0, 2));
+        assert!(found.min > found.max && found.mean.is_nan());
+    }
+
+    #[test]
+    fn rows_run_from_left_to_right() {
+        let raster = Raster::from_fn([3, 2], |i, j| f64::from(10 * j + i));
+        assert_eq!(raster.values, [0.0, 1.0, 2.0, 10.0, 11.0, 12.0]);
+        assert_eq!(raster.value(2, 1), 12.0);
+        assert_eq!(raster.row(1), [10.0, 11.0, 12.0]);
+    }
+}

@@ -1,0 +1,286 @@
+//! What a picture shows: a window of the plane on a grid of square pixels.
+//!
+//! Positions are formed as `center + offset`, never as absolute coordinates, so a view 1e-12 of the
+//! domain wide is as good as any. Row 0 is at the *top* of the picture while y points up:
+//!
+//! ```text
+//! offset of the centre of pixel (i, j) = ((i + 1/2 − nx/2) s, (ny/2 − j − 1/2) s),   s = width / nx
+//! ```
+//!
+//! *Continuous* pixel coordinates have their origin at the picture's upper left corner, y down;
+//! the centre of pixel (i, j) is at (i + 1/2, j + 1/2).
+
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// A window of the plane with square pixels; its height follows from the width and the pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The middle of the picture, in world coordinates.
+    pub center: Vec2,
+    /// Width of the picture \[length\], positive and finite.
+    pub width: f64,
+    /// Columns and rows, both positive.
+    pub pixels: [u32; 2],
+}
+
+/// Most pixels of one picture: a raster of f64 values then takes 2 GiB.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// Why there is no such view.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// No pixels, or too many.
+    #[error("a picture of {0}x{1} pixels; give at least 1x1 and at most {MAX_PIXELS} in all")]
+    Pixels(u32, u32),
+    /// Width not positive or not finite.
+    #[error("the view's width is {0}; give a positive length")]
+    Width(f64),
+    /// Centre not finite.
+    #[error("the view's centre is ({}, {}); give two finite numbers", .0.x, .0.y)]
+    Center(Vec2),
+    /// A window without area.
+    #[error("the window from ({}, {}) to ({}, {}) has no area; give two opposite corners",
+        .0.min.x, .0.min.y, .0.max.x, .0.max.y)]
+    EmptyWindow(Rect),
+    /// The pixels are finer than f64 can tell apart around the centre.
+    #[error("a view {width:e} wide at ({}, {}) is finer than double precision; widen it",
+        .center.x, .center.y)]
+    TooDeep {
+        /// Centre asked for.
+        center: Vec2,
+        /// Width asked for.
+        width: f64,
+    },
+}
+
+impl View {
+    /// The view of `width` around `center`.
+    ///
+    /// # Errors
+    /// No pixels or more than [`MAX_PIXELS`]; a width that is not positive; numbers that are not
+    /// finite; a width below the spacing of f64 at the centre.
+    pub fn new(center: Vec2, width: f64, pixels: [u32; 2]) -> Result<Self, ViewError> {
+        let [nx, ny] = pixels;
+        if nx == 0 || ny == 0 || u64::from(nx) * u64::from(ny) > MAX_PIXELS {
+            return Err(ViewError::Pixels(nx, ny));
+        }
+        if !center.is_finite() {
+            return Err(ViewError::Center(center));
+        }
+        let view = Self { center, width, pixels };
+        if !(width > 0.0 && width.is_finite() && view.height() > 0.0 && view.height().is_finite()) {
+            return Err(ViewError::Width(width));
+        }
+        if width < f64::EPSILON * center.x.abs().max(center.y.abs()) {
+            return Err(ViewError::TooDeep { center, width });
+        }
+        Ok(view)
+    }
+
+    /// The smallest view of exactly `pixels` that shows all of `rect`, in the middle.
+    ///
+    /// # Errors
+    /// As [`View::new`]; a box without area.
+    pub fn fit(rect: Rect, pixels: [u32; 2]) -> Result<Self, ViewError> {
+        let size = rect.size();
+        if !(size.x > 0.0 && size.y > 0.0 && size.is_finite()) {
+            return Err(ViewError::EmptyWindow(rect));
+        }
+        let aspect = f64::from(pixels[0]) / f64::from(pixels[1].max(1));
+        Self::new(rect.center(), size.x.max(size.y * aspect), pixels)
+    }
+
+    /// The largest view of the shape of `rect` with at most `pixels`: nothing but the box is seen,
+    /// up to a part of a pixel.
+    ///
+    /// # Errors
+    /// As [`View::fit`].
+    pub fn hug(rect: Rect, pixels: [u32; 2]) -> Result<Self, ViewError> {
+        let whole = Self::fit(rect, pixels)?;
+        let size = rect.size() / whole.pixel_size();
+        let within = |length: f64, most: u32| (length.round() as u32).clamp(1, most);
+        Self::fit(rect, [within(size.x, pixels[0]), within(size.y, pixels[1])])
+    }
+
+    /// The view of exactly `pixels` that shows the window with the opposite corners `(x0, y0)` and
+    /// `(x1, y1)`; where the shapes differ it shows more on both sides.
+    ///
+    /// # Errors
+    /// As [`View::fit`].
+    pub fn window(x0: f64, y0: f64, x1: f64, y1: f64, pixels: [u32; 2]) -> Result<Self, ViewError> {
+        let (a, b) = (vec2(x0, y0), vec2(x1, y1));
+        Self::fit(Rect::new(a.min(b), a.max(b)), pixels)
+    }
+
+    /// The same picture magnified `factor` times around its centre.
+    ///
+    /// # Errors
+    /// As [`View::new`].
+    pub fn zoom(&self, factor: f64) -> Result<Self, ViewError> {
+        Self::new(self.center, self.width / factor, self.pixels)
+    }
+
+    /// The picture magnified `factor` times so that the point at a continuous pixel position stays
+    /// where it is.
+    ///
+    /// # Errors
+    /// As [`View::new`].
+    pub fn zoom_at(&self, pixel: Vec2, factor: f64) -> Result<Self, ViewError> {
+        let shift = self.offset_at(pixel) * (1.0 - 1.0 / factor);
+        Self::new(self.center + shift, self.width / factor, self.pixels)
+    }
+
+    /// Height of the picture \[length\].
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.pixel_size() * f64::from(self.pixels[1])
+    }
+
+    /// Side of a pixel \[length\].
+    #[must_use]
+    pub fn pixel_size(&self) -> f64 {
+        self.width / f64::from(self.pixels[0])
+    }
+
+    /// Half of width and height.
+    #[must_use]
+    pub fn half(&self) -> Vec2 {
+        vec2(self.width, self.height()) * 0.5
+    }
+
+    /// The window in world coordinates, rounded to f64: for reports and coarse tests only.
+    #[must_use]
+    pub fn rect(&self) -> Rect {
+        Rect::around(self.center, self.half())
+    }
+
+    /// x offset of the centres of a column from the view's centre.
+    #[must_use]
+    pub fn column_offset(&self, column: u32) -> f64 {
+        let twice = 2.0 * f64::from(column) + 1.0 - f64::from(self.pixels[0]);
+        0.5 * twice * self.pixel_size()
+    }
+
+    /// y offset of the centres of a row from the view's centre; row 0 is the top.
+    #[must_use]
+    pub fn row_offset(&self, row: u32) -> f64 {
+        let twice = f64::from(self.pixels[1]) - 1.0 - 2.0 * f64::from(row);
+        0.5 * twice * self.pixel_size()
+    }
+
+    /// Offset of a pixel's centre from the view's centre.
+    #[must_use]
+    pub fn offset(&self, column: u32, row: u32) -> Vec2 {
+        vec2(self.column_offset(column), self.row_offset(row))
+    }
+
+    /// Offset from the view's centre of a continuous pixel position.
+    #[must_use]
+    pub fn offset_at(&self, pixel: Vec2) -> Vec2 {
+        let [nx, ny] = self.pixels.map(f64::from);
+        vec2(pixel.x - 0.5 * nx, 0.5 * ny - pixel.y) * self.pixel_size()
+    }
+
+    /// Continuous pixel position of an offset from the view's centre.
+    #[must_use]
+    pub fn pixel_of_offset(&self, offset: Vec2) -> Vec2 {
+        let [nx, ny] = self.pixels.map(f64::from);
+        let in_pixels = offset / self.pixel_size();
+        vec2(0.5 * nx + in_pixels.x, 0.5 * ny - in_pixels.y)
+    }
+
+    /// Continuous pixel position of a world point, through its offset from the centre.
+    #[must_use]
+    pub fn pixel(&self, world: Vec2) -> Vec2 {
+        self.pixel_of_offset(world - self.center)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Rect {
+        Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
+    }
+
+    #[test]
+    fn fit_shows_the_whole_box_with_square_pixels() {
+        let wide = View::fit(square(), [1024, 768]).unwrap();
+        assert_eq!(wide.height(), 2.0);
+        assert!((wide.width - 2.0 * 1024.0 / 768.0).abs() < 1e-15);
+        let tall = View::fit(square(), [100, 400]).unwrap();
+        assert_eq!((tall.width, tall.height()), (2.0, 8.0));
+    }
+
+    #[test]
+    fn hug_takes_the_shape_of_the_box() {
+        let plate = Rect::new(vec2(0.0, 0.0), vec2(2.0, 1.0));
+        let view = View::hug(plate, [1000, 800]).unwrap();
+        assert_eq!((view.pixels, view.width, view.height()), ([1000, 500], 2.0, 1.0));
+        let odd = View::hug(Rect::new(vec2(0.0, 0.0), vec2(1.0, 3.0)), [1000, 100]).unwrap();
+        assert_eq!(odd.pixels, [33, 100]);
+        assert!(odd.width >= 1.0 - 1e-12 && odd.height() >= 3.0 - 1e-12);
+    }
+
+    #[test]
+    fn window_takes_corners_in_any_order() {
+        let pixels = [64, 32];
+        let view = View::window(3.0, 2.0, 1.0, 1.0, pixels).unwrap();
+        assert_eq!(view, View { center: vec2(2.0, 1.5), width: 2.0, pixels });
+    }
+
+    #[test]
+    fn top_row_is_up_and_centres_are_symmetric() {
+        let view = View::fit(square(), [4, 4]).unwrap();
+        assert_eq!(view.offset(0, 0), vec2(-0.75, 0.75));
+        assert_eq!(view.offset(3, 3), vec2(0.75, -0.75));
+        assert_eq!(view.pixel(vec2(-1.0, 1.0)), Vec2::ZERO);
+        for i in 0..4 {
+            assert_eq!(view.column_offset(i), -view.column_offset(3 - i));
+            assert_eq!(view.pixel_of_offset(view.offset(i, 1)), vec2(f64::from(i) + 0.5, 1.5));
+        }
+    }
+
+    /// Around 0.3 neighbouring f64 are 5.6e-17 apart, 1/18 of the pixels of this view; through
+    /// offsets a point a known number of such steps away still lands where it must.
+    #[test]
+    fn mapping_holds_at_a_width_of_1e_12() {
+        let center = vec2(0.3, -0.7);
+        let view = View::new(center, 1e-12, [1000, 500]).unwrap();
+        let ulp = 2f64.powi(-54);
+        let right = view.pixel(vec2(center.x + 1000.0 * ulp, center.y));
+        assert!((right.x - (500.0 + 1000.0 * ulp / 1e-15)).abs() < 1e-9, "{right:?}");
+        assert_eq!(right.y, 250.0);
+        for (column, row) in [(0, 0), (999, 0), (500, 250), (17, 499)] {
+            let there = view.pixel_of_offset(view.offset(column, row));
+            let expected = vec2(f64::from(column) + 0.5, f64::from(row) + 0.5);
+            assert!((there - expected).length() < 1e-9);
+            assert!((view.offset_at(expected) - view.offset(column, row)).length() < 1e-27);
+        }
+    }
+
+    #[test]
+    fn zoom_at_keeps_the_point_under_the_cursor() {
+        let view = View::fit(square(), [640, 480]).unwrap();
+        let cursor = vec2(100.25, 33.5);
+        let world = view.center + view.offset_at(cursor);
+        let closer = view.zoom_at(cursor, 8.0).unwrap();
+        assert_eq!(closer.width, view.width / 8.0);
+        assert!((closer.pixel(world) - cursor).length() < 1e-10);
+    }
+
+    #[test]
+    fn impossible_views_are_refused() {
+        let at = |center, width, pixels| View::new(center, width, pixels).unwrap_err();
+        assert_eq!(at(Vec2::ZERO, 1.0, [0, 5]), ViewError::Pixels(0, 5));
+        assert_eq!(at(Vec2::ZERO, 1.0, [1 << 20, 1 << 20]), ViewError::Pixels(1 << 20, 1 << 20));
+        assert_eq!(at(Vec2::ZERO, -1.0, [5, 5]), ViewError::Width(-1.0));
+        assert!(matches!(at(Vec2::ZERO, f64::NAN, [5, 5]), ViewError::Width(_)));
+        assert!(matches!(at(vec2(f64::NAN, 0.0), 1.0, [5, 5]), ViewError::Center(_)));
+        assert!(matches!(at(vec2(1.0, 0.0), 1e-17, [5, 5]), ViewError::TooDeep { .. }));
+        let flat = View::window(0.0, 1.0, 2.0, 1.0, [5, 5]).unwrap_err();
+        assert!(matches!(flat, ViewError::EmptyWindow(_)), "{flat}");
+    }
+}
