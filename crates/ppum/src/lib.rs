@@ -88,7 +88,8 @@
 //! // Value and gradient (1 derivative) on the crack: the caller chooses the side.
 //! let mut u = [Jet::constant(0.0); 2];
 //! assert!(local.evaluate::<1>(vec2(-0.25, 0.0), Side::Above, &mut u));
-//! assert_eq!((u[1].v, u[1].x), (0.5, -1.0));
+//! assert_eq!(u[1].v, 0.5);
+//! assert!((u[1].x + 1.0).abs() < 1e-14);
 //! local.evaluate::<0>(vec2(-0.25, 0.0), Side::Below, &mut u);
 //! assert_eq!(u[1].v, -0.5);
 //!

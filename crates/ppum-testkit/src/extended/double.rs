@@ -128,6 +128,7 @@ impl PartialOrd<f64> for Double {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::SQRT_2;
 
     /// Errors seen through identities of integers.
     #[test]
@@ -139,7 +140,7 @@ mod tests {
             assert!(((a / b + b / a - (a * a + b * b) / (a * b)) * a / b).to_f64().abs() < 1e-31);
         }
         // √2 = 1.41421356237309504880168872420969807856967…
-        let tail = Double::from(2.0).sqrt() - 1.414_213_562_373_095_1;
+        let tail = Double::from(2.0).sqrt() - SQRT_2;
         assert!((tail.to_f64() + 9.667_293_313_452_913e-17).abs() < 1e-31);
     }
 }

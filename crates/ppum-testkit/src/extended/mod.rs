@@ -47,6 +47,11 @@ impl Dual {
         Self { v, x: slope * self.x, y: slope * self.y }
     }
 
+    /// A function of a and b with value `v` and derivatives `p` by a and `q` by b.
+    fn chain_of_two(v: Double, (a, p): (Self, Double), (b, q): (Self, Double)) -> Self {
+        Self { v, x: p * a.x + q * b.x, y: p * a.y + q * b.y }
+    }
+
     fn sqrt(self) -> Self {
         let v = self.v.sqrt();
         self.chain(v, Double::from(0.5) / v)
@@ -81,8 +86,7 @@ impl Neg for Dual {
 impl Mul for Dual {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        let slope = |p: Double, q: Double| p * b.v + self.v * q;
-        Self { v: self.v * b.v, x: slope(self.x, b.x), y: slope(self.y, b.y) }
+        Self::chain_of_two(self.v * b.v, (self, b.v), (b, self.v))
     }
 }
 
@@ -97,8 +101,7 @@ impl Div for Dual {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         let v = self.v / b.v;
-        let slope = |p: Double, q: Double| (p - v * q) / b.v;
-        Self { v, x: slope(self.x, b.x), y: slope(self.y, b.y) }
+        Self::chain_of_two(v, (self, Double::from(1.0) / b.v), (b, -(v / b.v)))
     }
 }
 

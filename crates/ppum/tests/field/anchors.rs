@@ -1,8 +1,7 @@
 //! `anchor + offset` is the same point wherever the anchor is.
 
-use crate::support::{assert_close, distance_to_cracks, evaluate, patch_size};
+use crate::support::{assert_close, compiled, distance_to_cracks, evaluate, inside, patch_size};
 use ppum::crack::Side;
-use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::extended::{Double, Extended, point};
 use ppum_testkit::random::Random;
@@ -13,7 +12,7 @@ use ppum_testkit::synthetic::Recipe;
 fn anchored_equals_absolute() {
     for seed in 0..8 {
         let dataset = Recipe { extra: Vec::new(), ..Recipe::random(seed) }.dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut absolute, mut random) = (field.at(Vec2::ZERO), Random(seed));
         let around = Rect::around(dataset.domain.center(), vec2(2.0, 2.0));
         for _ in 0..20 {
@@ -25,8 +24,8 @@ fn anchored_equals_absolute() {
                 if r < 1e-3 * size || near_border(&dataset.steps[0].partition, p) {
                     continue;
                 }
-                let a = evaluate::<2>(&mut absolute, p, Side::Above).unwrap();
-                let b = evaluate::<2>(&mut local, p - anchor, Side::Above).unwrap();
+                let a = inside::<2>(&mut absolute, p, Side::Above);
+                let b = inside::<2>(&mut local, p - anchor, Side::Above);
                 for (a, b) in a.iter().zip(&b) {
                     assert_close(a, b, 1e-11, 10.0, size.min(r));
                 }
@@ -50,7 +49,7 @@ fn near_border(partition: &ppum::dataset::Partition, p: Vec2) -> bool {
 fn values_and_gradients_against_extended_precision() {
     for seed in 0..16 {
         let dataset = Recipe { extra: Vec::new(), ..Recipe::random(seed) }.dataset();
-        let (field, extended) = (Field::new(&dataset, 0).unwrap(), Extended::new(&dataset, 0));
+        let (field, extended) = (compiled(&dataset), Extended::new(&dataset, 0));
         let mut random = Random(seed);
         for _ in 0..20 {
             let anchor = random.point(&dataset.domain);

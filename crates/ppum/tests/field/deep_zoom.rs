@@ -1,6 +1,6 @@
 //! von Mises' stress far below the resolution of f64 coordinates, against 31 digits.
 
-use crate::support::distance_to_crack;
+use crate::support::{compiled, distance_to_crack};
 use ppum::crack::{CrackEnd, Side};
 use ppum::dataset::{Dataset, Equation};
 use ppum::field::Field;
@@ -15,13 +15,13 @@ const DIRECTIONS: u32 = 40;
 
 /// Largest relative error of von Mises' stress at offsets of 1e-13 to 1 from an anchor.
 fn largest_error(dataset: &Dataset, anchor: Vec2) -> f64 {
-    let (field, extended) = (Field::new(dataset, 0).unwrap(), Extended::new(dataset, 0));
+    let (field, extended) = (compiled(dataset), Extended::new(dataset, 0));
     let Equation::Elasticity(material) = dataset.equation else { panic!("elasticity") };
     let mut local = field.at(anchor);
     let (mut largest, mut count) = (0.0f64, 0);
     for (n, k) in (0..53).flat_map(|n| (0..DIRECTIONS).map(move |k| (n, k))) {
         let radius = 10f64.powf(-13.0 + 0.25 * f64::from(n));
-        let angle = (f64::from(k) + 0.318) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
+        let angle = (f64::from(k) + 0.37) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
         let offset = vec2(angle.cos(), angle.sin()) * radius;
         if !local.contains(offset) || on_crack(&field, anchor, offset) {
             continue;

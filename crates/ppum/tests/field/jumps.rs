@@ -1,7 +1,8 @@
 //! The field jumps on its cracks and nowhere else.
 
 use crate::support::{
-    ORDERS, distance_to_crack, distance_to_cracks, entries, evaluate, meets_crack, patch_size,
+    ORDERS, compiled, distance_to_crack, distance_to_cracks, entries, evaluate, inside,
+    meets_crack, patch_size,
 };
 use ppum::crack::{Crack, CrackEnd, Side};
 use ppum::field::Field;
@@ -63,7 +64,7 @@ fn continuous_off_the_cracks() {
         let weight = WeightFunction::ALL[seed as usize % 3];
         let smoothness = [1, 3, 6][seed as usize % 3];
         let dataset = Recipe { weight, overlap: 1.4, ..Recipe::random(seed) }.dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         let mut off = 0;
         for (p, q) in steps(&field, &mut random) {
@@ -72,8 +73,8 @@ fn continuous_off_the_cracks() {
             }
             off += 1;
             let size = patch_size(field.step, p);
-            let a = evaluate::<2>(&mut local, p, Side::Above).unwrap();
-            let b = evaluate::<2>(&mut local, q, Side::Above).unwrap();
+            let a = inside::<2>(&mut local, p, Side::Above);
+            let b = inside::<2>(&mut local, q, Side::Above);
             for (a, b) in a.iter().zip(&b) {
                 for (k, (a, b)) in
                     entries(a).into_iter().zip(entries(b)).enumerate().take(smoothness)
@@ -95,7 +96,7 @@ fn continuous_off_the_cracks() {
 fn jumps_on_the_cracks() {
     for seed in 0..6 {
         let dataset = Recipe::random(seed).dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         let (mut over, mut seen) = (0, 0);
         for crack in &field.step.cracks {
@@ -106,7 +107,7 @@ fn jumps_on_the_cracks() {
                     let Some(above) = evaluate::<0>(&mut local, p + normal, Side::Below) else {
                         continue;
                     };
-                    let below = evaluate::<0>(&mut local, p - normal, Side::Above).unwrap();
+                    let below = inside::<0>(&mut local, p - normal, Side::Above);
                     over += 1;
                     seen += usize::from(
                         above.iter().zip(&below).any(|(a, b)| (a.v - b.v).abs() > 0.01),
@@ -141,7 +142,7 @@ fn the_chosen_side_is_the_limit_from_there() {
         ..Recipe::default()
     };
     let dataset = recipe.dataset();
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let mut random = Random(1);
     for s in field.step.cracks.iter().flat_map(|crack| crack.points.windows(2)) {
         let normal = (s[1] - s[0]).unit().left() * 1e-10;
@@ -156,7 +157,7 @@ fn the_chosen_side_is_the_limit_from_there() {
             };
             let anchor = if exact(anchor, p) { anchor } else { s[0] };
             let mut local = field.at(anchor);
-            let mut at = |offset: Vec2, side| evaluate::<1>(&mut local, offset, side).unwrap();
+            let mut at = |offset: Vec2, side| inside::<1>(&mut local, offset, side);
             let (above, below) = (at(p - anchor, Side::Above), at(p - anchor, Side::Below));
             let (over, under) =
                 (at(p - anchor + normal, Side::Above), at(p - anchor - normal, Side::Above));
@@ -184,7 +185,7 @@ fn exact(anchor: Vec2, p: Vec2) -> bool {
 #[test]
 fn the_side_matters_on_the_crack_only() {
     let dataset = Recipe::random(1).dataset();
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let (mut local, mut random) = (field.at(Vec2::ZERO), Random(1));
     for _ in 0..500 {
         let p = random.point(&dataset.domain);
@@ -200,7 +201,7 @@ fn one_jump_on_the_way_round_a_tip() {
     let recipe =
         Recipe { coefficients: Coefficients::Taylor, extra: Vec::new(), ..Recipe::random(4) };
     let dataset = recipe.dataset();
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     for tip in recipe.tips() {
         let crack = &recipe.cracks[tip.crack as usize];
         let center = crack.end_point(tip.end);
@@ -211,7 +212,7 @@ fn one_jump_on_the_way_round_a_tip() {
                 let (s, c) = (f64::from(k) / f64::from(n) * std::f64::consts::TAU).sin_cos();
                 vec2(c, s) * radius
             };
-            let mut u = |k: i32| evaluate::<0>(&mut local, offset(k), Side::Above).unwrap()[0].v;
+            let mut u = |k: i32| inside::<0>(&mut local, offset(k), Side::Above)[0].v;
             let jumps: Vec<_> =
                 (0..n).filter(|&k| (u(k + 1) - u(k)).abs() > 0.03 * radius.sqrt()).collect();
             assert_eq!(jumps.len(), 1, "radius {radius} of {tip:?}");

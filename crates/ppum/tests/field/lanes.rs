@@ -1,6 +1,6 @@
 //! Many points at once equal one point at a time, and points outside are told.
 
-use crate::support::{assert_close, distance_to_cracks, evaluate, patch_size};
+use crate::support::{assert_close, compiled, distance_to_cracks, evaluate, patch_size};
 use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::jet::Jet;
@@ -34,7 +34,7 @@ fn compare<const D: usize>(field: &Field<'_>, anchor: Vec2, points: &[Vec2], sid
 fn lanes_equal_single_points() {
     for seed in 0..12 {
         let dataset = Recipe::random(seed).dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let mut random = Random(seed);
         let around = Rect::around(dataset.domain.center(), dataset.domain.size() * 0.6);
         let anchor = random.point(&around);
@@ -54,7 +54,7 @@ fn lanes_equal_single_points() {
 fn lanes_along_lines_through_tips() {
     let recipe = Recipe::random(3);
     let dataset = recipe.dataset();
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let mut random = Random(3);
     for tip in recipe.tips().map(|tip| recipe.position(tip)) {
         for width in [1e-6, 1e-3, 0.3] {
@@ -84,7 +84,7 @@ fn functions_of_other_patches_do_no_harm() {
             }
         }
     }
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let mut random = Random(5);
     let points: Vec<_> = (0..400).map(|_| random.point(&dataset.domain)).collect();
     compare::<2>(&field, Vec2::ZERO, &points, Side::Above);
@@ -93,7 +93,7 @@ fn functions_of_other_patches_do_no_harm() {
 #[test]
 fn outside_there_is_nothing() {
     let dataset = Recipe::default().dataset();
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let mut local = field.at(Vec2::ZERO);
     let (min, max) = (dataset.domain.min, dataset.domain.max);
     let mises = Quantity::from_name("von-mises", dataset.equation, &field.data.components).unwrap();

@@ -1,10 +1,25 @@
 //! What the tests share: where a field is not smooth, scales, and comparisons.
 
 use ppum::crack::{Crack, Side};
-use ppum::dataset::Step;
-use ppum::field::LocalField;
+use ppum::dataset::{Dataset, Step};
+use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::Vec2;
+
+/// The field of a synthetic dataset.
+pub(crate) fn compiled(dataset: &Dataset) -> Field<'_> {
+    Field::new(dataset, 0).expect("recipes make valid datasets")
+}
+
+/// The components of the field at a point of the domain.
+#[track_caller]
+pub(crate) fn inside<const D: usize>(
+    local: &mut LocalField<'_>,
+    offset: Vec2,
+    side: Side,
+) -> Vec<Jet<f64>> {
+    evaluate::<D>(local, offset, side).expect("a point of the domain")
+}
 
 /// The components of the field at an offset from the anchor; `None` outside the domain.
 pub(crate) fn evaluate<const D: usize>(

@@ -1,6 +1,8 @@
 //! Gradients and Hessians of whole fields against differences.
 
-use crate::support::{distance_to_cracks, distance_to_kinks, entries, evaluate, patch_size};
+use crate::support::{
+    compiled, distance_to_cracks, distance_to_kinks, entries, inside, patch_size,
+};
 use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
 use ppum::vec2::{Vec2, vec2};
@@ -17,9 +19,8 @@ fn difference(
     h: f64,
     component: usize,
 ) -> [f64; 6] {
-    let mut at = |t: f64| {
-        entries(&evaluate::<2>(local, offset + direction * t, Side::Above).unwrap()[component])
-    };
+    let mut at =
+        |t: f64| entries(&inside::<2>(local, offset + direction * t, Side::Above)[component]);
     let mut central = |h: f64| {
         let (plus, minus) = (at(h), at(-h));
         std::array::from_fn(|k| (plus[k] - minus[k]) / (2.0 * h))
@@ -52,12 +53,12 @@ fn smooth_place(field: &Field<'_>, random: &mut Random) -> (Vec2, f64) {
 fn gradients_and_hessians_against_differences() {
     for (seed, weight) in (0..4).flat_map(|s| WeightFunction::ALL.map(|w| (s, w))) {
         let dataset = Recipe { weight, ..Recipe::random(seed) }.dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let mut random = Random(seed);
         for _ in 0..60 {
             let (p, h) = smooth_place(&field, &mut random);
             let (mut local, size) = (field.at(p), patch_size(field.step, p));
-            let u = evaluate::<2>(&mut local, Vec2::ZERO, Side::Above).unwrap();
+            let u = inside::<2>(&mut local, Vec2::ZERO, Side::Above);
             for (component, u) in u.iter().enumerate() {
                 let dx = difference(&mut local, Vec2::ZERO, vec2(1.0, 0.0), h, component);
                 let dy = difference(&mut local, Vec2::ZERO, vec2(0.0, 1.0), h, component);
@@ -86,13 +87,13 @@ fn gradients_and_hessians_against_differences() {
 fn fewer_derivatives_agree() {
     for seed in 0..4 {
         let dataset = Recipe::random(seed).dataset();
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         for _ in 0..100 {
             let p = random.point(&dataset.domain);
-            let two = evaluate::<2>(&mut local, p, Side::Above).unwrap();
-            let one = evaluate::<1>(&mut local, p, Side::Above).unwrap();
-            let zero = evaluate::<0>(&mut local, p, Side::Above).unwrap();
+            let two = inside::<2>(&mut local, p, Side::Above);
+            let one = inside::<1>(&mut local, p, Side::Above);
+            let zero = inside::<0>(&mut local, p, Side::Above);
             for ((a, b), c) in two.iter().zip(&one).zip(&zero) {
                 assert_eq!([a.v, a.x, a.y], [b.v, b.x, b.y]);
                 assert_eq!(b.v, c.v);

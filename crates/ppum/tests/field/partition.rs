@@ -1,6 +1,6 @@
 //! The partition of unity on random graded covers.
 
-use crate::support::{ORDERS, entries, patch_size};
+use crate::support::{ORDERS, compiled, entries, patch_size};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
@@ -28,7 +28,7 @@ fn covering(field: &Field<'_>, p: Vec2) -> Vec<usize> {
 #[test]
 fn functions_sum_to_one_and_their_derivatives_to_zero() {
     for dataset in datasets() {
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(7));
         for _ in 0..200 {
             let p = random.point(&dataset.domain);
@@ -56,7 +56,7 @@ fn functions_sum_to_one_and_their_derivatives_to_zero() {
 #[test]
 fn the_patches_found_are_those_that_cover() {
     for dataset in datasets() {
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(8));
         let partition = &field.step.partition;
         let corner = |patch: usize| {
@@ -80,7 +80,7 @@ fn the_patches_found_are_those_that_cover() {
 #[test]
 fn quantities_of_the_partition() {
     for dataset in datasets() {
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(dataset.domain.min), Random(9));
         let named = |name: &str| {
             Quantity::from_name(name, dataset.equation, &field.data.components).unwrap()

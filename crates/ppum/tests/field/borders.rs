@@ -1,9 +1,9 @@
 //! Borders of cells and patches, and kinks of weights, belong to the right and upper side.
 
-use crate::support::{assert_close, entries, evaluate};
+use crate::support::{assert_close, compiled, entries, evaluate};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
-use ppum::field::{Field, LocalField};
+use ppum::field::LocalField;
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
@@ -59,7 +59,7 @@ fn places(dataset: &Dataset) -> Vec<(Vec2, Vec2)> {
 fn the_limit_from_the_right_and_from_above() {
     for weight in WeightFunction::ALL {
         let dataset = dataset(weight);
-        let field = Field::new(&dataset, 0).unwrap();
+        let field = compiled(&dataset);
         let mut local = field.at(Vec2::ZERO);
         let (places, mut differ) = (places(&dataset), 0);
         for &(p, step) in &places {
@@ -100,7 +100,7 @@ fn the_limit_from_the_right_and_from_above() {
 #[test]
 fn borders_seen_from_anchors() {
     let dataset = dataset(WeightFunction::Linear);
-    let field = Field::new(&dataset, 0).unwrap();
+    let field = compiled(&dataset);
     let mut absolute = field.at(Vec2::ZERO);
     for (p, _) in places(&dataset) {
         let expected = jets(&mut absolute, p).unwrap();
