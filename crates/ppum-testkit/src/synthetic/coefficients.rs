@@ -15,8 +15,8 @@ pub enum Coefficients {
     /// Uniform in \[−1, 1): patches have nothing to do with each other.
     Random,
     /// As a solver finds them: the field is [`smooth`] plus [`amplitude`] × Westergaard functions of
-    /// the tips. Patches near a tip have its functions with these factors, all else is expanded by
-    /// Taylor's formula about each patch, so that neighbours agree up to h³.
+    /// the tips × [`cut_off`]. Patches near a tip have its functions with these factors, all else is
+    /// expanded by Taylor's formula about each patch, so that neighbours agree up to h³.
     Taylor,
     /// The same polynomial everywhere: for each component the coefficients of the monomials, in the
     /// order of datasets, of x and y measured from the domain's centre. Blocks other than the smooth
@@ -36,6 +36,23 @@ pub fn smooth(component: usize, p: Vec2) -> Jet<f64> {
     let (a, b) = (1.3 + 0.4 * component as f64, 0.9 - 0.5 * component as f64);
     let (s, c) = (a * p.x + b * p.y + component as f64).sin_cos();
     Jet { v: s, x: a * c, y: b * c, xx: -a * a * s, xy: -a * b * s, yy: -b * b * s }
+}
+
+/// 1 within `zone` of a tip, falling smoothly to 0 at twice that: beyond the other end of the crack a
+/// tip's functions would go on jumping. `d` is the point minus the tip.
+#[must_use]
+pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
+    let scale = 1.0 / (3.0 * zone * zone);
+    let q = (d.dot(d) - zone * zone) * scale;
+    if !(0.0..1.0).contains(&q) {
+        return Jet::constant(if q < 0.0 { 1.0 } else { 0.0 });
+    }
+    let (x, y, second) = (2.0 * d.x * scale, 2.0 * d.y * scale, 2.0 * scale);
+    let q = Jet { v: q, x, y, xx: second, xy: 0.0, yy: second };
+    let square = q.times::<2>(q);
+    let factor = square.scaled::<2>(6.0).minus::<2>(q.scaled::<2>(15.0));
+    let factor = factor.plus::<2>(Jet::constant(10.0));
+    Jet::constant(1.0).minus::<2>(square.times::<2>(q).times::<2>(factor))
 }
 
 pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Function]) -> FieldData {
@@ -175,6 +192,9 @@ impl Maker<'_> {
 
     /// The cracks that cut a patch through: none of their tips lies in its open box.
     fn cuts(&self, patch: usize, near: &[bool]) -> Vec<Cut> {
+        if !self.recipe.jumps {
+            return Vec::new();
+        }
         let support = self.partition.support(patch).intersection(&self.recipe.domain);
         let cuts =
             (0..).zip(&self.recipe.cracks).filter(|(_, crack)| cuts_through(crack, &support));
@@ -196,15 +216,18 @@ impl Maker<'_> {
         }
         let functions = self.table.at(&self.recipe.cracks, at);
         let first = 1 + self.recipe.cracks.len();
+        let zone = self.recipe.zone;
+        let share = |id| cut_off(at + step - self.recipe.position(id), zone);
+        let shares: Vec<_> = self.recipe.tips().map(share).collect();
         for (tip, k) in (0..4 * near.len()).map(|f| (f / 4, f % 4)).filter(|&(tip, _)| !near[tip]) {
             let Slot::Jet { group, entry } = self.table.of((first + 4 * tip + k) as u32) else {
                 continue;
             };
             let mut f = [Jet::constant(0.0); GROUP];
             functions.evaluate::<f64, 2>(group as usize, step.into(), Side::Above, &mut f);
+            let f = f[entry as usize].times::<2>(shares[tip]);
             for (component, jet) in jets.iter_mut().enumerate() {
-                let part = f[entry as usize].scaled::<2>(amplitude(tip, k, component));
-                *jet = jet.plus::<2>(part);
+                *jet = jet.plus::<2>(f.scaled::<2>(amplitude(tip, k, component)));
             }
         }
         jets

@@ -17,7 +17,7 @@ use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-pub use coefficients::{Coefficients, amplitude, smooth};
+pub use coefficients::{Coefficients, amplitude, cut_off, smooth};
 
 /// What a synthetic dataset looks like.
 #[derive(Clone, Debug)]
@@ -48,6 +48,8 @@ pub struct Recipe {
     pub tip_degree: u8,
     /// Patches whose centre is closer than this to a tip have its functions.
     pub zone: f64,
+    /// Patches that a crack cuts through have its side function.
+    pub jumps: bool,
     /// Texts that stand for the four Westergaard functions in the tips' frames.
     pub tip_functions: [String; 4],
     /// More functions; every third patch has one of them, in turn, with a linear polynomial.
@@ -77,6 +79,7 @@ impl Default for Recipe {
             degrees: vec![2],
             tip_degree: 0,
             zone: 0.2,
+            jumps: true,
             tip_functions: WESTERGAARD.map(str::to_owned),
             extra: Vec::new(),
             components: 2,
@@ -257,4 +260,56 @@ fn random_cracks(random: &mut Random) -> Vec<Crack> {
         crack(&straight, [CrackEnd::Tip; 2]),
         crack(&edge, [CrackEnd::Mouth, CrackEnd::Tip]),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::Side;
+    use ppum::field::Field;
+    use ppum::function::FunctionTable;
+    use ppum::jet::Jet;
+
+    /// The field that [`Coefficients::Taylor`] expands, as the sum of its parts.
+    fn target(recipe: &Recipe, table: &FunctionTable, p: Vec2) -> f64 {
+        let functions = table.at(&recipe.cracks, p);
+        let mut sum = smooth(0, p).v;
+        // the sides of the cracks are the first groups, then come the tips
+        for (tip, id) in recipe.tips().enumerate() {
+            let mut f = [Jet::constant(0.0); 4];
+            let group = recipe.cracks.len() + tip;
+            functions.evaluate::<f64, 0>(group, [0.0; 2], Side::Above, &mut f);
+            let parts = f.iter().enumerate().map(|(k, f)| amplitude(tip, k, 0) * f.v);
+            sum += parts.sum::<f64>() * cut_off(p - recipe.position(id), recipe.zone).v;
+        }
+        sum
+    }
+
+    /// Largest error at random points, the neighbourhood of the tips included.
+    fn error(level: u8) -> f64 {
+        let recipe = Recipe { level, tip_level: level + 2, zone: 0.15, ..Recipe::default() };
+        let dataset = recipe.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let table = FunctionTable::new(&recipe.functions()).expect("functions");
+        let (mut local, mut random) = (field.at(Vec2::ZERO), Random(1));
+        let apart = |_| {
+            let p = random.point(&recipe.domain);
+            let mut u = [Jet::constant(0.0); 2];
+            assert!(local.evaluate::<0>(p, Side::Above, &mut u));
+            (u[0].v - target(&recipe, &table, p)).abs()
+        };
+        (0..5000).map(apart).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn taylor_coefficients_converge_to_the_field_they_expand() {
+        let (coarse, fine) = (error(2), error(3));
+        assert!(fine < 1e-2 && coarse / fine > 5.0, "{coarse} {fine}");
+    }
+
+    #[test]
+    fn a_recipe_always_gives_the_same() {
+        assert_eq!(Recipe::random(5).dataset(), Recipe::random(5).dataset());
+        assert_ne!(Recipe::random(5).dataset(), Recipe::random(6).dataset());
+    }
 }

@@ -9,4 +9,5 @@ mod jumps;
 mod lanes;
 mod partition;
 mod reproduction;
+mod sides;
 mod support;
