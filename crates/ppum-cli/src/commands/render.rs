@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 use clap::ValueEnum;
-use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
@@ -19,8 +18,8 @@ use ppum_render::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::range::Range;
-use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
+use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::arguments::size;
@@ -169,10 +168,9 @@ impl Args {
         quantity: Quantity,
         style: &Style,
     ) -> anyhow::Result<Picture> {
-        let raster = raster(field, view, quantity);
         Ok(match self.precision {
-            Precision::F64 => Picture::bare(&raster, view, style)?,
-            Precision::F32 => Picture::bare(&raster, view, style)?,
+            Precision::F64 => Picture::bare(&render::<f64>(field, view, quantity)?, view, style)?,
+            Precision::F32 => Picture::bare(&render::<f32>(field, view, quantity)?, view, style)?,
         })
     }
 
@@ -196,12 +194,6 @@ impl Args {
         }
         Ok(picture.image.clone())
     }
-}
-
-fn raster(field: &Field<'_>, view: &View, quantity: Quantity) -> Raster {
-    Raster::from_fn(view.pixels, |column, row| {
-        quantity.at(&mut field.at(view.center), view.offset(column, row), Side::Above)
-    })
 }
 
 fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
