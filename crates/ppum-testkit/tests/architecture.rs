@@ -78,7 +78,8 @@ fn documented() -> Arrows {
     let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the page is there");
     let quoted = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect();
     let row = |line: &str| -> Option<(String, BTreeSet<String>)> {
-        let cells: Vec<_> = line.strip_prefix('|')?.trim_end().strip_suffix('|')?.split('|').collect();
+        let cells: Vec<_> =
+            line.strip_prefix('|')?.trim_end().strip_suffix('|')?.split('|').collect();
         let first = cells.first()?.trim().strip_prefix('`')?.strip_suffix('`')?;
         is_ours(first).then(|| (first.to_owned(), quoted(cells[cells.len() - 1])))
     };
