@@ -80,3 +80,52 @@ impl Contact {
 fn largest(a: f64, b: f64) -> f64 {
     a.abs().max(b.abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use ppum::vec2::vec2;
+
+    use super::*;
+
+    fn crack(points: &[(f64, f64)], ends: [CrackEnd; 2]) -> Crack {
+        Crack { points: points.iter().map(|&(x, y)| vec2(x, y)).collect(), ends }
+    }
+
+    /// Points a + t (b − a), rounded, of many oblique segments: each has two sides, a hair apart.
+    #[test]
+    fn rounded_points_on_oblique_cracks() {
+        for k in 0..500 {
+            let (sin, cos) = (0.1 + 0.7 * f64::from(k)).sin_cos();
+            let (a, b) = (vec2(0.3 * cos, 0.3 * sin), vec2(-0.5 * sin - 0.9 * cos, 0.2 * cos));
+            let crack = crack(&[(a.x, a.y), (b.x, b.y)], [CrackEnd::Tip; 2]);
+            let point = a + (b - a) * (0.01 + 0.98 * f64::from(k) / 500.0);
+            let found = on_crack(std::slice::from_ref(&crack), point, Vec2::ZERO);
+            let local = LocalCrack::new(&crack, point);
+            let [above, below] = found.expect("on the crack");
+            assert_eq!(local.side([above.x, above.y], Side::Above), 1.0);
+            assert_eq!(local.side([below.x, below.y], Side::Below), -1.0);
+            assert!(above.length().max(below.length()) < 1e-14, "{above:?} {below:?}");
+        }
+    }
+
+    #[test]
+    fn tips_do_not_count_and_mouths_and_kinks_do() {
+        let bent = [crack(&[(0.0, 0.1), (0.3, 0.1), (0.5, 0.7)], [CrackEnd::Mouth, CrackEnd::Tip])];
+        let at = |x, y| on_crack(&bent, vec2(x, y), Vec2::ZERO);
+        assert_eq!(at(0.0, 0.1), Some([Vec2::ZERO; 2]));
+        assert_eq!(at(0.3, 0.1), Some([Vec2::ZERO; 2]));
+        assert!(at(0.4, 0.4).is_some());
+        for (x, y) in [(0.5, 0.7), (-1e-9, 0.1), (0.1, 0.1 + 1e-12), (0.6, 1.0)] {
+            assert_eq!(at(x, y), None, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn offsets_mean_what_they_say() {
+        let straight = [crack(&[(-0.5, 0.3), (0.5, 0.3)], [CrackEnd::Tip; 2])];
+        let at = |dx, dy| on_crack(&straight, vec2(0.5, 0.3), vec2(dx, dy));
+        assert_eq!(at(-1e-30, 0.0), Some([vec2(-1e-30, 0.0); 2]));
+        assert_eq!(at(1e-30, 0.0), None);
+        assert_eq!(at(-1e-30, 1e-40), None);
+    }
+}

@@ -74,7 +74,8 @@ pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
         for (number, tip) in group.iter().enumerate() {
             let Tip { crack, tip: at, spread, .. } = tip;
             let [k1, k2] = [tip.k1, tip.k2].map(|k| short(k.0));
-            let row = format!("{:>24}  {k1:>12}  {k2:>12}  {:>7.0e}", point(*at), spread.0);
+            let spread = if spread.0.is_nan() { "–".into() } else { format!("{:.0e}", spread.0) };
+            let row = format!("{:>24}  {k1:>12}  {k2:>12}  {spread:>7}", point(*at));
             writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;
         }
     }

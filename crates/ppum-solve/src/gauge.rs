@@ -2,7 +2,6 @@
 //! the penalty that fixes them.
 
 use crate::basis::{BasisEvaluator, StableBasis};
-use crate::cell::CellFunctions;
 use crate::eigen::{EigenError, SymmetricEigen};
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use crate::shape::Shapes;
@@ -59,8 +58,9 @@ pub(crate) fn check_balance(system: &System, free: &[PerMotion]) -> Result<(), U
     Ok(())
 }
 
-/// Adds γ Σ_k r_k r_kᵀ to the matrix, r_k = ∫ N·m_k over one cell for each free motion m_k. It moves
-/// the free motions only: exact for balanced loads, whatever γ > 0.
+/// Adds γ Σ_k r_k r_kᵀ to the matrix, r_k(u) = ∫ φ_i v_i·m_k over the cell of one patch i, for each
+/// free motion m_k. It moves the free motions only: exact for balanced loads, whatever γ > 0. One
+/// patch, so that no patches are coupled that do not meet.
 pub(crate) fn gauge(
     system: &mut System,
     space: &Space<'_>,
@@ -68,62 +68,43 @@ pub(crate) fn gauge(
     motions: &RigidMotions,
     free: &[PerMotion],
 ) {
-    let components = motions.components();
     if free.is_empty() {
         return;
     }
-    // the cell with the fewest functions: away from cracks, where nothing is nearly dependent
-    let size = |cell: &usize| {
-        space.coverers[*cell].iter().map(|&p| space.sizes[p as usize]).sum::<usize>()
-    };
-    let cell = (0..space.coverers.len()).min_by_key(size).expect("a cover has a cell");
-    let functions = CellFunctions::new(space, basis, cell);
-    let moments = moments(space, basis, cell, &functions, motions, free);
+    // the patch with the fewest functions: away from cracks, where nothing is nearly dependent
+    let patch =
+        (0..space.sizes.len()).min_by_key(|&p| space.sizes[p]).expect("a cover has a patch");
+    let moments = moments(space, basis, patch, motions, free);
     let length = moments.iter().flatten().fold(0.0f64, |m, v| m.max(v * v));
-    let largest = functions.patches.iter().map(|&p| largest_diagonal(system, p as usize));
-    let gamma = largest.fold(0.0, f64::max) / length;
-    for (k, &p) in functions.patches.iter().enumerate() {
-        for (l, &q) in functions.patches.iter().enumerate().skip(k) {
-            let (rows, columns) =
-                (functions.unknowns(k, components), functions.unknowns(l, components));
-            let block = Mat::from_fn(rows.len(), columns.len(), |a, b| {
-                gamma * moments.iter().map(|r| r[rows[a]] * r[columns[b]]).sum::<f64>()
-            });
-            system.matrix.add_block(p as usize, q as usize, block.as_ref());
-        }
-    }
+    let stiffness = system.matrix.block(patch, patch).expect("a patch is coupled to itself");
+    let n = stiffness.nrows();
+    let gamma = (0..n).map(|k| stiffness[(k, k)]).fold(0.0, f64::max) / length;
+    let block = Mat::from_fn(n, n, |a, b| gamma * moments.iter().map(|r| r[a] * r[b]).sum::<f64>());
+    system.matrix.add_block(patch, patch, block.as_ref());
 }
 
-fn largest_diagonal(system: &System, patch: usize) -> f64 {
-    let block = system.matrix.block(patch, patch).expect("a patch is coupled to itself");
-    (0..block.nrows()).map(|k| block[(k, k)]).fold(0.0, f64::max)
-}
-
-/// r_k over the unknowns of a cell.
+/// r_k over the unknowns of a patch, component-major.
 fn moments(
     space: &Space<'_>,
     basis: &StableBasis,
-    cell: usize,
-    functions: &CellFunctions,
+    patch: usize,
     motions: &RigidMotions,
     free: &[PerMotion],
 ) -> Vec<Vec<f64>> {
-    let components = motions.components();
-    let quadrature = space.quadrature(0);
+    let (components, size) = (motions.components(), basis.sizes[patch]);
     let (mut evaluator, mut shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
-    let mut moments = vec![vec![0.0; functions.len() * components]; free.len()];
-    for rule in quadrature.cell(&space.partition.cell[cell], &space.coverers[cell]) {
+    let mut moments = vec![vec![0.0; size * components]; free.len()];
+    for rule in space.quadrature(0).cell(&space.partition.cell[patch], &space.coverers[patch]) {
         evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut shapes);
-        let numbers = functions.numbers(&rule.patches);
+        let before = rule.patches.iter().take_while(|&&p| p != patch as u32);
+        let first: usize = before.map(|&p| basis.sizes[p as usize]).sum();
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let basic = motions.at(rule.anchor + offset);
             for (moment, motion) in moments.iter_mut().zip(free) {
-                for i in 0..components {
+                for (row, sum) in moment.iter_mut().enumerate() {
+                    let (i, a) = (row / size, first + row % size);
                     let m: f64 = (0..MOTIONS).map(|k| motion[k] * basic[k][i]).sum();
-                    for (a, number) in numbers.iter().enumerate() {
-                        let n = shapes.value[a * shapes.points + q];
-                        moment[number * components + i] += weight * m * n;
-                    }
+                    *sum += weight * m * shapes.value[a * shapes.points + q];
                 }
             }
         }

@@ -25,8 +25,11 @@ use rayon::prelude::*;
 /// with m = 4 their error is seen at 1e-7, with more at 1e-10.
 const CUT_OFF_POWER: i32 = 6;
 
-/// Gauss points in each direction.
+/// Gauss points in each direction of cells that are large in the disc, where the cut-off bends.
 const ORDER: usize = 12;
+
+/// Part of the radius below which a cell is small and the order of the assembly is enough.
+const SMALL: f64 = 0.2;
 
 /// Radii in parts of the largest disc free of borders, kinks and other cracks; the last one is
 /// preferred, its integral averages most.
@@ -53,9 +56,9 @@ pub fn intensities(
         .map(|tip| {
             let largest = free_radius(&field.step.cracks, &dataset.domain, tip);
             let integral = Interaction { field, space, law: &law, material, tip, force };
-            let rings = RADII.map(|part| integral.ring(part * largest)).to_vec();
+            let rings = integral.rings(RADII.map(|part| part * largest));
             let Ring { k1, k2, .. } = rings[RADII.len() - 1];
-            TipIntensity { tip, k1, k2, rings }
+            TipIntensity { tip, k1, k2, rings: rings.to_vec() }
         })
         .collect()
 }
@@ -88,48 +91,56 @@ struct Interaction<'a> {
     force: Option<BodyForce<'a>>,
 }
 
+/// Integrals of both modes over each disc.
+type Integrals = [[f64; 2]; RADII.len()];
+
 impl Interaction<'_> {
-    fn ring(&self, radius: f64) -> Ring {
+    /// All discs in one pass over the cells; `radii` ascend.
+    fn rings(&self, radii: [f64; RADII.len()]) -> [Ring; RADII.len()] {
         let center = self.field.step.cracks[self.tip.crack as usize].end_point(self.tip.end);
         let quadrature = self.space.quadrature(0);
-        let cells = &self.space.partition.cell;
-        let near: Vec<_> =
-            (0..cells.len()).filter(|&c| cells[c].distance(center) < radius).collect();
-        let parts: Vec<[f64; 2]> = near
+        let (cells, largest) = (&self.space.partition.cell, radii[RADII.len() - 1]);
+        let near = (0..cells.len()).filter(|&c| cells[c].distance(center) < largest);
+        let near: Vec<_> = near.collect();
+        let parts: Vec<Integrals> = near
             .par_iter()
             .map(|&c| {
-                let rules =
-                    quadrature.disc(&cells[c], &self.space.coverers[c], center, radius, ORDER);
-                sum(rules.iter().map(|rule| self.rule(rule, radius)))
+                let small = cells[c].size().length() < SMALL * radii[0];
+                let order = if small { self.space.degree() + 4 } else { ORDER };
+                let coverers = &self.space.coverers[c];
+                let rules = quadrature.disc(&cells[c], coverers, center, largest, order);
+                sum(rules.iter().map(|rule| self.rule(rule, &radii)))
             })
             .collect();
         let factor = 0.5 * self.material.effective_young();
-        let [k1, k2] = sum(parts.into_iter()).map(|m| factor * m);
-        Ring { r1: 0.0, r2: radius, k1, k2 }
+        let integrals = sum(parts.into_iter());
+        std::array::from_fn(|k| {
+            let [k1, k2] = integrals[k].map(|m| factor * m);
+            Ring { r1: 0.0, r2: radii[k], k1, k2 }
+        })
     }
 
-    /// Both modes' integrals over the points of a rule.
-    fn rule(&self, rule: &Rule, radius: f64) -> [f64; 2] {
+    fn rule(&self, rule: &Rule, radii: &[f64; RADII.len()]) -> Integrals {
         let local = self.field.at(rule.anchor);
         let crack = &self.field.step.cracks[self.tip.crack as usize];
         let tip = LocalTip::new(crack, self.tip.end, rule.anchor);
         let points = rule.offsets.iter().zip(&rule.weights);
         sum(points.map(|(&offset, &weight)| {
             let point = tip.point([offset.x, offset.y], Side::Above);
-            let square = (point.x * point.x + point.y * point.y) / (radius * radius);
-            if square >= 1.0 {
-                return [0.0; 2];
+            let square = point.x * point.x + point.y * point.y;
+            if square >= radii[RADII.len() - 1].powi(2) {
+                return Integrals::default();
             }
             let mut u = [Jet::constant(0.0); 2];
             local.over_patches::<f64, 1>([offset.x, offset.y], Side::Above, &rule.patches, &mut u);
             let u = in_frame(&u, tip.axis);
-            let (q, slope) = cut_off(square, radius);
-            let dq = vec2(point.x, point.y) * slope;
             let b = self.force.map_or(Vec2::ZERO, |force| force(rule.anchor + offset).into());
             let b = vec2(tip.axis.dot(b), tip.axis.cross(b));
-            let functions = westergaard::<f64, 1>(&point);
-            auxiliary(&self.material, &functions).map(|aux| {
-                weight * (self.density(&u, &aux, dq) - q * (b.x * aux[0].x + b.y * aux[1].x))
+            let aux = auxiliary(&self.material, &westergaard::<f64, 1>(&point));
+            radii.map(|radius| {
+                let (q, slope) = cut_off(square, radius);
+                let dq = vec2(point.x, point.y) * slope;
+                aux.map(|a| weight * (self.density(&u, &a, dq) - q * (b.x * a[0].x + b.y * a[1].x)))
             })
         }))
     }
@@ -143,13 +154,15 @@ impl Interaction<'_> {
     }
 }
 
-fn sum(parts: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    parts.fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]])
+fn sum(parts: impl Iterator<Item = Integrals>) -> Integrals {
+    parts.fold(Integrals::default(), |a, b| {
+        std::array::from_fn(|k| [a[k][0] + b[k][0], a[k][1] + b[k][1]])
+    })
 }
 
-/// q and q′(r)/r for r²/R² = `square`.
+/// q and q′(r)/r for r² = `square`; zero outside the disc.
 fn cut_off(square: f64, radius: f64) -> (f64, f64) {
-    let base = 1.0 - square;
+    let base = (1.0 - square / (radius * radius)).max(0.0);
     let slope = -2.0 * f64::from(CUT_OFF_POWER) / (radius * radius);
     (base.powi(CUT_OFF_POWER), slope * base.powi(CUT_OFF_POWER - 1))
 }

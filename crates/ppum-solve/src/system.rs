@@ -138,6 +138,10 @@ impl System {
                 self.load[start + row] += part.load[from];
             }
             for (l, &q) in patches.iter().enumerate().skip(k) {
+                // both meet the cell, but not each other
+                if !self.matrix.couples(p, q as usize) {
+                    continue;
+                }
                 let block = part.block(k, l, components);
                 self.matrix.add_block(p, q as usize, block.as_ref());
             }
@@ -150,12 +154,14 @@ impl System {
     }
 }
 
-/// Two patches are coupled when they meet in a cell.
+/// Two patches are coupled when their open supports meet.
 fn pattern(space: &Space<'_>) -> BlockPattern {
+    let support = |p: u32| space.partition.support(p as usize);
     let mut rows = vec![Vec::new(); space.partition.len()];
     for patches in &space.coverers {
         for (k, &p) in patches.iter().enumerate() {
-            rows[p as usize].extend_from_slice(&patches[k..]);
+            let meets = |q: &&u32| support(p).overlaps(&support(**q));
+            rows[p as usize].extend(patches[k..].iter().filter(meets));
         }
     }
     let (mut starts, mut columns) = (vec![0], Vec::new());

@@ -61,8 +61,7 @@ impl WeightFunction {
             Self::Quadratic => quadratic(xi, t),
             Self::Cubic => cubic(t),
         };
-        let inside = |v| R::select(one.gt(xi), R::select(xi.ge(-one), v, zero), zero);
-        [w.max(zero), inside(s * slope), inside(curvature)]
+        [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
     }
 
     /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
@@ -85,18 +84,28 @@ impl WeightFunction {
     }
 }
 
+/// `v` for ξ in \[−1, 1), else zero.
+#[inline(always)]
+fn inside<R: Real>(xi: R, v: R) -> R {
+    let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+    R::select(one.gt(xi), R::select(xi.ge(-one), v, zero), zero)
+}
+
 /// Quadratic spline and its derivatives by t; the knots ±1/3 belong to the piece on their right.
 #[inline(always)]
 fn quadratic<R: Real>(xi: R, t: R) -> [R; 3] {
     let (one, third) = (t.lit(1.0), t.lit(1.0 / 3.0));
     let u = (one - t).max(t.lit(0.0));
-    let pick =
-        |core: R, flank: R| R::select(xi.ge(-third), R::select(third.gt(xi), core, flank), flank);
-    [
-        pick(one - t.lit(3.0) * t * t, t.lit(1.5) * u * u),
-        pick(t.lit(-6.0) * t, t.lit(-3.0) * u),
-        pick(t.lit(-6.0), t.lit(3.0)),
-    ]
+    let (right, left) = (xi.ge(-third), third.gt(xi));
+    let core = [one - t.lit(3.0) * t * t, t.lit(-6.0) * t, t.lit(-6.0)];
+    let flank = [t.lit(1.5) * u * u, t.lit(-3.0) * u, t.lit(3.0)];
+    let mut out = flank;
+    let mut k = 0;
+    while k < 3 {
+        out[k] = R::select(right, R::select(left, core[k], flank[k]), flank[k]);
+        k += 1;
+    }
+    out
 }
 
 /// Cubic spline and its derivatives by t; its second derivative is continuous.
@@ -104,11 +113,11 @@ fn quadratic<R: Real>(xi: R, t: R) -> [R; 3] {
 fn cubic<R: Real>(t: R) -> [R; 3] {
     let (one, six) = (t.lit(1.0), t.lit(6.0));
     let u = (one - t).max(t.lit(0.0));
-    let pick = |core: R, flank: R| R::select(t.lit(0.5).gt(t), core, flank);
+    let near = t.lit(0.5).gt(t);
     [
-        pick(one - six * t * t * u, t.lit(2.0) * u * u * u),
-        pick(t * (t.lit(18.0) * t - t.lit(12.0)), -six * u * u),
-        pick(t.lit(36.0) * t - t.lit(12.0), t.lit(12.0) * u),
+        R::select(near, one - six * t * t * u, t.lit(2.0) * u * u * u),
+        R::select(near, t * (t.lit(18.0) * t - t.lit(12.0)), -six * u * u),
+        R::select(near, t.lit(36.0) * t - t.lit(12.0), t.lit(12.0) * u),
     ]
 }
 

@@ -129,7 +129,8 @@ impl Args {
         let mut picture =
             threads::with(self.threads, || self.picture(&field, &view, quantity, &style))??;
         let image = self.image(&mut picture, &field, &labels(&dataset, &field, quantity))?;
-        let texts = picture.description(&dataset.title, &self.file.display().to_string(), name);
+        let file = self.file.file_name().unwrap_or_default().to_string_lossy();
+        let texts = picture.description(&dataset.title, &file, name);
         png::write(&self.output, &image, &texts)?;
         let [columns, rows] = image.size;
         let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);

@@ -1,4 +1,5 @@
 //! The program as its users meet it: from a problem file to results and pictures.
+#![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 mod demo;
 mod errors;

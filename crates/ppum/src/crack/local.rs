@@ -9,8 +9,9 @@ use crate::real::Real;
 use crate::vec2::Vec2;
 
 /// Two squared distances closer than this, relatively, count as equal: they belong to the vertex two
-/// segments share, and rounding must not choose between them.
-const TIE: f64 = 1e-12;
+/// segments share, and rounding (of f32 as well) must not choose between them. Elsewhere the two
+/// lines agree on the side where the distances are that close.
+const TIE: f64 = 1e-6;
 
 /// A crack seen from an anchor.
 #[derive(Clone, Debug)]
@@ -18,12 +19,12 @@ pub struct LocalCrack {
     segments: Vec<LocalSegment>,
 }
 
-/// One segment: coordinates of a point are `along` its line, from its start, and `distance` from
-/// it, positive on the left.
+/// One segment: coordinates of a point are `along` its line, from the anchor, and `distance` from
+/// it, positive on the left. The segment's ends are at `lo` and `hi` along it, each the small number
+/// it is when the anchor is near that end.
 #[derive(Clone, Copy, Debug)]
 struct LocalSegment {
     tangent: Vec2,
-    along: f64,
     distance: f64,
     lo: f64,
     hi: f64,
@@ -32,9 +33,8 @@ struct LocalSegment {
 impl LocalSegment {
     fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
         let (tangent, length) = ((b - a).unit(), (b - a).length());
-        let along = tangent.dot(anchor - a);
         let distance = exact_cross(a, b, anchor) / length;
-        Self { tangent, along, distance, lo: 0.0, hi: length }
+        Self { tangent, distance, lo: tangent.dot(a - anchor), hi: tangent.dot(b - anchor) }
     }
 
     #[inline(always)]
@@ -46,7 +46,7 @@ impl LocalSegment {
     #[inline(always)]
     fn along<R: Real>(&self, offset: [R; 2]) -> R {
         let [x, y] = offset;
-        x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y).mul_add(y, x.lit(self.along)))
+        x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y) * y)
     }
 }
 

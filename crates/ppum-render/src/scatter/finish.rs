@@ -1,0 +1,117 @@
+//! From the sums of a tile to the values of a quantity.
+
+use ppum::jet::Jet;
+use ppum::quantity::{Quantity, Source};
+use ppum::real::{Real, Scalar};
+
+use super::collapse::{ANY, height, known};
+use super::plan::COLUMNS;
+use super::spread::size;
+use super::tile::{Scratch, Tile, load_jet};
+
+impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+    /// Divides, makes the quantity, writes it to the raster and clears the sums. The quantity most
+    /// often drawn is compiled as a constant: the choice between thirty costs more than it.
+    #[inline(always)]
+    pub(super) fn finish<R: Real<Scalar = T>>(
+        &self,
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
+        match (self.scene.quantity, scratch.shift.len()) {
+            (Quantity::VonMises, 2) => {
+                self.finish_as::<R, 2>(Quantity::VonMises, scratch, out, zero);
+            }
+            (quantity, _) => self.finish_as::<R, ANY>(quantity, scratch, out, zero),
+        }
+    }
+
+    /// [`finish`](Self::finish) for `C` components.
+    #[inline(always)]
+    fn finish_as<R: Real<Scalar = T>, const C: usize>(
+        &self,
+        quantity: Quantity,
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
+        let components = known(C, scratch.shift.len());
+        let mut pair = [Jet::constant(zero); 2];
+        let mut many = Vec::new();
+        let jets = if C == 2 {
+            pair.as_mut_slice()
+        } else {
+            many.resize(components, Jet::constant(zero));
+            many.as_mut_slice()
+        };
+        let mut exact = Vec::new();
+        let equation = self.scene.equation;
+        let n = height::<T>();
+        let stride = size::<R, D>() * (1 + components);
+        let width = self.scene.view.pixels[0] as usize;
+        let [mut column, first_row] = self.corner();
+        let end = width.min(column + COLUMNS);
+        let mut start = 0;
+        while column < end {
+            for (row, line) in out.chunks_exact_mut(width).enumerate() {
+                let cell = &mut scratch.sums[start + row * stride..][..stride];
+                if quantity.source() == Source::Exact {
+                    exact.resize(components, zero);
+                    let pixel = [column, first_row + row];
+                    self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
+                }
+                let weight = divide::<R, D>(cell, jets, zero);
+                let value = match quantity.source() {
+                    Source::Partition if components == 0 => weight,
+                    Source::Partition => jets[0].v + zero.lit(scratch.shift[0]),
+                    Source::Values => {
+                        for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
+                            jet.v = jet.v + zero.lit(shift);
+                        }
+                        quantity.of_field(&equation, jets, &exact)
+                    }
+                    Source::Gradient | Source::Exact => quantity.of_field(&equation, jets, &exact),
+                };
+                clear(cell, zero);
+                store(value, &mut line[column..]);
+            }
+            column += R::LANES;
+            start += n * stride;
+        }
+    }
+}
+
+/// The quotients of the sums, and the sum of the weights.
+#[inline(always)]
+fn divide<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero: R) -> R {
+    let size = size::<R, D>();
+    let weight = load_jet::<R, D>(cell, zero);
+    let mut component = 0;
+    while component < jets.len() {
+        let sum = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
+        jets[component] = sum.over::<D>(weight);
+        component += 1;
+    }
+    weight.v
+}
+
+#[inline(always)]
+fn clear<R: Real>(cell: &mut [R::Scalar], zero: R) {
+    for lanes in cell.chunks_exact_mut(R::LANES) {
+        zero.store(lanes);
+    }
+}
+
+/// Stores the lanes, or as many as there is room for.
+#[inline(always)]
+fn store<R: Real>(value: R, to: &mut [R::Scalar]) {
+    if to.len() >= R::LANES {
+        value.store(to);
+    } else {
+        // 16 lanes are the widest vector there is.
+        let mut lanes = [R::Scalar::default(); 16];
+        value.store(&mut lanes);
+        to.copy_from_slice(&lanes[..to.len()]);
+    }
+}

@@ -1,0 +1,162 @@
+//! The CPU renderer: exact values at all pixels of a view, patch by patch on vectors of pixels.
+//!
+//! The picture is cut into tiles. Each patch adds to the sums of the tiles it meets
+//!
+//! ```text
+//! S = Σ W_i     U = Σ W_i v_i     ∇S     ∇U
+//! ```
+//!
+//! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
+//! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
+//! cover, any degree, any number of functions. A patch's weight and polynomials collapse on each row
+//! to polynomials in x ([`collapse`](mod@collapse)); functions are evaluated once for a tile, and only
+//! where a patch needs them.
+//!
+//! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
+//! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
+//! Results depend neither on the number of threads nor on chance; they may differ in the last bits
+//! from processor to processor, since lanes fuse multiplication and addition where they can.
+//!
+//! In f32 two measures keep what f64 would show: offsets are taken from the view's centre in f64, so
+//! zoom costs nothing, and each tile subtracts a constant displacement, which the partition of
+//! unity reproduces, before weights and displacements are multiplied.
+
+mod collapse;
+mod finish;
+mod plan;
+mod spread;
+mod tile;
+
+use ppum::dataset::Equation;
+use ppum::field::Field;
+use ppum::function::LocalFunctions;
+use ppum::quantity::{Quantity, QuantityError, Source};
+use ppum::real::{Real, Scalar};
+use ppum::weight::WeightFunction;
+use rayon::prelude::*;
+
+use crate::raster::{Raster, Sample};
+use crate::view::View;
+use plan::{COLUMNS, Plan};
+use tile::{Band, Scratch};
+
+/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 in parallel.
+///
+/// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
+/// the side above is taken. f32 keeps some 5 digits of
+/// a stress; a view whose pixels are too small for squares of f32 is computed in f64.
+///
+/// # Errors
+/// [`QuantityError::Patch`] for the partition function of a patch that does not exist;
+/// [`QuantityError::NoExact`] for the error of a field whose exact solution is not known.
+pub fn render<T: Scalar + Sample>(
+    field: &Field,
+    view: &View,
+    quantity: Quantity,
+) -> Result<Raster<T>, QuantityError> {
+    quantity.check(field)?;
+    if !resolves::<T>(view.pixel_size()) {
+        let raster = render::<f64>(field, view, quantity)?;
+        let values = raster.values.into_iter().map(T::from_f64).collect();
+        return Ok(Raster::new(view.pixels, values));
+    }
+    let scene = Scene::new(field, view, quantity);
+    Ok(match quantity.source() {
+        Source::Gradient => scene.draw::<1>(),
+        _ => scene.draw::<0>(),
+    })
+}
+
+/// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
+/// tip neither underflow nor overflow.
+fn resolves<T: Scalar>(length: f64) -> bool {
+    let square = (0.01 * length) * (0.01 * length);
+    (T::from_f64(square).to_f64() / square - 1.0).abs() < 1e-6 || T::VECTOR == f64::VECTOR
+}
+
+/// A view of a field, ready to be drawn.
+struct Scene<'f, T> {
+    view: View,
+    quantity: Quantity,
+    equation: Equation,
+    weight: WeightFunction,
+    functions: LocalFunctions<'f>,
+    plan: Plan<'f>,
+    /// Offsets of the columns from the view's centre, up to full tiles.
+    xs: Vec<T>,
+    /// Offsets of the rows.
+    ys: Vec<T>,
+    field: &'f Field<'f>,
+}
+
+impl<'f, T: Scalar + Sample> Scene<'f, T> {
+    fn new(field: &'f Field<'f>, view: &View, quantity: Quantity) -> Self {
+        let plan = Plan::new(field, view, quantity, T::VECTOR);
+        let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
+        let rows = view.pixels[1].next_multiple_of(T::VECTOR as u32);
+        Self {
+            view: *view,
+            quantity,
+            equation: field.equation,
+            weight: field.step.partition.weight,
+            functions: field.functions.at(&field.step.cracks, view.center),
+            plan,
+            xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
+            ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
+            field,
+        }
+    }
+
+    /// Draws with `D` derivatives, bands of rows in parallel.
+    fn draw<const D: usize>(&self) -> Raster<T> {
+        let [columns, rows] = self.view.pixels.map(|n| n as usize);
+        let mut values = vec![T::default(); columns * rows];
+        values.par_chunks_mut(columns * T::VECTOR).enumerate().for_each_init(
+            Scratch::default,
+            |scratch, (band, out)| {
+                T::dispatch(Band::<'_, '_, T, D> { scene: self, band, scratch, out: &mut *out });
+                self.clear_outside(band * T::VECTOR, out);
+            },
+        );
+        Raster::new(self.view.pixels, values)
+    }
+
+    /// Sets the pixels outside the domain to NaN.
+    fn clear_outside(&self, first_row: usize, out: &mut [T]) {
+        let [columns, rows] = &self.plan.inside;
+        let nan = T::from_f64(f64::NAN);
+        for (k, line) in out.chunks_exact_mut(self.view.pixels[0] as usize).enumerate() {
+            if rows.contains(&(first_row + k)) && !columns.is_empty() {
+                line[..columns.start].fill(nan);
+                line[columns.end..].fill(nan);
+            } else {
+                line.fill(nan);
+            }
+        }
+    }
+}
+
+impl<T: Scalar> Scene<'_, T> {
+    /// Exact values minus `shift` at the pixels of a vector, component by component.
+    fn load_exact<R: Real<Scalar = T>>(
+        &self,
+        [column, row]: [usize; 2],
+        shift: &[f64],
+        out: &mut [R],
+        zero: R,
+    ) {
+        // 16 lanes are the widest vector there is.
+        let mut lanes = vec![[T::default(); 16]; shift.len()];
+        for lane in 0..R::LANES {
+            let offset = self.view.offset((column + lane) as u32, row as u32);
+            let point = self.view.center + offset;
+            for (component, lanes) in lanes.iter_mut().enumerate() {
+                let value = self.field.exact(component, point) - shift[component];
+                lanes[lane] = T::from_f64(value);
+            }
+        }
+        for (out, lanes) in out.iter_mut().zip(&lanes) {
+            *out = zero.load(lanes);
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! What one view needs of a field: the patches in sight, their pixels, their blocks, their tiles.
+
+use std::ops::Range;
+
+use ppum::dataset::FieldData;
+use ppum::field::Field;
+use ppum::function::Slot;
+use ppum::quantity::Quantity;
+use ppum::vec2::{Rect, Vec2};
+
+use crate::view::View;
+
+/// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
+pub(super) const COLUMNS: usize = 64;
+
+/// ξ = `scale` · offset + `shift` in one direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Affine {
+    pub(super) scale: f64,
+    pub(super) shift: f64,
+}
+
+/// A function × polynomial.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block {
+    pub(super) function: Slot,
+    pub(super) degree: usize,
+    /// First coefficient; `None` for the polynomial 0.
+    pub(super) offset: Option<usize>,
+}
+
+impl Block {
+    const NOTHING: Self = Self { function: Slot::One, degree: 0, offset: None };
+}
+
+/// A patch in sight.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    /// Coordinates of the support, [−1, 1]².
+    pub(super) support: [Affine; 2],
+    /// Coordinates of the polynomials.
+    pub(super) frame: [Affine; 2],
+    /// Columns of pixels that may be covered.
+    pub(super) columns: Range<u32>,
+    /// Rows of pixels that may be covered.
+    pub(super) rows: Range<u32>,
+    /// Its blocks; the first is of function 1, unless the plan has no components.
+    pub(super) blocks: Range<u32>,
+}
+
+impl Patch {
+    /// Its blocks in the plan's list.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> Range<usize> {
+        self.blocks.start as usize..self.blocks.end as usize
+    }
+}
+
+/// Everything about one view, made once in f64. The anchor is the view's centre.
+#[derive(Debug)]
+pub(super) struct Plan<'f> {
+    pub(super) patches: Vec<Patch>,
+    pub(super) blocks: Vec<Block>,
+    /// Coefficients of each component.
+    pub(super) coefficients: Vec<&'f [f64]>,
+    /// Pixels inside the domain.
+    pub(super) inside: [Range<usize>; 2],
+    tiles: Tiles,
+}
+
+impl<'f> Plan<'f> {
+    /// The plan for tiles of `rows` rows.
+    pub(super) fn new(field: &'f Field, view: &View, quantity: Quantity, rows: usize) -> Self {
+        let pixels = Pixels::new(view);
+        let mut visible = Vec::new();
+        field.tree.query_box(&pixels.window(), &mut visible);
+        let mut plan = Self {
+            patches: Vec::with_capacity(visible.len()),
+            blocks: Vec::new(),
+            coefficients: coefficients(field.data, quantity),
+            inside: pixels.inside(&field.domain),
+            tiles: Tiles::default(),
+        };
+        for &index in &visible {
+            let blocks = plan.add_blocks(field, index as usize, quantity);
+            plan.patches.push(patch(field, index as usize, &pixels, blocks));
+        }
+        plan.tiles = Tiles::new(&plan.patches, view.pixels, rows);
+        plan
+    }
+
+    /// The patches that meet a tile, ascending.
+    pub(super) fn tile(&self, column: usize, row: usize) -> &[u32] {
+        self.tiles.of(column, row)
+    }
+
+    /// Number of tiles in a row of tiles.
+    pub(super) fn tile_columns(&self) -> usize {
+        self.tiles.columns
+    }
+
+    /// Coefficients of a block for one component.
+    #[inline(always)]
+    pub(super) fn block_coefficients(&self, block: &Block, component: usize) -> &'f [f64] {
+        match block.offset {
+            Some(offset) => &self.coefficients[component][offset..],
+            None => &[0.0],
+        }
+    }
+
+    /// The constant coefficient of a patch's first block.
+    pub(super) fn constant(&self, patch: u32, component: usize) -> f64 {
+        let block = &self.blocks[self.patches[patch as usize].blocks.start as usize];
+        self.block_coefficients(block, component)[0]
+    }
+
+    /// Adds the blocks of a patch, one of function 1 first.
+    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: Quantity) -> Range<u32> {
+        let start = self.blocks.len();
+        if let Quantity::PartitionFunction(of) = quantity {
+            let offset = (of as usize == patch).then_some(0);
+            self.blocks.push(Block { offset, ..Block::NOTHING });
+        } else if !self.coefficients.is_empty() {
+            let data = field.data;
+            self.blocks.extend(data.blocks(patch).map(|block| Block {
+                function: field.functions.of(data.block_function[block]),
+                degree: data.block_degree[block].into(),
+                offset: Some(data.block_offset[block] as usize),
+            }));
+            let smooth = |block: &Block| block.function == Slot::One;
+            match self.blocks[start..].iter().position(smooth) {
+                Some(at) => self.blocks.swap(start, start + at),
+                None => self.blocks.insert(start, Block::NOTHING),
+            }
+        }
+        start as u32..self.blocks.len() as u32
+    }
+}
+
+/// What is summed: the field's components, the constant 1 of one patch, or nothing.
+fn coefficients(data: &FieldData, quantity: Quantity) -> Vec<&[f64]> {
+    match quantity {
+        Quantity::PartitionFunction(_) => vec![&[1.0]],
+        Quantity::WeightSum | Quantity::Overlap => Vec::new(),
+        _ => data.coefficients.iter().map(Vec::as_slice).collect(),
+    }
+}
+
+fn patch(field: &Field, index: usize, pixels: &Pixels, blocks: Range<u32>) -> Patch {
+    let partition = &field.step.partition;
+    let (center, half) = (partition.center[index] - pixels.anchor, partition.half[index]);
+    let [columns, rows] = pixels.covered(&Rect::around(center, half));
+    let frame = affine(partition.origin[index] - pixels.anchor, partition.scale[index]);
+    Patch { support: affine(center, half), frame, columns, rows, blocks }
+}
+
+/// (x − origin) / scale as multiplication and addition.
+fn affine(origin: Vec2, scale: Vec2) -> [Affine; 2] {
+    let one = |origin: f64, scale: f64| {
+        let scale = 1.0 / scale;
+        Affine { scale, shift: -origin * scale }
+    };
+    [one(origin.x, scale.x), one(origin.y, scale.y)]
+}
+
+/// Which pixels lie in a box.
+struct Pixels<'v> {
+    view: &'v View,
+    anchor: Vec2,
+    /// Pixels a length.
+    density: f64,
+    /// Pixels by which a rounded position may be wrong; weights decide exactly.
+    margin: f64,
+}
+
+impl<'v> Pixels<'v> {
+    fn new(view: &'v View) -> Self {
+        let density = 1.0 / view.pixel_size();
+        let far = view.center.x.abs().max(view.center.y.abs()) + view.width + view.height();
+        let margin = 1e-3 + 4.0 * f64::EPSILON * far * density;
+        Self { view, anchor: view.center, density, margin }
+    }
+
+    /// The view in the world, enlarged by the margin.
+    fn window(&self) -> Rect {
+        let margin = self.margin / self.density;
+        Rect::around(self.anchor, self.view.half() + Vec2 { x: margin, y: margin })
+    }
+
+    /// The columns and rows whose pixels may lie in a box given relative to the anchor.
+    fn covered(&self, b: &Rect) -> [Range<u32>; 2] {
+        let [nx, ny] = self.view.pixels.map(f64::from);
+        let from = |position: f64, count: f64| (position - self.margin).ceil().clamp(0.0, count);
+        let to = |position: f64, count: f64| {
+            ((position + self.margin).floor() + 1.0).clamp(0.0, count) as u32
+        };
+        let range = |lo: f64, hi: f64, count: f64| {
+            let middle = 0.5 * (count - 1.0);
+            let start = from(middle + lo * self.density, count) as u32;
+            start..to(middle + hi * self.density, count).max(start)
+        };
+        [range(b.min.x, b.max.x, nx), range(-b.max.y, -b.min.y, ny)]
+    }
+
+    /// The columns and rows whose pixels lie in the closed domain, by the reference's own test.
+    fn inside(&self, domain: &Rect) -> [Range<usize>; 2] {
+        let (lo, hi) = (domain.min - self.anchor, domain.max - self.anchor);
+        let [nx, ny] = self.view.pixels;
+        let columns = first(nx, |i| self.view.column_offset(i) >= lo.x)..first(nx, |i| {
+            self.view.column_offset(i) > hi.x
+        });
+        let rows = first(ny, |j| self.view.row_offset(j) <= hi.y)..first(ny, |j| {
+            self.view.row_offset(j) < lo.y
+        });
+        [columns, rows]
+    }
+}
+
+/// The first of `count` indices that passes a test all later ones pass too.
+fn first(count: u32, test: impl Fn(u32) -> bool) -> usize {
+    let (mut lo, mut hi) = (0, count);
+    while lo < hi {
+        let middle = lo + (hi - lo) / 2;
+        if test(middle) {
+            hi = middle;
+        } else {
+            lo = middle + 1;
+        }
+    }
+    lo as usize
+}
+
+/// The patches of each tile in compressed rows.
+#[derive(Debug, Default)]
+struct Tiles {
+    columns: usize,
+    starts: Vec<u32>,
+    patches: Vec<u32>,
+}
+
+impl Tiles {
+    fn new(patches: &[Patch], pixels: [u32; 2], rows: usize) -> Self {
+        let columns = (pixels[0] as usize).div_ceil(COLUMNS);
+        let count = columns * (pixels[1] as usize).div_ceil(rows);
+        // Entry t + 2 counts tile t, becomes its start, and, after filling, its end: entry t + 1.
+        let mut starts = vec![0; count + 2];
+        for patch in patches {
+            for_each_tile(patch, columns, rows, |tile| starts[tile + 2] += 1);
+        }
+        for tile in 0..count {
+            starts[tile + 2] += starts[tile + 1];
+        }
+        let mut entries = vec![0; starts[count + 1] as usize];
+        for (index, patch) in (0u32..).zip(patches) {
+            for_each_tile(patch, columns, rows, |tile| {
+                entries[starts[tile + 1] as usize] = index;
+                starts[tile + 1] += 1;
+            });
+        }
+        Self { columns, starts, patches: entries }
+    }
+
+    fn of(&self, column: usize, row: usize) -> &[u32] {
+        let tile = row * self.columns + column;
+        &self.patches[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+    }
+}
+
+fn for_each_tile(patch: &Patch, columns: usize, rows: usize, mut f: impl FnMut(usize)) {
+    for row in tiles(&patch.rows, rows) {
+        for column in tiles(&patch.columns, COLUMNS) {
+            f(row * columns + column);
+        }
+    }
+}
+
+/// The tiles of `size` pixels that a range meets.
+fn tiles(pixels: &Range<u32>, size: usize) -> Range<usize> {
+    pixels.start as usize / size..(pixels.end as usize).div_ceil(size)
+}

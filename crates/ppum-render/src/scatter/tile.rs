@@ -1,0 +1,241 @@
+//! A tile of pixels: which functions it needs, and the sums over its patches.
+
+use std::ops::Range;
+
+use ppum::crack::Side;
+use ppum::function::{GROUP, Slot};
+use ppum::jet::Jet;
+use ppum::real::{Job, Real, Scalar};
+
+use super::Scene;
+use super::collapse::{height, splat};
+use super::plan::{COLUMNS, Patch};
+use super::spread::{Collapsed, size};
+
+/// Buffers of one thread.
+#[derive(Debug, Default)]
+pub(super) struct Scratch<T> {
+    /// Σ W, then Σ W v of each component, each with derivatives, at the vectors of points of a tile,
+    /// column by column. Zero between tiles.
+    pub(super) sums: Vec<T>,
+    /// The functions of each active group with derivatives, at the same points.
+    pub(super) basis: Vec<T>,
+    /// The groups in `basis`.
+    pub(super) active: Vec<Active>,
+    /// The patch at hand.
+    pub(super) collapsed: Collapsed<T>,
+    /// Subtracted from each component.
+    pub(super) shift: Vec<f64>,
+}
+
+/// A rectangle of a tile: vectors of columns, and rows.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub(super) vectors: Range<usize>,
+    pub(super) rows: Range<usize>,
+}
+
+/// A group of functions needed on a part of a tile.
+#[derive(Debug)]
+pub(super) struct Active {
+    pub(super) group: u32,
+    part: Part,
+}
+
+/// Draws a band: the tiles of some rows, with `D` derivatives.
+pub(super) struct Band<'a, 'f, T, const D: usize> {
+    pub(super) scene: &'a Scene<'f, T>,
+    pub(super) band: usize,
+    pub(super) scratch: &'a mut Scratch<T>,
+    /// The band's rows of the raster.
+    pub(super) out: &'a mut [T],
+}
+
+impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = T>>(self, zero: R) {
+        let mut column = 0;
+        while column < self.scene.plan.tile_columns() {
+            let tile = Tile::<T, D> { scene: self.scene, column, band: self.band };
+            tile.sum(self.scratch, zero);
+            tile.finish(self.scratch, self.out, zero);
+            column += 1;
+        }
+    }
+}
+
+/// One tile.
+pub(super) struct Tile<'a, 'f, T, const D: usize> {
+    pub(super) scene: &'a Scene<'f, T>,
+    column: usize,
+    band: usize,
+}
+
+impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+    /// First column and row.
+    #[inline(always)]
+    pub(super) fn corner(&self) -> [usize; 2] {
+        [self.column * COLUMNS, self.band * height::<T>()]
+    }
+
+    /// Sums over the patches.
+    #[inline(always)]
+    fn sum<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
+        let plan = &self.scene.plan;
+        let list = plan.tile(self.column, self.band);
+        let len = points::<R>() * size::<R, D>() * (1 + plan.coefficients.len());
+        scratch.sums.resize(len, T::default());
+        self.choose_shift(list, &mut scratch.shift);
+        self.activate::<R>(list, &mut scratch.active);
+        self.evaluate_functions(scratch, zero);
+        for &index in list {
+            let patch = &plan.patches[index as usize];
+            let part = self.part::<R>(patch);
+            self.collapse(patch, &part, scratch, zero);
+            self.spread(patch, &part, scratch, zero);
+        }
+    }
+
+    /// Takes the constants to subtract: midway between those of the first and the last patch, which
+    /// lie in opposite corners if the patches follow the Morton curve. The partition of unity
+    /// reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller u is.
+    #[inline(always)]
+    fn choose_shift(&self, list: &[u32], shift: &mut Vec<f64>) {
+        let plan = &self.scene.plan;
+        shift.clear();
+        shift.resize(plan.coefficients.len(), 0.0);
+        let (Some(&first), Some(&last)) = (list.first(), list.last()) else { return };
+        for (component, shift) in shift.iter_mut().enumerate() {
+            *shift = 0.5 * (plan.constant(first, component) + plan.constant(last, component));
+        }
+    }
+
+    /// The part of the tile a patch may cover.
+    #[inline(always)]
+    fn part<R: Real<Scalar = T>>(&self, patch: &Patch) -> Part {
+        let [column, row] = self.corner();
+        let columns = within(&patch.columns, column, COLUMNS);
+        Part {
+            vectors: columns.start / R::LANES..columns.end.div_ceil(R::LANES),
+            rows: within(&patch.rows, row, height::<T>()),
+        }
+    }
+
+    /// Finds the groups of functions the patches need, and where.
+    #[inline(always)]
+    fn activate<R: Real<Scalar = T>>(&self, list: &[u32], active: &mut Vec<Active>) {
+        let plan = &self.scene.plan;
+        active.clear();
+        for &index in list {
+            let patch = &plan.patches[index as usize];
+            let mut last = None;
+            for block in &plan.blocks[patch.blocks()] {
+                if let Slot::Jet { group, .. } = block.function
+                    && last != Some(group)
+                {
+                    need(active, group, self.part::<R>(patch));
+                    last = Some(group);
+                }
+            }
+        }
+    }
+
+    /// Fills the basis.
+    #[inline(always)]
+    fn evaluate_functions<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
+        let len = basis_len::<R, D>() * scratch.active.len();
+        if scratch.basis.len() < len {
+            scratch.basis.resize(len, T::default());
+        }
+        let groups = scratch.basis.chunks_exact_mut(basis_len::<R, D>());
+        for (active, basis) in scratch.active.iter().zip(groups) {
+            self.evaluate_group(active, basis, zero);
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate_group<R: Real<Scalar = T>>(&self, active: &Active, basis: &mut [T], zero: R) {
+        let stride = basis_stride::<R, D>();
+        let [column, row] = self.corner();
+        let functions = &self.scene.functions;
+        let group = active.group as usize;
+        for vector in active.part.vectors.clone() {
+            let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
+            for k in active.part.rows.clone() {
+                let y = splat(zero, self.scene.ys[row + k]);
+                // All are stored, however many the group has: so they stay in registers.
+                let mut jets = [Jet::constant(zero); GROUP];
+                functions.evaluate::<R, D>(group, [x, y], Side::Above, &mut jets);
+                let start = (vector * height::<T>() + k) * stride;
+                store_jets::<R, D>(&jets, &mut basis[start..start + stride]);
+            }
+        }
+    }
+}
+
+/// The part of a range in `start .. start + count`, relative to the start.
+#[inline(always)]
+fn within(range: &Range<u32>, start: usize, count: usize) -> Range<usize> {
+    let [from, to] = [range.start as usize, range.end as usize];
+    from.max(start) - start..to.min(start + count) - start
+}
+
+/// Vectors of points of a tile.
+#[inline(always)]
+const fn points<R: Real>() -> usize {
+    COLUMNS / R::LANES * height::<R::Scalar>()
+}
+
+/// Numbers a group has at a vector of points.
+#[inline(always)]
+pub(super) const fn basis_stride<R: Real, const D: usize>() -> usize {
+    GROUP * size::<R, D>()
+}
+
+/// Numbers a group has in the basis.
+#[inline(always)]
+pub(super) const fn basis_len<R: Real, const D: usize>() -> usize {
+    points::<R>() * basis_stride::<R, D>()
+}
+
+#[inline(always)]
+pub(super) fn load_jet<R: Real, const D: usize>(from: &[R::Scalar], like: R) -> Jet<R> {
+    let mut jet = Jet::constant(like.load(from));
+    if D >= 1 {
+        jet.x = like.load(&from[R::LANES..]);
+        jet.y = like.load(&from[2 * R::LANES..]);
+    }
+    jet
+}
+
+#[inline(always)]
+fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scalar]) {
+    let to = &mut to[..basis_stride::<R, D>()];
+    let mut k = 0;
+    while k < GROUP {
+        let to = &mut to[k * size::<R, D>()..];
+        jets[k].v.store(to);
+        if D >= 1 {
+            jets[k].x.store(&mut to[R::LANES..]);
+            jets[k].y.store(&mut to[2 * R::LANES..]);
+        }
+        k += 1;
+    }
+}
+
+/// Notes that a group is needed on a part.
+fn need(active: &mut Vec<Active>, group: u32, part: Part) {
+    match active.iter_mut().find(|known| known.group == group) {
+        None => active.push(Active { group, part }),
+        Some(known) => {
+            known.part.vectors = union(&known.part.vectors, &part.vectors);
+            known.part.rows = union(&known.part.rows, &part.rows);
+        }
+    }
+}
+
+fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    a.start.min(b.start)..a.end.max(b.end)
+}

@@ -1,0 +1,240 @@
+//! The fast renderer against the scalar reference.
+
+#[path = "support/synthetic.rs"]
+mod synthetic;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::{Axis, Quantity, QuantityError, Source};
+use ppum::real::Scalar;
+use ppum::vec2::{Vec2, vec2};
+use ppum::weight::WeightFunction;
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::reference::reference;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use synthetic::{KINKED, Recipe, dataset, domain};
+
+/// A view of the whole domain whose pixels are commensurate with no cell.
+fn whole(pixels: [u32; 2]) -> View {
+    let center = domain().center() + vec2(0.0123, -0.0171);
+    View::new(center, 1.2637, pixels).unwrap()
+}
+
+fn view(center: Vec2, zoom: f64) -> View {
+    View::new(center, 4.0 / 3.0 / zoom, [149, 117]).unwrap()
+}
+
+/// The local scale of a quantity: the largest value around each pixel; for quantities of the
+/// gradient also that of the gradient (Young's modulus is one), since a component may pass zero,
+/// and at least a hundredth of its mean, since a patch of degree 0 has none.
+struct Scale {
+    values: Raster<f64>,
+    gradient: Option<Raster<f64>>,
+    floor: f64,
+}
+
+impl Scale {
+    fn at(&self, column: u32, row: u32) -> f64 {
+        let gradient = self.gradient.as_ref().map_or(0.0, |g| around(g, column, row));
+        around(&self.values, column, row).max(gradient).max(self.floor)
+    }
+}
+
+/// The largest magnitude of the 3 × 3 pixels around one.
+fn around(raster: &Raster<f64>, column: u32, row: u32) -> f64 {
+    let mut scale = 0.0f64;
+    for j in row.saturating_sub(1)..(row + 2).min(raster.size[1]) {
+        for i in column.saturating_sub(1)..(column + 2).min(raster.size[0]) {
+            let value = raster.value(i, j).abs();
+            scale = if value.is_finite() { scale.max(value) } else { scale };
+        }
+    }
+    scale
+}
+
+/// Differences from the reference in units of the local scale, ascending, 0 if there are none.
+fn differences<T: Sample>(found: &Raster<T>, scale: &Scale) -> Vec<f64> {
+    let mut all = vec![0.0];
+    for row in 0..found.size[1] {
+        for column in 0..found.size[0] {
+            let (value, expected) =
+                (found.value(column, row).into(), scale.values.value(column, row));
+            if expected.is_finite() {
+                let difference = (value - expected).abs();
+                all.push(if difference > 0.0 {
+                    difference / scale.at(column, row)
+                } else {
+                    difference
+                });
+            } else {
+                assert_eq!(value.is_nan(), expected.is_nan(), "at {column} {row}");
+                assert_eq!(value.is_infinite(), expected.is_infinite(), "at {column} {row}");
+            }
+        }
+    }
+    assert!(all.iter().all(|d| !d.is_nan()), "a value is missing");
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    sorted[((sorted.len() - 1) as f64 * share) as usize]
+}
+
+/// Largest difference in f64, 99th percentile and largest in f32.
+fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
+    let slow = |quantity| reference(field, view, quantity).unwrap();
+    let by_gradient = quantity.source() == Source::Gradient;
+    let gradient = by_gradient.then(|| slow(Quantity::GradientNorm));
+    let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
+    let scale = Scale { values: slow(quantity), gradient, floor: 0.01 * mean };
+    let wide = render::<f64>(field, view, quantity).unwrap();
+    let narrow = render::<f32>(field, view, quantity).unwrap();
+    let (wide, narrow) = (differences(&wide, &scale), differences(&narrow, &scale));
+    let found = [quantile(&wide, 1.0), quantile(&narrow, 0.99), quantile(&narrow, 1.0)];
+    println!("{quantity:?} width {:e}: {found:?}", view.width);
+    found
+}
+
+fn agree(dataset: &Dataset, view: &View, quantities: &[Quantity]) {
+    let field = Field::new(dataset, 0).unwrap();
+    for &quantity in quantities {
+        let [wide, narrow, _] = compare(&field, view, quantity);
+        assert!(wide < 1e-12, "{quantity:?}: {wide:e} in f64");
+        assert!(narrow < 2e-5, "{quantity:?}: {narrow:e} in f32");
+    }
+}
+
+const SOME: [Quantity; 3] =
+    [Quantity::VonMises, Quantity::Component(1), Quantity::Derivative(0, Axis::Y)];
+
+#[test]
+fn every_quantity() {
+    let dataset = dataset(&Recipe::default());
+    let field = Field::new(&dataset, 0).unwrap();
+    let names = ppum::quantity::names(field.equation, &field.data.components);
+    let mut quantities: Vec<_> = names.into_iter().map(|(_, quantity)| quantity).collect();
+    quantities.push(Quantity::PartitionFunction(77));
+    for quantity in quantities {
+        let [wide, narrow, _] = compare(&field, &whole([131, 97]), quantity);
+        // the direction turns fast where the principal stresses meet
+        let slack = if quantity == Quantity::PrincipalDirection { 1e3 } else { 1.0 };
+        assert!(wide < 1e-12 * slack, "{quantity:?}: {wide:e} in f64");
+        assert!(narrow < 2e-5 * slack, "{quantity:?}: {narrow:e} in f32");
+    }
+}
+
+#[test]
+fn every_weight_function() {
+    for weight in WeightFunction::ALL {
+        let dataset = dataset(&Recipe { weight, ..Recipe::default() });
+        agree(&dataset, &whole([131, 97]), &SOME);
+    }
+}
+
+#[test]
+fn mixed_degrees_and_frames_of_their_own() {
+    let recipe = Recipe {
+        degrees: &[2, 0, 8, 1, 5, 3, 7, 4, 6],
+        tip_degree: 1,
+        own_frames: true,
+        ..Recipe::default()
+    };
+    agree(&dataset(&recipe), &whole([131, 97]), &SOME);
+}
+
+#[test]
+fn one_and_three_components() {
+    for components in [1, 3] {
+        let dataset = dataset(&Recipe { components, ..Recipe::default() });
+        let quantities = [Quantity::Magnitude, Quantity::GradientNorm, Quantity::EnergyDensity];
+        agree(&dataset, &whole([131, 97]), &quantities);
+    }
+}
+
+#[test]
+fn uniform_covers_from_coarse_to_finer_than_pixels() {
+    for level in 0..6 {
+        let dataset = dataset(&Recipe { level, tip_level: level, ..Recipe::default() });
+        agree(&dataset, &whole([131, 97]), &[Quantity::VonMises]);
+    }
+}
+
+#[test]
+fn views_partly_and_wholly_outside() {
+    let dataset = dataset(&Recipe::default());
+    let corner = domain().max + vec2(0.013, 0.017);
+    for pixels in [[131, 97], [1, 1], [7, 200], [300, 3]] {
+        agree(&dataset, &View::new(corner, 0.71, pixels).unwrap(), &SOME);
+    }
+    let field = Field::new(&dataset, 0).unwrap();
+    let away = View::new(vec2(9.0, 0.0), 1.0, [33, 17]).unwrap();
+    let raster = render::<f32>(&field, &away, Quantity::VonMises).unwrap();
+    assert!(raster.values.iter().all(|v| v.is_nan()));
+}
+
+/// Zooms by factors up to 1e12 to a tip, to a kink and to the middle of an oblique crack.
+#[test]
+fn deep_views() {
+    let dataset = dataset(&Recipe { tip_level: 9, ..Recipe::default() });
+    let field = Field::new(&dataset, 0).unwrap();
+    let points = KINKED;
+    let middle = points[0] + (points[1] - points[0]) * 0.63;
+    for (place, at) in [("tip", points[2]), ("kink", points[1]), ("middle", middle)] {
+        for zoom in [1.0, 1e3, 1e6, 1e9, 1e12] {
+            println!("{place}");
+            for quantity in SOME {
+                let [wide, narrow, _] = compare(&field, &view(at, zoom), quantity);
+                assert!(wide < 1e-11, "{place} {zoom:e} {quantity:?}: {wide:e} in f64");
+                assert!(narrow < 1e-5, "{place} {zoom:e} {quantity:?}: {narrow:e} in f32");
+            }
+        }
+    }
+}
+
+/// Stresses are infinite at a tip itself, and nowhere else around it.
+#[test]
+fn infinite_at_a_tip() {
+    let dataset = dataset(&Recipe::default());
+    let field = Field::new(&dataset, 0).unwrap();
+    let view = View::new(KINKED[2], 1e-3, [41, 21]).unwrap();
+    fn check<T: Scalar + Sample>(field: &Field, view: &View) {
+        let raster = render::<T>(field, view, Quantity::VonMises).unwrap();
+        assert_eq!(raster.value(20, 10).into(), f64::INFINITY);
+        assert_eq!(raster.statistics().infinite, 1);
+        let finite = render::<T>(field, view, Quantity::Magnitude).unwrap();
+        assert!(finite.values.iter().all(|&v| v.into().is_finite()));
+    }
+    check::<f64>(&field, &view);
+    check::<f32>(&field, &view);
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let dataset = dataset(&Recipe::default());
+    let field = Field::new(&dataset, 0).unwrap();
+    let view = whole([311, 203]);
+    let draw = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let wide = render::<f64>(&field, &view, Quantity::VonMises).unwrap();
+            let narrow = render::<f32>(&field, &view, Quantity::VonMises).unwrap();
+            let bits = wide.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            (bits, narrow.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>())
+        })
+    };
+    let one = draw(1);
+    assert!(one == draw(2) && one == draw(5));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let mut dataset = dataset(&Recipe::default());
+    dataset.steps[0].fields[0].exact.clear();
+    let field = Field::new(&dataset, 0).unwrap();
+    let error = |quantity| render::<f64>(&field, &whole([3, 2]), quantity).unwrap_err();
+    assert!(matches!(error(Quantity::Error), QuantityError::NoExact(_)));
+    let beyond = field.step.partition.len() as u32;
+    assert!(matches!(error(Quantity::PartitionFunction(beyond)), QuantityError::Patch { .. }));
+}
