@@ -1,3 +1,7 @@
-//! Development tools of `ppum`: exact solutions to compare with.
+//! Development tools of `ppum`: exact solutions, synthetic datasets and an evaluation in extended
+//! precision to compare with.
 
 pub mod exact;
+pub mod extended;
+pub mod random;
+pub mod synthetic;

@@ -245,12 +245,31 @@ impl<'f> LocalField<'f> {
             weight_sum = weight_sum.plus::<D>(weight);
             for (component, sum) in out[..components].iter_mut().enumerate() {
                 let v = self.local_field::<R, D>(patch, component, offset, &mut functions);
-                *sum = sum.plus::<D>(weight.times::<D>(v));
+                *sum = sum.plus::<D>(self.shared::<R, D>(patch, offset, weight.times::<D>(v)));
             }
         }
         for sum in &mut out[..components] {
             *sum = sum.over::<D>(weight_sum);
         }
+    }
+
+    /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need not
+    /// have a value.
+    #[inline(always)]
+    fn shared<R: Real, const D: usize>(
+        &self,
+        patch: usize,
+        offset: [R; 2],
+        part: Jet<R>,
+    ) -> Jet<R> {
+        if R::LANES == 1 {
+            return part;
+        }
+        let support = self.field.step.partition.support(patch);
+        let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
+        let [x, y] = offset;
+        let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
+        part.only::<D>(y.ge(y.lit(lo.y))).only::<D>(y.lit(hi.y).gt(y))
     }
 
     /// W_i; constant 1 where the patch is alone, since φ_i = 1 there whatever W_i is.
