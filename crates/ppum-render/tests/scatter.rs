@@ -1,8 +1,8 @@
 //! The fast renderer against the scalar reference.
 
-#[path = "support/synthetic.rs"]
 #![expect(clippy::unwrap_used, reason = "a test ends where something fails")]
 
+#[path = "support/synthetic.rs"]
 mod synthetic;
 
 use ppum::dataset::Dataset;
