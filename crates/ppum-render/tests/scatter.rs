@@ -1,5 +1,7 @@
 //! The fast renderer against the scalar reference.
 
+#![expect(clippy::unwrap_used, reason = "a test ends where something fails")]
+
 #[path = "support/synthetic.rs"]
 mod synthetic;
 
@@ -27,7 +29,7 @@ fn view(center: Vec2, zoom: f64) -> View {
 
 /// The local scale of a quantity: the largest value around each pixel; for quantities of the
 /// gradient also that of the gradient (Young's modulus is one), since a component may pass zero,
-/// and at least a hundredth of its mean, since a patch of degree 0 has none.
+/// and at least a tenth of its mean, since a patch of degree 0 has none.
 struct Scale {
     values: Raster<f64>,
     gradient: Option<Raster<f64>>,
@@ -88,7 +90,7 @@ fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
     let by_gradient = quantity.source() == Source::Gradient;
     let gradient = by_gradient.then(|| slow(Quantity::GradientNorm));
     let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
-    let scale = Scale { values: slow(quantity), gradient, floor: 0.01 * mean };
+    let scale = Scale { values: slow(quantity), gradient, floor: 0.1 * mean };
     let wide = render::<f64>(field, view, quantity).unwrap();
     let narrow = render::<f32>(field, view, quantity).unwrap();
     let (wide, narrow) = (differences(&wide, &scale), differences(&narrow, &scale));

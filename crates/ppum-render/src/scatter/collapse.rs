@@ -11,11 +11,8 @@
 use ppum::dataset::monomials;
 use ppum::real::{Real, Scalar};
 
-/// Rows of a tile, and of the tables here: one vector of lanes.
-#[inline(always)]
-pub(super) const fn height<T: Scalar>() -> usize {
-    T::VECTOR
-}
+/// Rows of a tile, and of the tables here: whole vectors of lanes.
+pub(super) const ROWS: usize = 16;
 
 /// Polynomials kept for a block: A, and with derivatives B and D.
 #[inline(always)]
@@ -25,8 +22,8 @@ pub(super) const fn polynomials<const D: usize>() -> usize {
 
 /// Length of a block's table.
 #[inline(always)]
-pub(super) const fn table_len<T: Scalar, const D: usize>(degree: usize) -> usize {
-    (degree + 1) * polynomials::<D>() * height::<T>()
+pub(super) const fn table_len<const D: usize>(degree: usize) -> usize {
+    (degree + 1) * polynomials::<D>() * ROWS
 }
 
 /// The factor b(η) of the weight and its derivative by y on lanes of rows.
@@ -85,10 +82,9 @@ fn collapse_degree<R: Real, const D: usize, const P: usize>(
     table: &mut [R::Scalar],
 ) {
     let degree = known(P, degree);
-    let n = height::<R::Scalar>();
     let coefficients = &coefficients[..monomials(degree)];
     // The last lanes of the table may belong to the rows before these.
-    let table = &mut table[..(degree + 1) * polynomials::<D>() * n - n + R::LANES];
+    let table = &mut table[..(degree + 1) * polynomials::<D>() * ROWS - ROWS + R::LANES];
     let scaled = rows.factor.value * rows.eta.lit(rows.scale[1]);
     let mut k = degree + 1;
     let mut at = 0;
@@ -98,13 +94,13 @@ fn collapse_degree<R: Real, const D: usize, const P: usize>(
         let weighted = rows.factor.value * a;
         weighted.store(&mut table[at..]);
         if D >= 1 {
-            rows.factor.slope.mul_add(a, scaled * b).store(&mut table[at + n..]);
+            rows.factor.slope.mul_add(a, scaled * b).store(&mut table[at + ROWS..]);
             if k > 0 {
                 let slope = weighted * rows.eta.lit(k as f64 * rows.scale[0]);
-                slope.store(&mut table[at + 5 * n..]);
+                slope.store(&mut table[at + 5 * ROWS..]);
             }
         }
-        at += polynomials::<D>() * n;
+        at += polynomials::<D>() * ROWS;
     }
 }
 
@@ -143,26 +139,25 @@ pub(super) fn evaluate<R: Real, const D: usize, const P: usize>(
     xi: R,
 ) -> [R; 3] {
     let degree = known(P, degree);
-    let n = height::<R::Scalar>();
     let zero = xi.lit(0.0);
-    let table = &table[..((degree + 1) * polynomials::<D>() - 1) * n + 1];
+    let table = &table[..((degree + 1) * polynomials::<D>() - 1) * ROWS + 1];
     let mut v = splat(zero, table[0]);
     let (mut vx, mut vy) = (zero, zero);
     if D >= 1 {
-        vy = splat(zero, table[n]);
+        vy = splat(zero, table[ROWS]);
     }
     let mut k = 0;
     let mut at = 0;
     while k < degree {
         k += 1;
-        at += polynomials::<D>() * n;
+        at += polynomials::<D>() * ROWS;
         v = v.mul_add(xi, splat(zero, table[at]));
         if D >= 1 {
-            vy = vy.mul_add(xi, splat(zero, table[at + n]));
+            vy = vy.mul_add(xi, splat(zero, table[at + ROWS]));
             vx = if k == 1 {
-                splat(zero, table[at + 2 * n])
+                splat(zero, table[at + 2 * ROWS])
             } else {
-                vx.mul_add(xi, splat(zero, table[at + 2 * n]))
+                vx.mul_add(xi, splat(zero, table[at + 2 * ROWS]))
             };
         }
     }

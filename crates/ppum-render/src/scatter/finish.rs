@@ -4,7 +4,7 @@ use ppum::jet::Jet;
 use ppum::quantity::{Quantity, Source};
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, height, known};
+use super::collapse::{ANY, ROWS, known};
 use super::plan::COLUMNS;
 use super::spread::size;
 use super::tile::{Scratch, Tile, load_jet};
@@ -47,7 +47,6 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         };
         let mut exact = Vec::new();
         let equation = self.scene.equation;
-        let n = height::<T>();
         let stride = size::<R, D>() * (1 + components);
         let width = self.scene.view.pixels[0] as usize;
         let [mut column, first_row] = self.corner();
@@ -77,7 +76,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 store(value, &mut line[column..]);
             }
             column += R::LANES;
-            start += n * stride;
+            start += ROWS * stride;
         }
     }
 }
@@ -97,7 +96,8 @@ fn divide<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero
 }
 
 #[inline(always)]
-fn clear<R: Real>(cell: &mut [R::Scalar], zero: R) {
+fn clear<R: Real>(cell: &mut [R::Scalar], like: R) {
+    let zero = like.lit(0.0);
     for lanes in cell.chunks_exact_mut(R::LANES) {
         zero.store(lanes);
     }

@@ -9,7 +9,7 @@
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
 //! cover, any degree, any number of functions. A patch's weight and polynomials collapse on each row
-//! to polynomials in x ([`collapse`](mod@collapse)); functions are evaluated once for a tile, and only
+//! to polynomials in x (module `collapse`); functions are evaluated once for a tile, and only
 //! where a patch needs them.
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
@@ -37,6 +37,7 @@ use rayon::prelude::*;
 
 use crate::raster::{Raster, Sample};
 use crate::view::View;
+use collapse::ROWS;
 use plan::{COLUMNS, Plan};
 use tile::{Band, Scratch};
 
@@ -91,9 +92,9 @@ struct Scene<'f, T> {
 
 impl<'f, T: Scalar + Sample> Scene<'f, T> {
     fn new(field: &'f Field<'f>, view: &View, quantity: Quantity) -> Self {
-        let plan = Plan::new(field, view, quantity, T::VECTOR);
+        let plan = Plan::new(field, view, quantity, ROWS);
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
-        let rows = view.pixels[1].next_multiple_of(T::VECTOR as u32);
+        let rows = view.pixels[1].next_multiple_of(ROWS as u32);
         Self {
             view: *view,
             quantity,
@@ -111,11 +112,11 @@ impl<'f, T: Scalar + Sample> Scene<'f, T> {
     fn draw<const D: usize>(&self) -> Raster<T> {
         let [columns, rows] = self.view.pixels.map(|n| n as usize);
         let mut values = vec![T::default(); columns * rows];
-        values.par_chunks_mut(columns * T::VECTOR).enumerate().for_each_init(
+        values.par_chunks_mut(columns * ROWS).enumerate().for_each_init(
             Scratch::default,
             |scratch, (band, out)| {
                 T::dispatch(Band::<'_, '_, T, D> { scene: self, band, scratch, out: &mut *out });
-                self.clear_outside(band * T::VECTOR, out);
+                self.clear_outside(band * ROWS, out);
             },
         );
         Raster::new(self.view.pixels, values)

@@ -76,7 +76,7 @@ impl<'f> Plan<'f> {
         field.tree.query_box(&pixels.window(), &mut visible);
         let mut plan = Self {
             patches: Vec::with_capacity(visible.len()),
-            blocks: Vec::new(),
+            blocks: Vec::with_capacity(3 * visible.len()),
             coefficients: coefficients(field.data, quantity),
             inside: pixels.inside(&field.domain),
             tiles: Tiles::default(),
@@ -92,6 +92,11 @@ impl<'f> Plan<'f> {
     /// The patches that meet a tile, ascending.
     pub(super) fn tile(&self, column: usize, row: usize) -> &[u32] {
         self.tiles.of(column, row)
+    }
+
+    /// True if a patch of the tile may have functions.
+    pub(super) fn has_functions(&self, column: usize, row: usize) -> bool {
+        self.tiles.functions[row * self.tiles.columns + column]
     }
 
     /// Number of tiles in a row of tiles.
@@ -189,17 +194,19 @@ impl<'v> Pixels<'v> {
 
     /// The columns and rows whose pixels may lie in a box given relative to the anchor.
     fn covered(&self, b: &Rect) -> [Range<u32>; 2] {
-        let [nx, ny] = self.view.pixels.map(f64::from);
-        let from = |position: f64, count: f64| (position - self.margin).ceil().clamp(0.0, count);
-        let to = |position: f64, count: f64| {
-            ((position + self.margin).floor() + 1.0).clamp(0.0, count) as u32
-        };
-        let range = |lo: f64, hi: f64, count: f64| {
-            let middle = 0.5 * (count - 1.0);
-            let start = from(middle + lo * self.density, count) as u32;
-            start..to(middle + hi * self.density, count).max(start)
-        };
-        [range(b.min.x, b.max.x, nx), range(-b.max.y, -b.min.y, ny)]
+        let [nx, ny] = self.view.pixels;
+        [self.range(b.min.x, b.max.x, nx), self.range(-b.max.y, -b.min.y, ny)]
+    }
+
+    /// The pixels of `count` whose offsets may lie between two. Rounding down and up goes through
+    /// integers, which saturate.
+    fn range(&self, lo: f64, hi: f64, count: u32) -> Range<u32> {
+        let middle = 0.5 * (f64::from(count) - 1.0);
+        let first = middle + lo * self.density - self.margin;
+        let last = middle + hi * self.density + self.margin;
+        let start = if first > 0.0 { (first as u32).saturating_add(1) } else { 0 };
+        let end = if last >= 0.0 { (last as u32).saturating_add(1) } else { 0 };
+        start.min(count)..end.min(count).max(start.min(count))
     }
 
     /// The columns and rows whose pixels lie in the closed domain, by the reference's own test.
@@ -236,6 +243,8 @@ struct Tiles {
     columns: usize,
     starts: Vec<u32>,
     patches: Vec<u32>,
+    /// Whether patches of the tile have functions.
+    functions: Vec<bool>,
 }
 
 impl Tiles {
@@ -251,13 +260,15 @@ impl Tiles {
             starts[tile + 2] += starts[tile + 1];
         }
         let mut entries = vec![0; starts[count + 1] as usize];
+        let mut functions = vec![false; count];
         for (index, patch) in (0u32..).zip(patches) {
             for_each_tile(patch, columns, rows, |tile| {
                 entries[starts[tile + 1] as usize] = index;
                 starts[tile + 1] += 1;
+                functions[tile] |= patch.blocks.len() > 1;
             });
         }
-        Self { columns, starts, patches: entries }
+        Self { columns, starts, patches: entries, functions }
     }
 
     fn of(&self, column: usize, row: usize) -> &[u32] {

@@ -5,9 +5,7 @@ use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{
-    ANY, Factor, Rows, collapse, evaluate, height, polynomials, splat, table_len,
-};
+use super::collapse::{ANY, Factor, ROWS, Rows, collapse, evaluate, polynomials, splat, table_len};
 use super::plan::{Affine, Patch};
 use super::tile::{Active, Part, Scratch, Tile, basis_len, basis_stride, load_jet};
 
@@ -31,12 +29,6 @@ struct Term {
     function: Option<usize>,
 }
 
-/// The basis at one point.
-struct Point<'a, T> {
-    basis: &'a [T],
-    at: usize,
-}
-
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     /// Collapses a patch on the rows of its part of the tile.
     #[inline(always)]
@@ -47,7 +39,6 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         scratch: &mut Scratch<T>,
         zero: R,
     ) {
-        let n = height::<T>();
         self.list_terms::<R>(patch, scratch);
         let Scratch { collapsed: Collapsed { table, terms, len }, shift, .. } = scratch;
         let blocks = &self.scene.plan.blocks[patch.blocks()];
@@ -58,12 +49,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let factor = self.factor(y, patch.support[1]);
             factor.value.store(&mut table[lane..]);
             if D >= 1 {
-                factor.slope.store(&mut table[n + lane..]);
+                factor.slope.store(&mut table[ROWS + lane..]);
             }
             let eta = place(y, patch.frame[1]);
             let rows = Rows { eta, factor, scale: patch.frame.map(|frame| frame.scale) };
             for (component, &shift) in shift.iter().enumerate() {
-                let mut at = weight_len::<T, D>() + component * *len + lane;
+                let mut at = weight_len::<D>() + component * *len + lane;
                 let mut shift = shift;
                 for (block, term) in blocks.iter().zip(&*terms) {
                     let coefficients = self.scene.plan.block_coefficients(block, component);
@@ -84,7 +75,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         collapsed.terms.clear();
         collapsed.len = 0;
         for block in &self.scene.plan.blocks[patch.blocks()] {
-            let len = table_len::<T, D>(block.degree);
+            let len = table_len::<D>(block.degree);
             let function = match block.function {
                 Slot::One => None,
                 Slot::Jet { group, entry } => {
@@ -94,7 +85,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             collapsed.terms.push(Term { degree: block.degree, len, function });
             collapsed.len += len;
         }
-        let needed = weight_len::<T, D>() + collapsed.len * shift.len();
+        let needed = weight_len::<D>() + collapsed.len * shift.len();
         if collapsed.table.len() < needed {
             collapsed.table.resize(needed, T::default());
         }
@@ -147,58 +138,129 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         scratch: &mut Scratch<T>,
         zero: R,
     ) {
-        let n = height::<T>();
+        let mut vector = part.vectors.start;
+        if C == 2 {
+            // Two vectors share what is loaded of the table.
+            while vector + 2 <= part.vectors.end {
+                let vectors = self.vectors::<R, 2>(patch, vector, zero);
+                self.spread_rows::<R, P, C, 2, SMOOTH>(vectors, part, scratch);
+                vector += 2;
+            }
+        }
+        while vector < part.vectors.end {
+            let vectors = self.vectors::<R, 1>(patch, vector, zero);
+            self.spread_rows::<R, P, C, 1, SMOOTH>(vectors, part, scratch);
+            vector += 1;
+        }
+    }
+
+    /// What a patch is in x on `V` vectors of columns.
+    #[inline(always)]
+    fn vectors<R: Real<Scalar = T>, const V: usize>(
+        &self,
+        patch: &Patch,
+        first: usize,
+        zero: R,
+    ) -> Vectors<R, V> {
+        let mut a = [Factor { value: zero, slope: zero }; V];
+        let mut xi = [zero; V];
+        let mut k = 0;
+        while k < V {
+            let column = self.corner()[0] + (first + k) * R::LANES;
+            let x = zero.load(&self.scene.xs[column..]);
+            a[k] = self.factor(x, patch.support[0]);
+            xi[k] = place(x, patch.frame[0]);
+            k += 1;
+        }
+        Vectors { first, a, xi }
+    }
+
+    #[inline(always)]
+    fn spread_rows<
+        R: Real<Scalar = T>,
+        const P: usize,
+        const C: usize,
+        const V: usize,
+        const SMOOTH: bool,
+    >(
+        &self,
+        vectors: Vectors<R, V>,
+        part: &Part,
+        scratch: &mut Scratch<T>,
+    ) {
         let components = if C == 2 { 2 } else { self.scene.plan.coefficients.len() };
         let stride = size::<R, D>() * (1 + components);
-        let first_column = self.corner()[0];
         let Scratch { sums, basis, collapsed, .. } = scratch;
-        let mut vector = part.vectors.start;
-        while vector < part.vectors.end {
-            let x = zero.load(&self.scene.xs[first_column + vector * R::LANES..]);
-            let a = self.factor(x, patch.support[0]);
-            let xi = place(x, patch.frame[0]);
-            let points = vector * n + part.rows.start..vector * n + part.rows.end;
-            let cells = &mut sums[points.start * stride..points.end * stride];
-            let mut row = part.rows.start;
-            for cell in cells.chunks_exact_mut(stride) {
-                let point = Point { basis, at: (vector * n + row) * basis_stride::<R, D>() };
-                add_patch::<R, D, P, C, SMOOTH>(cell, collapsed, row, &point, a, xi);
-                row += 1;
-            }
-            vector += 1;
+        let mut row = part.rows.start;
+        while row < part.rows.end {
+            let point = vectors.first * ROWS + row;
+            let cells = &mut sums[point * stride..((point + (V - 1) * ROWS) + 1) * stride];
+            let basis = basis.get(point * basis_stride::<R, D>()..).unwrap_or_default();
+            add_patch::<R, D, P, C, V, SMOOTH>(cells, collapsed, row, basis, &vectors);
+            row += 1;
         }
     }
 }
 
-/// Adds a patch at one vector of points: `a` and `xi` are its factor and coordinate in x.
+/// A patch in x: its factor and coordinate on `V` vectors of columns.
+struct Vectors<R, const V: usize> {
+    first: usize,
+    a: [Factor<R>; V],
+    xi: [R; V],
+}
+
+/// Adds a patch at the points of a row; `cells` begins with the first, and so does `basis`.
 #[inline(always)]
-fn add_patch<R: Real, const D: usize, const P: usize, const C: usize, const SMOOTH: bool>(
-    cell: &mut [R::Scalar],
+fn add_patch<
+    R: Real,
+    const D: usize,
+    const P: usize,
+    const C: usize,
+    const V: usize,
+    const SMOOTH: bool,
+>(
+    cells: &mut [R::Scalar],
     collapsed: &Collapsed<R::Scalar>,
     row: usize,
-    point: &Point<'_, R::Scalar>,
-    a: Factor<R>,
-    xi: R,
+    basis: &[R::Scalar],
+    vectors: &Vectors<R, V>,
 ) {
-    let n = height::<R::Scalar>();
     let size = size::<R, D>();
-    let table = &collapsed.table[row..];
-    let b = splat(xi, table[0]);
-    let db = if D >= 1 { splat(xi, table[n]) } else { b };
-    add::<R, D>(cell, a, [b, xi.lit(0.0), db]);
-    let table = &table[weight_len::<R::Scalar, D>()..];
-    let len = if SMOOTH && P != ANY { table_len::<R::Scalar, D>(P) } else { collapsed.len };
+    // From the cell of one vector to that of the next.
+    let step = if V == 1 { 0 } else { (cells.len() - (1 + C) * size) / (V - 1) };
+    let zero = vectors.xi[0].lit(0.0);
+    let b = splat(zero, collapsed.table[row]);
+    let db = if D >= 1 { splat(zero, collapsed.table[ROWS + row]) } else { b };
+    let len = if SMOOTH && P != ANY { table_len::<D>(P) } else { collapsed.len };
     let terms = collapsed.terms.as_slice();
-    let mut at = 0;
-    for sums in cell[size..].chunks_exact_mut(C * size) {
-        let table = &table[at..];
-        let v = local_field::<R, D, P, C, SMOOTH>(table, len, terms, point, xi);
-        let mut c = 0;
-        while c < C {
-            add::<R, D>(&mut sums[c * size..], a, v[c]);
-            c += 1;
+    let mut at = weight_len::<D>() + row;
+    let mut start = size;
+    let end = if C == 2 { 3 * size } else { cells.len() };
+    while start < end {
+        let table = &collapsed.table[at..];
+        let mut v = [[[zero; 3]; C]; V];
+        let mut k = 0;
+        while k < V {
+            let basis = basis.get(k * ROWS * basis_stride::<R, D>()..).unwrap_or_default();
+            v[k] = local_field::<R, D, P, C, SMOOTH>(table, len, terms, basis, vectors.xi[k]);
+            k += 1;
+        }
+        k = 0;
+        while k < V {
+            let mut c = 0;
+            while c < C {
+                add::<R, D>(&mut cells[k * step + start + c * size..], vectors.a[k], v[k][c]);
+                c += 1;
+            }
+            k += 1;
         }
         at += C * len;
+        start += C * size;
+    }
+    let mut k = 0;
+    while k < V {
+        add_weight::<R, D>(&mut cells[k * step..], vectors.a[k], b, db);
+        k += 1;
     }
 }
 
@@ -208,7 +270,7 @@ fn local_field<R: Real, const D: usize, const P: usize, const G: usize, const SM
     table: &[R::Scalar],
     len: usize,
     terms: &[Term],
-    point: &Point<'_, R::Scalar>,
+    basis: &[R::Scalar],
     xi: R,
 ) -> [[R; 3]; G] {
     let degree = if P == ANY { terms[0].degree } else { P };
@@ -221,9 +283,9 @@ fn local_field<R: Real, const D: usize, const P: usize, const G: usize, const SM
     if SMOOTH {
         return v;
     }
-    let mut at = table_len::<R::Scalar, D>(degree);
+    let mut at = table_len::<D>(degree);
     for term in &terms[1..] {
-        let f = point.function::<R, D>(term.function, xi);
+        let f = function::<R, D>(basis, term.function, xi);
         let mut g = 0;
         while g < G {
             let table = &table[g * len + at..];
@@ -238,22 +300,16 @@ fn local_field<R: Real, const D: usize, const P: usize, const G: usize, const SM
     v
 }
 
-impl<T: Scalar> Point<'_, T> {
-    /// A function with derivatives.
-    #[inline(always)]
-    fn function<R: Real<Scalar = T>, const D: usize>(
-        &self,
-        offset: Option<usize>,
-        like: R,
-    ) -> Jet<R> {
-        match offset {
-            None => Jet::constant(like.lit(1.0)),
-            Some(offset) => {
-                let start = self.at + offset;
-                let jet = &self.basis[start..start + polynomials::<D>() * R::LANES];
-                load_jet::<R, D>(jet, like)
-            }
-        }
+/// A function with derivatives.
+#[inline(always)]
+fn function<R: Real, const D: usize>(
+    basis: &[R::Scalar],
+    offset: Option<usize>,
+    like: R,
+) -> Jet<R> {
+    match offset {
+        None => Jet::constant(like.lit(1.0)),
+        Some(offset) => load_jet::<R, D>(&basis[offset..offset + size::<R, D>()], like),
     }
 }
 
@@ -293,6 +349,18 @@ fn add<R: Real, const D: usize>(sum: &mut [R::Scalar], a: Factor<R>, v: [R; 3]) 
     }
 }
 
+/// Adds a(x) b(y) with derivatives; `db` is the slope of b.
+#[inline(always)]
+fn add_weight<R: Real, const D: usize>(sum: &mut [R::Scalar], a: Factor<R>, b: R, db: R) {
+    let n = R::LANES;
+    let sum = &mut sum[..size::<R, D>()];
+    a.value.mul_add(b, b.load(sum)).store(sum);
+    if D >= 1 {
+        a.slope.mul_add(b, b.load(&sum[n..])).store(&mut sum[n..]);
+        a.value.mul_add(db, b.load(&sum[2 * n..])).store(&mut sum[2 * n..]);
+    }
+}
+
 /// Where a group begins in the basis.
 #[inline(always)]
 fn basis_offset<R: Real, const D: usize>(active: &[Active], group: u32) -> usize {
@@ -311,8 +379,8 @@ pub(super) const fn size<R: Real, const D: usize>() -> usize {
 
 /// Length of the weight's part of a table.
 #[inline(always)]
-const fn weight_len<T: Scalar, const D: usize>() -> usize {
-    if D >= 1 { 2 * height::<T>() } else { height::<T>() }
+const fn weight_len<const D: usize>() -> usize {
+    if D >= 1 { 2 * ROWS } else { ROWS }
 }
 
 /// ξ of an offset.

@@ -8,7 +8,7 @@ use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
-use super::collapse::{height, splat};
+use super::collapse::{ROWS, splat};
 use super::plan::{COLUMNS, Patch};
 use super::spread::{Collapsed, size};
 
@@ -77,7 +77,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     /// First column and row.
     #[inline(always)]
     pub(super) fn corner(&self) -> [usize; 2] {
-        [self.column * COLUMNS, self.band * height::<T>()]
+        [self.column * COLUMNS, self.band * ROWS]
     }
 
     /// Sums over the patches.
@@ -88,8 +88,11 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let len = points::<R>() * size::<R, D>() * (1 + plan.coefficients.len());
         scratch.sums.resize(len, T::default());
         self.choose_shift(list, &mut scratch.shift);
-        self.activate::<R>(list, &mut scratch.active);
-        self.evaluate_functions(scratch, zero);
+        scratch.active.clear();
+        if plan.has_functions(self.column, self.band) {
+            self.activate::<R>(list, &mut scratch.active);
+            self.evaluate_functions(scratch, zero);
+        }
         for &index in list {
             let patch = &plan.patches[index as usize];
             let part = self.part::<R>(patch);
@@ -119,7 +122,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let columns = within(&patch.columns, column, COLUMNS);
         Part {
             vectors: columns.start / R::LANES..columns.end.div_ceil(R::LANES),
-            rows: within(&patch.rows, row, height::<T>()),
+            rows: within(&patch.rows, row, ROWS),
         }
     }
 
@@ -127,7 +130,6 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn activate<R: Real<Scalar = T>>(&self, list: &[u32], active: &mut Vec<Active>) {
         let plan = &self.scene.plan;
-        active.clear();
         for &index in list {
             let patch = &plan.patches[index as usize];
             let mut last = None;
@@ -168,7 +170,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 // All are stored, however many the group has: so they stay in registers.
                 let mut jets = [Jet::constant(zero); GROUP];
                 functions.evaluate::<R, D>(group, [x, y], Side::Above, &mut jets);
-                let start = (vector * height::<T>() + k) * stride;
+                let start = (vector * ROWS + k) * stride;
                 store_jets::<R, D>(&jets, &mut basis[start..start + stride]);
             }
         }
@@ -185,7 +187,7 @@ fn within(range: &Range<u32>, start: usize, count: usize) -> Range<usize> {
 /// Vectors of points of a tile.
 #[inline(always)]
 const fn points<R: Real>() -> usize {
-    COLUMNS / R::LANES * height::<R::Scalar>()
+    COLUMNS / R::LANES * ROWS
 }
 
 /// Numbers a group has at a vector of points.
