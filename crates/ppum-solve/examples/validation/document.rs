@@ -173,8 +173,8 @@ fn release() {
     for n in [12, 24, 48] {
         let found = kinked_crack(n);
         let [k1, k2] = found.intensities.map(|k| format!("{k:.5}"));
-        let sides = [found.from_intensities(), found.from_energy].map(|g| format!("{g:.5}"));
-        let ratio = error(found.from_energy / found.from_intensities() - 1.0);
+        let sides = [found.by_intensities(), found.by_energy].map(|g| format!("{g:.5}"));
+        let ratio = error(found.by_energy / found.by_intensities() - 1.0);
         row(&[vec![format!("{n} × {n}"), k1, k2], sides.to_vec(), vec![ratio]].concat());
     }
 }

@@ -70,7 +70,7 @@ fn kinked_crack_in_the_plane() {
 fn the_energy_released_by_a_kinked_crack() {
     let release = kinked_crack(32);
     println!("{release:?}");
-    assert!((release.from_energy / release.from_intensities() - 1.0).abs() < 5e-4, "{release:?}");
+    assert!((release.by_energy / release.by_intensities() - 1.0).abs() < 5e-4, "{release:?}");
 }
 
 /// The same bits with one and with two threads.

@@ -19,12 +19,12 @@ pub(crate) struct Release {
     /// E′
     young: f64,
     /// −dΠ/da by a central difference. Under given tractions Π = −U.
-    pub(crate) from_energy: f64,
+    pub(crate) by_energy: f64,
 }
 
 impl Release {
     /// (K_I² + K_II²)/E′
-    pub(crate) fn from_intensities(&self) -> f64 {
+    pub(crate) fn by_intensities(&self) -> f64 {
         self.intensities.iter().map(|k| k * k / self.young).sum()
     }
 }
@@ -37,7 +37,7 @@ pub(crate) fn kinked_crack(n: u32) -> Release {
     Release {
         intensities: [tip.k1, tip.k2],
         young: plate.equation.material().expect("elasticity").effective_young(),
-        from_energy: (longer - shorter) / (2.0 * GROWTH),
+        by_energy: (longer - shorter) / (2.0 * GROWTH),
     }
 }
 
