@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Write the colour tables in crates/ppum-render/data: 256 lines of sRGB bytes each.
 
-    python3 -m venv /tmp/colormaps && /tmp/colormaps/bin/pip install matplotlib
-    /tmp/colormaps/bin/python tools/colormaps.py
+    python3 -m venv venv && venv/bin/pip install matplotlib
+    venv/bin/python tools/colormaps.py
 
 The viridis family, cividis and turbo are the published tables as matplotlib carries them;
 coolwarm is computed here from its definition.

@@ -2,8 +2,8 @@
 # Writes crates/ppum-render/data/DejaVuSans-subset.ttf: Latin, Greek, super- and subscripts and
 # mathematical signs of DejaVu Sans, without hinting and layout tables, which figures do not use.
 # Needs a virtual environment with matplotlib (it carries the font) and fonttools:
-#     python3 -m venv /tmp/font && /tmp/font/bin/pip install matplotlib fonttools
-#     tools/font.sh /tmp/font/bin
+#     python3 -m venv venv && venv/bin/pip install matplotlib fonttools
+#     tools/font.sh venv/bin
 set -eu
 bin=$1
 data=$(dirname "$0")/../crates/ppum-render/data

@@ -1,1 +1,66 @@
-//! ppum-format
+//! [`Dataset`] ↔ HDF5, as `FORMAT.md` describes it.
+//!
+//! [`write()`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where there
+//! is no file system). Between a dataset and HDF5 stands the content: a sorted map from the names of
+//! arrays and attributes to their values. Names and shapes meet the data model in `encode` and
+//! `decode`, HDF5 is known to `hdf5` alone, and the checksum is taken over the content, so it does
+//! not depend on how HDF5 lays out its bytes.
+//!
+//! Files are not trusted: whatever their bytes are, reading ends in a checked [`Dataset`] or in a
+//! [`ReadError`] that names the object at fault, and what is allocated is bounded by the file's size.
+//!
+//! ```
+//! # fn main() -> Result<(), ppum_format::ReadError> {
+//! let error = ppum_format::from_bytes(b"not a dataset".to_vec()).unwrap_err();
+//! assert!(matches!(error, ppum_format::ReadError::Hdf5 { .. }));
+//! # Ok(())
+//! # }
+//! ```
+
+mod checksum;
+mod content;
+mod decode;
+mod encode;
+mod error;
+mod file;
+mod hdf5;
+mod names;
+#[cfg(test)]
+#[path = "../examples/fixture/synthetic.rs"]
+mod synthetic;
+
+use ppum::dataset::Dataset;
+
+pub use error::{ReadError, WriteError};
+pub use file::{read, write};
+
+/// Version of the format as (major, minor). A reader takes every minor version of its own major
+/// version; what it does not know is optional.
+pub const FORMAT_VERSION: (u32, u32) = (1, 0);
+
+/// The dataset as the bytes of an HDF5 file.
+///
+/// # Errors
+///
+/// [`WriteError::Invalid`] if the dataset fails [`Dataset::check`], [`WriteError::Object`] if it
+/// holds something the format cannot express.
+pub fn to_bytes(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
+    dataset.check()?;
+    let mut content = encode::content(dataset)?;
+    checksum::seal(&mut content);
+    hdf5::to_bytes(&content)
+}
+
+/// The dataset in the bytes of an HDF5 file.
+///
+/// # Errors
+///
+/// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
+pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
+    let mut content = hdf5::from_bytes(bytes)?;
+    decode::check_version(&content)?;
+    checksum::verify(&mut content)?;
+    let dataset = decode::dataset(content)?;
+    dataset.check()?;
+    Ok(dataset)
+}

@@ -38,7 +38,7 @@ fn time(mut frame: impl FnMut(), repetitions: usize) -> f64 {
 
 fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
     let draw = || {
-        black_box(render::<T>(field, &view(), Quantity::VonMises, None).expect("a stress"));
+        black_box(render::<T>(field, &view(), Quantity::VonMises).expect("a stress"));
     };
     time(draw, 100)
 }
@@ -84,7 +84,7 @@ fn main() {
         let dataset = dataset(&recipe(3, 3));
         let field = Field::new(&dataset, 0).expect("a field");
         let draw = || {
-            black_box(reference(&field, &view(), Quantity::VonMises, None).expect("a stress"));
+            black_box(reference(&field, &view(), Quantity::VonMises).expect("a stress"));
         };
         println!("scalar reference, 1024 patches: {:.0} ms", time(draw, 1));
     });

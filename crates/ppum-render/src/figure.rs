@@ -22,7 +22,8 @@ use crate::picture::Picture;
 use crate::text::{self, CAP_HEIGHT};
 use crate::ticks::{self, Step, Ticks, power_of_ten};
 
-/// The words of a figure; empty ones are left out.
+/// The words of a figure; empty ones are left out. `_{…}` sets a subscript: `σ_{yy}`. Characters are
+/// those of Latin, Greek and mathematics; others appear as boxes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     /// Line above the picture.
@@ -197,13 +198,13 @@ impl<'a> Sheet<'a> {
         let Self { scale, stroke, .. } = *self;
         let top = self.plot_max[1] + stroke;
         let base = top + (TICK + GAP + TICK_TEXT * CAP_HEIGHT) * scale;
+        let middle = 0.5 * (self.plot_min[0] + self.plot_max[0]);
         for tick in &self.x.ticks.major {
             let at = self.plot_min[0] + self.picture.view.pixel_of_offset(vec2(tick.at, 0.0)).x;
-            let left = snapped(at, stroke);
+            let left = snapped(at, stroke, middle);
             ink.rect(vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
             self.centred(ink, &tick.label, TICK_TEXT * scale, vec2(at, base));
         }
-        let middle = 0.5 * (self.plot_min[0] + self.plot_max[0]);
         let room = self.plot_max[0] - self.plot_min[0];
         let label = text::fitted(&self.x.label, LABEL_TEXT * scale, room);
         let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
@@ -214,9 +215,10 @@ impl<'a> Sheet<'a> {
         let Self { scale, stroke, .. } = *self;
         let right = self.plot_min[0] - stroke;
         let end = right - (TICK + GAP) * scale;
+        let middle = 0.5 * (self.plot_min[1] + self.plot_max[1]);
         for tick in &self.y.ticks.major {
             let at = self.plot_min[1] + self.picture.view.pixel_of_offset(vec2(0.0, tick.at)).y;
-            let top = snapped(at, stroke);
+            let top = snapped(at, stroke, middle);
             ink.rect(vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
             let length = text::width(&tick.label, TICK_TEXT * scale);
             self.at_height(ink, &tick.label, vec2(end - length, at));
@@ -285,9 +287,10 @@ impl<'a> Sheet<'a> {
             ink.line(a, tip, stroke);
             ink.line(tip, b, stroke);
         }
+        let middle = 0.5 * (low + high);
         let mut mark = |position: f64, length: f64| {
             let at = low + position * (high - low);
-            let top = snapped(at, stroke).clamp(high - stroke, low);
+            let top = snapped(at, stroke, middle);
             let from = right + stroke;
             ink.rect(vec2(from, top), vec2(from + (length * scale).round(), top + stroke));
             at
@@ -300,15 +303,21 @@ impl<'a> Sheet<'a> {
         for (tick, height) in self.bar.ticks.major.iter().zip(heights) {
             self.at_height(ink, &tick.label, vec2(start, height));
         }
-        let base = start + self.bar.widest + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale;
-        self.upwards(ink, &self.bar.label, base);
+        self.upwards(ink, &self.bar.label, self.bar_label_base());
     }
 
+    /// Base line of the bar's label.
+    fn bar_label_base(&self) -> f64 {
+        let ticks_end = self.bar_place().0 + self.bar_width() + self.stroke + self.bar.widest;
+        ticks_end + (TICK + GAP + LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * self.scale
+    }
+
+    /// The title, cut where the bar's label could reach up to it.
     fn draw_title(&self, ink: &mut Mask, title: &str) {
         let size = TITLE_TEXT * self.scale;
         let start = vec2(self.plot_min[0], self.plot_min[1] - TITLE_GAP * self.scale);
-        let room = f64::from(self.size[0]) - start.x - GAP * self.scale;
-        text::draw(ink, &text::fitted(title, size, room), size, start);
+        let end = self.bar_label_base() - (LABEL_TEXT + GAP) * self.scale;
+        text::draw(ink, &text::fitted(title, size, end - start.x), size, start);
     }
 
     /// Text centred on a point of its base line.
@@ -386,9 +395,11 @@ fn outline(ink: &mut Mask, min: Vec2, max: Vec2, stroke: f64) {
     ink.rect(vec2(max.x, min_out.y), max_out);
 }
 
-/// The start of a line of whole pixels around `at`.
-fn snapped(at: f64, stroke: f64) -> f64 {
-    (at - 0.5 * stroke).round()
+/// The start of a line of whole pixels around `at`; halves are rounded away from the middle, so that
+/// ticks at both ends of an axis continue the frame's lines.
+fn snapped(at: f64, stroke: f64, middle: f64) -> f64 {
+    let start = at - 0.5 * stroke;
+    if at < middle { (start - 0.5).ceil() } else { (start + 0.5).floor() }
 }
 
 /// A page with diagonal lines: what shows where the picture has no values.
@@ -403,4 +414,157 @@ fn hatched(size: [u32; 2]) -> Image {
         }
     }
     image
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Style;
+    use crate::range::Range;
+    use crate::raster::Raster;
+    use crate::view::View;
+    use ppum::crack::CrackEnd;
+    use ppum::vec2::Rect;
+
+    const SIZE: [u32; 2] = [640, 480];
+
+    fn labels() -> Labels {
+        let word = |text: &str| text.to_owned();
+        Labels {
+            title: word(
+                "A plate with a title that is much longer than the figure is wide, as they are",
+            ),
+            quantity: word(
+                "a quantity whose name is longer than the figure is high, von Mises say",
+            ),
+            unit: word("MPa"),
+            length_unit: word("mm"),
+        }
+    }
+
+    /// x on a square, NaN in its upper left quarter.
+    fn picture(half: f64, range: Range) -> Picture {
+        let square = Rect::around(Vec2::ZERO, vec2(half, half));
+        let view = View::hug(square, plot_area(SIZE).unwrap()).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, j| match view.offset(i, j) {
+            p if p.x < 0.0 && p.y > 0.0 => f64::NAN,
+            p => p.x,
+        });
+        Picture::bare(&raster, &view, &Style { range, ..Style::default() }).unwrap()
+    }
+
+    /// Where the plot begins, found as the first place with the picture's last row of colours.
+    fn plot_corner(page: &Image, picture: &Picture) -> [u32; 2] {
+        let [columns, rows] = picture.image.size;
+        let last_row = |x: u32, y: u32| {
+            (0..columns).all(|i| page.pixel(x + i, y) == picture.image.pixel(i, rows - 1))
+        };
+        let mut places = (rows..SIZE[1]).flat_map(|y| (0..SIZE[0] - columns).map(move |x| [x, y]));
+        let found = places.rfind(|&[x, y]| last_row(x, y)).expect("the plot is on the page");
+        [found[0], found[1] + 1 - rows]
+    }
+
+    #[test]
+    fn the_picture_is_shown_pixel_for_pixel() {
+        let picture = picture(1.0, Range::Auto);
+        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let [x, y] = plot_corner(&page, &picture);
+        let [columns, rows] = picture.image.size;
+        assert_eq!(page.size, SIZE);
+        for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
+            let (shown, color) = (page.pixel(x + i, y + j), picture.image.pixel(i, j));
+            let expected = match (color[3], (i + j) % HATCH_STEP) {
+                (0, 0) => HATCH,
+                (0, _) => PAGE,
+                _ => color,
+            };
+            assert_eq!(shown, expected, "{i}, {j}");
+        }
+        for (i, j) in [(x - 1, y - 1), (x + columns, y + rows), (x - 1, y + 7)] {
+            assert_eq!(page.pixel(i, j), INK, "the frame");
+        }
+    }
+
+    #[test]
+    fn ticks_are_at_their_values() {
+        let picture = picture(1.0, Range::Auto);
+        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let [x, y] = plot_corner(&page, &picture);
+        let [columns, rows] = picture.image.size;
+        let below = y + rows + 3;
+        let marked: Vec<u32> =
+            (0..=columns + 1).filter(|&i| page.pixel(x + i - 1, below) == INK).collect();
+        let expected = [0, columns / 4, columns / 2, 3 * columns / 4, columns];
+        assert_eq!(marked.len(), 5);
+        for (found, place) in marked.into_iter().zip(expected) {
+            assert!(found.abs_diff(place) <= 1, "{found} {place}");
+        }
+    }
+
+    #[test]
+    fn the_bar_runs_from_low_to_high_and_ends_in_arrows() {
+        let picture = picture(1.0, Range::Fixed(-0.5, 0.5));
+        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let [x, y] = plot_corner(&page, &picture);
+        let [columns, rows] = picture.image.size;
+        let column = x + columns + (BAR_GAP + BAR / 2.0) as u32;
+        let map = &picture.colormap;
+        assert_eq!(page.pixel(column, y + ARROW as u32 - 3), map.above);
+        assert_eq!(page.pixel(column, y + rows - ARROW as u32 + 3), map.below);
+        let near = |a: Rgba, b: Rgba| (0..3).all(|k| a[k].abs_diff(b[k]) < 6);
+        assert!(near(page.pixel(column, y + ARROW as u32 + 1), map.color(1.0)));
+        assert!(near(page.pixel(column, y + rows - ARROW as u32 - 2), map.color(0.0)));
+        assert!(near(page.pixel(column, y + rows / 2), map.color(0.5)));
+    }
+
+    #[test]
+    fn long_words_stay_on_the_page() {
+        for half in [1.0, 1e-5, 3e7] {
+            let page = figure(&picture(half, Range::Auto), &labels(), &[], SIZE).unwrap();
+            let [right, bottom] = SIZE.map(|n| n - 1);
+            for (i, j) in (0..SIZE[0]).flat_map(|i| (0..SIZE[1]).map(move |j| (i, j))) {
+                let is_margin = i < 2 || j < 2 || i + 1 >= right || j + 1 >= bottom;
+                assert!(!is_margin || page.pixel(i, j) == PAGE, "{i}, {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn deep_axes_count_from_the_nearest_tip_in_view() {
+        let tip = vec2(0.3, -0.7);
+        let crack = |tip: Vec2| Crack {
+            points: vec![tip + vec2(-0.1, 0.0), tip],
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
+        };
+        let cracks = [crack(tip + vec2(3e-10, 0.0)), crack(tip), crack(tip + vec2(1e-8, 0.0))];
+        let view = View::new(tip, 1e-9, [300, 300]).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, _| f64::from(i));
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = axes(&picture, &labels(), &cracks, 1.0);
+        assert_eq!(
+            (x.label.as_str(), y.label.as_str()),
+            ("x − 0.3 [×10⁻¹⁰ mm]", "y + 0.7 [×10⁻¹⁰ mm]")
+        );
+        assert!(x.ticks.major.iter().any(|t| t.at == 0.0 && t.label == "0"));
+    }
+
+    #[test]
+    fn labels_have_only_the_parts_they_need() {
+        let ticks = |reference, exponent| Ticks { reference, exponent, ..Ticks::default() };
+        assert_eq!(axis_label("x", &ticks(0.0, 0), ""), "x");
+        assert_eq!(axis_label("x", &ticks(0.0, 0), "mm"), "x [mm]");
+        assert_eq!(axis_label("u", &ticks(0.0, -4), ""), "u [×10⁻⁴]");
+        assert_eq!(axis_label("", &ticks(0.0, 3), "MPa"), "[×10³ MPa]");
+        assert_eq!(axis_label("x", &ticks(0.25, 0), ""), "x − 0.25");
+    }
+
+    #[test]
+    fn figures_without_room_are_refused() {
+        let picture = picture(1.0, Range::Auto);
+        let refused = |size| figure(&picture, &labels(), &[], size).unwrap_err();
+        assert!(matches!(refused([200, 480]), FigureError::TooSmall { .. }));
+        assert!(matches!(refused([500, 400]), FigureError::TooLarge { .. }));
+        let FigureError::TooSmall { least, .. } = refused([10, 10]) else { unreachable!() };
+        assert_eq!(plot_area(least), Ok([LEAST, LEAST]));
+    }
 }

@@ -13,14 +13,16 @@ use crate::view::View;
 
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 const CRACK: Rgba = [16, 16, 20, 255];
-const SEAM: Rgba = [255, 255, 255, 190];
+const SEAM: Rgba = [255, 255, 255, 150];
 /// Widths and radii in pixels of a picture 768 pixels high.
-const CRACK_WIDTH: f64 = 1.5;
+const CRACK_WIDTH: f64 = 1.8;
 const TIP_RADIUS: f64 = 3.0;
-const SEAM_WIDTH: f64 = 1.2;
+const SEAM_WIDTH: f64 = 1.0;
 const BORDER_WIDTH: f64 = 1.0;
 /// Opacity of cell borders.
 const BORDER_ALPHA: u8 = 120;
+/// White borders show on all but the lightest colours; black ones begin late, so that few lines change.
+const MOSTLY_LIGHT: f64 = 165.0;
 
 /// How much wider than in a picture of 1024 × 768 pixels lines and letters are; never narrower, lest
 /// they be unreadable.
@@ -79,7 +81,7 @@ pub fn patches(image: &mut Image, view: &View, partition: &Partition) {
 fn contrasting(color: Rgba) -> Rgba {
     let [r, g, b, alpha] = color.map(f64::from);
     let light = (0.299 * r + 0.587 * g + 0.114 * b) * alpha / 255.0 + (255.0 - alpha);
-    if light < 110.0 { [255, 255, 255, BORDER_ALPHA] } else { [0, 0, 0, BORDER_ALPHA] }
+    if light < MOSTLY_LIGHT { [255, 255, 255, BORDER_ALPHA] } else { [0, 0, 0, BORDER_ALPHA] }
 }
 
 /// The part of a segment in or near the view, in continuous pixel coordinates.
@@ -127,7 +129,7 @@ mod tests {
         let image = draw(&view, straight(Vec2::ZERO, vec2(1.0, 0.0)));
         assert_eq!(image.pixel(150, 100), CRACK);
         let seam = image.pixel(150, 98);
-        assert!(seam[0] > 160, "{seam:?}");
+        assert!(seam[0] > 150, "{seam:?}");
         assert_eq!(image.pixel(150, 90), GREY);
         assert_eq!(image.pixel(50, 100), GREY);
         assert_eq!(image.pixel(100, 102), CRACK, "the dot of the tip");

@@ -79,27 +79,17 @@ impl Picture {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
         let Style { colormap, scale, range, undefined } = style;
         let norm = range.normalization(*scale, colormap.diverging, raster)?;
-        let palette = colormap.palette(PALETTE);
-        let color = |value: f64| match value {
-            v if v.is_nan() => *undefined,
-            v if v < norm.min() => colormap.below,
-            v if v > norm.max() => colormap.above,
-            v => palette[(norm.position(v) * (PALETTE - 1) as f64 + 0.5) as usize],
+        let shades = Shades {
+            palette: colormap.palette(PALETTE),
+            norm,
+            undefined: *undefined,
+            below: colormap.below,
+            above: colormap.above,
         };
         let mut rgba = vec![0; 4 * raster.values.len()];
-        let rows = rgba.par_chunks_mut(4 * raster.size[0].max(1) as usize);
-        let found = rows.zip(raster.values.par_chunks(raster.size[0].max(1) as usize)).map(
-            |(pixels, values)| {
-                let (mut below, mut above) = (false, false);
-                for (pixel, &value) in pixels.as_chunks_mut().0.iter_mut().zip(values) {
-                    let value = value.into();
-                    below |= value < norm.min();
-                    above |= value > norm.max();
-                    *pixel = color(value);
-                }
-                (below, above)
-            },
-        );
+        let columns = raster.size[0].max(1) as usize;
+        let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
+        let found = rows.map(|(pixels, values)| shades.paint(values, pixels.as_chunks_mut().0));
         let (has_below, has_above) = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
         Ok(Self {
             image: Image { size: raster.size, rgba },
@@ -133,6 +123,40 @@ impl Picture {
             ("ppum:colormap", self.colormap.name.clone()),
         ];
         entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
+    }
+}
+
+/// What a value's colour is found with.
+struct Shades {
+    palette: Vec<Rgba>,
+    norm: Normalization,
+    undefined: Rgba,
+    below: Rgba,
+    above: Rgba,
+}
+
+impl Shades {
+    /// Colours a row; tells whether a value lay below, and above, the range.
+    fn paint<T: Sample>(&self, values: &[T], pixels: &mut [Rgba]) -> (bool, bool) {
+        let (min, max) = (self.norm.min(), self.norm.max());
+        let (mut has_below, mut has_above) = (false, false);
+        for (pixel, &value) in pixels.iter_mut().zip(values) {
+            let value = value.into();
+            has_below |= value < min;
+            has_above |= value > max;
+            *pixel = match value {
+                v if v.is_nan() => self.undefined,
+                v if v < min => self.below,
+                v if v > max => self.above,
+                v => self.inside(v),
+            };
+        }
+        (has_below, has_above)
+    }
+
+    fn inside(&self, value: f64) -> Rgba {
+        let index = (self.norm.position(value) * (PALETTE - 1) as f64 + 0.5) as usize;
+        self.palette[index.min(PALETTE - 1)]
     }
 }
 

@@ -4,7 +4,9 @@
 //! [`Picture::description`](crate::picture::Picture::description) for the keys.
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+#[cfg(not(target_family = "wasm"))]
+use std::path::Path;
+use std::path::PathBuf;
 
 use crate::image::Image;
 

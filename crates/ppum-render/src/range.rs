@@ -35,7 +35,7 @@ pub enum RangeError {
     /// Not `auto` and not two numbers.
     #[error("'{0}' is no range; write auto or MIN,MAX")]
     Syntax(String),
-    /// Bounds that do not rise or are not finite.
+    /// Bounds that do not rise, are not finite, or differ by less than the smallest normal number.
     #[error("the range from {0} to {1} is empty; give two finite numbers, the smaller one first")]
     Empty(f64, f64),
     /// A logarithmic scale from a value that is not positive.
@@ -66,7 +66,7 @@ impl fmt::Display for Range {
 }
 
 fn check(min: f64, max: f64) -> Result<Range, RangeError> {
-    if min < max && (max - min).is_finite() {
+    if min < max && (max - min).is_normal() {
         Ok(Range::Fixed(min, max))
     } else {
         Err(RangeError::Empty(min, max))
@@ -251,7 +251,9 @@ mod tests {
         assert_eq!("-1, 2e3".parse(), Ok(Range::Fixed(-1.0, 2000.0)));
         assert_eq!("1,1".parse::<Range>(), Err(RangeError::Empty(1.0, 1.0)));
         assert_eq!("2,1".parse::<Range>(), Err(RangeError::Empty(2.0, 1.0)));
-        assert!(matches!("1,inf".parse::<Range>(), Err(RangeError::Empty(..))));
+        for text in ["1,inf", "nan,1", "0,1e-310", "-1.7e308,1.7e308"] {
+            assert!(matches!(text.parse::<Range>(), Err(RangeError::Empty(..))), "{text}");
+        }
         assert!(matches!("1..2".parse::<Range>(), Err(RangeError::Syntax(_))));
         let log = Range::Fixed(0.0, 1.0).normalization(Scale::Log, false, &list(&[1.0]));
         assert_eq!(log, Err(RangeError::LogOfNonPositive(0.0)));

@@ -66,18 +66,21 @@ pub struct Normalization {
     max: f64,
     /// c of the symmetric logarithm.
     threshold: f64,
+    /// s(min), s(max) − s(min) and one over it: this is done for every pixel.
     start: f64,
     span: f64,
+    per_span: f64,
 }
 
 impl Normalization {
     /// A scale on a range that is known to be fit for it (see [`Range`](crate::range::Range)).
     pub(crate) fn new(scale: Scale, min: f64, max: f64) -> Self {
-        debug_assert!(min < max && (max - min).is_finite() && (scale != Scale::Log || min > 0.0));
+        debug_assert!(min < max && (max - min).is_normal() && (scale != Scale::Log || min > 0.0));
         let threshold = min.abs().max(max.abs()) / SYMLOG_RATIO;
-        let mut norm = Self { scale, min, max, threshold, start: 0.0, span: 1.0 };
+        let mut norm = Self { scale, min, max, threshold, start: 0.0, span: 1.0, per_span: 1.0 };
         norm.start = norm.scaled(min);
         norm.span = norm.scaled(max) - norm.start;
+        norm.per_span = 1.0 / norm.span;
         norm
     }
 
@@ -109,7 +112,7 @@ impl Normalization {
     /// NaN for NaN. On the logarithmic scale values ≤ 0 are at −∞.
     #[must_use]
     pub fn position(&self, value: f64) -> f64 {
-        (self.scaled(value) - self.start) / self.span
+        (self.scaled(value) - self.start) * self.per_span
     }
 
     /// The value at a position: the inverse of [`position`](Self::position).

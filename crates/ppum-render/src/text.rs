@@ -1,9 +1,9 @@
 //! Lettering: DejaVu Sans, cut down to Latin, Greek and mathematical signs (`data/README.md`).
-//! A character the font lacks is drawn as an empty box.
+//! A character the font lacks is drawn as an empty box. `_{…}` sets a subscript: `σ_{xy}`.
 
 use std::sync::LazyLock;
 
-use ab_glyph::{Font as _, FontRef, Glyph, PxScale, ScaleFont as _, point};
+use ab_glyph::{Font as _, FontRef, Glyph, Point, PxScale, ScaleFont as _, point};
 use ppum::vec2::{Vec2, vec2};
 
 use crate::image::Mask;
@@ -22,18 +22,35 @@ fn px_scale(size: f64) -> PxScale {
     PxScale::from(size as f32 * FONT.height_unscaled() / em)
 }
 
+/// Size of a subscript in parts of the size, and how far it is lowered.
+const SUBSCRIPT: f64 = 0.72;
+const LOWERED: f64 = 0.17;
+
 /// The glyphs of a line that starts at the origin, and its length.
 fn glyphs(text: &str, size: f64) -> (Vec<Glyph>, f64) {
-    let font = FONT.as_scaled(px_scale(size));
-    let mut x = 0.0;
-    let place = |c: char| {
-        let mut glyph = font.scaled_glyph(c);
-        glyph.position = point(x, 0.0);
-        x += font.h_advance(glyph.id);
-        glyph
-    };
-    let line = text.chars().map(place).collect();
+    let (mut line, mut x) = (Vec::new(), 0.0);
+    for (index, piece) in text.split("_{").enumerate() {
+        let (subscript, plain) = match piece.split_once('}') {
+            Some(parts) if index > 0 => parts,
+            _ if index > 0 => (piece, ""),
+            _ => ("", piece),
+        };
+        x = append(&mut line, subscript, SUBSCRIPT * size, point(x, (LOWERED * size) as f32));
+        x = append(&mut line, plain, size, point(x, 0.0));
+    }
     (line, f64::from(x))
+}
+
+/// Appends the glyphs of a piece of text that starts at `at`; returns where it ends.
+fn append(line: &mut Vec<Glyph>, text: &str, size: f64, mut at: Point) -> f32 {
+    let font = FONT.as_scaled(px_scale(size));
+    for c in text.chars() {
+        let mut glyph = font.scaled_glyph(c);
+        glyph.position = at;
+        at.x += font.h_advance(glyph.id);
+        line.push(glyph);
+    }
+    at.x
 }
 
 /// Length of a line of text \[pixels\].
@@ -105,6 +122,19 @@ mod tests {
         let rows: Vec<u32> = (0..140).filter(|&j| mask.coverage(25, j) > 0.5).collect();
         assert_eq!((rows[0], rows[rows.len() - 1]), (47, 119));
         assert!((CAP_HEIGHT - 1493.0 / 2048.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn subscripts_are_smaller_and_lower() {
+        let expected = width("σ", 20.0) + SUBSCRIPT * width("xy", 20.0) + width(" at", 20.0);
+        assert!((width("σ_{xy} at", 20.0) - expected).abs() < 1e-3);
+        let lowest = |text: &str| {
+            let mut mask = Mask::new([40, 60]);
+            draw(&mut mask, text, 30.0, vec2(2.0, 40.0));
+            let covered = |&j: &u32| (0..40).any(|i| mask.coverage(i, j) > 0.5);
+            (0..60).filter(covered).max().unwrap()
+        };
+        assert!(lowest("_{H}") > lowest("H") + 3);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub fn axis(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
     let reference = if far { anchor.unwrap_or_else(|| rounded(center, half)) } else { 0.0 };
     let middle = center - reference;
     // A tick on the border stays in spite of rounding.
-    let border = half * (1.0 + 1e-9);
+    let border = half * (1.0 + 1e-9) + f64::EPSILON * center.abs();
     let first = ((middle - border) / step.size()).ceil() as i64;
     let last = ((middle + border) / step.size()).floor() as i64;
     let multiples: Vec<i64> = (first..=last).map(|k| k * step.digit).collect();

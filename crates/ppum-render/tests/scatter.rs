@@ -84,18 +84,13 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 
 /// Largest difference in f64, 99th percentile and largest in f32.
 fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
-    let exact = |p: Vec2, out: &mut [f64]| {
-        for (component, out) in out.iter_mut().enumerate() {
-            *out = synthetic::smooth(component, p).v;
-        }
-    };
-    let slow = |quantity| reference(field, view, quantity, Some(&exact)).unwrap();
+    let slow = |quantity| reference(field, view, quantity).unwrap();
     let by_gradient = quantity.source() == Source::Gradient;
     let gradient = by_gradient.then(|| slow(Quantity::GradientNorm));
     let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
     let scale = Scale { values: slow(quantity), gradient, floor: 0.1 * mean };
-    let wide = render::<f64>(field, view, quantity, Some(&exact)).unwrap();
-    let narrow = render::<f32>(field, view, quantity, Some(&exact)).unwrap();
+    let wide = render::<f64>(field, view, quantity).unwrap();
+    let narrow = render::<f32>(field, view, quantity).unwrap();
     let (wide, narrow) = (differences(&wide, &scale), differences(&narrow, &scale));
     let found = [quantile(&wide, 1.0), quantile(&narrow, 0.99), quantile(&narrow, 1.0)];
     println!("{quantity:?} width {:e}: {found:?}", view.width);
@@ -150,6 +145,11 @@ fn mixed_degrees_and_frames_of_their_own() {
 }
 
 #[test]
+fn functions_that_are_formulas() {
+    agree(&dataset(&Recipe { formulas: true, ..Recipe::default() }), &whole([67, 49]), &SOME);
+}
+
+#[test]
 fn one_and_three_components() {
     for components in [1, 3] {
         let dataset = dataset(&Recipe { components, ..Recipe::default() });
@@ -175,7 +175,7 @@ fn views_partly_and_wholly_outside() {
     }
     let field = Field::new(&dataset, 0).unwrap();
     let away = View::new(vec2(9.0, 0.0), 1.0, [33, 17]).unwrap();
-    let raster = render::<f32>(&field, &away, Quantity::VonMises, None).unwrap();
+    let raster = render::<f32>(&field, &away, Quantity::VonMises).unwrap();
     assert!(raster.values.iter().all(|v| v.is_nan()));
 }
 
@@ -205,10 +205,10 @@ fn infinite_at_a_tip() {
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(KINKED[2], 1e-3, [41, 21]).unwrap();
     fn check<T: Scalar + Sample>(field: &Field, view: &View) {
-        let raster = render::<T>(field, view, Quantity::VonMises, None).unwrap();
+        let raster = render::<T>(field, view, Quantity::VonMises).unwrap();
         assert_eq!(raster.value(20, 10).into(), f64::INFINITY);
         assert_eq!(raster.statistics().infinite, 1);
-        let finite = render::<T>(field, view, Quantity::Magnitude, None).unwrap();
+        let finite = render::<T>(field, view, Quantity::Magnitude).unwrap();
         assert!(finite.values.iter().all(|&v| v.into().is_finite()));
     }
     check::<f64>(&field, &view);
@@ -223,8 +223,8 @@ fn threads_do_not_change_a_bit() {
     let draw = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let wide = render::<f64>(&field, &view, Quantity::VonMises, None).unwrap();
-            let narrow = render::<f32>(&field, &view, Quantity::VonMises, None).unwrap();
+            let wide = render::<f64>(&field, &view, Quantity::VonMises).unwrap();
+            let narrow = render::<f32>(&field, &view, Quantity::VonMises).unwrap();
             let bits = wide.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
             (bits, narrow.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>())
         })
@@ -235,9 +235,10 @@ fn threads_do_not_change_a_bit() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
-    let dataset = dataset(&Recipe::default());
+    let mut dataset = dataset(&Recipe::default());
+    dataset.steps[0].fields[0].exact.clear();
     let field = Field::new(&dataset, 0).unwrap();
-    let error = |quantity| render::<f64>(&field, &whole([3, 2]), quantity, None).unwrap_err();
+    let error = |quantity| render::<f64>(&field, &whole([3, 2]), quantity).unwrap_err();
     assert!(matches!(error(Quantity::Error), QuantityError::NoExact(_)));
     let beyond = field.step.partition.len() as u32;
     assert!(matches!(error(Quantity::PartitionFunction(beyond)), QuantityError::Patch { .. }));

@@ -35,7 +35,6 @@ pub struct Dataset {
 
 /// The differential equation behind a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Equation {
     /// Linear elasticity, two displacement components.
     Elasticity(Material),

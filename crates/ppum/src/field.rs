@@ -11,6 +11,7 @@
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
 use crate::dataset::{Dataset, Equation, FieldData, Step};
+use crate::formula::{Formula, FormulaError, Scope};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
@@ -32,6 +33,7 @@ pub struct Field<'d> {
     pub functions: FunctionTable,
     /// Finds the patches that cover a point or meet a box.
     pub tree: BoxTree,
+    exact: Vec<Formula>,
 }
 
 /// The field asked for is not there or cannot be evaluated.
@@ -57,6 +59,14 @@ pub enum FieldError {
     /// A function of the step is wrong.
     #[error(transparent)]
     Function(#[from] FunctionError),
+    /// A formula of the exact solution is wrong.
+    #[error("exact solution of field `{name}`: {source}")]
+    Exact {
+        /// The field.
+        name: String,
+        /// What is wrong.
+        source: Box<FormulaError>,
+    },
 }
 
 impl<'d> Field<'d> {
@@ -89,6 +99,7 @@ impl<'d> Field<'d> {
             data,
             functions: FunctionTable::new(&step.functions)?,
             tree: BoxTree::new(&supports),
+            exact: exact(data)?,
         })
     }
 
@@ -96,6 +107,18 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn components(&self) -> usize {
         self.data.coefficients.len()
+    }
+
+    /// True if the exact solution is known.
+    #[must_use]
+    pub fn has_exact(&self) -> bool {
+        !self.exact.is_empty()
+    }
+
+    /// The exact value of a component at a point; NaN if it is not known.
+    #[must_use]
+    pub fn exact(&self, component: usize, p: Vec2) -> f64 {
+        self.exact.get(component).map_or(f64::NAN, |formula| formula.evaluate(&[p.x, p.y]))
     }
 
     /// The field as seen from an anchor.
@@ -110,6 +133,12 @@ impl<'d> Field<'d> {
     }
 }
 
+fn exact(data: &FieldData) -> Result<Vec<Formula>, FieldError> {
+    let parse = |text: &String| Formula::parse(text, &Scope::cartesian());
+    let formulas: Result<_, _> = data.exact.iter().map(parse).collect();
+    formulas.map_err(|error| FieldError::Exact { name: data.name.clone(), source: Box::new(error) })
+}
+
 /// A field seen from an anchor.
 #[derive(Clone, Debug)]
 pub struct LocalField<'f> {
@@ -121,12 +150,12 @@ pub struct LocalField<'f> {
     patches: Vec<u32>,
 }
 
-/// What is known of the partition of unity at a point.
+/// The partition of unity at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Covering<R> {
+pub struct Covering {
     /// S = Σ W_i with derivatives.
-    pub weight_sum: Jet<R>,
-    /// Number of patches that cover the point (with lanes: that cover one of the points).
+    pub weight_sum: Jet<f64>,
+    /// Number of patches that cover the point.
     pub overlap: usize,
 }
 
@@ -146,7 +175,7 @@ impl<'f> LocalField<'f> {
 
     /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).
     ///
-    /// On a crack the field of the given side is taken. Returns `None`, and leaves `out` alone,
+    /// On a crack the field of the given side is taken. Returns false, and leaves `out` alone,
     /// outside the domain. Cost: O(log N) to find the patches, then a few hundred operations a patch.
     ///
     /// # Panics
@@ -156,16 +185,28 @@ impl<'f> LocalField<'f> {
         offset: Vec2,
         side: Side,
         out: &mut [Jet<f64>],
-    ) -> Option<Covering<f64>> {
+    ) -> bool {
+        if !self.contains(offset) {
+            return false;
+        }
+        let patches = self.covering_any(&[offset]);
+        self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
+        self.patches = patches;
+        true
+    }
+
+    /// The partition of unity at `anchor + offset`; `None` outside the domain.
+    pub fn covering<const D: usize>(&mut self, offset: Vec2) -> Option<Covering> {
         if !self.contains(offset) {
             return None;
         }
-        let mut patches = std::mem::take(&mut self.patches);
-        patches.clear();
-        self.field.tree.query_point(self.anchor + offset, &mut patches);
-        let covering = self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
+        let patches = self.covering_any(&[offset]);
+        let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
+        let zero = Jet::constant(0.0);
+        let weight_sum = patches.iter().map(weight).fold(zero, Jet::plus::<D>);
+        let overlap = patches.len();
         self.patches = patches;
-        Some(covering)
+        Some(Covering { weight_sum, overlap })
     }
 
     /// Evaluates at many points, vectorised over lanes: `out` holds the components of the first
@@ -192,7 +233,7 @@ impl<'f> LocalField<'f> {
         side: Side,
         patches: &[u32],
         out: &mut [Jet<R>],
-    ) -> Covering<R> {
+    ) {
         let zero = Jet::constant(offset[0].lit(0.0));
         let mut functions = FunctionJets::new(&self.functions, offset, side);
         let components = self.field.components();
@@ -204,16 +245,31 @@ impl<'f> LocalField<'f> {
             weight_sum = weight_sum.plus::<D>(weight);
             for (component, sum) in out[..components].iter_mut().enumerate() {
                 let v = self.local_field::<R, D>(patch, component, offset, &mut functions);
-                *sum = sum.plus::<D>(weight.times::<D>(v));
+                *sum = sum.plus::<D>(self.shared::<R, D>(patch, offset, weight.times::<D>(v)));
             }
         }
         for sum in &mut out[..components] {
             *sum = sum.over::<D>(weight_sum);
         }
-        if let &[alone] = patches {
-            weight_sum = self.partition_weight::<R, D>(alone as usize, offset);
+    }
+
+    /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need not
+    /// have a value.
+    #[inline(always)]
+    fn shared<R: Real, const D: usize>(
+        &self,
+        patch: usize,
+        offset: [R; 2],
+        part: Jet<R>,
+    ) -> Jet<R> {
+        if R::LANES == 1 {
+            return part;
         }
-        Covering { weight_sum, overlap: patches.len() }
+        let support = self.field.step.partition.support(patch);
+        let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
+        let [x, y] = offset;
+        let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
+        part.only::<D>(y.ge(y.lit(lo.y))).only::<D>(y.lit(hi.y).gt(y))
     }
 
     /// W_i; constant 1 where the patch is alone, since φ_i = 1 there whatever W_i is.
@@ -239,20 +295,16 @@ impl<'f> LocalField<'f> {
         partition.weight.tensor::<R, D>(xi, inverse)
     }
 
-    /// The partition function φ_i = W_i / S of a patch, with derivatives; zero where it does not
-    /// cover the point.
-    pub fn partition_function<const D: usize>(&mut self, patch: usize, offset: Vec2) -> Jet<f64> {
-        let mut patches = Vec::new();
-        self.field.tree.query_point(self.anchor + offset, &mut patches);
-        let point = [offset.x, offset.y];
-        let mut sum = Jet::constant(0.0);
-        for &other in &patches {
-            sum = sum.plus::<D>(self.partition_weight::<f64, D>(other as usize, point));
-        }
-        match patches.contains(&(patch as u32)) {
-            true => self.partition_weight::<f64, D>(patch, point).over::<D>(sum),
-            false => Jet::constant(0.0),
-        }
+    /// The partition function φ_i = W_i / S of a patch, with derivatives: zero where the patch does
+    /// not cover the point, `None` outside the domain.
+    pub fn partition_function<const D: usize>(
+        &mut self,
+        patch: usize,
+        offset: Vec2,
+    ) -> Option<Jet<f64>> {
+        let Covering { weight_sum, .. } = self.covering::<D>(offset)?;
+        let weight = self.partition_weight::<f64, D>(patch, [offset.x, offset.y]);
+        Some(weight.over::<D>(weight_sum))
     }
 
     /// The local field v_i of one patch and component.

@@ -89,6 +89,14 @@ impl<R: Real> Jet<R> {
         self.zip::<D>(self, |p, _| p * s)
     }
 
+    /// The jet on the lanes where the mask holds, zero on the others, whatever is there.
+    #[inline(always)]
+    #[must_use]
+    pub fn only<const D: usize>(self, mask: R::Mask) -> Self {
+        let zero = self.v.lit(0.0);
+        self.zip::<D>(self, |p, _| R::select(mask, p, zero))
+    }
+
     #[inline(always)]
     fn zip<const D: usize>(self, b: Self, f: impl Fn(R, R) -> R) -> Self {
         let mut out = Self::constant(f(self.v, b.v));

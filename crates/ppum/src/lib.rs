@@ -1,5 +1,133 @@
 //! Particle-partition of unity fields, evaluated exactly.
+//!
+//! # Definitions
+//!
+//! A **cover** of the domain consists of **patches** ω_i: boxes that overlap, one around each leaf cell
+//! of a quadtree ([`cover`]). Each has a **weight** W_i, a tensor product of B-splines ([`weight`]),
+//! and a **partition function** φ_i = W_i / Σ W_l. On a patch the field is a **local field**, a sum of
+//! **blocks** function × polynomial ([`dataset`], [`function`]); φ glues them together:
+//!
+//! ```text
+//! v_i(x) = Σ_b f_b(x) Σ_{|k| ≤ d_b} c_{b,k} ξ^k        v = Σ_i φ_i v_i        ∇v = Σ_i (∇φ_i) v_i + φ_i ∇v_i
+//! ```
+//!
+//! The functions are 1 (the smooth part), the side ±1 of a **crack** (a jump), the Westergaard
+//! functions of a crack **tip** (a singularity), or any [`formula`]. Nothing is interpolated: every
+//! point is evaluated from the representation itself.
+//!
+//! # A tour
+//!
+//! A [`Dataset`](dataset::Dataset) holds everything. Here is a small one, a square with a crack from
+//! the left edge to its middle. Its displacement is u_y = √r sin(θ/2) in the frame of the tip, the
+//! opening of the crack, and u_x = 0.
+//!
+//! ```
+//! use ppum::cover::Cover;
+//! use ppum::crack::{Crack, CrackEnd, End, TipId};
+//! use ppum::dataset::{Dataset, Equation, FieldData, Material, Step, StressState};
+//! use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+//! use ppum::vec2::{Rect, vec2};
+//! use ppum::weight::WeightFunction;
+//!
+//! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+//! let partition = Cover::uniform(domain, 3)?.partition(1.3, WeightFunction::Linear)?;
+//! let n = partition.len();
+//! assert_eq!(n, 64);
+//!
+//! let crack = Crack {
+//!     points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0)],
+//!     ends: [CrackEnd::Mouth, CrackEnd::Tip],
+//! };
+//! let tip = TipId { crack: 0, end: End::Last };
+//! let opening = Function {
+//!     name: "opening".into(),
+//!     kind: FunctionKind::Formula {
+//!         text: WESTERGAARD[1].into(), // sqrt(r)*sin(theta/2)
+//!         frame: Frame::Tip(tip),
+//!         parameters: vec![],
+//!     },
+//! };
+//! // One block a patch: function 0 times a polynomial of degree 0, that is one coefficient.
+//! let displacement = FieldData {
+//!     name: "displacement".into(),
+//!     unit: "".into(),
+//!     components: vec!["ux".into(), "uy".into()],
+//!     patch_blocks: (0..=n as u32).collect(),
+//!     block_function: vec![0; n],
+//!     block_degree: vec![0; n],
+//!     block_offset: (0..n as u64).collect(),
+//!     coefficients: vec![vec![0.0; n], vec![1.0; n]],
+//!     exact: vec![],
+//! };
+//! let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+//! let dataset = Dataset {
+//!     title: "Opening of an edge crack".into(),
+//!     program: "tour".into(),
+//!     problem: None,
+//!     domain,
+//!     equation: Equation::Elasticity(material),
+//!     steps: vec![Step {
+//!         load: 1.0,
+//!         partition,
+//!         cracks: vec![crack],
+//!         functions: vec![opening],
+//!         fields: vec![displacement],
+//!         attributes: vec![],
+//!         intensities: vec![],
+//!         history: vec![],
+//!     }],
+//! };
+//!
+//! // A field is compiled once, then seen from an anchor; points are anchor + offset.
+//! use ppum::crack::Side;
+//! use ppum::field::Field;
+//! use ppum::jet::Jet;
+//! let field = Field::new(&dataset, 0)?;
+//! let mut local = field.at(vec2(0.0, 0.0));
+//!
+//! // Value and gradient (1 derivative) on the crack: the caller chooses the side.
+//! let mut u = [Jet::constant(0.0); 2];
+//! assert!(local.evaluate::<1>(vec2(-0.25, 0.0), Side::Above, &mut u));
+//! assert_eq!(u[1].v, 0.5);
+//! assert!((u[1].x + 1.0).abs() < 1e-14);
+//! local.evaluate::<0>(vec2(-0.25, 0.0), Side::Below, &mut u);
+//! assert_eq!(u[1].v, -0.5);
+//!
+//! // Outside the domain there is nothing.
+//! assert!(!local.evaluate::<0>(vec2(2.0, 0.0), Side::Above, &mut u));
+//!
+//! // Ahead of the tip ε_yy = 1/(2√r) is the only strain, and von Mises' stress is 2μ ε_yy.
+//! use ppum::quantity::Quantity;
+//! let mises = Quantity::from_name("von-mises", dataset.equation, &field.data.components)?;
+//! let value = mises.at(&mut local, vec2(0.25, 0.0), Side::Above);
+//! assert!((value - 1.0 / 1.3).abs() < 1e-14);
+//! // The same a trillion times closer.
+//! let value = mises.at(&mut local, vec2(0.25e-24, 0.0), Side::Above);
+//! assert!((value * 1e-12 - 1.0 / 1.3).abs() < 1e-14);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Many points at once, on the lanes of the processor, are evaluated by
+//! [`LocalField::evaluate_into`](field::LocalField::evaluate_into).
+//!
+//! # Scope and simplifications
+//!
+//! - Two dimensions, boxes as patches, B-splines of degree 1 to 3 as weights, polynomials up to degree
+//!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box.
+//! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`), no
+//!   pictures (`ppum-render`), no threads.
+//! - Borders of cells and patches belong to the right and upper side; on a crack the left side of its
+//!   direction is taken unless the other is asked for. Outside the domain scalar evaluation returns
+//!   false or `None`, evaluation of many points and quantities NaN.
+//! - At a tip values are finite and gradients do not exist; quantities of the gradient are +∞ there.
+//! - The evaluator is exact up to rounding at any magnification if the anchor is near. Rounding errors
+//!   of the gradient are about 10⁻¹⁶ |u| / h for patches of size h: below 10⁻¹² of the stresses on
+//!   covers of up to some 10⁵ patches where |u| is comparable with |∇u| × the size of the domain.
+//! - Formulas are interpreted, one lane after the other; the Westergaard functions, recognised by
+//!   their text, have a kernel of their own.
+
 pub mod box_tree;
+pub mod check;
 pub mod cover;
 pub mod crack;
 pub mod dataset;

@@ -3,10 +3,12 @@
 //! With displacement u, strain ε = (∇u + ∇uᵀ)/2 and stress σ = λ tr(ε) I + 2μ ε. Where a derivative
 //! does not exist (at a crack tip) quantities of the gradient are +∞: nothing is clamped.
 
+use crate::crack::Side;
 use crate::dataset::{Equation, Material};
-use crate::field::Covering;
+use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::real::Real;
+use crate::vec2::Vec2;
 
 /// A scalar made of a field. Parsed from its name with [`Quantity::from_name`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -229,17 +231,55 @@ impl Quantity {
         }
     }
 
-    /// Evaluates a quantity of the partition that needs no particular patch.
-    #[must_use]
-    pub fn of_covering(self, covering: &Covering<f64>) -> f64 {
+    /// Checks that the field has what the quantity needs.
+    ///
+    /// # Errors
+    /// No exact solution, no such patch.
+    pub fn check(self, field: &Field<'_>) -> Result<(), QuantityError> {
+        let count = field.step.partition.len();
         match self {
-            Q::WeightSum => covering.weight_sum.v,
-            Q::Overlap => covering.overlap as f64,
-            _ => f64::NAN,
+            Q::Error if !field.has_exact() => Err(QuantityError::NoExact("error".into())),
+            Q::PartitionFunction(patch) if patch as usize >= count => {
+                Err(QuantityError::Patch { patch, count })
+            }
+            _ => Ok(()),
         }
     }
 
-    /// The unit of the quantity, given that of the field, for labels.
+    /// The quantity at `anchor + offset`, the reference of every other evaluator; NaN outside the
+    /// domain. On a crack the given side is taken.
+    pub fn at(self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> f64 {
+        let field = local.field;
+        let mut u = vec![Jet::constant(0.0); field.components()];
+        let inside = match self.source() {
+            Source::Partition => return self.of_partition(local, offset).unwrap_or(f64::NAN),
+            Source::Gradient => local.evaluate::<1>(offset, side, &mut u),
+            Source::Values | Source::Exact => local.evaluate::<0>(offset, side, &mut u),
+        };
+        if !inside {
+            return f64::NAN;
+        }
+        let point = local.anchor + offset;
+        let exact = match self.source() {
+            Source::Exact => (0..u.len()).map(|c| field.exact(c, point)).collect(),
+            _ => Vec::new(),
+        };
+        self.of_field(&field.equation, &u, &exact)
+    }
+
+    /// A quantity of the partition; `None` outside the domain and for other quantities.
+    fn of_partition(self, local: &mut LocalField<'_>, offset: Vec2) -> Option<f64> {
+        match self {
+            Q::WeightSum => Some(local.covering::<0>(offset)?.weight_sum.v),
+            Q::Overlap => Some(local.covering::<0>(offset)?.overlap as f64),
+            Q::PartitionFunction(patch) => {
+                Some(local.partition_function::<0>(patch as usize, offset)?.v)
+            }
+            _ => None,
+        }
+    }
+
+    /// The symbol of the quantity, for labels.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {

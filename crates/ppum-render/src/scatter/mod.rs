@@ -32,7 +32,6 @@ use ppum::field::Field;
 use ppum::function::LocalFunctions;
 use ppum::quantity::{Quantity, QuantityError, Source};
 use ppum::real::{Real, Scalar};
-use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
 use rayon::prelude::*;
 
@@ -42,51 +41,31 @@ use collapse::ROWS;
 use plan::{COLUMNS, Plan};
 use tile::{Band, Scratch};
 
-/// Fills the exact values of all components at a point of the world; [`Quantity::Error`] needs it.
-pub type Exact<'a> = &'a (dyn Fn(Vec2, &mut [f64]) + Sync);
-
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 in parallel.
 ///
 /// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
-/// the side above is taken. `exact` is read for [`Quantity::Error`] alone. f32 keeps some 5 digits of
+/// the side above is taken. f32 keeps some 5 digits of
 /// a stress; a view whose pixels are too small for squares of f32 is computed in f64.
 ///
 /// # Errors
 /// [`QuantityError::Patch`] for the partition function of a patch that does not exist;
-/// [`QuantityError::NoExact`] for the error without `exact`.
+/// [`QuantityError::NoExact`] for the error of a field whose exact solution is not known.
 pub fn render<T: Scalar + Sample>(
     field: &Field,
     view: &View,
     quantity: Quantity,
-    exact: Option<Exact>,
 ) -> Result<Raster<T>, QuantityError> {
-    check(field, quantity, exact)?;
+    quantity.check(field)?;
     if !resolves::<T>(view.pixel_size()) {
-        let raster = render::<f64>(field, view, quantity, exact)?;
+        let raster = render::<f64>(field, view, quantity)?;
         let values = raster.values.into_iter().map(T::from_f64).collect();
         return Ok(Raster::new(view.pixels, values));
     }
-    let scene = Scene::new(field, view, quantity, exact);
+    let scene = Scene::new(field, view, quantity);
     Ok(match quantity.source() {
         Source::Gradient => scene.draw::<1>(),
         _ => scene.draw::<0>(),
     })
-}
-
-/// Refuses quantities that have no meaning for the field.
-pub(crate) fn check(
-    field: &Field,
-    quantity: Quantity,
-    exact: Option<Exact>,
-) -> Result<(), QuantityError> {
-    let count = field.step.partition.len();
-    match quantity {
-        Quantity::PartitionFunction(patch) if patch as usize >= count => {
-            Err(QuantityError::Patch { patch, count })
-        }
-        Quantity::Error if exact.is_none() => Err(QuantityError::NoExact("error".into())),
-        _ => Ok(()),
-    }
 }
 
 /// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
@@ -108,11 +87,11 @@ struct Scene<'f, T> {
     xs: Vec<T>,
     /// Offsets of the rows.
     ys: Vec<T>,
-    exact: Option<Exact<'f>>,
+    field: &'f Field<'f>,
 }
 
 impl<'f, T: Scalar + Sample> Scene<'f, T> {
-    fn new(field: &'f Field, view: &View, quantity: Quantity, exact: Option<Exact<'f>>) -> Self {
+    fn new(field: &'f Field<'f>, view: &View, quantity: Quantity) -> Self {
         let plan = Plan::new(field, view, quantity, ROWS);
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
         let rows = view.pixels[1].next_multiple_of(ROWS as u32);
@@ -125,7 +104,7 @@ impl<'f, T: Scalar + Sample> Scene<'f, T> {
             plan,
             xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
             ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
-            exact,
+            field,
         }
     }
 
@@ -167,15 +146,14 @@ impl<T: Scalar> Scene<'_, T> {
         out: &mut [R],
         zero: R,
     ) {
-        let Some(exact) = self.exact else { return };
-        let mut values = vec![0.0; shift.len()];
         // 16 lanes are the widest vector there is.
         let mut lanes = vec![[T::default(); 16]; shift.len()];
         for lane in 0..R::LANES {
             let offset = self.view.offset((column + lane) as u32, row as u32);
-            exact(self.view.center + offset, &mut values);
-            for (component, value) in values.iter().enumerate() {
-                lanes[component][lane] = T::from_f64(value - shift[component]);
+            let point = self.view.center + offset;
+            for (component, lanes) in lanes.iter_mut().enumerate() {
+                let value = self.field.exact(component, point) - shift[component];
+                lanes[lane] = T::from_f64(value);
             }
         }
         for (out, lanes) in out.iter_mut().zip(&lanes) {

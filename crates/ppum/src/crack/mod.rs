@@ -31,6 +31,17 @@ pub enum End {
     Last,
 }
 
+impl End {
+    /// `start` or `end`, as in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Last => "end",
+        }
+    }
+}
+
 /// A tip: one end of one crack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TipId {

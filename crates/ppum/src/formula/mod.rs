@@ -1,30 +1,254 @@
-//! temporary
-#![allow(missing_docs)]
-#[derive(Clone, Debug)]
-pub struct FormulaJet;
-#[derive(Debug, thiserror::Error)]
-#[error("x")]
-pub struct FormulaError;
-pub struct Scope;
-pub struct Formula;
-impl Scope {
-    pub fn polar() -> Self {
-        Scope
-    }
-    pub fn with_parameter(self, _: &str, _: f64) -> Self {
-        self
-    }
+//! Formulas: functions of the plane as text, differentiated symbolically.
+//!
+//! Enrichments, boundary data, exact fields and quantities are formulas: short texts such as
+//! `sqrt(r)*sin(theta/2)`, parsed once, then evaluated at many points.
+//!
+//! # The language
+//!
+//! ```text
+//! block       let name = expression; … expression     names hold to the end of the block
+//! operators   or,  and,  not,  < <= > >= == !=,  + -,  * /,  unary -,  ^        weakest to tightest
+//! functions   sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh
+//!             abs sign min max floor hypot clamp(x, low, high) if(condition, a, b)
+//! constants   pi e
+//! comments    # to the end of the line
+//! ```
+//!
+//! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
+//! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the left,
+//! comparisons do not chain. `log` is the natural logarithm, angles are radians. Numbers and
+//! conditions are different types: `if` and `and` want conditions, `+` wants numbers. A name has
+//! one meaning, so `let` cannot define it again.
+//!
+//! Arithmetic is that of IEEE doubles: 1/0 is +∞, √−1 and 0/0 are NaN, NaN spreads (through `min`
+//! and `max` too) and makes every comparison but `!=` false. Both branches of `if` are computed, only
+//! one is taken. Integer powers up to 16 are products.
+//!
+//! # Derivatives
+//!
+//! Derivatives are exact, symbolic, and of any order. Where a function has a kink or a jump, the
+//! derivative is that of one piece, the right one, and where that is undecided, the upper one: |x| has
+//! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
+//! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
+//!
+//! # Limits
+//!
+//! Texts up to [`MAX_LENGTH`] bytes, nested up to [`MAX_DEPTH`] levels, with derivatives up to
+//! [`MAX_NODES`] operations; anything beyond is an error. No text makes the parser crash or recurse
+//! without bound.
+
+mod ast;
+mod derivative;
+mod error;
+mod graph;
+mod lexer;
+mod library;
+mod lower;
+mod operation;
+mod parser;
+mod print;
+mod program;
+mod scope;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::sync::Arc;
+
+pub use error::{FormulaError, Problem};
+pub use scope::{Scope, ScopeError};
+
+use derivative::gradients;
+use graph::{Graph, NodeId};
+use program::Program;
+
+/// Deepest nesting of parentheses, calls, signs and powers. Deeper ones are machine-made or
+/// malicious; the stack the parser needs at this depth is well below that of any thread.
+pub const MAX_DEPTH: usize = 200;
+
+/// Longest text of a formula, in bytes.
+pub const MAX_LENGTH: usize = 1 << 16;
+
+/// Most operations of a formula with its derivatives. Hand-written formulas have a hundred; this
+/// many still fit in some tens of megabytes and are made within a second.
+pub const MAX_NODES: usize = 1 << 18;
+
+/// A formula of the variables of a [`Scope`], ready for evaluation.
+///
+/// ```
+/// use ppum::formula::{Formula, Scope};
+///
+/// let f = Formula::parse("let d = x - y; d^2 / 2", &Scope::cartesian()).expect("a formula");
+/// assert_eq!(f.evaluate(&[5.0, 1.0]), 8.0);
+/// let fy = f.derivative("y").expect("a variable");
+/// assert_eq!(fy.evaluate(&[5.0, 1.0]), -4.0);
+/// ```
+#[derive(Clone)]
+pub struct Formula {
+    text: String,
+    scope: Arc<Scope>,
+    program: Program,
 }
+
+/// A derivative that cannot be formed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DerivativeError {
+    /// Derivatives are with respect to independent variables only.
+    #[error("no derivative with respect to `{name}`; independent variables are {known}")]
+    NotIndependent {
+        /// The name asked for.
+        name: String,
+        /// The independent variables.
+        known: String,
+    },
+    /// The derivative has more than [`MAX_NODES`] operations.
+    #[error("the derivative has more than {MAX_NODES} operations; simplify the formula")]
+    TooLarge,
+}
+
 impl Formula {
-    pub fn parse(_: &str, _: &Scope) -> Result<Self, FormulaError> {
-        Err(FormulaError)
+    /// Parses a formula.
+    ///
+    /// # Errors
+    /// When the text is no formula of the scope; the error points at the place.
+    pub fn parse(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
+        let ast = parser::parse(text, scope)?;
+        let mut graph = Graph::default();
+        let root = lower::lower(&ast, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
+        let program = Program::new(&graph, &[root]);
+        Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }
-    pub fn jet(&self) -> FormulaJet {
-        FormulaJet
+
+    /// The text: as it was parsed, or, of a derivative, as it can be parsed again in the same scope
+    /// (if it is within [`MAX_LENGTH`]).
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The variables it may use.
+    #[must_use]
+    pub fn scope(&self) -> &Scope {
+        &self.scope
+    }
+
+    /// The value, if it is the same whatever the inputs.
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        self.program.ops()[self.root().index()].value()
+    }
+
+    /// True if its value or the choice of a branch depends on the input of this name. A
+    /// dependent variable counts by its own name only.
+    #[must_use]
+    pub fn uses(&self, input: &str) -> bool {
+        let mut inputs = (0..).zip(self.scope.inputs());
+        inputs
+            .find(|(_, name)| *name == input)
+            .is_some_and(|(index, _)| self.program.ops().contains(&graph::Op::Input(index)))
+    }
+
+    /// The value at one point. `inputs` has one number for each of [`Scope::inputs`].
+    ///
+    /// # Panics
+    /// When `inputs` has the wrong length.
+    #[must_use]
+    pub fn evaluate(&self, inputs: &[f64]) -> f64 {
+        self.evaluate_with(inputs, &mut Vec::new())
+    }
+
+    /// The value at one point, without allocating where `scratch` is reused.
+    ///
+    /// # Panics
+    /// When `inputs` has the wrong length.
+    pub fn evaluate_with(&self, inputs: &[f64], scratch: &mut Vec<f64>) -> f64 {
+        check_inputs(&self.scope, inputs);
+        self.program.run(inputs, scratch);
+        scratch[self.root().index()]
+    }
+
+    /// The derivative with respect to an independent variable.
+    ///
+    /// # Errors
+    /// When there is no such variable, or the derivative is too large.
+    pub fn derivative(&self, variable: &str) -> Result<Self, DerivativeError> {
+        let v = self.independent(variable)?;
+        let mut graph = Graph::from_ops(self.program.ops());
+        let gradient = self.gradients(&mut graph, &[self.root()])?;
+        let program = Program::new(&graph, &[gradient[0][v]]);
+        let text = print::print(&program, &self.scope);
+        Ok(Self { text, scope: Arc::clone(&self.scope), program })
+    }
+
+    /// Value, gradient and Hessian with respect to `x` and `y` in one.
+    ///
+    /// # Errors
+    /// When `x` and `y` are not independent variables of the scope, or the derivatives are too large.
+    pub fn jet(&self) -> Result<FormulaJet, DerivativeError> {
+        let (x, y) = (self.independent("x")?, self.independent("y")?);
+        let mut graph = Graph::from_ops(self.program.ops());
+        let first = self.gradients(&mut graph, &[self.root()])?;
+        let (dx, dy) = (first[0][x], first[0][y]);
+        let second = self.gradients(&mut graph, &[dx, dy])?;
+        let outputs = [self.root(), dx, dy, second[0][x], second[0][y], second[1][y]];
+        Ok(FormulaJet { scope: Arc::clone(&self.scope), program: Program::new(&graph, &outputs) })
+    }
+
+    fn root(&self) -> NodeId {
+        self.program.outputs()[0]
+    }
+
+    fn gradients(
+        &self,
+        graph: &mut Graph,
+        roots: &[NodeId],
+    ) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
+        gradients(graph, &self.scope, roots)
+            .map_err(|derivative::TooLarge| DerivativeError::TooLarge)
+    }
+
+    /// Index of an independent variable.
+    fn independent(&self, name: &str) -> Result<usize, DerivativeError> {
+        let known = self.scope.independent();
+        known.iter().position(|variable| variable == name).ok_or_else(|| {
+            DerivativeError::NotIndependent { name: name.to_owned(), known: known.join(", ") }
+        })
     }
 }
-impl FormulaJet {
-    pub fn evaluate(&self, _: &[f64], _: &mut Vec<f64>) -> [f64; 6] {
-        [0.0; 6]
+
+impl fmt::Debug for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Formula").field(&self.text).finish()
     }
+}
+
+/// Value, gradient and Hessian of a [`Formula`], computed together: common parts once.
+#[derive(Clone, Debug)]
+pub struct FormulaJet {
+    scope: Arc<Scope>,
+    program: Program,
+}
+
+impl FormulaJet {
+    /// v, ∂v/∂x, ∂v/∂y, ∂²v/∂x², ∂²v/∂x∂y, ∂²v/∂y² at one point. `inputs` has one number for each
+    /// of [`Scope::inputs`]; `scratch` is working space, best reused from call to call.
+    ///
+    /// # Panics
+    /// When `inputs` has the wrong length.
+    pub fn evaluate(&self, inputs: &[f64], scratch: &mut Vec<f64>) -> [f64; 6] {
+        check_inputs(&self.scope, inputs);
+        self.program.run(inputs, scratch);
+        std::array::from_fn(|k| scratch[self.program.outputs()[k].index()])
+    }
+
+    /// Number of operations of one evaluation, constants and inputs included.
+    #[must_use]
+    pub fn n_operations(&self) -> usize {
+        self.program.ops().len()
+    }
+}
+
+fn check_inputs(scope: &Scope, inputs: &[f64]) {
+    assert_eq!(inputs.len(), scope.n_inputs(), "one number for each input of the scope");
 }

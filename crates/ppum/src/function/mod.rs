@@ -5,7 +5,7 @@ mod westergaard;
 
 use crate::crack::TipId;
 use crate::vec2::Vec2;
-pub use table::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
+pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 pub use westergaard::westergaard;
 
 /// One entry of a step's function table.

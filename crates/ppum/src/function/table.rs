@@ -5,7 +5,7 @@
 
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
-use crate::formula::{Formula, FormulaError, FormulaJet, Scope};
+use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJet, Scope, ScopeError};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
 use crate::vec2::{Vec2, vec2};
@@ -56,7 +56,20 @@ pub struct FunctionError {
     /// Name of the function.
     pub name: String,
     /// What is wrong.
-    pub source: FormulaError,
+    pub source: Box<CompileError>,
+}
+
+/// Why a formula cannot be used as a function.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+#[non_exhaustive]
+pub enum CompileError {
+    /// Its text.
+    Formula(#[from] FormulaError),
+    /// Its parameters.
+    Scope(#[from] ScopeError),
+    /// Its derivatives.
+    Derivative(#[from] DerivativeError),
 }
 
 impl FunctionTable {
@@ -70,21 +83,21 @@ impl FunctionTable {
             let slot = table.slot(&function.kind).map_err(|source| FunctionError {
                 index,
                 name: function.name.clone(),
-                source,
+                source: Box::new(source),
             })?;
             table.slots.push(slot);
         }
         Ok(table)
     }
 
-    fn slot(&mut self, kind: &FunctionKind) -> Result<Slot, FormulaError> {
+    fn slot(&mut self, kind: &FunctionKind) -> Result<Slot, CompileError> {
         Ok(match kind {
             FunctionKind::One => Slot::One,
             FunctionKind::Side { crack } => self.group(Group::Side(*crack), 0),
             FunctionKind::Formula { text, frame, parameters } => match native(text, *frame) {
                 Some((tip, k)) => self.group(Group::Westergaard(tip), k),
                 None => {
-                    let jet = Formula::parse(text, &scope(parameters))?.jet();
+                    let jet = Formula::parse(text, &scope(parameters)?)?.jet()?;
                     let compiled = Box::new(Compiled { jet, frame: *frame });
                     self.group(Group::Formula(compiled), 0)
                 }
@@ -149,10 +162,9 @@ fn native(text: &str, frame: Frame) -> Option<(TipId, usize)> {
     WESTERGAARD.iter().position(|&known| known == text).map(|k| (tip, k))
 }
 
-fn scope(parameters: &[(String, f64)]) -> Scope {
-    parameters
-        .iter()
-        .fold(Scope::polar(), |scope, (name, value)| scope.with_parameter(name, *value))
+fn scope(parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
+    let mut parameters = parameters.iter();
+    parameters.try_fold(Scope::polar(), |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 fn local_tip(cracks: &[Crack], tip: TipId, anchor: Vec2) -> LocalTip {

@@ -1,0 +1,62 @@
+//! Arguments that are more than a word or a number.
+
+use ppum::vec2::{Rect, Vec2};
+
+/// `N` finite numbers apart by commas.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
+    let all: Option<Vec<f64>> = text.split(',').map(number).collect();
+    all?.try_into().ok()
+}
+
+/// `X,Y`.
+pub(crate) fn point(text: &str) -> Result<Vec2, String> {
+    numbers(text).map(Vec2::from).ok_or_else(|| "write two finite numbers: X,Y".into())
+}
+
+/// `X0,Y0,X1,Y1`: two opposite corners.
+pub(crate) fn corners(text: &str) -> Result<Rect, String> {
+    let [x0, y0, x1, y1] = numbers(text).ok_or("write four finite numbers: X0,Y0,X1,Y1")?;
+    let (a, b) = (Vec2::from([x0, y0]), Vec2::from([x1, y1]));
+    Ok(Rect::new(a.min(b), a.max(b)))
+}
+
+/// `WxH`: columns and rows.
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    parts.ok_or_else(|| "write two whole numbers: WIDTHxHEIGHT, e.g. 1024x768".into())
+}
+
+/// A finite number above zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let value = numbers(text).map(|[v]| v).filter(|&v| v > 0.0);
+    value.ok_or_else(|| "write a finite number above zero".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::vec2::vec2;
+
+    use super::*;
+
+    #[test]
+    fn points_and_corners() {
+        assert_eq!(point("-0.5,1e-3"), Ok(vec2(-0.5, 1e-3)));
+        assert_eq!(point(" 1 , 2"), Ok(vec2(1.0, 2.0)));
+        for wrong in ["", "1", "1,2,3", "1,", "1,x", "inf,0", "1,nan", "1;2"] {
+            assert!(point(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(corners("1,2,-1,0"), Ok(Rect::new(vec2(-1.0, 0.0), vec2(1.0, 2.0))));
+        assert!(corners("1,2,3").is_err());
+    }
+
+    #[test]
+    fn sizes_and_positive_numbers() {
+        assert_eq!(size("1024x768"), Ok([1024, 768]));
+        for wrong in ["1024", "1024x", "x768", "-1x5", "1.5x2", "1024*768"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(positive("1e-12"), Ok(1e-12));
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
+    }
+}

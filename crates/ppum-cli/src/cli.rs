@@ -1,0 +1,85 @@
+//! The command line as a whole.
+
+use std::io::Write;
+
+use clap::{Parser, Subcommand};
+
+use crate::commands::{demo, info, probe, render, sif, solve};
+
+/// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
+/// result exactly at every pixel.
+#[derive(Debug, Parser)]
+#[command(name = "ppum", version, after_help = EXAMPLES, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum demo                                  solve a cracked plate and draw it
+  ppum solve plate.toml                      solve a problem; writes plate.h5
+  ppum sif plate.h5                          stress intensity factors of all tips
+  ppum probe plate.h5 --at 0.25,-0.1         values at a point
+  ppum render plate.h5 -o plate.png --figure
+
+`ppum COMMAND --help` tells more, with examples.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Demo(demo::Args),
+    Solve(solve::Args),
+    Info(info::Args),
+    Sif(sif::Args),
+    Probe(probe::Args),
+    Render(render::Args),
+}
+
+impl Command {
+    /// Does the work; results are written to `out`.
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        match self {
+            Self::Demo(args) => args.run(out),
+            Self::Solve(args) => args.run(out),
+            Self::Info(args) => args.run(out),
+            Self::Sif(args) => args.run(out),
+            Self::Probe(args) => args.run(out),
+            Self::Render(args) => args.run(out),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    /// Clap's own checks of names, conflicts and defaults.
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_has_examples() {
+        for command in Cli::command().get_subcommands() {
+            let text = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let example = format!("ppum {}", command.get_name());
+            assert!(text.starts_with("Examples:") && text.contains(&example), "{example}: {text}");
+        }
+    }
+
+    #[test]
+    fn every_option_is_documented() {
+        let page = include_str!("../../../docs/cli.md");
+        for command in Cli::command().get_subcommands() {
+            let start = format!("\n## `ppum {}", command.get_name());
+            let section = page.split_once(&start).map_or("", |(_, rest)| rest);
+            let section = section.split("\n## ").next().unwrap_or_default();
+            for option in command.get_arguments().filter_map(clap::Arg::get_long) {
+                assert!(section.contains(&format!("--{option}")), "{start} --{option}");
+            }
+        }
+    }
+}

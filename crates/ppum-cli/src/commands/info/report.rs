@@ -1,0 +1,242 @@
+//! What `ppum info` tells, in the shape of its JSON.
+
+use std::collections::BTreeMap;
+
+use ppum::crack::{Crack, CrackEnd, tips};
+use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, StressState};
+use ppum::field::{Field, FieldError};
+use ppum::function::{Function, FunctionKind};
+use ppum::quantity::names;
+use ppum::vec2::Vec2;
+use serde::Serialize;
+
+use crate::number::Number;
+use crate::tips::Tip;
+
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    pub(super) file: String,
+    pub(super) title: String,
+    pub(super) program: String,
+    pub(super) domain: Domain,
+    pub(super) equation: EquationRow,
+    pub(super) steps: Vec<StepReport>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Domain {
+    pub(super) min: [f64; 2],
+    pub(super) max: [f64; 2],
+}
+
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(super) enum EquationRow {
+    Elasticity { young: f64, poisson: f64, state: &'static str },
+    Poisson { conductivity: f64 },
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct StepReport {
+    pub(super) step: usize,
+    pub(super) load: f64,
+    pub(super) patches: usize,
+    pub(super) cells: usize,
+    pub(super) points: usize,
+    pub(super) weight: &'static str,
+    pub(super) levels: Vec<Level>,
+    pub(super) orders: Vec<Order>,
+    pub(super) cracks: Vec<CrackRow>,
+    pub(super) tips: Vec<TipRow>,
+    pub(super) functions: Vec<FunctionRow>,
+    pub(super) fields: Vec<FieldRow>,
+    pub(super) quantities: Vec<String>,
+    pub(super) attributes: Vec<String>,
+    pub(super) unknowns: usize,
+    pub(super) history: Vec<HistoryRow>,
+    pub(super) intensities: Vec<Tip>,
+}
+
+/// Cells of a level of the tree.
+#[derive(Debug, Serialize)]
+pub(super) struct Level {
+    pub(super) level: u8,
+    pub(super) cells: usize,
+}
+
+/// Patches whose polynomials have an order.
+#[derive(Debug, Serialize)]
+pub(super) struct Order {
+    pub(super) order: u8,
+    pub(super) patches: usize,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct CrackRow {
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) ends: [&'static str; 2],
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct TipRow {
+    pub(super) crack: u32,
+    pub(super) end: &'static str,
+    pub(super) at: [f64; 2],
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct FunctionRow {
+    pub(super) name: String,
+    pub(super) kind: &'static str,
+    /// Blocks of the first field that use it.
+    pub(super) blocks: usize,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct FieldRow {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) components: Vec<String>,
+    pub(super) exact: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct HistoryRow {
+    pub(super) name: String,
+    pub(super) value: Number,
+    pub(super) unit: String,
+}
+
+impl Report {
+    pub(super) fn new(file: String, dataset: &Dataset) -> Result<Self, FieldError> {
+        let steps = (0..dataset.steps.len()).map(|index| StepReport::new(dataset, index));
+        Ok(Self {
+            file,
+            title: dataset.title.clone(),
+            program: dataset.program.clone(),
+            domain: Domain { min: dataset.domain.min.into(), max: dataset.domain.max.into() },
+            equation: equation(&dataset.equation),
+            steps: steps.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl StepReport {
+    fn new(dataset: &Dataset, index: usize) -> Result<Self, FieldError> {
+        let field = Field::new(dataset, index)?;
+        let Step { load, partition, cracks, attributes, history, intensities, .. } = field.step;
+        let attribute = |a: &ppum::dataset::Attribute| a.name.clone();
+        Ok(Self {
+            step: index,
+            load: *load,
+            patches: partition.len(),
+            cells: partition.cell.len(),
+            points: partition.points.len(),
+            weight: partition.weight.name(),
+            levels: levels(partition),
+            orders: orders(field.data),
+            cracks: cracks.iter().map(crack).collect(),
+            tips: tip_rows(cracks),
+            functions: functions(&field.step.functions, field.data),
+            fields: field.step.fields.iter().map(field_row).collect(),
+            quantities: quantities(&field),
+            attributes: attributes.iter().map(attribute).collect(),
+            unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
+            history: history.iter().map(history_row).collect(),
+            intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
+        })
+    }
+}
+
+fn equation(equation: &Equation) -> EquationRow {
+    match *equation {
+        Equation::Elasticity(m) => EquationRow::Elasticity {
+            young: m.young,
+            poisson: m.poisson,
+            state: match m.state {
+                StressState::PlaneStrain => "plane-strain",
+                StressState::PlaneStress => "plane-stress",
+            },
+        },
+        Equation::Poisson { conductivity } => EquationRow::Poisson { conductivity },
+    }
+}
+
+/// How often each value occurs, in rising order.
+fn tally(values: impl Iterator<Item = u8>) -> BTreeMap<u8, usize> {
+    let mut counts = BTreeMap::new();
+    values.for_each(|value| *counts.entry(value).or_default() += 1);
+    counts
+}
+
+fn levels(partition: &Partition) -> Vec<Level> {
+    let counts = tally(partition.level.iter().copied());
+    counts.into_iter().map(|(level, cells)| Level { level, cells }).collect()
+}
+
+/// The order of a patch is the largest degree of its blocks.
+fn orders(data: &FieldData) -> Vec<Order> {
+    let patches = 0..data.patch_blocks.len() - 1;
+    let order = |patch| data.blocks(patch).map(|b| data.block_degree[b]).max().unwrap_or(0);
+    let counts = tally(patches.map(order));
+    counts.into_iter().map(|(order, patches)| Order { order, patches }).collect()
+}
+
+fn crack(crack: &Crack) -> CrackRow {
+    let ends = crack.ends.map(|end| match end {
+        CrackEnd::Tip => "tip",
+        CrackEnd::Mouth => "mouth",
+        CrackEnd::Junction => "junction",
+    });
+    CrackRow { points: crack.points.iter().copied().map(Vec2::into).collect(), ends }
+}
+
+fn tip_rows(cracks: &[Crack]) -> Vec<TipRow> {
+    let row = |tip: ppum::crack::TipId| TipRow {
+        crack: tip.crack,
+        end: tip.end.name(),
+        at: cracks[tip.crack as usize].end_point(tip.end).into(),
+    };
+    tips(cracks).map(row).collect()
+}
+
+fn functions(table: &[Function], data: &FieldData) -> Vec<FunctionRow> {
+    let mut blocks = vec![0; table.len()];
+    data.block_function.iter().for_each(|&function| blocks[function as usize] += 1);
+    let rows = table.iter().zip(blocks).map(|(function, blocks)| FunctionRow {
+        name: function.name.clone(),
+        kind: kind(&function.kind),
+        blocks,
+    });
+    rows.collect()
+}
+
+fn kind(kind: &FunctionKind) -> &'static str {
+    match kind {
+        FunctionKind::One => "one",
+        FunctionKind::Side { .. } => "side",
+        FunctionKind::Formula { .. } => "formula",
+        _ => "other",
+    }
+}
+
+fn field_row(data: &FieldData) -> FieldRow {
+    FieldRow {
+        name: data.name.clone(),
+        unit: data.unit.clone(),
+        components: data.components.clone(),
+        exact: data.exact.clone(),
+    }
+}
+
+/// What the first field can show.
+fn quantities(field: &Field<'_>) -> Vec<String> {
+    let all = names(field.equation, &field.data.components);
+    let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
+    usable.map(|(name, _)| name).chain(["phi:N".into()]).collect()
+}
+
+fn history_row(record: &Record) -> HistoryRow {
+    let Record { name, value, unit } = record.clone();
+    HistoryRow { name, value: Number(value), unit }
+}

@@ -1,0 +1,126 @@
+//! The report for people.
+
+use std::io::{self, Write};
+
+use super::report::{CrackRow, EquationRow, FieldRow, FunctionRow, HistoryRow, Report, StepReport};
+use crate::number::{count, point, trimmed};
+use crate::tips::table;
+
+/// Width of the column of names.
+const NAME: usize = 12;
+
+pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let mut page = Page(out);
+    page.line("title", &report.title)?;
+    page.line("program", &report.program)?;
+    page.line("equation", &equation(&report.equation))?;
+    let [min, max] = [report.domain.min, report.domain.max].map(point);
+    page.line("domain", &format!("{min} to {max}"))?;
+    for step in &report.steps {
+        page.step(step, report.steps.len())?;
+    }
+    Ok(())
+}
+
+struct Page<'a>(&'a mut dyn Write);
+
+impl Page<'_> {
+    fn line(&mut self, name: &str, text: &str) -> io::Result<()> {
+        writeln!(self.0, "{name:NAME$} {text}")
+    }
+
+    /// The first line carries the name; nothing is written without lines.
+    fn lines(&mut self, name: &str, lines: impl Iterator<Item = String>) -> io::Result<()> {
+        for (k, text) in lines.enumerate() {
+            self.line(if k == 0 { name } else { "" }, &text)?;
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, step: &StepReport, n_steps: usize) -> io::Result<()> {
+        if n_steps > 1 {
+            writeln!(self.0)?;
+            self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
+        }
+        self.line("patches", &cover(step))?;
+        let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
+        self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
+        let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
+        self.line("orders", &joined(orders))?;
+        self.lines("cracks", step.cracks.iter().map(crack))?;
+        self.lines("functions", functions(&step.functions).into_iter())?;
+        self.lines("fields", step.fields.iter().map(field))?;
+        self.line("unknowns", &step.unknowns.to_string())?;
+        self.lines("history", step.history.iter().map(history))?;
+        self.lines("quantities", wrapped(&step.quantities).into_iter())?;
+        if !step.intensities.is_empty() {
+            writeln!(self.0, "\nstress intensity factors")?;
+            table(self.0, &step.intensities)?;
+        }
+        Ok(())
+    }
+}
+
+/// The functions by kind; JSON has them one by one.
+fn functions(rows: &[FunctionRow]) -> Vec<String> {
+    let kinds = ["one", "side", "formula", "other"];
+    let line = |kind| {
+        let of_kind = rows.iter().filter(|row| row.kind == kind);
+        let (n, blocks) = of_kind.fold((0, 0), |(n, blocks), row| (n + 1, blocks + row.blocks));
+        let functions = count(n, "function", "functions");
+        (n > 0).then(|| format!("{kind}: {functions} in {}", count(blocks, "block", "blocks")))
+    };
+    kinds.into_iter().filter_map(line).collect()
+}
+
+fn joined(parts: impl Iterator<Item = String>) -> String {
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Lines of names, as long as they fit the screen.
+fn wrapped(names: &[String]) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for name in names {
+        if lines.last().is_some_and(|line| line.len() + name.len() > 78 - NAME) {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(name);
+        }
+    }
+    lines
+}
+
+fn equation(equation: &EquationRow) -> String {
+    match equation {
+        EquationRow::Elasticity { young, poisson, state } => {
+            format!("elasticity, E {young}, ν {poisson}, {state}")
+        }
+        EquationRow::Poisson { conductivity } => format!("Poisson, κ {conductivity}"),
+    }
+}
+
+fn cover(step: &StepReport) -> String {
+    let points = match step.points {
+        0 => String::new(),
+        n => format!(", from {}", count(n, "point", "points")),
+    };
+    format!("{}, {} weight{points}", step.patches, step.weight)
+}
+
+fn crack(crack: &CrackRow) -> String {
+    let points: Vec<_> = crack.points.iter().copied().map(point).collect();
+    let [start, end] = crack.ends;
+    format!("{start} {} {end}", points.join(" – "))
+}
+
+fn field(field: &FieldRow) -> String {
+    let unit = if field.unit.is_empty() { String::new() } else { format!(" [{}]", field.unit) };
+    let exact = if field.exact.is_empty() { "" } else { ", exact solution known" };
+    format!("{}{unit}: {}{exact}", field.name, field.components.join(", "))
+}
+
+fn history(row: &HistoryRow) -> String {
+    format!("{} {} {}", row.name, trimmed(row.value.0), row.unit).trim_end().to_owned()
+}

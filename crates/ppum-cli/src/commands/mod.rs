@@ -1,0 +1,8 @@
+//! One command each: its arguments and what it prints.
+
+pub(crate) mod demo;
+pub(crate) mod info;
+pub(crate) mod probe;
+pub(crate) mod render;
+pub(crate) mod sif;
+pub(crate) mod solve;

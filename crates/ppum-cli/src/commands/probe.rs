@@ -1,0 +1,160 @@
+//! `ppum probe`: exact values at points.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use ppum::crack::Side;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::vec2::Vec2;
+use serde::Serialize;
+use serde::ser::Serializer;
+
+use crate::arguments::point;
+use crate::dataset::{field, open, quantity};
+use crate::number::{Number, json};
+use crate::sides::on_crack;
+
+/// Print exact values at points
+///
+/// On a crack the values of both sides are printed: `above` is the left of the crack's direction.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Dataset
+    #[arg(value_name = "FILE.h5")]
+    file: PathBuf,
+    /// Point; may be given more than once
+    #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = point)]
+    at: Vec<Vec2>,
+    /// Added to every point, without rounding: points as near a tip as you like
+    #[arg(long, value_name = "DX,DY", allow_hyphen_values = true, value_parser = point)]
+    offset: Option<Vec2>,
+    /// Quantities, see `ppum info` [default: the components; for elasticity also the stresses]
+    #[arg(short, long, value_name = "Q,…", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// Step of the series, from 0 [default: the last]
+    #[arg(long, value_name = "K")]
+    step: Option<usize>,
+    /// Print JSON, see docs/cli.md
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum probe plate.h5 --at 0.25,-0.1
+  ppum probe plate.h5 --at -0.5,0 --at 0.5,0 -q ux,uy,von-mises
+  ppum probe plate.h5 --at 0,0                         on the crack: both sides
+  ppum probe plate.h5 --at 0.5,0 --offset 1e-12,1e-13  near a tip";
+
+/// Stresses that are printed if nothing is asked for.
+const STRESSES: [&str; 4] = ["sxx", "syy", "sxy", "von-mises"];
+
+#[derive(Debug, Serialize)]
+struct Report {
+    points: Vec<Row>,
+}
+
+/// The values at one point, on one side of a crack if it lies on one.
+#[derive(Debug, Serialize)]
+struct Row {
+    at: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<[f64; 2]>,
+    side: Option<&'static str>,
+    values: Values,
+    #[serde(skip)]
+    is_inside: bool,
+}
+
+/// Names and values in the order asked for; an object in JSON.
+#[derive(Debug)]
+struct Values(Vec<(String, Number)>);
+
+impl Serialize for Values {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        let dataset = open(&self.file)?;
+        let field = field(&dataset, self.step)?;
+        let quantities = self.quantities(&field)?;
+        let rows = self.at.iter().flat_map(|&at| self.rows(&field, &quantities, at));
+        let points: Vec<_> = rows.collect();
+        if self.json {
+            json(out, &Report { points })?;
+        } else {
+            points.iter().try_for_each(|row| row.write(out))?;
+        }
+        Ok(())
+    }
+
+    fn quantities(&self, field: &Field<'_>) -> anyhow::Result<Vec<(String, Quantity)>> {
+        let stresses = field.equation.material().is_some().then_some(STRESSES);
+        let stresses = stresses.into_iter().flatten().map(str::to_owned);
+        let names = match self.quantity.as_slice() {
+            [] => field.data.components.iter().cloned().chain(stresses).collect(),
+            given => given.to_vec(),
+        };
+        names.into_iter().map(|name| Ok((name.clone(), quantity(field, &name)?))).collect()
+    }
+
+    /// One row, on a crack one for each side.
+    fn rows(&self, field: &Field<'_>, quantities: &[(String, Quantity)], at: Vec2) -> Vec<Row> {
+        let offset = self.offset.unwrap_or_default();
+        let row = |offset, side, name| self.row(field, quantities, at, (offset, side, name));
+        match on_crack(&field.step.cracks, at, offset) {
+            Some([above, below]) => {
+                vec![row(above, Side::Above, Some("above")), row(below, Side::Below, Some("below"))]
+            }
+            None => vec![row(offset, Side::Above, None)],
+        }
+    }
+
+    fn row(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+        at: Vec2,
+        (offset, side, name): (Vec2, Side, Option<&'static str>),
+    ) -> Row {
+        let mut local = field.at(at);
+        let value = |(name, quantity): &(String, Quantity)| {
+            (name.clone(), Number(quantity.at(&mut local, offset, side)))
+        };
+        let values = Values(quantities.iter().map(value).collect());
+        Row {
+            at: at.into(),
+            offset: self.offset.map(Vec2::into),
+            side: name,
+            values,
+            is_inside: local.contains(offset),
+        }
+    }
+}
+
+impl Row {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let [x, y] = self.at;
+        write!(out, "({x:?}, {y:?})")?;
+        if let Some([dx, dy]) = self.offset {
+            write!(out, " + ({dx:?}, {dy:?})")?;
+        }
+        if let Some(side) = self.side {
+            write!(out, ", {side} the crack")?;
+        }
+        if !self.is_inside {
+            return writeln!(out, ": outside the domain");
+        }
+        writeln!(out)?;
+        for (name, value) in &self.values.0 {
+            let sign = if value.0.is_sign_negative() { "" } else { " " };
+            writeln!(out, "  {name:12} {sign}{:?}", value.0)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,272 @@
+//! `ppum render`: a picture of a quantity.
+
+mod window;
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail, ensure};
+use clap::ValueEnum;
+use ppum::crack::Side;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum_render::colormap::{Colormap, NAMES};
+use ppum_render::figure::{Labels, figure, plot_area};
+use ppum_render::image::Image;
+use ppum_render::overlay;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::png;
+use ppum_render::range::Range;
+use ppum_render::raster::Raster;
+use ppum_render::scale::Scale;
+use ppum_render::view::View;
+
+use crate::arguments::size;
+use crate::dataset::{field, open, quantity};
+use crate::number::trimmed;
+use crate::threads;
+use window::{Frame, Window};
+
+/// Draw a quantity, exactly at every pixel
+///
+/// Each pixel's value is the field at the pixel's centre. Without --figure the picture is bare: one
+/// pixel of the file is one pixel of the field, transparent outside the domain.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Dataset
+    #[arg(value_name = "FILE.h5")]
+    file: PathBuf,
+    /// Picture to write
+    #[arg(short, long, value_name = "OUT.png")]
+    output: PathBuf,
+    /// Quantity, see `ppum info` [default: von-mises; for Poisson problems u]
+    #[arg(short, long, value_name = "Q")]
+    quantity: Option<String>,
+    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
+    /// shape]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
+    #[command(flatten)]
+    window: Window,
+    #[arg(long, value_name = "NAME", default_value = "viridis", help = colormaps())]
+    colormap: String,
+    /// Values that the colours span; `auto` is robust against peaks at tips
+    #[arg(long, value_name = "A,B|auto", default_value = "auto", allow_hyphen_values = true)]
+    range: Range,
+    /// How values spread over the colours: linear, log or symlog
+    #[arg(long, default_value = "linear")]
+    scale: Scale,
+    /// What is drawn over the colours; a figure always shows the cracks
+    #[arg(long, value_enum, value_delimiter = ',')]
+    overlay: Vec<Overlay>,
+    /// Add axes, a colour bar, a title and the cracks
+    #[arg(long)]
+    figure: bool,
+    /// What computes the values
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: Backend,
+    /// Precision of the computation
+    #[arg(long, value_enum, default_value = "f64")]
+    precision: Precision,
+    /// Step of the series, from 0 [default: the last]
+    #[arg(long, value_name = "K")]
+    step: Option<usize>,
+    /// Number of threads [default: all cores]; the picture does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum render plate.h5 -o plate.png --figure
+  ppum render plate.h5 -o uy.png -q uy --colormap coolwarm --size 1920x1080
+  ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
+  ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
+
+fn colormaps() -> String {
+    format!(
+        "Colour map: {}; reversed with _r; or a file with red, green, blue a line",
+        NAMES.join(", ")
+    )
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Overlay {
+    /// Cracks and their tips
+    Cracks,
+    /// Borders of the cover's cells
+    Patches,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    Auto,
+    Cpu,
+    Gpu,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Precision {
+    F64,
+    F32,
+}
+
+const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        self.check()?;
+        let dataset = open(&self.file)?;
+        let field = field(&dataset, self.step)?;
+        let name = self.quantity.as_deref().unwrap_or(default_quantity(&field));
+        let quantity = quantity(&field, name)?;
+        let view = self.view(&field)?;
+        let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
+        let mut picture =
+            threads::with(self.threads, || self.picture(&field, &view, quantity, &style))??;
+        let image = self.image(&mut picture, &field, &labels(&dataset, &field, quantity))?;
+        let file = self.file.file_name().unwrap_or_default().to_string_lossy();
+        let texts = picture.description(&dataset.title, &file, name);
+        png::write(&self.output, &image, &texts)?;
+        let [columns, rows] = image.size;
+        let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
+        let target = self.output.display();
+        writeln!(
+            out,
+            "wrote {target}: {name}, {columns}x{rows} pixels, colours from {from} to {to}"
+        )?;
+        Ok(())
+    }
+
+    /// What clap cannot see.
+    fn check(&self) -> anyhow::Result<()> {
+        let is_png = self.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        ensure!(is_png, "{}: pictures are PNG files; end the name in .png", self.output.display());
+        if self.backend == Backend::Gpu {
+            bail!("drawing on the GPU is not in this version; use --backend cpu");
+        }
+        Ok(())
+    }
+
+    fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
+        let size = self.size.unwrap_or(DEFAULT_SIZE);
+        let frame = Frame {
+            pixels: if self.figure { plot_area(size)? } else { size },
+            // A figure centres what it is given; a bare picture has the size that was asked for.
+            may_shrink: self.figure || self.size.is_none(),
+        };
+        self.window.view(field, frame)
+    }
+
+    fn picture(
+        &self,
+        field: &Field<'_>,
+        view: &View,
+        quantity: Quantity,
+        style: &Style,
+    ) -> anyhow::Result<Picture> {
+        let raster = raster(field, view, quantity);
+        Ok(match self.precision {
+            Precision::F64 => Picture::bare(&raster, view, style)?,
+            Precision::F32 => Picture::bare(&raster, view, style)?,
+        })
+    }
+
+    /// The picture with its overlays, as a figure if that is asked for.
+    fn image(
+        &self,
+        picture: &mut Picture,
+        field: &Field<'_>,
+        labels: &Labels,
+    ) -> anyhow::Result<Image> {
+        let view = picture.view;
+        if self.overlay.contains(&Overlay::Patches) {
+            overlay::patches(&mut picture.image, &view, &field.step.partition);
+        }
+        if self.figure {
+            let size = self.size.unwrap_or(DEFAULT_SIZE);
+            return Ok(figure(picture, labels, &field.step.cracks, size)?);
+        }
+        if self.overlay.contains(&Overlay::Cracks) {
+            overlay::cracks(&mut picture.image, &view, &field.step.cracks);
+        }
+        Ok(picture.image.clone())
+    }
+}
+
+fn raster(field: &Field<'_>, view: &View, quantity: Quantity) -> Raster {
+    Raster::from_fn(view.pixels, |column, row| {
+        quantity.at(&mut field.at(view.center), view.offset(column, row), Side::Above)
+    })
+}
+
+fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
+    match field.equation.material() {
+        Some(_) => "von-mises",
+        None => &field.data.components[0],
+    }
+}
+
+/// The built-in map of that name, or that of a file.
+fn style(name: &str) -> anyhow::Result<Style> {
+    let path = Path::new(name);
+    if !path.is_file() {
+        return Ok(Style::named(name)?);
+    }
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {name}"))?;
+    Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
+}
+
+fn labels(dataset: &Dataset, field: &Field<'_>, quantity: Quantity) -> Labels {
+    let unit = match quantity {
+        Quantity::Component(_) | Quantity::Magnitude => field.data.unit.clone(),
+        _ => String::new(),
+    };
+    Labels {
+        title: dataset.title.clone(),
+        quantity: label(quantity, &field.data.components),
+        unit,
+        length_unit: String::new(),
+    }
+}
+
+/// The quantity's symbol with its subscripts marked; a single component has none.
+fn label(quantity: Quantity, components: &[String]) -> String {
+    if let Quantity::PartitionFunction(patch) = quantity {
+        return format!("{}_{{{patch}}}", quantity.symbol());
+    }
+    let symbol = match components {
+        [only] => quantity.symbol().replace("u_x", only),
+        _ => quantity.symbol().to_owned(),
+    };
+    let mut parts = symbol.split('_');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        let end = part.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(part.len());
+        format!("{text}_{{{}}}{}", &part[..end], &part[end..])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::quantity::Axis;
+
+    use super::*;
+
+    #[test]
+    fn labels_have_subscripts() {
+        let two = ["ux".to_owned(), "uy".to_owned()];
+        assert_eq!(label(Quantity::Stress(Axis::Y, Axis::Y), &two), "σ_{yy}");
+        assert_eq!(label(Quantity::Derivative(0, Axis::Y), &two), "∂u_{x}/∂y");
+        assert_eq!(label(Quantity::VonMises, &two), "von Mises stress");
+        assert_eq!(label(Quantity::Error, &two), "|u − u_{exact}|");
+        assert_eq!(label(Quantity::PartitionFunction(7), &two), "φ_{7}");
+        let one = ["u".to_owned()];
+        assert_eq!(label(Quantity::Component(0), &one), "u");
+        assert_eq!(label(Quantity::Derivative(0, Axis::X), &one), "∂u/∂x");
+    }
+}

@@ -1,0 +1,105 @@
+//! `ppum solve`: from a problem file to a dataset.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use anyhow::{bail, ensure};
+use ppum::dataset::{Dataset, Record, Step};
+use ppum_solve::problem::Problem;
+use ppum_solve::solve::solve;
+
+use crate::number::trimmed;
+use crate::progress::Bar;
+use crate::threads;
+use crate::tips::{Tip, table};
+
+/// Solve a problem and write the dataset
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Problem file (TOML), see docs/problem-file.md
+    #[arg(value_name = "PROBLEM.toml")]
+    problem: PathBuf,
+    /// Dataset to write [default: beside the problem file, with the extension .h5]
+    #[arg(short, long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Read and check the problem file, and stop there
+    #[arg(long)]
+    check: bool,
+    /// Number of threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum solve plate.toml                      writes plate.h5
+  ppum solve plate.toml -o results/fine.h5
+  ppum solve plate.toml --check              reports every mistake in the file";
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        let problem = Problem::read(&self.problem)?;
+        if self.check {
+            writeln!(out, "{}: nothing wrong", self.problem.display())?;
+            return Ok(());
+        }
+        let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
+        self.check_target(&target)?;
+        let dataset = {
+            let bar = Bar::new();
+            threads::with(self.threads, || solve(&problem, &mut |progress| bar.show(progress)))??
+        };
+        ppum_format::write(&dataset, &target)?;
+        summary(out, &dataset)?;
+        writeln!(out, "wrote {}", target.display())?;
+        Ok(())
+    }
+
+    /// Refuses now what could not be written after minutes of work.
+    fn check_target(&self, target: &Path) -> anyhow::Result<()> {
+        ensure!(
+            target != self.problem,
+            "{}: the dataset would replace the problem file; give another file with -o",
+            target.display()
+        );
+        if target.is_dir() {
+            bail!("{}: is a folder; give a file with -o", target.display());
+        }
+        let folder = target.parent().filter(|f| !f.as_os_str().is_empty());
+        match folder {
+            Some(folder) if !folder.is_dir() => {
+                bail!("cannot write {}: there is no folder {}", target.display(), folder.display())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn summary(out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
+    writeln!(out, "{}", dataset.title)?;
+    for (index, step) in dataset.steps.iter().enumerate() {
+        history(out, step)?;
+        let tips: Vec<_> = step.intensities.iter().map(|t| Tip::new(index, step, t)).collect();
+        if !tips.is_empty() {
+            table(out, &tips)?;
+        }
+    }
+    Ok(())
+}
+
+/// The solver's report: its numbers on one line, its times on another.
+fn history(out: &mut dyn Write, step: &Step) -> anyhow::Result<()> {
+    let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
+    let line = |records: &[&Record]| {
+        let part = |r: &&Record| match r.unit.as_str() {
+            "s" => format!("{} {:.2} s", r.name, r.value),
+            unit => format!("{} {} {unit}", r.name, trimmed(r.value)).trim_end().to_owned(),
+        };
+        records.iter().map(part).collect::<Vec<_>>().join(", ")
+    };
+    writeln!(out, "patches {}, {}", step.partition.len(), line(&numbers))?;
+    writeln!(out, "{}", line(&times))?;
+    Ok(())
+}

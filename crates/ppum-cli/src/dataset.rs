@@ -1,0 +1,31 @@
+//! Opening datasets and choosing among what is in them.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityError};
+use ppum_format::ReadError;
+
+/// Reads a dataset; an error names the file.
+pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
+    let read = ppum_format::read(path);
+    match read {
+        Err(error @ ReadError::Io { .. }) => Err(error.into()),
+        other => other.with_context(|| path.display().to_string()),
+    }
+}
+
+/// The first field of a step, by default of the last one.
+pub(crate) fn field(dataset: &Dataset, step: Option<usize>) -> anyhow::Result<Field<'_>> {
+    let last = dataset.steps.len().saturating_sub(1);
+    Ok(Field::new(dataset, step.unwrap_or(last))?)
+}
+
+/// A quantity by its name, if the field has what it needs.
+pub(crate) fn quantity(field: &Field<'_>, name: &str) -> Result<Quantity, QuantityError> {
+    let quantity = Quantity::from_name(name, field.equation, &field.data.components)?;
+    quantity.check(field)?;
+    Ok(quantity)
+}

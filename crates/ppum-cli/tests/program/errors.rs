@@ -1,0 +1,107 @@
+//! What goes wrong is told in one line, on standard error, with an exit status.
+
+use std::process::Stdio;
+
+use crate::{CRACKED, LINEAR, Lab};
+
+#[test]
+fn files_that_are_not_there_or_not_datasets() {
+    let lab = Lab::new();
+    lab.write("text.h5", "not HDF5 at all, but long enough to be looked at");
+    for command in ["info", "sif", "probe --at 0,0", "render -o a.png"] {
+        let missing = lab.fail(&format!("{command} missing.h5"));
+        assert_eq!(missing.matches("missing.h5").count(), 1, "{missing}");
+        assert_eq!(missing.lines().count(), 1, "{missing}");
+        let wrong = lab.fail(&format!("{command} text.h5"));
+        assert!(wrong.contains("text.h5: not a readable HDF5 file"), "{wrong}");
+    }
+    let missing = lab.fail("solve missing.toml");
+    assert!(missing.starts_with("error: missing.toml: cannot read"), "{missing}");
+    assert_eq!(lab.files(), ["text.h5"]);
+}
+
+#[test]
+fn unknown_quantities_list_the_known() {
+    let lab = Lab::solved(CRACKED);
+    for command in ["probe plate.h5 --at 0,0 -q mises", "render plate.h5 -o a.png -q mises"] {
+        let complaint = lab.fail(command);
+        assert!(complaint.contains("`mises`"), "{complaint}");
+        for known in ["von-mises", "ux", "dux_dy", "weight-sum", "phi:N"] {
+            assert!(complaint.contains(known), "{known}: {complaint}");
+        }
+    }
+    assert!(lab.fail("probe plate.h5 --at 0,0 -q error").contains("exact solution"));
+    assert!(lab.fail("probe plate.h5 --at 0,0 -q phi:99999").contains("no patch 99999"));
+    let lab = Lab::solved(LINEAR);
+    assert!(!lab.fail("probe plate.h5 --at 0,0 -q sxx").contains("von-mises"));
+}
+
+#[test]
+fn arguments_that_are_not_what_they_should_be() {
+    let lab = Lab::solved(CRACKED);
+    for (arguments, hint) in [
+        ("probe plate.h5", "--at"),
+        ("probe plate.h5 --at 1", "X,Y"),
+        ("probe plate.h5 --at nan,0", "finite"),
+        ("probe plate.h5 --at 0,0 --step 1", "there is no step 1"),
+        ("render plate.h5", "--output"),
+        ("render plate.h5 -o a.jpg", ".png"),
+        ("render plate.h5 -o a.png --size 10", "WIDTHxHEIGHT"),
+        ("render plate.h5 -o a.png --size 0x10", "0x10"),
+        ("render plate.h5 -o a.png --size 90000x90000", "90000"),
+        ("render plate.h5 -o a.png --figure --size 100x100", "leaves no room"),
+        ("render plate.h5 -o a.png --colormap jet", "turbo"),
+        ("render plate.h5 -o a.png --range 2,1", "smaller one first"),
+        ("render plate.h5 -o a.png --scale log --range 0,1", "logarithmic"),
+        ("render plate.h5 -o a.png --scale square", "symlog"),
+        ("render plate.h5 -o a.png --overlay dots", "patches"),
+        ("render plate.h5 -o a.png --view 0,0,0,1", "no area"),
+        ("render plate.h5 -o a.png --center 0,0", "--width"),
+        ("render plate.h5 -o a.png --center 0,0 --width 0", "above zero"),
+        ("render plate.h5 -o a.png --center 0,0 --width 1 --tip 0", "cannot be used with"),
+        ("render plate.h5 -o a.png --tip 2", "2 tips"),
+        ("render plate.h5 -o a.png --tip 0 --zoom 1e30", "double precision"),
+        ("render plate.h5 -o a.png --backend gpu", "not in this version"),
+        ("render plate.h5 -o nowhere/a.png", "nowhere"),
+        ("paint plate.h5", "paint"),
+        ("", "Usage"),
+    ] {
+        let output = lab.command(arguments).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        assert!(matches!(output.status.code(), Some(1 | 2)), "ppum {arguments}: {complaint}");
+        assert!(complaint.contains(hint), "ppum {arguments}: {complaint}");
+        assert!(output.stdout.is_empty());
+    }
+    assert_eq!(lab.files(), ["plate.h5", "plate.toml"], "nothing half done is left");
+}
+
+/// A reader that goes away is no reason to panic.
+#[test]
+fn closed_pipes() {
+    let lab = Lab::solved(CRACKED);
+    let mut command = lab.command("info plate.h5 --json");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_printed_are_a_failure() {
+    let lab = Lab::solved(CRACKED);
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = lab.command("sif plate.h5").stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8(output.stderr).unwrap().starts_with("error: "));
+}
+
+#[test]
+fn help_goes_to_standard_output() {
+    let lab = Lab::new();
+    for command in ["", "demo", "solve", "info", "sif", "probe", "render"] {
+        let text = lab.run(&format!("{command} --help"));
+        assert!(text.contains("Examples:"), "{command}: {text}");
+    }
+    assert!(lab.run("--version").starts_with("ppum "));
+}

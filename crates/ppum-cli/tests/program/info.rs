@@ -1,0 +1,52 @@
+use serde_json::json;
+
+use crate::{CRACKED, LINEAR, Lab, keys};
+
+#[test]
+fn tells_what_is_inside() {
+    let text = Lab::solved(CRACKED).run("info plate.h5");
+    for word in ["Small plate", "elasticity", "plane-strain", "level 3", "order 1", "von-mises"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+}
+
+#[test]
+fn json_has_the_documented_shape() {
+    let lab = Lab::solved(CRACKED);
+    let info = lab.json("info plate.h5");
+    assert_eq!(keys(&info), ["domain", "equation", "file", "program", "steps", "title"]);
+    assert_eq!(info["domain"], json!({ "min": [-1.0, -1.0], "max": [1.0, 1.0] }));
+    let elasticity =
+        json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
+    assert_eq!(info["equation"], elasticity);
+    let step = &info["steps"][0];
+    let expected = "attributes cells cracks fields functions history intensities levels load \
+                    orders patches points quantities step tips unknowns weight";
+    assert_eq!(keys(step).join(" "), expected);
+    let crack = json!([{ "points": [[-0.5, 0.0], [0.5, 0.0]], "ends": ["tip", "tip"] }]);
+    assert_eq!(step["cracks"], crack);
+    assert_eq!(step["tips"][1], json!({ "crack": 0, "end": "end", "at": [0.5, 0.0] }));
+    let cells = step["levels"].as_array().unwrap().iter().map(|l| l["cells"].as_u64().unwrap());
+    assert_eq!(cells.sum::<u64>(), step["patches"].as_u64().unwrap());
+    assert_eq!(step["functions"].as_array().unwrap().len(), 10, "1, side, 2 × 4 at the tips");
+    assert_eq!(keys(&step["functions"][0]), ["blocks", "kind", "name"]);
+    assert_eq!(step["functions"][0]["blocks"], step["patches"]);
+    assert_eq!(step["fields"][0]["components"], json!(["ux", "uy"]));
+    let quantities = step["quantities"].as_array().unwrap();
+    assert!(quantities.contains(&json!("tresca")) && !quantities.contains(&json!("error")));
+    let history = step["history"].as_array().unwrap();
+    let unknowns = history.iter().find(|r| r["name"] == "unknowns").unwrap();
+    assert_eq!(unknowns["value"].as_f64(), step["unknowns"].as_f64());
+    let solver = &step["intensities"];
+    assert_eq!(solver, &lab.json("sif plate.h5")["tips"], "stored and computed are the same");
+}
+
+#[test]
+fn a_known_solution_adds_the_error() {
+    let info = Lab::solved(LINEAR).json("info plate.h5");
+    assert_eq!(info["equation"], json!({ "kind": "poisson", "conductivity": 1.0 }));
+    let step = &info["steps"][0];
+    assert_eq!(step["fields"][0]["exact"], json!(["x + 2*y"]));
+    assert!(step["quantities"].as_array().unwrap().contains(&json!("error")));
+    assert!(!step["quantities"].as_array().unwrap().contains(&json!("sxx")));
+}

@@ -1,0 +1,111 @@
+use ppum_render::colormap::Colormap;
+
+use crate::{CRACKED, LINEAR, Lab, Png, sound};
+
+/// Every pixel of u = x + 2y has the colour of its centre's value, the upper row being the upper one.
+#[test]
+fn pixels_are_values_at_their_centres() {
+    let lab = Lab::solved(LINEAR);
+    for options in ["", "--precision f32", "--threads 1", "--backend cpu"] {
+        lab.run(&format!("render plate.h5 -o a.png -q u --size 64x32 --range 0,4 {options}"));
+        let png = Png::read(&lab.path("a.png"));
+        assert_eq!(png.size, [64, 32]);
+        let map = Colormap::named("viridis").unwrap();
+        for (column, row) in [(0, 0), (63, 0), (0, 31), (63, 31), (20, 7)] {
+            let (x, y) = (f64::from(column) + 0.5, 31.5 - f64::from(row));
+            let exact = map.color((x / 32.0 + 2.0 * y / 32.0) / 4.0);
+            let found = png.pixel(column, row);
+            let near = found.iter().zip(exact).all(|(a, b)| a.abs_diff(b) <= 1);
+            assert!(near, "{options} {column} {row}: {found:?} {exact:?}");
+        }
+    }
+}
+
+#[test]
+fn texts_tell_what_is_seen() {
+    let lab = Lab::solved(CRACKED);
+    lab.run("render plate.h5 -o a.png --size 40x30 --center 0.5,-0.25 --width 1e-9 --scale log");
+    let png = Png::read(&lab.path("a.png"));
+    assert_eq!(png.text("Title"), "Small plate");
+    assert_eq!(png.text("ppum:quantity"), "von-mises");
+    assert_eq!(png.text("ppum:dataset"), "plate.h5");
+    assert_eq!(png.text("ppum:view"), "center 0.5,-0.25 width 1e-9 pixels 40x30");
+    assert_eq!(png.text("ppum:scale"), "log");
+    assert_eq!(png.text("ppum:colormap"), "viridis");
+}
+
+#[test]
+fn sizes_of_bare_pictures_and_figures() {
+    let lab = Lab::solved(CRACKED);
+    for (options, size) in [
+        ("", [768, 768]),
+        ("--size 300x200", [300, 200]),
+        ("--tip 0", [1024, 768]),
+        ("--figure", [1024, 768]),
+        ("--figure --size 500x600", [500, 600]),
+    ] {
+        lab.run(&format!("render plate.h5 -o a.png -q uy {options}"));
+        assert_eq!(Png::read(&lab.path("a.png")).size, size, "{options}");
+    }
+}
+
+#[test]
+fn outside_the_domain_pictures_are_transparent() {
+    let lab = Lab::solved(&sound());
+    lab.run("render plate.h5 -o a.png --size 60x20 --range 0,2");
+    let png = Png::read(&lab.path("a.png"));
+    assert_eq!([png.pixel(5, 10)[3], png.pixel(30, 10)[3], png.pixel(55, 10)[3]], [0, 255, 0]);
+    // σ is constant: one colour
+    assert_eq!(png.pixel(22, 1), png.pixel(38, 18));
+    assert_ne!(png.pixel(22, 1)[..3], [0, 0, 0]);
+}
+
+#[test]
+fn ways_to_choose_the_window() {
+    let lab = Lab::solved(CRACKED);
+    let view = |options: &str| {
+        lab.run(&format!("render plate.h5 -o a.png -q ux --size 20x10 {options}"));
+        Png::read(&lab.path("a.png")).text("ppum:view").to_owned()
+    };
+    assert_eq!(view(""), "center 0.0,0.0 width 4.0 pixels 20x10");
+    assert_eq!(view("--view 1,0.5,-1,-0.5"), "center 0.0,0.0 width 2.0 pixels 20x10");
+    assert_eq!(view("--view -0.2,-0.2,0,0"), "center -0.1,-0.1 width 0.4 pixels 20x10");
+    assert_eq!(view("--center -0.5,0 --width 2"), "center -0.5,0.0 width 2.0 pixels 20x10");
+    assert_eq!(view("--tip 0 --zoom 4"), "center -0.5,0.0 width 1.0 pixels 20x10");
+    assert_eq!(view("--tip 1 --zoom 4e11"), "center 0.5,0.0 width 1e-11 pixels 20x10");
+}
+
+#[test]
+fn overlays_are_drawn() {
+    let lab = Lab::solved(CRACKED);
+    let draw = |options: &str| {
+        lab.run(&format!("render plate.h5 -o a.png -q uy --size 90x90 {options}"));
+        Png::read(&lab.path("a.png")).rgba
+    };
+    let pictures = ["", "--overlay cracks", "--overlay patches", "--overlay cracks,patches"];
+    let pictures = pictures.map(draw);
+    for (k, a) in pictures.iter().enumerate() {
+        assert!(pictures[..k].iter().all(|b| a != b), "{k}");
+    }
+    let changed = |a: &[u8], b: &[u8]| a.chunks(4).zip(b.chunks(4)).filter(|(a, b)| a != b).count();
+    assert!((90..900).contains(&changed(&pictures[0], &pictures[1])), "half a row of crack");
+}
+
+#[test]
+fn colours_from_a_file() {
+    let lab = Lab::solved(LINEAR);
+    lab.write("grey.txt", "0 0 0\n255 255 255\n");
+    lab.run("render plate.h5 -o a.png -q u --size 16x8 --range=-4,4 --colormap grey.txt");
+    let [r, g, b, a] = Png::read(&lab.path("a.png")).pixel(8, 4);
+    // u at (1.0625, 0.4375)
+    assert_eq!((r, g, b, a), (g, g, g, 255));
+    assert!(r.abs_diff((255.0f64 * (4.0 + 1.9375) / 8.0).round() as u8) <= 1, "{r}");
+}
+
+#[test]
+fn partition_quantities() {
+    let lab = Lab::solved(CRACKED);
+    for quantity in ["overlap", "weight-sum", "phi:3", "direction"] {
+        lab.run(&format!("render plate.h5 -o a.png -q {quantity} --size 30x30"));
+    }
+}

@@ -1,0 +1,71 @@
+use serde_json::json;
+
+use crate::{CRACKED, LINEAR, Lab, keys, sound};
+
+#[test]
+fn json_has_the_documented_shape() {
+    let report = Lab::solved(CRACKED).json("sif plate.h5");
+    assert_eq!(keys(&report), ["file", "tips"]);
+    assert_eq!(report["file"], "plate.h5");
+    let tips = report["tips"].as_array().unwrap();
+    assert_eq!(tips.len(), 2);
+    for (tip, [x, angle]) in tips.iter().zip([[-0.5, std::f64::consts::PI], [0.5, 0.0]]) {
+        let expected = ["angle", "crack", "k1", "k2", "rings", "spread", "step", "tip"];
+        assert_eq!(keys(tip), expected);
+        assert_eq!(tip["tip"], json!([x, 0.0]));
+        assert_eq!(tip["angle"].as_f64(), Some(angle));
+        assert_eq!((tip["step"].as_u64(), tip["crack"].as_u64()), (Some(0), Some(0)));
+        let rings = tip["rings"].as_array().unwrap();
+        assert_eq!(rings.len(), 3);
+        assert!(rings.iter().all(|ring| keys(ring) == ["k1", "k2", "r1", "r2"]));
+        // 1.333712 √(π a) for this plate; order 1 on 8 × 8 cells is a few per cent off
+        let k1 = tip["k1"].as_f64().unwrap();
+        let exact = 1.333_712 * (0.5 * std::f64::consts::PI).sqrt();
+        assert!((k1 / exact - 1.0).abs() < 0.05, "{k1} {exact}");
+        assert!(tip["k2"].as_f64().unwrap().abs() < 1e-6 * k1, "symmetry");
+        let spread = tip["spread"].as_f64().unwrap();
+        let at = |ring: usize| rings[ring]["k1"].as_f64().unwrap();
+        assert!(spread >= (at(0) - at(2)).abs() / k1 * 0.999 && spread < 0.05, "{spread}");
+    }
+}
+
+/// With a body force the integral over the discs has a term that the field alone does not tell.
+#[test]
+fn a_body_force_is_taken_from_the_problem() {
+    let force = "[[boundary]]\non = \"right\"\ntraction = [-10.0, 0.0]\n[body_force]\nvalue = [\"10/2\", 0.0]\n";
+    let loaded = CRACKED.replace("[discretization]", &format!("{force}[discretization]"));
+    let lab = Lab::solved(&loaded);
+    let computed = &lab.json("sif plate.h5")["tips"];
+    let stored = &lab.json("info plate.h5")["steps"][0]["intensities"];
+    assert_eq!(computed, stored);
+    // the problem's text without the force: what ignoring the force would give
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    dataset.problem = None;
+    ppum_format::write(&dataset, &lab.path("forgotten.h5")).unwrap();
+    let forgotten = &lab.json("sif forgotten.h5")["tips"];
+    let k1 = |tips: &serde_json::Value| tips[0]["k1"].as_f64().unwrap();
+    let difference = k1(forgotten) - k1(computed);
+    assert!(difference.abs() > 0.01 * k1(computed).abs(), "{difference} of {}", k1(computed));
+    // a text that cannot be read any more: what the solver stored
+    dataset.problem = Some("written by a later version".into());
+    ppum_format::write(&dataset, &lab.path("later.h5")).unwrap();
+    assert_eq!(&lab.json("sif later.h5")["tips"], stored);
+    dataset.steps[0].intensities.clear();
+    ppum_format::write(&dataset, &lab.path("unknown.h5")).unwrap();
+    assert!(lab.fail("sif unknown.h5").contains("body force"));
+}
+
+#[test]
+fn nothing_to_tell_is_said() {
+    let lab = Lab::solved(&sound());
+    assert_eq!(lab.json("sif plate.h5")["tips"], json!([]));
+    assert!(lab.run("sif plate.h5").contains("no crack tips"));
+    assert!(Lab::solved(LINEAR).fail("sif plate.h5").contains("Poisson"));
+}
+
+#[test]
+fn text_has_a_line_for_each_tip() {
+    let text = Lab::solved(CRACKED).run("sif plate.h5");
+    assert_eq!(text.lines().count(), 3, "{text}");
+    assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
+}

@@ -1,0 +1,68 @@
+use crate::{CRACKED, LINEAR, Lab, sound};
+
+#[test]
+fn tells_unknowns_times_and_intensities() {
+    let lab = Lab::new();
+    lab.write("plate.toml", CRACKED);
+    let told = lab.run("solve plate.toml");
+    for word in ["Small plate", "unknowns", "cut-off", "residual", "assembly", "K_II", "plate.h5"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    assert_eq!(lab.files(), ["plate.h5", "plate.toml"]);
+    lab.run("solve plate.toml -o other.h5");
+    assert_eq!(lab.files(), ["other.h5", "plate.h5", "plate.toml"]);
+}
+
+#[test]
+fn check_writes_nothing_and_reports_every_mistake() {
+    let lab = Lab::new();
+    lab.write("plate.toml", CRACKED);
+    assert!(lab.run("solve plate.toml --check").contains("plate.toml"));
+    lab.write("wrong.toml", &CRACKED.replace("young", "yong").replace("order = 1", "order = 99"));
+    let complaint = lab.fail("solve wrong.toml --check");
+    assert!(complaint.lines().count() >= 2, "{complaint}");
+    assert!(complaint.lines().all(|line| line.starts_with("error: wrong.toml:")), "{complaint}");
+    assert!(complaint.contains("yong") && complaint.contains("99"), "{complaint}");
+    assert_eq!(lab.files(), ["plate.toml", "wrong.toml"]);
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let lab = Lab::new();
+    lab.write("plate.toml", CRACKED);
+    let bits = |threads: usize| {
+        lab.run(&format!("solve plate.toml -o {threads}.h5 --threads {threads}"));
+        let dataset = ppum_format::read(&lab.path(&format!("{threads}.h5"))).unwrap();
+        let step = &dataset.steps[0];
+        let coefficients = step.fields[0].coefficients.iter().flatten().map(|c| c.to_bits());
+        let factors = step.intensities.iter().flat_map(|t| [t.k1.to_bits(), t.k2.to_bits()]);
+        coefficients.chain(factors).collect::<Vec<_>>()
+    };
+    let one = bits(1);
+    assert!(one.len() > 500);
+    for threads in [2, 3] {
+        let other = bits(threads);
+        let different = one.iter().zip(&other).filter(|(a, b)| a != b).count();
+        assert_eq!((different, other.len()), (0, one.len()), "{threads} threads");
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_refused_at_once() {
+    let lab = Lab::new();
+    lab.write("plate.toml", CRACKED);
+    lab.write("plate.h5.toml", CRACKED);
+    std::fs::create_dir(lab.path("folder")).unwrap();
+    assert!(lab.fail("solve plate.toml -o nowhere/x.h5").contains("no folder nowhere"));
+    assert!(lab.fail("solve plate.toml -o folder").contains("is a folder"));
+    assert!(lab.fail("solve plate.toml -o plate.toml").contains("replace the problem file"));
+    assert!(lab.fail("solve plate.toml --threads 0").contains("--threads"));
+    assert_eq!(std::fs::read_to_string(lab.path("plate.toml")).unwrap(), CRACKED);
+}
+
+#[test]
+fn problems_of_every_kind() {
+    for problem in [&sound(), LINEAR] {
+        assert!(!Lab::solved(problem).run("info plate.h5").contains("K_II"));
+    }
+}

@@ -1,0 +1,63 @@
+//! SHA-256 over the content, see "Checksum" in FORMAT.md.
+
+use std::fmt::Write as _;
+
+use sha2::{Digest, Sha256};
+
+use crate::content::{Array, Content, Values};
+use crate::error::ReadError;
+
+/// Name of the root attribute that holds the checksum as 64 hexadecimal digits.
+const NAME: &str = "@sha256";
+
+/// Adds the checksum to the content.
+pub(crate) fn seal(content: &mut Content) {
+    let sum = digest(content).expect("what is written has types of the format only");
+    content.insert(NAME.into(), Array::scalar(sum));
+}
+
+/// Takes the checksum out of the content and compares. A content without one is fine.
+pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
+    let Some(stored) = content.remove(NAME) else { return Ok(()) };
+    let Values::Text(stored) = stored.values else {
+        return Err(ReadError::object(NAME, "expected a string of 64 hexadecimal digits"));
+    };
+    let stored = stored.concat();
+    let computed = digest(content)?;
+    if stored == computed { Ok(()) } else { Err(ReadError::Checksum { stored, computed }) }
+}
+
+fn digest(content: &Content) -> Result<String, ReadError> {
+    let mut hash = Sha256::new();
+    for (name, array) in content {
+        let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
+        let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
+        hash.update(header.as_bytes());
+        update(&mut hash, &array.values).map_err(|problem| ReadError::object(name, problem))?;
+    }
+    Ok(hash.finalize().iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    }))
+}
+
+fn update(hash: &mut Sha256, values: &Values) -> Result<(), String> {
+    match values {
+        Values::F64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::U8(v) => hash.update(v),
+        Values::U32(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::U64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::I64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::Text(v) => v.iter().for_each(|x| {
+            hash.update(x.as_bytes());
+            hash.update([0]);
+        }),
+        Values::Other(name) => {
+            return Err(format!(
+                "type {name} is outside the format, so the checksum cannot be verified; keep own \
+                 additions in the group `user`, or delete the root attribute `sha256`"
+            ));
+        }
+    }
+    Ok(())
+}

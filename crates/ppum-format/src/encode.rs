@@ -1,0 +1,263 @@
+//! Dataset → content: the layout of FORMAT.md, group by group.
+
+use ppum::crack::{Crack, TipId};
+use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, TipIntensity};
+use ppum::function::{Frame, Function, FunctionKind};
+use ppum::vec2::Rect;
+
+use crate::content::{Array, Content, Element, join};
+use crate::error::WriteError;
+use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, Words, word};
+
+type Written = Result<(), WriteError>;
+
+/// Everything of a dataset under its names in the file, without the checksum.
+pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
+    let mut content = Content::new();
+    let mut root = Group { path: String::new(), content: &mut content };
+    let (major, minor) = crate::FORMAT_VERSION;
+    root.attribute("format", Array::scalar("ppum".to_owned()));
+    root.attribute("format_version", Array::vector([major, minor]));
+    root.attribute("program", Array::scalar(dataset.program.clone()));
+    root.attribute("title", Array::scalar(dataset.title.clone()));
+    if let Some(problem) = &dataset.problem {
+        root.array("problem", Array::scalar(problem.clone()));
+    }
+    let mut domain = root.group("domain");
+    domain.attribute("kind", Array::scalar("box".to_owned()));
+    domain.attribute("min", Array::vector(<[f64; 2]>::from(dataset.domain.min)));
+    domain.attribute("max", Array::vector(<[f64; 2]>::from(dataset.domain.max)));
+    equation(&mut root.group("equation"), &dataset.equation)?;
+    for (k, s) in dataset.steps.iter().enumerate() {
+        step(&mut root.group(&format!("steps/{k:04}")), s)?;
+    }
+    Ok(content)
+}
+
+/// A place in the file to put arrays into.
+struct Group<'a> {
+    path: String,
+    content: &'a mut Content,
+}
+
+impl Group<'_> {
+    fn group(&mut self, name: &str) -> Group<'_> {
+        Group { path: self.path_of(name), content: self.content }
+    }
+
+    fn path_of(&self, name: &str) -> String {
+        join(&self.path, name)
+    }
+
+    fn array(&mut self, name: &str, array: Array) {
+        self.content.insert(self.path_of(name), array);
+    }
+
+    fn attribute(&mut self, name: &str, array: Array) {
+        self.content.insert(self.path_of(&format!("@{name}")), array);
+    }
+
+    fn vector<T: Element>(&mut self, name: &str, values: impl IntoIterator<Item = T>) {
+        self.array(name, Array::vector(values));
+    }
+
+    /// The word of an enumeration's value, or the error that the format has none.
+    fn word<T: PartialEq>(
+        &self,
+        words: &Words<T>,
+        value: T,
+        name: &str,
+    ) -> Result<String, WriteError> {
+        word(words, value).map(str::to_owned).ok_or_else(|| self.unknown(name))
+    }
+
+    fn unknown(&self, name: &str) -> WriteError {
+        WriteError::object(&self.path_of(name), "this kind has no word in the file format")
+    }
+}
+
+fn equation(group: &mut Group, equation: &Equation) -> Written {
+    let kind = match *equation {
+        Equation::Elasticity(material) => {
+            let state = group.word(STRESS_STATES, material.state, "state")?;
+            group.attribute("young", Array::scalar(material.young));
+            group.attribute("poisson", Array::scalar(material.poisson));
+            group.attribute("state", Array::scalar(state));
+            "elasticity"
+        }
+        Equation::Poisson { conductivity } => {
+            group.attribute("conductivity", Array::scalar(conductivity));
+            "poisson"
+        }
+    };
+    group.attribute("kind", Array::scalar(kind.to_owned()));
+    Ok(())
+}
+
+fn step(group: &mut Group, step: &Step) -> Written {
+    group.attribute("load", Array::scalar(step.load));
+    partition(&mut group.group("partition"), &step.partition);
+    cracks(&mut group.group("cracks"), &step.cracks)?;
+    functions(&mut group.group("functions"), &step.functions)?;
+    for (k, f) in step.fields.iter().enumerate() {
+        field(&mut group.group(&format!("fields/{k:04}")), f);
+    }
+    let patches = step.partition.len();
+    let mut attributes = group.group("attributes");
+    attributes.vector("name", step.attributes.iter().map(|a| a.name.clone()));
+    let values: Vec<_> = step.attributes.iter().map(|a| a.values.clone()).collect();
+    attributes.array("values", Array::matrix(&values, patches));
+    intensities(&mut group.group("intensities"), &step.intensities)?;
+    history(&mut group.group("history"), &step.history);
+    Ok(())
+}
+
+fn partition(group: &mut Group, partition: &Partition) {
+    let weight = partition.weight;
+    group.attribute("kind", Array::scalar("shepard-box".to_owned()));
+    group.attribute("weight", Array::scalar(weight.name().to_owned()));
+    group.vector("weight_breakpoints", weight.breakpoints().iter().copied());
+    for (name, points) in [
+        ("center", &partition.center),
+        ("half", &partition.half),
+        ("origin", &partition.origin),
+        ("scale", &partition.scale),
+        ("points", &partition.points),
+    ] {
+        group.array(name, Array::rows(points.iter().map(|&p| <[f64; 2]>::from(p))));
+    }
+    let corners = |c: &Rect| [c.min.x, c.min.y, c.max.x, c.max.y];
+    group.array("cell", Array::rows(partition.cell.iter().map(corners)));
+    group.vector("level", partition.level.iter().copied());
+    group.vector("point", partition.point.iter().map(|p| p.map_or(-1, i64::from)));
+}
+
+/// Compressed rows: where each part starts, and where the last one ends.
+fn offsets(lengths: impl Iterator<Item = usize>) -> Array {
+    let mut end = 0;
+    let ends = lengths.map(|n| {
+        end += n as u64;
+        end
+    });
+    Array::vector(std::iter::once(0).chain(ends).collect::<Vec<u64>>())
+}
+
+fn cracks(group: &mut Group, cracks: &[Crack]) -> Written {
+    let points = cracks.iter().flat_map(|c| &c.points);
+    let mut ends = Vec::with_capacity(cracks.len());
+    for crack in cracks {
+        let [start, last] = crack.ends;
+        ends.push([group.word(CRACK_ENDS, start, "ends")?, group.word(CRACK_ENDS, last, "ends")?]);
+    }
+    group.array("points", Array::rows(points.map(|&p| <[f64; 2]>::from(p))));
+    group.array("offsets", offsets(cracks.iter().map(|c| c.points.len())));
+    group.array("ends", Array::rows(ends));
+    Ok(())
+}
+
+/// One row of the function table; what a kind does not use keeps its default.
+struct Row<'a> {
+    kind: &'static str,
+    crack: i64,
+    formula: &'a str,
+    frame: &'static str,
+    end: String,
+    origin: [f64; 2],
+    angle: f64,
+    parameters: &'a [(String, f64)],
+}
+
+impl<'a> Row<'a> {
+    fn new(kind: &'static str) -> Self {
+        Self {
+            kind,
+            crack: -1,
+            formula: "",
+            frame: "",
+            end: String::new(),
+            origin: [0.0; 2],
+            angle: 0.0,
+            parameters: &[],
+        }
+    }
+
+    fn of(kind: &'a FunctionKind, group: &Group) -> Result<Self, WriteError> {
+        match kind {
+            FunctionKind::One => Ok(Self::new("one")),
+            FunctionKind::Side { crack } => {
+                Ok(Self { crack: i64::from(*crack), ..Self::new("side") })
+            }
+            FunctionKind::Formula { text, frame, parameters } => {
+                let row = Self { formula: text, parameters, ..Self::new("formula") };
+                row.in_frame(frame, group)
+            }
+            _ => Err(group.unknown("kind")),
+        }
+    }
+
+    fn in_frame(self, frame: &Frame, group: &Group) -> Result<Self, WriteError> {
+        Ok(match *frame {
+            Frame::World => Self { frame: "world", ..self },
+            Frame::Fixed { origin, angle } => {
+                Self { frame: "fixed", origin: origin.into(), angle, ..self }
+            }
+            Frame::Tip(TipId { crack, end }) => {
+                let end = group.word(ENDS, end, "end")?;
+                Self { frame: "tip", crack: i64::from(crack), end, ..self }
+            }
+            _ => return Err(group.unknown("frame")),
+        })
+    }
+}
+
+fn functions(group: &mut Group, functions: &[Function]) -> Written {
+    let rows: Vec<Row> =
+        functions.iter().map(|f| Row::of(&f.kind, group)).collect::<Result<_, _>>()?;
+    group.vector("name", functions.iter().map(|f| f.name.clone()));
+    group.vector("kind", rows.iter().map(|r| r.kind.to_owned()));
+    group.vector("crack", rows.iter().map(|r| r.crack));
+    group.vector("formula", rows.iter().map(|r| r.formula.to_owned()));
+    group.vector("frame", rows.iter().map(|r| r.frame.to_owned()));
+    group.vector("frame_end", rows.iter().map(|r| r.end.clone()));
+    group.array("frame_origin", Array::rows(rows.iter().map(|r| r.origin)));
+    group.vector("frame_angle", rows.iter().map(|r| r.angle));
+    group.array("parameter_offsets", offsets(rows.iter().map(|r| r.parameters.len())));
+    let parameters = || rows.iter().flat_map(|r| r.parameters);
+    group.vector("parameter_name", parameters().map(|(name, _)| name.clone()));
+    group.vector("parameter_value", parameters().map(|(_, value)| *value));
+    Ok(())
+}
+
+fn field(group: &mut Group, field: &FieldData) {
+    let coefficients = field.coefficients.first().map_or(0, Vec::len);
+    group.attribute("name", Array::scalar(field.name.clone()));
+    group.attribute("unit", Array::scalar(field.unit.clone()));
+    group.vector("components", field.components.iter().cloned());
+    group.vector("exact", field.exact.iter().cloned());
+    group.vector("patch_blocks", field.patch_blocks.iter().copied());
+    group.vector("block_function", field.block_function.iter().copied());
+    group.vector("block_degree", field.block_degree.iter().copied());
+    group.vector("block_offset", field.block_offset.iter().copied());
+    group.array("coefficients", Array::matrix(&field.coefficients, coefficients));
+}
+
+fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {
+    let mut ends = Vec::with_capacity(intensities.len());
+    for intensity in intensities {
+        ends.push(group.word(ENDS, intensity.tip.end, "end")?);
+    }
+    let rings = intensities.iter().flat_map(|i| &i.rings);
+    group.vector("crack", intensities.iter().map(|i| i.tip.crack));
+    group.vector("end", ends);
+    group.vector("k1", intensities.iter().map(|i| i.k1));
+    group.vector("k2", intensities.iter().map(|i| i.k2));
+    group.array("ring_offsets", offsets(intensities.iter().map(|i| i.rings.len())));
+    group.array("rings", Array::rows(rings.map(|r| [r.r1, r.r2, r.k1, r.k2])));
+    Ok(())
+}
+
+fn history(group: &mut Group, history: &[Record]) {
+    group.vector("name", history.iter().map(|r| r.name.clone()));
+    group.vector("value", history.iter().map(|r| r.value));
+    group.vector("unit", history.iter().map(|r| r.unit.clone()));
+}

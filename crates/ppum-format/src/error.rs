@@ -1,0 +1,121 @@
+//! What can go wrong with a file.
+
+use std::path::{Path, PathBuf};
+
+use ppum::check::CheckError;
+
+/// Why a dataset could not be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file system refused.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+    /// Not an HDF5 file, or a damaged one.
+    #[error("not a readable HDF5 file: {message}")]
+    Hdf5 {
+        /// What the HDF5 library says.
+        message: String,
+    },
+    /// HDF5, but not a dataset of this format.
+    #[error("an HDF5 file, but not a ppum dataset: the root attribute `format` is not \"ppum\"")]
+    NotADataset,
+    /// Written by a newer program.
+    #[error(
+        "the file has format version {major}.{minor}, this program reads versions up to {}.x; \
+         use a newer ppum",
+        crate::FORMAT_VERSION.0
+    )]
+    TooNew {
+        /// Major version of the file.
+        major: u64,
+        /// Minor version of the file.
+        minor: u64,
+    },
+    /// An object of the file is missing or not what it should be.
+    #[error("{object}: {problem}")]
+    Object {
+        /// Path in the file; attributes are written `group@attribute`.
+        object: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The content is not what was written.
+    #[error(
+        "the content does not match its checksum (stored {stored}, computed {computed}): the file \
+         is damaged or was edited; after an intended edit delete the root attribute `sha256`"
+    )]
+    Checksum {
+        /// Value of the attribute `sha256`.
+        stored: String,
+        /// Checksum of the content as read.
+        computed: String,
+    },
+    /// Readable, but without meaning.
+    #[error("the file's content is inconsistent: {0}")]
+    Invalid(#[from] CheckError),
+}
+
+impl ReadError {
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
+        Self::Object { object: object.to_owned(), problem: problem.into() }
+    }
+}
+
+/// Why a dataset could not be written. What stood at the path before still stands there.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The file system refused.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: std::io::Error,
+    },
+    /// The target exists and must not be replaced.
+    #[error("cannot write {}: it {reason}", path.display())]
+    Protected {
+        /// The target.
+        path: PathBuf,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// The dataset has no meaning.
+    #[error("the dataset is inconsistent: {0}")]
+    Invalid(#[from] CheckError),
+    /// The format cannot express something.
+    #[error("{object}: {problem}")]
+    Object {
+        /// Path it would have in the file.
+        object: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The HDF5 library refused.
+    #[error("cannot make an HDF5 file of it: {message}")]
+    Hdf5 {
+        /// What the HDF5 library says.
+        message: String,
+    },
+}
+
+impl WriteError {
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
+        Self::Object { object: object.to_owned(), problem: problem.into() }
+    }
+}

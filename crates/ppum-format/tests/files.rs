@@ -1,0 +1,331 @@
+//! Round trips, damaged files, and files that must not be lost.
+
+#[path = "../examples/fixture/synthetic.rs"]
+mod synthetic;
+
+use std::fs;
+
+use ppum::crack::Side;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::jet::Jet;
+use ppum::vec2::Vec2;
+use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
+use synthetic::{Random, dataset};
+
+/// Debug output tells every double apart, and a NaN is equal to a NaN.
+fn same(a: &Dataset, b: &Dataset) -> bool {
+    format!("{a:?}") == format!("{b:?}")
+}
+
+#[test]
+fn round_trip_is_exact_to_the_last_bit() {
+    for seed in 0..30 {
+        let original = dataset(seed);
+        let bytes = to_bytes(&original).unwrap();
+        let back = from_bytes(bytes.clone()).unwrap();
+        assert!(same(&original, &back), "seed {seed}");
+        assert!(to_bytes(&back).unwrap() == bytes, "seed {seed}");
+    }
+}
+
+#[test]
+fn lists_may_be_empty() {
+    let mut data = dataset(1);
+    let step = &mut data.steps[0];
+    step.cracks.clear();
+    step.functions.clear();
+    step.fields.clear();
+    step.attributes.clear();
+    step.intensities.clear();
+    step.history.clear();
+    step.partition.points.clear();
+    step.partition.point.fill(None);
+    data.title.clear();
+    data.problem = Some(String::new());
+    assert!(same(&from_bytes(to_bytes(&data).unwrap()).unwrap(), &data));
+}
+
+#[test]
+fn what_has_no_meaning_is_not_written() {
+    let mut data = dataset(2);
+    data.steps[0].fields[0].coefficients[0][3] = f64::NAN;
+    assert!(matches!(to_bytes(&data), Err(WriteError::Invalid(_))));
+    let mut data = dataset(2);
+    data.title = "a\0b".into();
+    assert!(
+        matches!(to_bytes(&data), Err(WriteError::Object { object, .. }) if object == "@title")
+    );
+}
+
+/// Geometry and indices of a large cover compress; what is read is the same.
+#[test]
+fn large_arrays_are_compressed() {
+    let mut data = dataset(4);
+    let step = &mut data.steps[0];
+    let many = 20_000;
+    step.attributes.clear();
+    step.fields.clear();
+    let p = &mut step.partition;
+    p.center.resize(many, p.center[0]);
+    p.half.resize(many, p.half[0]);
+    p.origin.resize(many, p.origin[0]);
+    p.scale.resize(many, p.scale[0]);
+    p.cell.resize(many, p.cell[0]);
+    p.level.resize(many, 3);
+    p.point.resize(many, None);
+    let bytes = to_bytes(&data).unwrap();
+    assert!(bytes.len() < many * 10, "{} bytes for {many} patches", bytes.len());
+    assert!(same(&from_bytes(bytes).unwrap(), &data));
+}
+
+/// Truncation at every length class: an error each time.
+#[test]
+fn truncated_files_are_errors() {
+    let bytes = to_bytes(&dataset(3)).unwrap();
+    let mut random = Random(1);
+    for k in 0..300 {
+        let length = if k < 100 { k } else { random.below(bytes.len()) };
+        assert!(from_bytes(bytes[..length].to_vec()).is_err(), "cut to {length}");
+    }
+}
+
+/// Changed bytes: an error, or the very same dataset where the bytes mean nothing.
+#[test]
+fn damaged_files_are_errors() {
+    let original = dataset(5);
+    let bytes = to_bytes(&original).unwrap();
+    let mut random = Random(2);
+    let mut found = 0;
+    for k in 0..2000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..=k % 4 {
+            let at = random.below(damaged.len());
+            damaged[at] ^= 1 << random.below(8);
+        }
+        match from_bytes(damaged) {
+            Err(_) => found += 1,
+            Ok(read) => assert!(same(&read, &original), "damage {k}"),
+        }
+    }
+    assert!(found > 1000, "only {found} of 2000 were found");
+}
+
+/// Metadata is where damage could make the library allocate: bytes replaced by extreme values.
+#[test]
+fn damaged_metadata_is_an_error() {
+    let mut data = dataset(5);
+    data.steps.truncate(1);
+    data.problem = None;
+    let bytes = to_bytes(&data).unwrap();
+    let mut random = Random(3);
+    let headers: Vec<usize> = bytes
+        .windows(4)
+        .enumerate()
+        .filter(|(_, w)| [b"OHDR", b"OCHK", b"FRHP", b"BTHD", b"GCOL"].iter().any(|m| m == w))
+        .map(|(at, _)| at)
+        .collect();
+    assert!(headers.len() > 30, "{} headers", headers.len());
+    for _ in 0..4000 {
+        let mut damaged = bytes.clone();
+        let header = headers[random.below(headers.len())];
+        let at = (header + random.below(200)).min(bytes.len() - 8);
+        let width = [1, 2, 4, 8][random.below(4)];
+        let fill = [0x00, 0x01, 0x7f, 0x80, 0xff][random.below(5)];
+        damaged[at..at + width].fill(fill);
+        if let Ok(read) = from_bytes(damaged) {
+            assert!(same(&read, &data));
+        }
+    }
+}
+
+/// The same without the library's own header checksums, which would find most of the damage: they
+/// are recomputed, as by somebody who means it.
+#[test]
+fn forged_metadata_is_an_error() {
+    let mut data = dataset(5);
+    data.steps.truncate(1);
+    let bytes = to_bytes(&data).unwrap();
+    let headers = object_headers(&bytes);
+    assert!(headers.len() > 30, "{} headers", headers.len());
+    let mut random = Random(4);
+    for _ in 0..6000 {
+        let mut forged = bytes.clone();
+        let header = &headers[random.below(headers.len())];
+        let at = header.start + 6 + random.below(header.len() - 10);
+        let width = [1, 2, 4, 8][random.below(4)].min(header.end - 4 - at);
+        let fill = [0x00, 0x01, 0x7f, 0x80, 0xff][random.below(5)];
+        forged[at..at + width].fill(fill);
+        seal(&mut forged, header);
+        if let Ok(read) = from_bytes(forged) {
+            assert!(same(&read, &data));
+        }
+    }
+}
+
+/// Without the checksum of the content the checks of the data stand alone: an error or a dataset that
+/// can be evaluated, and never a panic.
+#[test]
+fn damage_that_no_checksum_finds() {
+    let mut bytes = to_bytes(&dataset(1)).unwrap();
+    let header = object_headers(&bytes).remove(0);
+    let at = header.start + position(&bytes[header.clone()], b"sha256");
+    bytes[at + 5] = b'7';
+    seal(&mut bytes, &header);
+    assert!(from_bytes(bytes.clone()).is_ok(), "a file without checksum is fine");
+
+    let headers = object_headers(&bytes);
+    let mut random = Random(6);
+    let mut readable = 0;
+    for k in 0..3000 {
+        let mut damaged = bytes.clone();
+        if k % 2 == 0 {
+            let header = &headers[random.below(headers.len())];
+            let at = header.start + 6 + random.below(header.len() - 10);
+            damaged[at] = [0, 1, 2, 0x7f, 0xff][random.below(5)];
+            seal(&mut damaged, header);
+        } else {
+            let at = random.below(damaged.len());
+            damaged[at] ^= 1 << random.below(8);
+        }
+        if let Ok(read) = from_bytes(damaged) {
+            readable += 1;
+            let center = read.domain.center();
+            if let Ok(field) = Field::new(&read, 0) {
+                let mut out = vec![Jet::constant(0.0); field.components()];
+                field.at(center).evaluate::<2>(Vec2::ZERO, Side::Above, &mut out);
+            }
+        }
+    }
+    assert!(readable > 100, "only {readable} of 3000 were readable: nothing was tested");
+}
+
+fn position(bytes: &[u8], pattern: &[u8]) -> usize {
+    bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
+}
+
+/// Makes the checksum of an object header right again.
+fn seal(bytes: &mut [u8], header: &std::ops::Range<usize>) {
+    let sum = lookup3(&bytes[header.start..header.end - 4]);
+    bytes[header.end - 4..header.end].copy_from_slice(&sum.to_le_bytes());
+}
+
+/// The version 2 object headers of a file whose checksum is where it should be.
+fn object_headers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
+    let starts = bytes.windows(4).enumerate().filter(|(_, w)| *w == b"OHDR").map(|(at, _)| at);
+    starts
+        .filter_map(|start| {
+            (start + 10..bytes.len().min(start + 5000)).find_map(|end| {
+                let stored = bytes.get(end..end + 4)?.try_into().ok()?;
+                let is_end = lookup3(&bytes[start..end]) == u32::from_le_bytes(stored);
+                is_end.then_some(start..end + 4)
+            })
+        })
+        .collect()
+}
+
+/// Jenkins' lookup3 `hashlittle` (2006, public domain) with seed 0: the checksum of HDF5 metadata.
+fn lookup3(key: &[u8]) -> u32 {
+    let word = |block: &[u8], k: usize| {
+        (0..4)
+            .fold(0u32, |w, b| w | u32::from(block.get(4 * k + b).copied().unwrap_or(0)) << (8 * b))
+    };
+    let start = 0xdead_beef_u32.wrapping_add(key.len() as u32);
+    let mut s = [start; 3];
+    let blocks: Vec<&[u8]> = key.chunks(12).collect();
+    for (n, block) in blocks.iter().enumerate() {
+        for (k, value) in s.iter_mut().enumerate() {
+            *value = value.wrapping_add(word(block, k));
+        }
+        if n + 1 < blocks.len() {
+            mix(&mut s);
+        } else {
+            finish(&mut s);
+        }
+    }
+    s[2]
+}
+
+fn mix(s: &mut [u32; 3]) {
+    // (subtracted from, subtracted, rotation, added to)
+    for (k, rotation) in [4, 6, 8, 16, 19, 4].into_iter().enumerate() {
+        let (a, c, b) = (k % 3, (k + 2) % 3, (k + 1) % 3);
+        s[a] = s[a].wrapping_sub(s[c]) ^ s[c].rotate_left(rotation);
+        s[c] = s[c].wrapping_add(s[b]);
+    }
+}
+
+fn finish(s: &mut [u32; 3]) {
+    for (k, rotation) in [14, 11, 25, 16, 4, 14, 24].into_iter().enumerate() {
+        let (target, from) = ((k + 2) % 3, (k + 1) % 3);
+        s[target] = (s[target] ^ s[from]).wrapping_sub(s[from].rotate_left(rotation));
+    }
+}
+
+#[test]
+fn other_files_are_refused_politely() {
+    assert!(matches!(from_bytes(vec![]), Err(ReadError::Hdf5 { .. })));
+    assert!(matches!(from_bytes(b"title = 1".to_vec()), Err(ReadError::Hdf5 { .. })));
+    let missing = read(std::path::Path::new("/nowhere/at/all.h5")).unwrap_err();
+    assert!(missing.to_string().contains("/nowhere/at/all.h5"), "{missing}");
+}
+
+mod on_disk {
+    use super::*;
+
+    #[test]
+    fn written_files_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.h5");
+        write(&dataset(6), &path).unwrap();
+        write(&dataset(7), &path).unwrap();
+        assert!(same(&read(&path).unwrap(), &dataset(7)));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
+    }
+
+    #[test]
+    fn an_existing_file_survives_a_failure() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.h5");
+        fs::write(&path, b"precious").unwrap();
+        let mut bad = dataset(8);
+        bad.steps.clear();
+        assert!(matches!(write(&bad, &path), Err(WriteError::Invalid(_))));
+        assert_eq!(fs::read(&path).unwrap(), b"precious");
+
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        assert!(matches!(write(&dataset(8), &path), Err(WriteError::Protected { .. })));
+        assert_eq!(fs::read(&path).unwrap(), b"precious");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
+    }
+
+    #[test]
+    fn folders_and_missing_folders() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(write(&dataset(8), folder.path()), Err(WriteError::Protected { .. })));
+        let nowhere = folder.path().join("nowhere/a.h5");
+        assert!(matches!(write(&dataset(8), &nowhere), Err(WriteError::Io { .. })));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_permissions_are_kept() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (path, link) = (folder.path().join("a.h5"), folder.path().join("link.h5"));
+        fs::write(&path, b"old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("a.h5", &link).unwrap();
+        write(&dataset(9), &link).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        assert!(read(&path).is_ok());
+        assert!(matches!(
+            write(&dataset(9), std::path::Path::new("/dev/null")),
+            Err(WriteError::Protected { .. })
+        ));
+    }
+}

@@ -1,0 +1,177 @@
+//! The stable basis: shape functions transformed patch by patch before anything is integrated.
+//!
+//! The system could be assembled in the plain functions and transformed afterwards, T K Tᵀ. That
+//! multiplies the rounding errors of K by up to 1/ε, which forces a cut-off ε of 1e-9; a cut-off that
+//! large drops jumps across slivers and leaves an error floor at 1e-4 (see
+//! `docs/decisions/0002-stable-basis.md`). Functions transformed at the quadrature points have no
+//! such amplification.
+
+use crate::batch::in_batches;
+use crate::eigen::EigenError;
+use crate::shape::{ShapeEvaluator, Shapes};
+use crate::space::Space;
+use crate::transform::{CUT_OFF, Transform};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, Par};
+use ppum::dataset::monomials;
+use ppum::vec2::Vec2;
+use rayon::prelude::*;
+
+/// The stable basis of every patch.
+#[derive(Debug)]
+pub(crate) struct StableBasis {
+    transforms: Vec<Transform>,
+    /// Of each patch, the number of functions kept.
+    pub(crate) sizes: Vec<usize>,
+}
+
+impl StableBasis {
+    /// The basis of a space, from the Gram matrices of its patches.
+    ///
+    /// # Errors
+    /// Functions that are not finite.
+    pub(crate) fn new(space: &Space<'_>) -> Result<Self, EigenError> {
+        let grams = grams(space);
+        let transform = |(i, gram): (usize, &Mat<f64>)| {
+            Transform::new(gram.as_ref(), space.n_polynomials(i), CUT_OFF)
+        };
+        let transforms: Vec<_> =
+            grams.par_iter().enumerate().map(transform).collect::<Result<_, _>>()?;
+        let sizes = transforms.iter().map(|t| t.matrix.nrows()).collect();
+        Ok(Self { transforms, sizes })
+    }
+
+    /// Functions cut off, a patch.
+    pub(crate) fn dropped(&self) -> impl Iterator<Item = usize> + '_ {
+        self.transforms.iter().map(|t| t.dropped)
+    }
+
+    /// Replaces plain shape functions of some patches by those of the basis.
+    pub(crate) fn apply(&self, patches: &[u32], plain: &Shapes, out: &mut Shapes) {
+        let kept = patches.iter().map(|&p| self.sizes[p as usize]).sum();
+        out.resize(kept, plain.points);
+        let (mut from, mut to) = (0, 0);
+        for &patch in patches {
+            let t = &self.transforms[patch as usize].matrix;
+            for (source, target) in
+                [(&plain.value, &mut out.value), (&plain.dx, &mut out.dx), (&plain.dy, &mut out.dy)]
+            {
+                let source = plain.rows(source, from..from + t.ncols());
+                let range = to * plain.points..(to + t.nrows()) * plain.points;
+                let target =
+                    MatMut::from_row_major_slice_mut(&mut target[range], t.nrows(), plain.points);
+                matmul(target, Accum::Replace, t, source, 1.0, Par::Seq);
+            }
+            (from, to) = (from + t.ncols(), to + t.nrows());
+        }
+    }
+
+    /// Plain coefficients from those of the basis, patch by patch and component by component.
+    pub(crate) fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
+        let mut rest = solution;
+        let mut out = Vec::new();
+        for (patch, Transform { matrix: t, .. }) in self.transforms.iter().enumerate() {
+            for _ in 0..components {
+                let (part, tail) = rest.split_at(t.nrows());
+                rest = tail;
+                let coefficient = |a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>();
+                let mut shifted: Vec<_> = (0..t.ncols()).map(coefficient).collect();
+                undo_shifts(space, patch, &mut shifted);
+                out.append(&mut shifted);
+            }
+        }
+        out
+    }
+}
+
+/// c (f − σ) = c f − σ c: takes the constant parts of a patch's functions to its polynomials. Jumps
+/// have the degree of the polynomials, which come first.
+fn undo_shifts(space: &Space<'_>, patch: usize, coefficients: &mut [f64]) {
+    let mut first = 0;
+    for block in space.data.blocks(patch) {
+        let size = monomials(space.data.block_degree[block] as usize);
+        let shift = space.shifts[block];
+        if shift != 0.0 {
+            for k in 0..size {
+                coefficients[k] -= shift * coefficients[first + k];
+            }
+        }
+        first += size;
+    }
+}
+
+/// Evaluates the functions of the stable basis.
+#[derive(Debug)]
+pub(crate) struct BasisEvaluator<'s> {
+    basis: &'s StableBasis,
+    evaluator: ShapeEvaluator<'s>,
+    plain: Shapes,
+}
+
+impl<'s> BasisEvaluator<'s> {
+    pub(crate) fn new(space: &'s Space<'s>, basis: &'s StableBasis) -> Self {
+        Self { basis, evaluator: ShapeEvaluator::new(space), plain: Shapes::default() }
+    }
+
+    /// The basis functions of `patches`, which must be all that cover the points.
+    pub(crate) fn evaluate(
+        &mut self,
+        anchor: Vec2,
+        offsets: &[Vec2],
+        patches: &[u32],
+        out: &mut Shapes,
+    ) {
+        self.evaluator.evaluate(anchor, offsets, patches, &mut self.plain);
+        self.basis.apply(patches, &self.plain, out);
+    }
+}
+
+/// Per patch, the scalar Gram matrix M_i = ∫ ∇(φ_i ψ)·∇(φ_i ψ′) + h_i⁻² φ_i² ψ ψ′ over the domain.
+fn grams(space: &Space<'_>) -> Vec<Mat<f64>> {
+    let quadrature = space.quadrature(0);
+    let mut grams: Vec<_> = space.sizes.iter().map(|&n| Mat::<f64>::zeros(n, n)).collect();
+    in_batches(
+        space.partition.len(),
+        || (ShapeEvaluator::new(space), Shapes::default()),
+        |(evaluator, shapes), cell| {
+            let coverers = &space.coverers[cell];
+            let size = |&p: &u32| space.sizes[p as usize];
+            let mut parts: Vec<_> = coverers.iter().map(|p| Mat::zeros(size(p), size(p))).collect();
+            for rule in quadrature.cell(&space.partition.cell[cell], coverers) {
+                evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+                shapes.scale(&rule.weights);
+                add_grams(space, &rule.patches, coverers, shapes, &mut parts);
+            }
+            parts
+        },
+        |cell, parts| {
+            for (&patch, part) in space.coverers[cell].iter().zip(&parts) {
+                grams[patch as usize] += part;
+            }
+        },
+    );
+    grams
+}
+
+/// Adds the points of shapes that carry the roots of the weights.
+fn add_grams(
+    space: &Space<'_>,
+    patches: &[u32],
+    coverers: &[u32],
+    shapes: &Shapes,
+    parts: &mut [Mat<f64>],
+) {
+    let mut first = 0;
+    for &patch in patches {
+        let range = first..first + space.sizes[patch as usize];
+        let half = space.partition.half[patch as usize];
+        let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
+        for (array, factor) in
+            [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, 1.0 / (half.x * half.y))]
+        {
+            let rows = shapes.rows(array, range.clone());
+            matmul(parts[k].as_mut(), Accum::Add, rows, rows.transpose(), factor, Par::Seq);
+        }
+        first = range.end;
+    }
+}

@@ -1,0 +1,175 @@
+//! Conditions on the border of a cell: Nitsche's method for given values, loads for given tractions.
+//!
+//! ```text
+//! K += −∫_Γ (σ(N) n)·N − transposed + β ∫_Γ N·N       f += −∫_Γ (σ(N) n)·g + β ∫_Γ N·g + ∫_Γt N·t
+//! ```
+//!
+//! Γ is where values are given, component by component. β = 2 λ_max of the cell's own pencil
+//! ∫_Γ |σ(N) n|² against K: β > λ_max is just what keeps the system positive definite, and a cell cut
+//! into slivers gets the larger value it needs (Griebel & Schweitzer 2003).
+
+use crate::basis::BasisEvaluator;
+use crate::cell::{CellSystem, Data, square};
+use crate::eigen::EigenError;
+use crate::law::Law;
+use crate::pencil::largest_eigenvalue;
+use crate::quadrature::EdgeRule;
+use crate::shape::Shapes;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use ppum::vec2::{Vec2, vec2};
+
+/// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
+const FACTOR: f64 = 2.0;
+
+/// A piece of a cell's border with what is given on it.
+pub(crate) struct BorderPiece<'a> {
+    pub(crate) rules: Vec<EdgeRule>,
+    /// Components whose value is given.
+    pub(crate) held: [bool; 2],
+    /// The given values; tractions where not held (zero where free).
+    pub(crate) values: Data<'a>,
+}
+
+/// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
+/// unknowns.
+pub(crate) struct Border<'a> {
+    law: &'a Law,
+    /// ∫ N·(σ(N) n): rows N, columns σ(N) n.
+    consistency: Mat<f64>,
+    /// ∫ (σ(N) n)·(σ(N) n)
+    traction: Mat<f64>,
+    /// ∫ N·N
+    mass: Mat<f64>,
+    /// ∫ N·g
+    value_load: Vec<f64>,
+    /// ∫ (σ(N) n)·g
+    traction_load: Vec<f64>,
+    /// True once a value is given.
+    held: bool,
+}
+
+impl<'a> Border<'a> {
+    pub(crate) fn new(law: &'a Law, unknowns: usize) -> Self {
+        Self {
+            law,
+            consistency: square(unknowns),
+            traction: square(unknowns),
+            mass: square(unknowns),
+            value_load: vec![0.0; unknowns],
+            traction_load: vec![0.0; unknowns],
+            held: false,
+        }
+    }
+
+    /// Adds a piece; tractions go to the system at once.
+    pub(crate) fn add(
+        &mut self,
+        piece: &BorderPiece<'_>,
+        evaluator: &mut BasisEvaluator<'_>,
+        shapes: &mut Shapes,
+        system: &mut CellSystem,
+    ) {
+        let components = self.law.components;
+        for rule in &piece.rules {
+            evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+            let numbers = system.functions.numbers(&rule.patches);
+            let mut given = Vec::with_capacity(rule.offsets.len());
+            for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+                let x = rule.anchor + offset;
+                let values = (piece.values)(x);
+                let mut loads = values;
+                for (load, held) in loads.iter_mut().zip(piece.held) {
+                    *load = if held { 0.0 } else { *load };
+                }
+                system.add_load(&numbers, shapes, q, x, &loads[..components], weight);
+                system.add_held(x, piece.held, weight);
+                given.push(values.map(|v| v * weight.sqrt()));
+            }
+            shapes.scale(&rule.weights);
+            for i in (0..components).filter(|&i| piece.held[i]) {
+                let given: Vec<_> = given.iter().map(|values| values[i]).collect();
+                self.hold(i, rule.normal, &numbers, shapes, &given);
+            }
+        }
+    }
+
+    /// Adds the points of one component whose value is given; shapes and values carry the roots of
+    /// the weights.
+    fn hold(&mut self, i: usize, normal: Vec2, numbers: &[usize], shapes: &Shapes, given: &[f64]) {
+        self.held = true;
+        let c = self.law.components;
+        let tractions = self.tractions(i, normal, shapes);
+        let n = shapes.functions;
+        let values = shapes.rows(&shapes.value, 0..n);
+        let product = |left: faer::MatRef<'_, f64>, right: faer::MatRef<'_, f64>| {
+            let mut out = Mat::zeros(left.nrows(), right.nrows());
+            matmul(out.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+            out
+        };
+        let value_rows: Vec<_> = numbers.iter().map(|k| k * c + i).collect();
+        let all_rows: Vec<_> =
+            numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
+        let t = tractions.as_ref();
+        add_at(&mut self.mass, &value_rows, &value_rows, &product(values, values));
+        add_at(&mut self.consistency, &value_rows, &all_rows, &product(values, t));
+        add_at(&mut self.traction, &all_rows, &all_rows, &product(t, t));
+        for (q, g) in given.iter().enumerate() {
+            for (k, &row) in value_rows.iter().enumerate() {
+                self.value_load[row] += values[(k, q)] * g;
+            }
+            for (k, &row) in all_rows.iter().enumerate() {
+                self.traction_load[row] += t[(k, q)] * g;
+            }
+        }
+    }
+
+    /// Component i of σ(N e_j) n, rows (function, j), columns points.
+    fn tractions(&self, i: usize, normal: Vec2, shapes: &Shapes) -> Mat<f64> {
+        let c = self.law.components;
+        Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
+            let at = (row / c) * shapes.points + q;
+            self.law.traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), normal)
+        })
+    }
+
+    /// Adds Nitsche's terms to a system whose stiffness is complete.
+    ///
+    /// # Errors
+    /// Entries that are not finite.
+    pub(crate) fn finish(self, system: &mut CellSystem) -> Result<(), EigenError> {
+        if !self.held {
+            return Ok(());
+        }
+        let beta = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
+        system.matrix -= &self.consistency;
+        system.matrix -= self.consistency.transpose();
+        system.matrix += faer::Scale(beta) * &self.mass;
+        let loads = self.value_load.iter().zip(&self.traction_load);
+        for (load, (value, traction)) in system.load.iter_mut().zip(loads) {
+            *load += beta * value - traction;
+        }
+        Ok(())
+    }
+}
+
+fn add_at(sum: &mut Mat<f64>, rows: &[usize], columns: &[usize], block: &Mat<f64>) {
+    for (b, &column) in columns.iter().enumerate() {
+        for (a, &row) in rows.iter().enumerate() {
+            sum[(row, column)] += block[(a, b)];
+        }
+    }
+}
+
+impl CellSystem {
+    /// Adds a point where values are given to what is known of the rigid motions.
+    fn add_held(&mut self, x: Vec2, held: [bool; 2], weight: f64) {
+        let motions = self.motions.at(x);
+        for (row, a) in self.held.iter_mut().zip(&motions) {
+            for (entry, b) in row.iter_mut().zip(&motions) {
+                let products = (0..2).filter(|&i| held[i]).map(|i| a[i] * b[i]);
+                *entry += weight * products.sum::<f64>();
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The contribution of one leaf cell to the system, in the stable basis.
+//!
+//! ```text
+//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
+//! ```
+
+use crate::basis::{BasisEvaluator, StableBasis};
+use crate::border::{Border, BorderPiece};
+use crate::eigen::EigenError;
+use crate::law::Law;
+use crate::quadrature::Rule;
+use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
+use crate::shape::Shapes;
+use crate::space::Space;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use ppum::vec2::Vec2;
+
+/// Data given at a point: position → values, one a component.
+pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
+
+/// The contribution of one cell. Unknown (function a, component i) is row a · components + i.
+#[derive(Clone, Debug)]
+pub(crate) struct CellSystem {
+    /// The functions that live in the cell.
+    pub(crate) functions: CellFunctions,
+    /// Stiffness, square, all of it.
+    pub(crate) matrix: Mat<f64>,
+    /// Right-hand side.
+    pub(crate) load: Vec<f64>,
+    /// Work of body forces and tractions on the rigid motions.
+    pub(crate) resultant: PerMotion,
+    /// ∫ of the loads' magnitude on the border and in the cell.
+    pub(crate) magnitude: f64,
+    /// ∫ m_k·m_l of the rigid motions over the border where values are given, held components only.
+    pub(crate) held: [PerMotion; MOTIONS],
+    pub(crate) motions: RigidMotions,
+}
+
+/// The functions of a cell's patches, numbered patch after patch.
+#[derive(Clone, Debug)]
+pub(crate) struct CellFunctions {
+    /// The patches that meet the cell, ascending.
+    pub(crate) patches: Vec<u32>,
+    /// First function of each patch, and the number of all at the end.
+    pub(crate) first: Vec<usize>,
+}
+
+impl CellFunctions {
+    pub(crate) fn new(space: &Space<'_>, basis: &StableBasis, cell: usize) -> Self {
+        let patches = space.coverers[cell].clone();
+        let mut first = vec![0];
+        for &patch in &patches {
+            first.push(first[first.len() - 1] + basis.sizes[patch as usize]);
+        }
+        Self { patches, first }
+    }
+
+    /// Number of functions.
+    pub(crate) fn len(&self) -> usize {
+        self.first[self.patches.len()]
+    }
+
+    /// For functions of some of the patches, in order, their numbers in the cell.
+    pub(crate) fn numbers(&self, patches: &[u32]) -> Vec<usize> {
+        let range = |patch: &u32| {
+            let k = self.position(*patch);
+            self.first[k]..self.first[k + 1]
+        };
+        patches.iter().flat_map(range).collect()
+    }
+
+    /// The cell's unknowns of patch `k` in the order of the system: component-major.
+    pub(crate) fn unknowns(&self, k: usize, components: usize) -> Vec<usize> {
+        let functions = self.first[k]..self.first[k + 1];
+        (0..components).flat_map(|i| functions.clone().map(move |a| a * components + i)).collect()
+    }
+
+    fn position(&self, patch: u32) -> usize {
+        self.patches.binary_search(&patch).expect("a rule's patches meet its cell")
+    }
+}
+
+/// Works on the cells of a space.
+pub(crate) struct CellAssembler<'s> {
+    space: &'s Space<'s>,
+    basis: &'s StableBasis,
+    law: &'s Law,
+    motions: RigidMotions,
+    evaluator: BasisEvaluator<'s>,
+    shapes: Shapes,
+}
+
+impl<'s> CellAssembler<'s> {
+    pub(crate) fn new(
+        space: &'s Space<'s>,
+        basis: &'s StableBasis,
+        law: &'s Law,
+        motions: RigidMotions,
+    ) -> Self {
+        let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
+        Self { space, basis, law, motions, evaluator, shapes }
+    }
+
+    /// The system of one cell, given its quadrature, body forces and the pieces of its border.
+    ///
+    /// # Errors
+    /// Entries that are not finite, which data that are not finite cause.
+    pub(crate) fn assemble(
+        &mut self,
+        cell: usize,
+        rules: &[Rule],
+        source: Option<Data<'_>>,
+        border: &[BorderPiece<'_>],
+    ) -> Result<CellSystem, EigenError> {
+        let functions = CellFunctions::new(self.space, self.basis, cell);
+        let (n, components) = (functions.len(), self.law.components);
+        let mut system = CellSystem {
+            matrix: square(n * components),
+            load: vec![0.0; n * components],
+            resultant: [0.0; MOTIONS],
+            magnitude: 0.0,
+            held: [[0.0; MOTIONS]; MOTIONS],
+            motions: self.motions,
+            functions,
+        };
+        let mut products = Products { xx: square(n), xy: square(n), yy: square(n) };
+        for rule in rules {
+            self.volume(rule, source, &mut products, &mut system);
+        }
+        products.add_to(&mut system.matrix, self.law);
+        if !border.is_empty() {
+            let mut on_border = Border::new(self.law, n * components);
+            for piece in border {
+                on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
+            }
+            on_border.finish(&mut system)?;
+        }
+        Ok(system)
+    }
+
+    fn volume(
+        &mut self,
+        rule: &Rule,
+        source: Option<Data<'_>>,
+        products: &mut Products,
+        system: &mut CellSystem,
+    ) {
+        let shapes = &mut self.shapes;
+        self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+        let numbers = system.functions.numbers(&rule.patches);
+        if let Some(source) = source {
+            for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+                let x = rule.anchor + offset;
+                let values = source(x);
+                system.add_load(&numbers, shapes, q, x, &values[..self.law.components], weight);
+            }
+        }
+        shapes.scale(&rule.weights);
+        products.add(&numbers, shapes);
+    }
+}
+
+impl CellSystem {
+    /// The stiffness between the unknowns of patches `k` and `l`, in the order of the system.
+    pub(crate) fn block(&self, k: usize, l: usize, components: usize) -> Mat<f64> {
+        let rows = self.functions.unknowns(k, components);
+        let columns = self.functions.unknowns(l, components);
+        Mat::from_fn(rows.len(), columns.len(), |a, b| self.matrix[(rows[a], columns[b])])
+    }
+
+    /// Adds weight · N · values at point `q` to the load, and its resultant.
+    pub(crate) fn add_load(
+        &mut self,
+        numbers: &[usize],
+        shapes: &Shapes,
+        q: usize,
+        x: Vec2,
+        values: &[f64],
+        weight: f64,
+    ) {
+        for (k, &number) in numbers.iter().enumerate() {
+            let n = shapes.value[k * shapes.points + q];
+            for (i, value) in values.iter().enumerate() {
+                self.load[number * values.len() + i] += weight * value * n;
+            }
+        }
+        for (sum, motion) in self.resultant.iter_mut().zip(self.motions.at(x)) {
+            *sum += weight * motion.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
+        }
+        self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
+    }
+}
+
+/// The products ∫ ∂_k N ∂_l Nᵀ over the cell's functions; yx is the transpose of xy.
+struct Products {
+    xx: Mat<f64>,
+    xy: Mat<f64>,
+    yy: Mat<f64>,
+}
+
+impl Products {
+    /// Adds the points of shapes that carry the roots of the weights.
+    fn add(&mut self, numbers: &[usize], shapes: &Shapes) {
+        let all = 0..shapes.functions;
+        let dx = shapes.rows(&shapes.dx, all.clone());
+        let dy = shapes.rows(&shapes.dy, all);
+        for (sum, left, right) in
+            [(&mut self.xx, dx, dx), (&mut self.xy, dx, dy), (&mut self.yy, dy, dy)]
+        {
+            let mut product = Mat::zeros(numbers.len(), numbers.len());
+            matmul(product.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+            add_at(sum, numbers, &product);
+        }
+    }
+
+    /// K = Σ_kl C_ikjl ∫ ∂_k N ∂_l Nᵀ.
+    fn add_to(&self, matrix: &mut Mat<f64>, law: &Law) {
+        let (n, c) = (self.xx.nrows(), law.components);
+        for b in 0..n {
+            for a in 0..n {
+                let parts =
+                    [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
+                for j in 0..c {
+                    for i in 0..c {
+                        matrix[(a * c + i, b * c + j)] += law.contract(i, j, &parts);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn add_at(sum: &mut Mat<f64>, numbers: &[usize], block: &Mat<f64>) {
+    for (b, &column) in numbers.iter().enumerate() {
+        for (a, &row) in numbers.iter().enumerate() {
+            sum[(row, column)] += block[(a, b)];
+        }
+    }
+}
+
+pub(crate) fn square(n: usize) -> Mat<f64> {
+    Mat::zeros(n, n)
+}

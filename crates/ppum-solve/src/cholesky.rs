@@ -1,0 +1,349 @@
+//! Direct solution of K u = f by the sparse Cholesky factorisation P K Pᵀ = L Lᵀ.
+//!
+//! The fill-reducing permutation P is approximate minimum degree, the factorisation supernodal and
+//! sequential: `docs/decisions/0001-ordering.md` has the measurements behind both choices.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError as PivotError;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::{LltError, SupernodalThreshold};
+use faer::sparse::{FaerError, SparseColMat};
+use faer::{Conj, MatMut, Par, Side};
+
+use crate::block_matrix::BlockMatrix;
+
+/// A pivot L_kk² up to this fraction of K_kk is rounding noise and counts as zero. In a system
+/// after the stable transformation the fraction is at least the reciprocal condition number, seen
+/// between 1e−3 and 1e−7; an exactly singular one leaves about 1e−16.
+const PIVOT_LIMIT: f64 = 1e-13;
+
+/// A system that cannot be solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CholeskyError {
+    /// A zero, negative or undefined pivot.
+    #[error(
+        "the stiffness matrix is not positive definite: elimination stops at unknown {unknown} of \
+         patch {patch}; prescribe displacements that hold every rigid motion of every separate \
+         piece of the domain, or raise the cut-off of the stable transformation"
+    )]
+    NotPositiveDefinite {
+        /// The patch.
+        patch: usize,
+        /// Unknown within the patch, component-major.
+        unknown: usize,
+    },
+    /// A right-hand side that is not finite.
+    #[error(
+        "the load on patch {patch} is not finite; check the tractions, body forces and prescribed \
+         displacements near it"
+    )]
+    LoadNotFinite {
+        /// The patch.
+        patch: usize,
+    },
+    /// The factor does not fit into memory.
+    #[error(
+        "no memory to factorise {unknowns} unknowns; use a coarser cover, a lower order or a \
+         smaller overlap"
+    )]
+    OutOfMemory {
+        /// Unknowns of the system.
+        unknowns: usize,
+    },
+}
+
+/// A solution and how well it solves the system.
+#[derive(Clone, Debug)]
+pub(crate) struct LinearSolution {
+    /// u, one entry for each unknown.
+    pub(crate) unknowns: Vec<f64>,
+    /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
+    pub(crate) relative_residual: f64,
+}
+
+/// The factorisation of a symmetric positive definite matrix, for any number of right-hand sides.
+#[derive(Debug)]
+pub(crate) struct Cholesky<'a> {
+    matrix: &'a BlockMatrix,
+    symbolic: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+}
+
+impl<'a> Cholesky<'a> {
+    /// Factorises `matrix`.
+    ///
+    /// # Errors
+    /// A matrix that is not positive definite to rounding, or too large for the memory.
+    pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, CholeskyError> {
+        let lower = matrix.lower_triangle();
+        let no_memory = CholeskyError::OutOfMemory { unknowns: matrix.n_unknowns() };
+        let symbolic = analyse(&lower).map_err(|_| no_memory)?;
+        let factor = factorise(&symbolic, &lower).map_err(|error| match error {
+            LltError::Numeric(PivotError::NonPositivePivot { index }) => {
+                not_positive_definite(matrix, original_index(&symbolic, index))
+            }
+            LltError::Generic(_) => no_memory,
+        })?;
+        let cholesky = Self { matrix, symbolic, factor };
+        cholesky.check_pivots(&lower)?;
+        Ok(cholesky)
+    }
+
+    /// Solves K u = f with one step of iterative refinement.
+    ///
+    /// # Errors
+    /// A right-hand side that is not finite.
+    ///
+    /// # Panics
+    /// If `f` has not one entry for each unknown.
+    pub(crate) fn solve(&self, f: &[f64]) -> Result<LinearSolution, CholeskyError> {
+        assert_eq!(f.len(), self.matrix.n_unknowns(), "one entry for each unknown");
+        if let Some(u) = f.iter().position(|x| !x.is_finite()) {
+            return Err(CholeskyError::LoadNotFinite { patch: self.matrix.patch_of(u) });
+        }
+        let mut unknowns = f.to_vec();
+        self.apply_inverse(&mut unknowns);
+        let mut correction = self.residual(f, &unknowns);
+        self.apply_inverse(&mut correction);
+        unknowns.iter_mut().zip(&correction).for_each(|(u, c)| *u += c);
+        let residual = norm(&self.residual(f, &unknowns));
+        let relative_residual = if residual == 0.0 { 0.0 } else { residual / norm(f) };
+        Ok(LinearSolution { unknowns, relative_residual })
+    }
+
+    /// f − K u.
+    fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+        let product = self.matrix.multiply(u);
+        f.iter().zip(product).map(|(f, ku)| f - ku).collect()
+    }
+
+    /// x ← (L Lᵀ)⁻¹ x, permutations included.
+    fn apply_inverse(&self, x: &mut [f64]) {
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+        let mut buffer = MemBuffer::new(scratch);
+        let n = x.len();
+        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(x, n, 1),
+            Par::Seq,
+            MemStack::new(&mut buffer),
+        );
+    }
+
+    /// Refuses pivots that are positive by chance of rounding only.
+    fn check_pivots(&self, lower: &SparseColMat<usize, f64>) -> Result<(), CholeskyError> {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
+            return Ok(()); // only the empty system is not supernodal
+        };
+        let factor = SupernodalLltRef::new(symbolic, &self.factor);
+        for supernode in (0..symbolic.n_supernodes()).map(|s| factor.supernode(s)) {
+            let block = supernode.val();
+            for k in 0..block.ncols() {
+                let u = original_index(&self.symbolic, supernode.start() + k);
+                // The diagonal is the first entry of its column of the lower triangle.
+                let diagonal = lower.val_of_col(u)[0];
+                if block[(k, k)].powi(2) <= PIVOT_LIMIT * diagonal {
+                    return Err(not_positive_definite(self.matrix, u));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn analyse(lower: &SparseColMat<usize, f64>) -> Result<SymbolicCholesky<usize>, FaerError> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    factorize_symbolic_cholesky(lower.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
+}
+
+/// The values of L, in the order of the symbolic factorisation.
+fn factorise(
+    symbolic: &SymbolicCholesky<usize>,
+    lower: &SparseColMat<usize, f64>,
+) -> Result<Vec<f64>, LltError> {
+    let no_memory = LltError::Generic(FaerError::OutOfMemory);
+    let mut factor = Vec::new();
+    factor.try_reserve_exact(symbolic.len_val()).map_err(|_| no_memory)?;
+    factor.resize(symbolic.len_val(), 0.0);
+    let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| no_memory)?;
+    symbolic
+        .factorize_numeric_llt(
+            &mut factor,
+            lower.as_ref(),
+            Side::Lower,
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut buffer),
+            Default::default(),
+        )
+        .map_err(LltError::Numeric)?;
+    Ok(factor)
+}
+
+/// The unknown that is eliminated as number `k`.
+fn original_index(symbolic: &SymbolicCholesky<usize>, k: usize) -> usize {
+    symbolic.perm().map_or(k, |perm| perm.arrays().0[k])
+}
+
+fn not_positive_definite(matrix: &BlockMatrix, u: usize) -> CholeskyError {
+    let patch = matrix.patch_of(u);
+    CholeskyError::NotPositiveDefinite { patch, unknown: u - matrix.unknowns(patch).start }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block_matrix::BlockPattern;
+    use crate::random::Random;
+    use faer::Mat;
+
+    /// n × n patches, each coupled to its eight neighbours.
+    fn grid(n: usize) -> BlockPattern {
+        let (mut starts, mut columns) = (vec![0], Vec::new());
+        for (y, x) in (0..n).flat_map(|y| (0..n).map(move |x| (y, x))) {
+            columns.push((y * n + x) as u32);
+            columns.extend((x + 1 < n).then_some((y * n + x + 1) as u32));
+            if y + 1 < n {
+                let last = (x + 1).min(n - 1);
+                columns.extend((x.saturating_sub(1)..=last).map(|v| ((y + 1) * n + v) as u32));
+            }
+            starts.push(columns.len());
+        }
+        BlockPattern::new(starts, columns)
+    }
+
+    /// A random, diagonally dominant matrix on a grid with patches of 3 to 5 unknowns.
+    fn dominant(n: usize) -> BlockMatrix {
+        let mut random = Random::new(2);
+        let sizes: Vec<usize> = (0..n * n).map(|i| 3 + i % 3).collect();
+        let pattern = grid(n);
+        let mut matrix = BlockMatrix::new(&sizes, pattern.clone());
+        for i in 0..n * n {
+            for j in pattern.row(i).iter().map(|&j| j as usize) {
+                let mut block = Mat::from_fn(sizes[i], sizes[j], |_, _| random.signed());
+                if i == j {
+                    let shift = Mat::<f64>::identity(sizes[i], sizes[i]) * faer::Scale(25.0);
+                    block = &block + block.transpose() + shift;
+                }
+                matrix.add_block(i, j, block.as_ref());
+            }
+        }
+        matrix
+    }
+
+    /// The second-difference matrix of `3 · patches` unknowns in a chain; its first diagonal entry
+    /// is 2 for an end that is held and 1 for a free one, where with both ends free K is singular.
+    fn chain(patches: usize, first: f64, last: f64) -> BlockMatrix {
+        let starts = (0..patches).map(|i| 2 * i).chain([2 * patches - 1]).collect();
+        let columns = (0..patches as u32).flat_map(|i| [i, i + 1]).take(2 * patches - 1).collect();
+        let mut matrix = BlockMatrix::new(&vec![3; patches], BlockPattern::new(starts, columns));
+        let last_unknown = 3 * patches - 1;
+        let entry = |u: usize, v: usize| match u.abs_diff(v) {
+            0 if u == 0 => first,
+            0 if u == last_unknown => last,
+            0 => 2.0,
+            1 => -1.0,
+            _ => 0.0,
+        };
+        for i in 0..patches {
+            for j in i..(i + 2).min(patches) {
+                let block = Mat::from_fn(3, 3, |a, b| entry(3 * i + a, 3 * j + b));
+                matrix.add_block(i, j, block.as_ref());
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn a_loaded_string_by_hand() {
+        // −u'' = 1 on n interior points, held at both ends: u_k = k (n + 1 − k) / 2.
+        let matrix = chain(20, 2.0, 2.0);
+        let solution = Cholesky::new(&matrix).unwrap().solve(&[1.0; 60]).unwrap();
+        for (k, u) in (1..=60).zip(&solution.unknowns) {
+            assert!((u - f64::from(k * (61 - k)) / 2.0).abs() < 1e-10);
+        }
+        assert!(solution.relative_residual < 1e-13);
+    }
+
+    #[test]
+    fn a_known_solution_on_a_grid_is_found_again() {
+        let matrix = dominant(12);
+        let mut random = Random::new(9);
+        let exact: Vec<f64> = (0..matrix.n_unknowns()).map(|_| random.signed()).collect();
+        let cholesky = Cholesky::new(&matrix).unwrap();
+        let solution = cholesky.solve(&matrix.multiply(&exact)).unwrap();
+        for (u, exact) in solution.unknowns.iter().zip(&exact) {
+            assert!((u - exact).abs() < 1e-13);
+        }
+        assert!(solution.relative_residual < 1e-15);
+    }
+
+    #[test]
+    fn no_load_no_solution_and_no_unknowns_none() {
+        let matrix = chain(4, 2.0, 2.0);
+        let solution = Cholesky::new(&matrix).unwrap().solve(&[0.0; 12]).unwrap();
+        assert_eq!(solution.unknowns, [0.0; 12]);
+        assert_eq!(solution.relative_residual, 0.0);
+        let empty = BlockMatrix::new(&[0], BlockPattern::new(vec![0, 1], vec![0]));
+        assert!(Cholesky::new(&empty).unwrap().solve(&[]).unwrap().unknowns.is_empty());
+    }
+
+    #[test]
+    fn a_free_chain_is_singular() {
+        assert!(Cholesky::new(&chain(20, 1.0, 2.0)).is_ok());
+        let error = Cholesky::new(&chain(20, 1.0, 1.0)).unwrap_err();
+        assert!(matches!(error, CholeskyError::NotPositiveDefinite { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_negative_or_undefined_pivot_is_placed() {
+        for bad in [-1.0, f64::NAN] {
+            for (patch, unknown) in [(0, 0), (17, 2), (80, 1), (143, 0)] {
+                // Uncoupled patches of ones, so that nothing else can go wrong.
+                let mut matrix = BlockMatrix::new(&[3; 144], grid(12));
+                for i in 0..144 {
+                    let block = Mat::from_fn(3, 3, |a, b| match (a == b, (i, a)) {
+                        (true, place) if place == (patch, unknown) => bad,
+                        (equal, _) => f64::from(u8::from(equal)),
+                    });
+                    matrix.add_block(i, i, block.as_ref());
+                }
+                let expected = CholeskyError::NotPositiveDefinite { patch, unknown };
+                assert_eq!(Cholesky::new(&matrix).unwrap_err(), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn a_load_that_is_not_finite_is_placed() {
+        let matrix = chain(4, 2.0, 2.0);
+        let mut load = [1.0; 12];
+        load[7] = f64::INFINITY;
+        let error = Cholesky::new(&matrix).unwrap().solve(&load).unwrap_err();
+        assert_eq!(error, CholeskyError::LoadNotFinite { patch: 2 });
+    }
+
+    #[test]
+    fn the_solution_does_not_depend_on_the_number_of_threads() {
+        let matrix = dominant(24);
+        let load: Vec<f64> = (0..matrix.n_unknowns()).map(|u| (u as f64).sin()).collect();
+        let solve_with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Cholesky::new(&matrix).unwrap().solve(&load).unwrap().unknowns)
+        };
+        assert_eq!(solve_with(1), solve_with(3));
+    }
+}

@@ -1,0 +1,77 @@
+//! Norms of a field and of its error, integrated with the solver's own cells.
+
+use crate::law::Law;
+use crate::space::Space;
+use ppum::crack::Side;
+use ppum::field::Field;
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+use rayon::prelude::*;
+
+/// More Gauss points than the system was assembled with.
+const EXTRA: usize = 2;
+
+/// Squares of norms over the domain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Norms {
+    /// ∫ σ(u):∇u, twice the strain energy; for Poisson ∫ κ |∇u|².
+    pub energy: f64,
+    /// ∫ |u|²
+    pub l2: f64,
+}
+
+impl Norms {
+    /// Norm of `self` relative to that of `reference`: (energy norm, L² norm).
+    #[must_use]
+    pub fn relative_to(&self, reference: &Self) -> (f64, f64) {
+        ((self.energy / reference.energy).sqrt(), (self.l2 / reference.l2).sqrt())
+    }
+}
+
+/// A field given by a function: value and gradient of each component at `anchor + offset`.
+pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
+
+/// The norms of a field, of an exact field and of their difference, in this order.
+///
+/// # Panics
+/// If the field is not of the step of `space`.
+#[must_use]
+pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
+    let law = Law::new(&field.equation);
+    let quadrature = space.quadrature(EXTRA);
+    let cells = &space.partition.cell;
+    let parts: Vec<_> = (0..cells.len())
+        .into_par_iter()
+        .map(|c| {
+            let mut sums = [Norms::default(); 3];
+            for rule in quadrature.cell(&cells[c], &space.coverers[c]) {
+                let local = field.at(rule.anchor);
+                for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
+                    let mut u = [Jet::constant(0.0); 2];
+                    let place = [offset.x, offset.y];
+                    local.over_patches::<f64, 1>(place, Side::Above, &rule.patches, &mut u);
+                    let e = exact(rule.anchor, offset);
+                    let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
+                    for (sum, v) in sums.iter_mut().zip([u, e, difference]) {
+                        sum.add(&law, &v, weight);
+                    }
+                }
+            }
+            sums
+        })
+        .collect();
+    parts.into_iter().fold([Norms::default(); 3], |a, b| {
+        std::array::from_fn(|k| Norms { energy: a[k].energy + b[k].energy, l2: a[k].l2 + b[k].l2 })
+    })
+}
+
+impl Norms {
+    fn add(&mut self, law: &Law, u: &[Jet<f64>; 2], weight: f64) {
+        let g = u.map(|jet| vec2(jet.x, jet.y));
+        let s = law.flux(&g);
+        for i in 0..law.components {
+            self.energy += weight * (s[i][0] * g[i].x + s[i][1] * g[i].y);
+            self.l2 += weight * u[i].v * u[i].v;
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! What the values of a problem must obey, whether it was read from a file or built in code.
+
+use ppum::dataset::{Equation, MAX_DEGREE, Material, StressState};
+use ppum::vec2::Rect;
+
+use super::cracks::check_cracks;
+use super::key::Key;
+use super::{BoundaryCondition, Cells, Condition, Discretization, Enrichment, Order, Problem};
+
+/// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
+pub(super) const MAX_LEVEL: u32 = 10;
+
+/// Most cells of a base cover.
+const MAX_CELLS: u64 = 1 << (2 * MAX_LEVEL);
+
+/// Places along each axis at which a formula of the order is tried before anything is computed.
+const ORDER_SAMPLES: u32 = 16;
+
+/// A rule that is broken.
+pub(super) struct Violation {
+    pub(super) key: Key,
+    pub(super) message: String,
+    /// The other of two values that contradict each other.
+    pub(super) other: Option<Key>,
+}
+
+impl Violation {
+    pub(super) fn new(key: Key, message: impl Into<String>) -> Self {
+        Self { key, message: message.into(), other: None }
+    }
+
+    pub(super) fn with_other(self, other: Key) -> Self {
+        Self { other: Some(other), ..self }
+    }
+}
+
+/// All rules broken by a problem. The later ones are judged only in a domain that is one.
+pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
+    let mut found = check_equation(&problem.equation);
+    found.extend(check_components(problem));
+    found.extend(check_discretization(&problem.discretization));
+    let domain = check_domain(&problem.domain);
+    if domain.is_empty() {
+        found.extend(check_points(&problem.discretization.cells, &problem.domain));
+        found.extend(check_order(&problem.discretization.order, &problem.domain));
+        found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_boundary(&problem.boundary, &problem.domain));
+    }
+    found.extend(domain);
+    found
+}
+
+fn check_domain(domain: &Rect) -> Vec<Violation> {
+    let size = domain.size();
+    let axes = [("x", size.x), ("y", size.y)];
+    let wrong = axes.into_iter().filter(|(_, size)| !(*size > 0.0 && size.is_finite()));
+    let message = |(axis, _)| {
+        let message =
+            format!("`max` must exceed `min` in {axis}; give two opposite corners of a box");
+        Violation::new(Key::new("domain").name("max"), message)
+    };
+    wrong.map(message).collect()
+}
+
+fn check_equation(equation: &Equation) -> Vec<Violation> {
+    match equation {
+        Equation::Elasticity(material) => check_material(material),
+        Equation::Poisson { conductivity } => positive("conductivity", *conductivity),
+    }
+}
+
+fn positive(name: &'static str, value: f64) -> Vec<Violation> {
+    if value > 0.0 && value.is_finite() {
+        return Vec::new();
+    }
+    let message = format!("`{name}` is {value}, but must be positive and finite");
+    vec![Violation::new(Key::new("material").name(name), message)]
+}
+
+fn check_material(material: &Material) -> Vec<Violation> {
+    let mut found = positive("young", material.young);
+    let nu = material.poisson;
+    let (possible, rule) = match material.state {
+        StressState::PlaneStrain => (-1.0 < nu && nu < 0.5, "-1 < ν < 0.5 in plane strain"),
+        StressState::PlaneStress => (-1.0 < nu && nu <= 0.5, "-1 < ν ≤ 0.5 in plane stress"),
+    };
+    if !possible {
+        let message = format!("`poisson` is {nu}, but {rule}");
+        found.push(Violation::new(Key::new("material").name("poisson"), message));
+    }
+    found
+}
+
+/// One value a component everywhere; files cannot break this, code can.
+fn check_components(problem: &Problem) -> Vec<Violation> {
+    let expected = problem.components();
+    let boundary = (0..)
+        .zip(&problem.boundary)
+        .map(|(index, condition)| (Key::new("boundary").index(index), condition.components.len()));
+    let exact = (!problem.exact.is_empty()).then_some((Key::new("exact"), problem.exact.len()));
+    let lists = boundary.chain(exact).chain([(Key::new("source"), problem.source.len())]);
+    let wrong = lists.filter(|(_, given)| *given != expected);
+    wrong
+        .map(|(key, given)| {
+            Violation::new(
+                key,
+                format!("there are {given} components, but the field has {expected}"),
+            )
+        })
+        .collect()
+}
+
+fn check_discretization(discretization: &Discretization) -> Vec<Violation> {
+    let Discretization { overlap, enrichment, enrichment_radius, tip_degree, .. } = *discretization;
+    let mut found: Vec<_> = check_cells(&discretization.cells).into_iter().collect();
+    let mut rule = |holds: bool, name, message: String| {
+        if !holds {
+            found.push(Violation::new(Key::new("discretization").name(name), message));
+        }
+    };
+    rule(
+        overlap > 1.0 && overlap < 2.0,
+        "overlap",
+        format!("`overlap` is {overlap}, but 1 < α < 2; 1.3 to 1.5 is the useful range"),
+    );
+    rule(
+        tip_degree <= MAX_DEGREE,
+        "tip_degree",
+        format!("`tip_degree` is {tip_degree}, but must be 0 to {MAX_DEGREE}; 1 is the default"),
+    );
+    if let Some(radius) = enrichment_radius {
+        rule(
+            radius > 0.0 && radius.is_finite(),
+            "enrichment_radius",
+            format!("`enrichment_radius` is {radius}, but must be positive and finite"),
+        );
+        rule(
+            matches!(enrichment, Enrichment::Zone | Enrichment::AdditiveOnly),
+            "enrichment_radius",
+            format!(
+                "`enrichment_radius` has no meaning with enrichment = \"{}\"; remove it, or write \
+                 enrichment = \"zone\"",
+                enrichment.name()
+            ),
+        );
+    }
+    found
+}
+
+fn check_cells(cells: &Cells) -> Option<Violation> {
+    let key = Key::new("discretization");
+    match *cells {
+        Cells::Level(level) if level > MAX_LEVEL => {
+            let message = format!("`level` is {level}, but must be 0 to {MAX_LEVEL}");
+            Some(Violation::new(key.name("level"), message))
+        }
+        Cells::Grid([nx, ny]) if nx == 0 || ny == 0 => {
+            let message = "`cells` must be at least 1 in each direction";
+            Some(Violation::new(key.name("cells"), message))
+        }
+        Cells::Grid([nx, ny]) if u64::from(nx) * u64::from(ny) > MAX_CELLS => {
+            let message = format!("`cells` are {nx} × {ny}, but at most {MAX_CELLS} in all");
+            Some(Violation::new(key.name("cells"), message))
+        }
+        _ => None,
+    }
+}
+
+fn check_points(cells: &Cells, domain: &Rect) -> Option<Violation> {
+    let Cells::Points(points) = cells else { return None };
+    let key = Key::new("discretization").name("points");
+    if points.is_empty() {
+        return Some(Violation::new(key, "there are no points; at least one is needed"));
+    }
+    let outside: Vec<_> = points.iter().filter(|p| !domain.contains(**p)).collect();
+    let first = outside.first()?;
+    let message = format!(
+        "{} of {} points lie outside the domain, the first at [{}, {}]; remove or move them",
+        outside.len(),
+        points.len(),
+        first.x,
+        first.y
+    );
+    Some(Violation::new(key, message))
+}
+
+fn check_order(order: &Order, domain: &Rect) -> Option<Violation> {
+    let key = Key::new("discretization").name("order");
+    let steps = f64::from(ORDER_SAMPLES);
+    let samples = (0..ORDER_SAMPLES * ORDER_SAMPLES).map(|k| {
+        let [i, j] = [k % ORDER_SAMPLES, k / ORDER_SAMPLES].map(|i| (f64::from(i) + 0.5) / steps);
+        let size = domain.size();
+        domain.min + ppum::vec2::vec2(size.x * i, size.y * j)
+    });
+    let mut wrong = samples.filter_map(|p| order.at(p).err());
+    wrong.next().map(|error| Violation::new(key, error.to_string()))
+}
+
+fn check_boundary(boundary: &[BoundaryCondition], domain: &Rect) -> Vec<Violation> {
+    let mut found = Vec::new();
+    for (index, condition) in boundary.iter().enumerate() {
+        found.extend(check_range(index, condition, domain));
+        let earlier = boundary[..index].iter().enumerate();
+        found.extend(earlier.filter_map(|(other, earlier)| {
+            let message = contradiction(earlier, condition)?;
+            Some(Violation::new(on(index), message).with_other(on(other)))
+        }));
+    }
+    found
+}
+
+fn on(index: usize) -> Key {
+    Key::new("boundary").index(index).name("on")
+}
+
+fn check_range(index: usize, condition: &BoundaryCondition, domain: &Rect) -> Option<Violation> {
+    let BoundaryCondition { edge, from, to, .. } = condition;
+    let [first, last] = edge.range(domain);
+    let message = if from >= to {
+        format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`")
+    } else if *from >= first && *to <= last {
+        return None;
+    } else {
+        let edge = edge.name();
+        format!(
+            "from {from} to {to} leaves the {edge} edge, which runs from {first} to {last}; stay inside"
+        )
+    };
+    Some(Violation::new(on(index), message))
+}
+
+/// Two conditions that speak of the same component at the same place.
+fn contradiction(a: &BoundaryCondition, b: &BoundaryCondition) -> Option<String> {
+    let (from, to) = (a.from.max(b.from), a.to.min(b.to));
+    if a.edge != b.edge || from >= to {
+        return None;
+    }
+    let said = |condition: &Condition| *condition != Condition::Free;
+    let mut pairs = a.components.iter().zip(&b.components);
+    let component = pairs.position(|(a, b)| said(a) && said(b))?;
+    let what = match a.components.len() {
+        1 => "the value or flux".to_owned(),
+        _ => format!("the {} component", ["x", "y"][component]),
+    };
+    let edge = a.edge.name();
+    Some(format!(
+        "{what} on the {edge} edge is given twice between {from} and {to}; give each component once \
+         at each place: divide the edge by `from` and `to`, or leave a component \"free\""
+    ))
+}

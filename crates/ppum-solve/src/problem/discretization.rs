@@ -1,0 +1,128 @@
+//! How a problem is discretised.
+
+use ppum::dataset::MAX_DEGREE;
+use ppum::vec2::Vec2;
+use ppum::weight::WeightFunction;
+
+use super::expression::Expression;
+
+/// Cover, local spaces and enrichment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Discretization {
+    /// The base cover.
+    pub cells: Cells,
+    /// Refine where tips need it; false keeps the base cover.
+    pub refine: bool,
+    /// Degree of the local polynomials.
+    pub order: Order,
+    /// α: a patch is its cell enlarged by this factor, 1 < α < 2.
+    pub overlap: f64,
+    /// The weight function.
+    pub weight: WeightFunction,
+    /// Where the local spaces are enriched.
+    pub enrichment: Enrichment,
+    /// Radius of the zone around each tip; `None` for
+    /// [the default](super::Problem::enrichment_radius).
+    pub enrichment_radius: Option<f64>,
+    /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
+    pub tip_degree: usize,
+}
+
+/// The base cover's cells.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cells {
+    /// 4^level equal cells.
+    Level(u32),
+    /// Equal cells, this many along x and y.
+    Grid([u32; 2]),
+    /// A quadtree split until a cell holds at most one of these points.
+    Points(Vec<Vec2>),
+}
+
+/// Degree of the local polynomials, 0 to [`MAX_DEGREE`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// The same on every patch.
+    Uniform(usize),
+    /// A formula of x and y, taken at the patch's centre and rounded; see [`Order::at`].
+    Formula(Expression),
+}
+
+/// Which functions the local spaces hold beside polynomials.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Enrichment {
+    /// None: the crack is not seen.
+    None,
+    /// Jumps on patches cut through, tip functions on patches that contain a tip.
+    TipPatch,
+    /// Jumps on patches cut through, tip functions on all patches that meet the disc of the
+    /// enrichment radius around a tip.
+    #[default]
+    Zone,
+    /// As `Zone` but without jumps: figure 5 of Üffinger et al. 2011.
+    AdditiveOnly,
+}
+
+impl Discretization {
+    /// Defaults on the given cells: order 2, α = 1.3, linear weights, enrichment in a zone, tip
+    /// functions times linear polynomials on the patches with a tip, refined at tips.
+    #[must_use]
+    pub fn new(cells: Cells) -> Self {
+        Self {
+            cells,
+            refine: true,
+            order: Order::Uniform(2),
+            overlap: 1.3,
+            weight: WeightFunction::default(),
+            enrichment: Enrichment::default(),
+            enrichment_radius: None,
+            tip_degree: 1,
+        }
+    }
+}
+
+/// A formula of the order that gives no order.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the order is {value} at [{}, {}], but must be 0 to {MAX_DEGREE} after rounding",
+    .point.x,
+    .point.y
+)]
+pub struct OrderError {
+    /// What the formula gives.
+    pub value: f64,
+    /// Where.
+    pub point: Vec2,
+}
+
+impl Order {
+    /// The order of a patch with centre `point`: the formula's value, rounded to the nearest whole
+    /// number, halves away from zero.
+    ///
+    /// # Errors
+    /// The value is not finite, negative or above [`MAX_DEGREE`].
+    pub fn at(&self, point: Vec2) -> Result<usize, OrderError> {
+        let value = match self {
+            Self::Uniform(order) => *order as f64,
+            Self::Formula(formula) => formula.value(point),
+        };
+        let possible = (0..=MAX_DEGREE).find(|order| value.round() == *order as f64);
+        possible.ok_or(OrderError { value, point })
+    }
+}
+
+impl Enrichment {
+    /// All choices.
+    pub const ALL: [Self; 4] = [Self::None, Self::TipPatch, Self::Zone, Self::AdditiveOnly];
+
+    /// Name in problem files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::TipPatch => "tip-patch",
+            Self::Zone => "zone",
+            Self::AdditiveOnly => "additive-only",
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! A TOML text with places: typed access to its values that reports every mistake and goes on.
+
+mod nearest;
+mod value;
+
+use std::cell::RefCell;
+
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Finding, Place};
+use nearest::nearest;
+pub(super) use value::Value;
+
+/// Collects findings; shared by all sections and values of a document.
+pub(super) struct Report<'a> {
+    file: &'a str,
+    text: &'a str,
+    /// With the offset in the text, by which they are sorted in the end.
+    findings: RefCell<Vec<(usize, Finding)>>,
+}
+
+impl<'a> Report<'a> {
+    pub(super) fn new(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, findings: RefCell::default() }
+    }
+
+    /// Reports a mistake at a byte of the text.
+    pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
+        let (line, column) = self.position(offset);
+        let place = Place::Text { file: self.file.to_owned(), line, column };
+        self.add(offset, Finding { place, message: message.into() });
+    }
+
+    /// Reports a finding in another file, named at a byte of this text.
+    pub(super) fn add(&self, offset: usize, finding: Finding) {
+        self.findings.borrow_mut().push((offset, finding));
+    }
+
+    /// Line and column in characters, from 1.
+    pub(super) fn position(&self, offset: usize) -> (usize, usize) {
+        position(self.text, offset)
+    }
+
+    /// The findings in the order of the text.
+    pub(super) fn into_findings(self) -> Vec<Finding> {
+        let mut findings = self.findings.into_inner();
+        findings.sort_by_key(|(offset, _)| *offset);
+        findings.into_iter().map(|(_, finding)| finding).collect()
+    }
+}
+
+/// Line and column in characters, from 1, of a byte of `text`.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
+}
+
+/// A table of the document.
+pub(super) struct Section<'a> {
+    report: &'a Report<'a>,
+    /// As users write it, e.g. `[material]`.
+    name: String,
+    table: &'a DeTable<'a>,
+    /// Where to say that something is missing.
+    offset: usize,
+    /// Keys that were meant by those that are not known.
+    meant: Vec<&'static str>,
+}
+
+/// What to do about a key that is well known, but cannot stand here.
+#[derive(Clone, Copy)]
+pub(super) enum Remedy {
+    /// A later version will have it; it stands where one of these keys would.
+    Later(&'static [&'static str]),
+    /// The equation is another one; these keys do for it what this one does.
+    Instead(&'static [&'static str]),
+}
+
+impl<'a> Section<'a> {
+    /// The whole document.
+    pub(super) fn root(report: &'a Report<'a>, table: &'a DeTable<'a>) -> Self {
+        Self { report, name: "the problem file".to_owned(), table, offset: 0, meant: Vec::new() }
+    }
+
+    /// Reports that something is missing in or wrong with the section as a whole.
+    pub(super) fn error(&self, message: impl Into<String>) {
+        self.report.at(self.offset, message);
+    }
+
+    /// True if the key is there, or meant by one that is.
+    pub(super) fn mentions(&self, key: &str) -> bool {
+        self.table.contains_key(key) || self.meant.contains(&key)
+    }
+
+    /// Reports every key that is not known.
+    pub(super) fn only(
+        mut self,
+        known: &[&'static str],
+        remedies: &[(&'static str, Remedy)],
+    ) -> Self {
+        for key in self.table.keys().filter(|key| !known.contains(&key.get_ref().as_ref())) {
+            let name = key.get_ref().as_ref();
+            let remedy = remedies.iter().find(|(word, _)| *word == name);
+            let (message, meant) = match remedy {
+                Some((_, remedy)) => (misplaced(name, &self.name, *remedy), remedy.meant()),
+                None => {
+                    let near = nearest(name, known);
+                    (unknown(name, &self.name, near, known), near.into_iter().collect())
+                }
+            };
+            self.report.at(key.span().start, message);
+            self.meant.extend(meant);
+        }
+        self
+    }
+
+    /// The value of a key that may be absent.
+    pub(super) fn get(&self, key: &str) -> Option<Value<'a>> {
+        let item = self.table.get(key)?;
+        let name = format!("`{key}` in {}", self.name);
+        Some(Value { report: self.report, name, item })
+    }
+
+    /// The value of a key that must be there; `example` shows it.
+    pub(super) fn require(&self, key: &str, example: &str) -> Option<Value<'a>> {
+        let value = self.get(key);
+        if !self.mentions(key) {
+            self.error(format!("`{key}` is missing in {}; add e.g. `{example}`", self.name));
+        }
+        value
+    }
+
+    /// A table `[key]` that may be absent.
+    pub(super) fn section(&self, key: &str) -> Option<Section<'a>> {
+        let item = self.table.get(key)?;
+        let name = format!("[{key}]");
+        match item.get_ref() {
+            DeValue::Table(table) => {
+                let (report, offset) = (self.report, item.span().start);
+                Some(Section { report, name, table, offset, meant: Vec::new() })
+            }
+            _ => {
+                let message = format!("`{key}` must be one table; write [{key}] once");
+                self.report.at(item.span().start, message);
+                None
+            }
+        }
+    }
+
+    /// The tables `[[key]]`; none if absent.
+    pub(super) fn sections(&self, key: &str) -> Vec<Section<'a>> {
+        let Some(item) = self.table.get(key) else { return Vec::new() };
+        let tables: Option<Vec<_>> = match item.get_ref() {
+            DeValue::Array(array) => array
+                .iter()
+                .map(|item| Some((item.span().start, item.get_ref().as_table()?)))
+                .collect(),
+            _ => None,
+        };
+        if tables.is_none() {
+            let message = format!("`{key}` must be a list of tables; write [[{key}]] for each");
+            self.report.at(item.span().start, message);
+        }
+        let section = |(offset, table)| {
+            let name = format!("[[{key}]]");
+            Section { report: self.report, name, table, offset, meant: Vec::new() }
+        };
+        tables.unwrap_or_default().into_iter().map(section).collect()
+    }
+}
+
+impl Remedy {
+    fn meant(self) -> Vec<&'static str> {
+        let (Self::Later(keys) | Self::Instead(keys)) = self;
+        keys.to_vec()
+    }
+}
+
+fn misplaced(name: &str, section: &str, remedy: Remedy) -> String {
+    let remedy = match remedy {
+        Remedy::Later(_) => "is not supported yet in this version; remove it".to_owned(),
+        Remedy::Instead([]) => "does not fit the equation; remove it".to_owned(),
+        Remedy::Instead(keys) => {
+            let keys: Vec<_> = keys.iter().map(|key| format!("`{key}`")).collect();
+            format!("does not fit the equation; write {} instead", keys.join(", "))
+        }
+    };
+    format!("`{name}` in {section} {remedy}")
+}
+
+fn unknown(name: &str, section: &str, near: Option<&str>, known: &[&str]) -> String {
+    let suggestion = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known are {}", known.join(", ")),
+    };
+    format!("unknown key `{name}` in {section}; {suggestion}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_and_lines_from_one() {
+        let text = "ä = 1\r\nβγ = 2\n";
+        assert_eq!(position(text, 0), (1, 1));
+        assert_eq!(position(text, text.find('=').expect("there")), (1, 3));
+        assert_eq!(position(text, text.find('2').expect("there")), (2, 6));
+        assert_eq!(position(text, text.len()), (3, 1));
+    }
+}

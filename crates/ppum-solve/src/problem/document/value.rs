@@ -1,0 +1,187 @@
+//! Typed access to one value.
+
+use std::ops::Range;
+
+use ppum::formula::FormulaError;
+use ppum::vec2::{Vec2, vec2};
+use toml::Spanned;
+use toml::de::{DeArray, DeInteger, DeValue};
+
+use super::super::error::Finding;
+use super::super::expression::{self, Expression};
+use super::{Report, Section, nearest};
+
+/// A value of the document. The readers of its type report and return `None` where it has another.
+#[derive(Clone)]
+pub(in super::super) struct Value<'a> {
+    pub(super) report: &'a Report<'a>,
+    /// As messages call it, e.g. `` `young` in [material] ``.
+    pub(super) name: String,
+    pub(super) item: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Value<'a> {
+    /// Reports that something is wrong with the value; its name opens the message.
+    pub(in super::super) fn error<T>(&self, message: &str) -> Option<T> {
+        self.report.at(self.offset(), format!("{} {message}", self.name));
+        None
+    }
+
+    /// Reports a finding in a file that the value names.
+    pub(in super::super) fn add(&self, finding: Finding) {
+        self.report.add(self.offset(), finding);
+    }
+
+    fn offset(&self) -> usize {
+        self.item.span().start
+    }
+
+    fn expected<T>(&self, what: &str) -> Option<T> {
+        self.error(&format!("must be {what}, found {}", kind(self.item.get_ref())))
+    }
+
+    /// The text, if the value is one.
+    pub(in super::super) fn as_text(&self) -> Option<&'a str> {
+        self.item.get_ref().as_str()
+    }
+
+    /// A text in quotes.
+    pub(in super::super) fn text(&self) -> Option<&'a str> {
+        self.as_text().or_else(|| self.expected("a text in quotes"))
+    }
+
+    /// `true` or `false`.
+    pub(in super::super) fn boolean(&self) -> Option<bool> {
+        self.item.get_ref().as_bool().or_else(|| self.expected("true or false"))
+    }
+
+    /// A finite number.
+    pub(in super::super) fn number(&self) -> Option<f64> {
+        match self.any_number() {
+            Some(number) if number.is_finite() => Some(number),
+            Some(_) => self.error("must be finite; write a number that f64 can hold"),
+            None if self.as_text().is_some_and(|text| text.trim().parse::<f64>().is_ok()) => {
+                self.error("must be a number, found a text; remove the quotes")
+            }
+            None => self.expected("a number"),
+        }
+    }
+
+    fn any_number(&self) -> Option<f64> {
+        match self.item.get_ref() {
+            DeValue::Integer(integer) => to_i64(integer).map(|value| value as f64),
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// A whole number, not negative.
+    pub(in super::super) fn whole(&self) -> Option<u32> {
+        let integer = self.item.get_ref().as_integer();
+        let value = integer.and_then(to_i64).and_then(|value| u32::try_from(value).ok());
+        let wrong = || match self.item.get_ref() {
+            DeValue::Integer(_) => self.error("is out of range; write a small whole number ≥ 0"),
+            _ => self.expected("a whole number"),
+        };
+        value.or_else(wrong)
+    }
+
+    /// A point `[x, y]`.
+    pub(in super::super) fn point(&self) -> Option<Vec2> {
+        let [x, y] = self.pair("two numbers [x, y]")?;
+        let (x, y) = (x.number(), y.number());
+        Some(vec2(x?, y?))
+    }
+
+    /// An array of two values; `what` it should be, for the message.
+    pub(in super::super) fn pair(&self, what: &str) -> Option<[Value<'a>; 2]> {
+        let items = self.item.get_ref().as_array().map(|array| self.elements(array));
+        let pair = items.and_then(|items| <[Value<'a>; 2]>::try_from(items).ok());
+        pair.or_else(|| self.expected(what))
+    }
+
+    /// An array of any length; `what` it should be, for the message.
+    pub(in super::super) fn list(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        let array = self.item.get_ref().as_array().or_else(|| self.expected(what))?;
+        Some(self.elements(array))
+    }
+
+    fn elements(&self, array: &'a DeArray<'a>) -> Vec<Value<'a>> {
+        let element = |item| Value { report: self.report, name: self.name.clone(), item };
+        array.iter().map(element).collect()
+    }
+
+    /// The value as a table, if it is one; called `name` in messages.
+    pub(in super::super) fn as_section(&self, name: &str) -> Option<Section<'a>> {
+        let table = self.item.get_ref().as_table()?;
+        let offset = self.offset();
+        Some(Section {
+            report: self.report,
+            name: name.to_owned(),
+            table,
+            offset,
+            meant: Vec::new(),
+        })
+    }
+
+    /// One of several words, each standing for something.
+    pub(in super::super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+        let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
+        let text = match self.as_text() {
+            Some(text) => text,
+            None => return self.expected(&alternatives(&words)),
+        };
+        let chosen = choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| *choice);
+        chosen.or_else(|| {
+            let hint = nearest(text, &words)
+                .map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
+            let message = format!("cannot be \"{text}\", only {}{hint}", alternatives(&words));
+            self.error(&message)
+        })
+    }
+
+    /// A number, or a formula of x and y in quotes.
+    pub(in super::super) fn expression(&self) -> Option<Expression> {
+        match self.item.get_ref() {
+            DeValue::String(text) => self.formula(text),
+            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::constant),
+            _ => self.expected("a number or a formula in quotes"),
+        }
+    }
+
+    fn formula(&self, text: &str) -> Option<Expression> {
+        let report = |error: FormulaError| {
+            let offset = self.offset_in_text(text, error.line, error.column);
+            self.report.at(offset, format!("{}: {}", self.name, expression::message(&error)));
+        };
+        Expression::parse(text).map_err(report).ok()
+    }
+
+    /// The byte of a place in the value's text. Texts of several lines or with escapes differ from
+    /// what the file holds: for them where the value begins.
+    fn offset_in_text(&self, text: &str, line: usize, column: usize) -> usize {
+        let Range { start, end } = self.item.span();
+        let plain = line == 1 && end - start == text.len() + 2;
+        let inside = text.char_indices().nth(column - 1).map_or(text.len(), |(byte, _)| byte);
+        if plain { start + 1 + inside } else { start }
+    }
+}
+
+fn to_i64(integer: &DeInteger<'_>) -> Option<i64> {
+    i64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}
+
+fn kind(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(_) => "a text".to_owned(),
+        DeValue::Integer(_) | DeValue::Float(_) => "a number".to_owned(),
+        DeValue::Boolean(_) => "true or false".to_owned(),
+        DeValue::Datetime(_) => "a date".to_owned(),
+        DeValue::Array(array) => format!("an array of {}", array.len()),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+fn alternatives(words: &[&str]) -> String {
+    words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
+}

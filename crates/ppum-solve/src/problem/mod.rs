@@ -1,0 +1,206 @@
+//! Problems: what is to be solved, and how, from a problem file (TOML) or built in code.
+//!
+//! Find u on the box Ω with cracks Γ, faces free, such that
+//!
+//! ```text
+//! elasticity:  −div σ(u) = f,  σ = 2μ ε(u) + λ tr ε(u) I        Poisson:  −div (κ ∇u) = f
+//! ```
+//!
+//! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
+//! pieces of the border. `docs/problem-file.md` describes the file for users.
+//!
+//! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for a
+//! problem built in code [`Problem::check`] applies the same rules:
+//!
+//! ```
+//! use ppum::dataset::{Material, StressState};
+//! use ppum::vec2::{Rect, vec2};
+//! use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Problem};
+//!
+//! let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+//! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+//! let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+//! let problem = Problem::elasticity(domain, steel, Discretization::new(Cells::Level(4)))
+//!     .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
+//!     .with_boundary(Edge::Bottom, pull(-1.0))
+//!     .with_boundary(Edge::Top, pull(1.0));
+//! assert_eq!(problem.check(), Ok(()));
+//! ```
+
+mod boundary;
+mod check;
+mod cracks;
+mod discretization;
+mod document;
+mod error;
+mod expression;
+mod key;
+mod points;
+mod read;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use ppum::crack::{Crack, TipId, tips};
+use ppum::dataset::{Equation, Material};
+use ppum::vec2::{Rect, Vec2};
+
+pub use boundary::{BoundaryCondition, Condition, Edge};
+pub use cracks::crack;
+pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
+pub use error::{Finding, Place, ProblemError};
+pub use expression::Expression;
+
+/// What is to be solved, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// One line that names the problem; may be empty.
+    pub title: String,
+    /// The box Ω.
+    pub domain: Rect,
+    /// The equation with its material.
+    pub equation: Equation,
+    /// The cracks.
+    pub cracks: Vec<Crack>,
+    /// The conditions on the border.
+    pub boundary: Vec<BoundaryCondition>,
+    /// The right-hand side f, one expression a component: body force or source.
+    pub source: Vec<Expression>,
+    /// The exact solution, one expression a component; empty if unknown.
+    pub exact: Vec<Expression>,
+    /// Cover, local spaces and enrichment.
+    pub discretization: Discretization,
+    /// The linear solver.
+    pub solver: Solver,
+    /// The problem file's text, if there was one.
+    pub text: Option<String>,
+}
+
+/// The linear solver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Solver {
+    /// What suits the problem.
+    #[default]
+    Auto,
+    /// Sparse Cholesky factorisation.
+    Direct,
+}
+
+impl Problem {
+    /// Reads a problem file. Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// Everything that is wrong, with file, line, column and remedy; or that the file cannot be
+    /// read.
+    pub fn read(path: &Path) -> Result<Self, ProblemError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Finding {
+            place: Place::File(file.clone()),
+            message: format!("cannot read the problem file: {error}"),
+        })?;
+        Self::parse(&text, &file, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a problem from the text of a problem file.
+    ///
+    /// `file_name` is for messages, and the title if the text has none; paths in the text are
+    /// relative to `base_dir`.
+    ///
+    /// # Errors
+    /// Everything that is wrong, with file, line, column and remedy.
+    pub fn parse(text: &str, file_name: &str, base_dir: &Path) -> Result<Self, ProblemError> {
+        read::read(text, file_name, base_dir)
+    }
+
+    /// A problem of elasticity on a box, as yet without cracks, loads and supports.
+    #[must_use]
+    pub fn elasticity(domain: Rect, material: Material, discretization: Discretization) -> Self {
+        Self::new(domain, Equation::Elasticity(material), discretization)
+    }
+
+    /// A Poisson problem with conductivity κ on a box, as yet without cracks, sources and
+    /// conditions.
+    #[must_use]
+    pub fn poisson(domain: Rect, conductivity: f64, discretization: Discretization) -> Self {
+        Self::new(domain, Equation::Poisson { conductivity }, discretization)
+    }
+
+    fn new(domain: Rect, equation: Equation, discretization: Discretization) -> Self {
+        Self {
+            title: String::new(),
+            domain,
+            source: vec![Expression::constant(0.0); equation.components()],
+            equation,
+            cracks: Vec::new(),
+            boundary: Vec::new(),
+            exact: Vec::new(),
+            discretization,
+            solver: Solver::default(),
+            text: None,
+        }
+    }
+
+    /// The problem with one more crack; its ends on the border become mouths, the others tips.
+    #[must_use]
+    pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
+        let points = points.iter().copied().map(Vec2::from).collect();
+        self.cracks.push(crack(points, &self.domain));
+        self
+    }
+
+    /// The problem with conditions on a whole edge, one a component.
+    #[must_use]
+    pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
+        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain, components));
+        self
+    }
+
+    /// The problem with exact values given on a whole edge.
+    #[must_use]
+    pub fn with_exact_boundary(self, edge: Edge) -> Self {
+        let components = self.exact.iter().cloned().map(Condition::Dirichlet).collect();
+        self.with_boundary(edge, components)
+    }
+
+    /// Number of components of the unknown field.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.equation.components()
+    }
+
+    /// Radius of the zone around a tip whose patches are enriched: the one given, or by default a
+    /// quarter of the crack's length, at most a quarter of the distance to the nearest other tip.
+    ///
+    /// The radius does not shrink with the cells: the rate of convergence rests on that.
+    #[must_use]
+    pub fn enrichment_radius(&self, tip: TipId) -> f64 {
+        if let Some(radius) = self.discretization.enrichment_radius {
+            return radius;
+        }
+        let position = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
+        let segments = self.cracks[tip.crack as usize].points.windows(2);
+        let length = segments.map(|pair| (pair[1] - pair[0]).length()).sum();
+        let others = tips(&self.cracks).filter(|other| *other != tip);
+        let distances = others.map(|other| (position(other) - position(tip)).length());
+        0.25 * distances.fold(length, f64::min)
+    }
+
+    /// Applies the rules that hold for problem files to a problem built in code.
+    ///
+    /// # Errors
+    /// Everything that is wrong, each named by its key.
+    pub fn check(&self) -> Result<(), ProblemError> {
+        let violations = check::violations(self);
+        if violations.is_empty() {
+            return Ok(());
+        }
+        let finding = |violation: check::Violation| {
+            let other = violation.other.map_or(String::new(), |key| format!(" (see {key})"));
+            let place = Place::Key(violation.key.to_string());
+            Finding { place, message: violation.message + &other }
+        };
+        Err(ProblemError::new(violations.into_iter().map(finding).collect()))
+    }
+}

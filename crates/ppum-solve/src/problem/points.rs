@@ -1,0 +1,116 @@
+//! Files of scattered points.
+
+use std::path::Path;
+
+use ppum::vec2::Vec2;
+
+use super::error::{Finding, Place};
+
+/// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
+///
+/// # Errors
+/// One finding a line that is not a finite `x,y`, or equals an earlier one; or one for the file.
+pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Finding>> {
+    let file = path.display().to_string();
+    let whole = |message: String| vec![Finding { place: Place::File(file.clone()), message }];
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| whole(format!("cannot read the points: {error}")))?;
+    let points = parse(&text, &file)?;
+    if points.is_empty() {
+        return Err(whole("there are no points; write one `x,y` a line".to_owned()));
+    }
+    Ok(points)
+}
+
+fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Finding>> {
+    let (mut points, mut findings) = (Vec::new(), Vec::new());
+    for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+        let content = line.split('#').next().unwrap_or_default();
+        if content.trim().is_empty() {
+            continue;
+        }
+        match point(content) {
+            Ok(point) => points.push((number, point)),
+            Err((column, message)) => findings.push(finding(file, number, column, message)),
+        }
+    }
+    findings.extend(duplicates(&points, file));
+    if findings.is_empty() {
+        Ok(points.into_iter().map(|(_, p)| p).collect())
+    } else {
+        Err(findings)
+    }
+}
+
+/// The point of a line, or the column and the message of what is wrong.
+fn point(content: &str) -> Result<Vec2, (usize, String)> {
+    let (mut column, mut values) = (1, Vec::new());
+    for word in content.split(',') {
+        let start = column + word.chars().take_while(|c| c.is_whitespace()).count();
+        let value = word.trim().parse().ok().filter(|value: &f64| value.is_finite());
+        let wrong = || (start, format!("`{}` is not a finite number; write `x,y`", word.trim()));
+        // −0 becomes 0: equal points sort next to each other
+        values.push(value.ok_or_else(wrong)? + 0.0);
+        column += word.chars().count() + 1;
+    }
+    let count = values.len();
+    let two = <[f64; 2]>::try_from(values);
+    two.map(Vec2::from).map_err(|_| (1, format!("expected two numbers `x,y`, found {count}")))
+}
+
+/// Points that equal an earlier one: no cell can hold at most one of them.
+fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Finding> {
+    let mut sorted: Vec<_> = points.iter().collect();
+    sorted.sort_by(|(m, a), (n, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(m.cmp(n)));
+    let equal = sorted.windows(2).filter(|pair| pair[0].1 == pair[1].1);
+    let mut lines: Vec<_> = equal.map(|pair| (pair[1].0, pair[0].0)).collect();
+    lines.sort_unstable();
+    let message = |first| format!("the same point as on line {first}; remove one of them");
+    lines.into_iter().map(|(second, first)| finding(file, second, 1, message(first))).collect()
+}
+
+fn finding(file: &str, line: usize, column: usize, message: String) -> Finding {
+    Finding { place: Place::Text { file: file.to_owned(), line, column }, message }
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::vec2::vec2;
+
+    use super::*;
+
+    fn wrong(text: &str) -> Vec<String> {
+        let findings = parse(text, "p.csv").expect_err("should be wrong");
+        findings.iter().map(Finding::to_string).collect()
+    }
+
+    #[test]
+    fn comments_spaces_and_empty_lines() {
+        let points = parse("\u{feff}# x,y\n\n 0.5 , -1e-1 # first\r\n1,2\n", "p.csv");
+        assert_eq!(points, Ok(vec![vec2(0.5, -0.1), vec2(1.0, 2.0)]));
+    }
+
+    #[test]
+    fn every_wrong_line_is_named() {
+        let found = wrong("x,y\n1,nan\n1\n1,2,3\n0,0\n1, 2a\n");
+        assert_eq!(
+            found,
+            [
+                "p.csv:1:1: `x` is not a finite number; write `x,y`",
+                "p.csv:2:3: `nan` is not a finite number; write `x,y`",
+                "p.csv:3:1: expected two numbers `x,y`, found 1",
+                "p.csv:4:1: expected two numbers `x,y`, found 3",
+                "p.csv:6:4: `2a` is not a finite number; write `x,y`",
+            ]
+        );
+    }
+
+    #[test]
+    fn equal_points() {
+        let found = wrong("1,2\n3,4\n1.0,2.0\n-0.0,1\n0,1\n1,2\n");
+        assert_eq!(found.len(), 3);
+        assert_eq!(found[0], "p.csv:3:1: the same point as on line 1; remove one of them");
+        assert_eq!(found[1], "p.csv:5:1: the same point as on line 4; remove one of them");
+        assert_eq!(found[2], "p.csv:6:1: the same point as on line 3; remove one of them");
+    }
+}

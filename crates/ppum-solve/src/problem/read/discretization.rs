@@ -1,0 +1,87 @@
+//! The table `[discretization]`.
+
+use std::path::Path;
+
+use ppum::weight::WeightFunction;
+
+use super::super::discretization::{Cells, Discretization, Enrichment, Order};
+use super::super::document::{Section, Value};
+use super::super::points;
+
+const KEYS: [&str; 10] = [
+    "level",
+    "cells",
+    "points",
+    "refine",
+    "order",
+    "overlap",
+    "weight",
+    "enrichment",
+    "enrichment_radius",
+    "tip_degree",
+];
+
+/// What is optional and wrong is reported, and left at its default.
+pub(super) fn discretization(root: &Section<'_>, base_dir: &Path) -> Option<Discretization> {
+    if !root.mentions("discretization") {
+        root.error("the table [discretization] is missing; add it with e.g. `level = 5`");
+    }
+    let section = root.section("discretization")?.only(&KEYS, &[]);
+    let cells = cells(&section, base_dir);
+    let mut new = Discretization::new(Cells::Level(0));
+    let weights = WeightFunction::ALL.map(|weight| (weight.name(), weight));
+    let enrichments = Enrichment::ALL.map(|enrichment| (enrichment.name(), enrichment));
+    let get = |key| section.get(key);
+    let number = |key| get(key).and_then(|value| value.number());
+    let whole = |key| get(key).and_then(|value| value.whole());
+    replace(&mut new.refine, get("refine").and_then(|value| value.boolean()));
+    replace(&mut new.order, get("order").and_then(|value| order(&value)));
+    replace(&mut new.overlap, number("overlap"));
+    replace(&mut new.weight, get("weight").and_then(|value| value.choice(&weights)));
+    replace(&mut new.enrichment, get("enrichment").and_then(|value| value.choice(&enrichments)));
+    new.enrichment_radius = number("enrichment_radius");
+    replace(&mut new.tip_degree, whole("tip_degree").map(|degree| degree as usize));
+    Some(Discretization { cells: cells?, ..new })
+}
+
+fn replace<T>(place: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *place = value;
+    }
+}
+
+fn order(value: &Value<'_>) -> Option<Order> {
+    match value.as_text() {
+        Some(_) => value.expression().map(Order::Formula),
+        None => value.whole().map(|order| Order::Uniform(order as usize)),
+    }
+}
+
+fn cells(section: &Section<'_>, base_dir: &Path) -> Option<Cells> {
+    let given = ["level", "cells", "points"].map(|key| section.get(key));
+    match &given {
+        [Some(level), None, None] => level.whole().map(Cells::Level),
+        [None, Some(cells), None] => {
+            let [nx, ny] = cells.pair("two whole numbers [nx, ny]")?;
+            let (nx, ny) = (nx.whole(), ny.whole());
+            Some(Cells::Grid([nx?, ny?]))
+        }
+        [None, None, Some(points)] => point_file(points, base_dir),
+        [None, None, None] => {
+            if !["level", "cells", "points"].iter().any(|key| section.mentions(key)) {
+                section.error("[discretization] has no cells; add e.g. `level = 5`");
+            }
+            None
+        }
+        _ => {
+            let last = given.iter().flatten().next_back()?;
+            last.error("contradicts another key; give only one of `level`, `cells`, `points`")
+        }
+    }
+}
+
+fn point_file(value: &Value<'_>, base_dir: &Path) -> Option<Cells> {
+    let found = points::read(&base_dir.join(value.text()?));
+    let report = |findings: Vec<_>| findings.into_iter().for_each(|finding| value.add(finding));
+    found.map(Cells::Points).map_err(report).ok()
+}

@@ -1,0 +1,285 @@
+//! From the text of a problem file to a problem.
+//!
+//! Every reader of a table reports what is wrong and returns something harmless in its place (or
+//! `None` where nothing is harmless), so that one reading finds all mistakes.
+
+mod boundary;
+mod discretization;
+
+use std::path::Path;
+
+use ppum::dataset::{Equation, Material, StressState};
+use ppum::vec2::{Rect, Vec2};
+use toml::de::DeTable;
+
+use super::check::violations;
+use super::cracks::crack;
+use super::document::Remedy::{self, Instead, Later};
+use super::document::{Report, Section, Value};
+use super::error::ProblemError;
+use super::expression::Expression;
+use super::{Problem, Solver};
+use boundary::boundary;
+use discretization::discretization;
+
+pub(super) fn read(text: &str, file: &str, base_dir: &Path) -> Result<Problem, ProblemError> {
+    let report = Report::new(file, text);
+    let (document, errors) = DeTable::parse_recoverable(text);
+    report_syntax(&report, &errors);
+    let problem = if errors.is_empty() {
+        problem(Section::root(&report, document.get_ref()), base_dir)
+    } else {
+        None
+    };
+    if let Some(problem) = &problem {
+        report_violations(&report, document.get_ref(), problem);
+    }
+    let findings = report.into_findings();
+    let problem = match problem {
+        Some(problem) if findings.is_empty() => problem,
+        _ => return Err(ProblemError::new(findings)),
+    };
+    let title = match problem.title.as_str() {
+        "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        title => title.to_owned(),
+    };
+    Ok(Problem { title, text: Some(text.to_owned()), ..problem })
+}
+
+/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it.
+fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
+    let mut seen = Vec::new();
+    for error in errors {
+        let offset = error.span().map_or(0, |span| span.start);
+        let (line, _) = report.position(offset);
+        if !seen.contains(&line) {
+            seen.push(line);
+            report.at(offset, format!("the file is no valid TOML here: {}", error.message()));
+        }
+    }
+}
+
+fn report_violations(report: &Report<'_>, document: &DeTable<'_>, problem: &Problem) {
+    for violation in violations(problem) {
+        let other = violation.other.map_or(String::new(), |key| {
+            let (line, _) = report.position(key.span(document).start);
+            format!(" (the other is on line {line})")
+        });
+        report.at(violation.key.span(document).start, violation.message + &other);
+    }
+}
+
+/// The kind of equation, which decides what other tables may say.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Elasticity,
+    Poisson,
+}
+
+/// Words of a problem file that differ with the equation.
+struct Words {
+    /// Table of the right-hand side.
+    source: &'static str,
+    /// Key of the unknown field.
+    unknown: &'static str,
+    /// Key of its Neumann data.
+    neumann: &'static str,
+    /// What an array of components has to be.
+    components: usize,
+}
+
+impl Kind {
+    fn words(self) -> Words {
+        let (source, unknown, neumann, components) = match self {
+            Self::Elasticity => ("body_force", "displacement", "traction", 2),
+            Self::Poisson => ("source", "value", "flux", 1),
+        };
+        Words { source, unknown, neumann, components }
+    }
+
+    /// Keys of the other equation, and what to write instead.
+    fn foreign(self) -> &'static [(&'static str, Remedy)] {
+        match self {
+            Self::Elasticity => &[
+                ("source", Instead(&["body_force"])),
+                ("value", Instead(&["displacement"])),
+                ("flux", Instead(&["traction"])),
+                ("conductivity", Instead(&["young", "poisson", "state"])),
+            ],
+            Self::Poisson => &[
+                ("body_force", Instead(&["source"])),
+                ("displacement", Instead(&["value"])),
+                ("traction", Instead(&["flux"])),
+                ("young", Instead(&["conductivity"])),
+                ("poisson", Instead(&["conductivity"])),
+                ("state", Instead(&[])),
+            ],
+        }
+    }
+}
+
+fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
+    let kind = kind(&root);
+    let root = &tables(root, kind);
+    let title = root.get("title").and_then(|value| value.text()).unwrap_or_default();
+    let domain = domain(root);
+    let discretization = discretization(root, base_dir);
+    let solver = solver(root);
+    let cracks = cracks(root);
+    let kind = kind?;
+    let exact = exact(root, kind);
+    let source = source(root, kind);
+    let equation = equation(root, kind);
+    let boundary = boundary(root, kind, domain, exact.as_deref());
+    let domain = domain?;
+    Some(Problem {
+        title: title.to_owned(),
+        domain,
+        equation,
+        cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),
+        boundary,
+        source,
+        exact: exact.unwrap_or_default(),
+        discretization: discretization?,
+        solver,
+        text: None,
+    })
+}
+
+/// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
+fn tables(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
+    let mut known = vec!["title", "domain", "equation", "material", "crack", "boundary"];
+    known.extend(["exact", "discretization", "solver"]);
+    let mut remedies = ["hole", "adaptivity", "growth"].map(|key| (key, Later(&[]))).to_vec();
+    match kind {
+        Some(kind) => {
+            known.push(kind.words().source);
+            remedies.extend(kind.foreign());
+        }
+        None => known.extend(["body_force", "source"]),
+    }
+    let root = root.only(&known, &remedies);
+    if !["boundary", "body_force", "source"].iter().any(|key| root.mentions(key)) {
+        root.error("nothing acts on the plate; add [[boundary]]");
+    }
+    root
+}
+
+/// A table that must be there, with the keys it may have.
+fn required<'a>(
+    root: &Section<'a>,
+    key: &'static str,
+    known: &[&'static str],
+    remedies: &[(&'static str, Remedy)],
+) -> Option<Section<'a>> {
+    if !root.mentions(key) {
+        let keys: Vec<_> = known.iter().map(|key| format!("`{key}`")).collect();
+        let keys = keys.join(", ");
+        root.error(format!("the table [{key}] is missing; add it with its keys {keys}"));
+    }
+    Some(root.section(key)?.only(known, remedies))
+}
+
+fn domain(root: &Section<'_>) -> Option<Rect> {
+    let section = required(root, "domain", &["min", "max"], &[])?;
+    let min = section.require("min", "min = [-1.0, -1.0]").and_then(|value| value.point());
+    let max = section.require("max", "max = [1.0, 1.0]").and_then(|value| value.point());
+    Some(Rect::new(min?, max?))
+}
+
+fn kind(root: &Section<'_>) -> Option<Kind> {
+    if !root.mentions("equation") {
+        return Some(Kind::Elasticity);
+    }
+    let section = root.section("equation")?.only(&["kind"], &[]);
+    let choices = [("elasticity", Kind::Elasticity), ("poisson", Kind::Poisson)];
+    section.require("kind", "kind = \"elasticity\"")?.choice(&choices)
+}
+
+fn equation(root: &Section<'_>, kind: Kind) -> Equation {
+    match kind {
+        Kind::Elasticity => Equation::Elasticity(material(root)),
+        Kind::Poisson => {
+            let read = || {
+                let section = root.section("material")?.only(&["conductivity"], kind.foreign());
+                section.get("conductivity")?.number()
+            };
+            Equation::Poisson { conductivity: read().unwrap_or(1.0) }
+        }
+    }
+}
+
+/// What is missing or wrong is reported, and replaced by a possible value.
+fn material(root: &Section<'_>) -> Material {
+    let states =
+        [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
+    let keys = ["young", "poisson", "state"];
+    let section = required(root, "material", &keys, Kind::Elasticity.foreign());
+    let value = |key, example| section.as_ref()?.require(key, example);
+    let number = |key, example| value(key, example)?.number();
+    let state = || value("state", "state = \"plane-strain\"")?.choice(&states);
+    Material {
+        young: number("young", "young = 1.0").unwrap_or(1.0),
+        poisson: number("poisson", "poisson = 0.3").unwrap_or(0.0),
+        state: state().unwrap_or(StressState::PlaneStress),
+    }
+}
+
+/// The polylines; none at all if one of them cannot be read, as the checks count them.
+fn cracks(root: &Section<'_>) -> Vec<Vec<Vec2>> {
+    let polyline = |section: Section<'_>| {
+        let section = section.only(&["points"], &[]);
+        let example = "points = [[-0.5, 0.0], [0.5, 0.0]]";
+        let list = section.require("points", example)?.list("a list of points [[x, y], …]")?;
+        all(list.iter().map(Value::point))
+    };
+    all(root.sections("crack").into_iter().map(polyline)).unwrap_or_default()
+}
+
+fn source(root: &Section<'_>, kind: Kind) -> Vec<Expression> {
+    let words = kind.words();
+    let read = || {
+        let section = root.section(words.source)?.only(&["value"], &[]);
+        let example = if kind == Kind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
+        expressions(&section.require("value", example)?, kind)
+    };
+    read().unwrap_or_else(|| vec![Expression::constant(0.0); words.components])
+}
+
+/// The exact solution: empty if there is none, `None` if it cannot be read.
+fn exact(root: &Section<'_>, kind: Kind) -> Option<Vec<Expression>> {
+    if !root.mentions("exact") {
+        return Some(Vec::new());
+    }
+    let unknown = kind.words().unknown;
+    let section = root.section("exact")?.only(&[unknown], kind.foreign());
+    let formulas = if kind == Kind::Poisson { "\"x*y\"" } else { "[\"x*y\", \"x + y\"]" };
+    expressions(&section.require(unknown, &format!("{unknown} = {formulas}"))?, kind)
+}
+
+/// One value a component: those of an array, or the value itself if there is but one.
+fn components<'a>(value: &Value<'a>, kind: Kind) -> Option<Vec<Value<'a>>> {
+    match kind {
+        Kind::Elasticity => value.pair("an array of two, one a component").map(Vec::from),
+        Kind::Poisson => Some(vec![value.clone()]),
+    }
+}
+
+fn expressions(value: &Value<'_>, kind: Kind) -> Option<Vec<Expression>> {
+    all(components(value, kind)?.iter().map(Value::expression))
+}
+
+/// Everything, or nothing if one is missing; unlike `collect` it asks all of them, so that each can
+/// report.
+fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let items: Vec<_> = items.collect();
+    items.into_iter().collect()
+}
+
+fn solver(root: &Section<'_>) -> Solver {
+    let read = || {
+        let section = root.section("solver")?.only(&["kind"], &[("tolerance", Later(&[]))]);
+        section.get("kind")?.choice(&[("auto", Solver::Auto), ("direct", Solver::Direct)])
+    };
+    read().unwrap_or_default()
+}

@@ -1,0 +1,223 @@
+//! Rules along segments: parts of the boundary, faces of cracks.
+
+use super::gauss::gauss;
+use super::polygon::line_side;
+use super::singular::edge_nodes;
+use super::split::{breaks, component, kinks};
+use super::{Quadrature, TOLERANCE, corners};
+use ppum::vec2::{Rect, Vec2};
+
+/// Distances from the line of a segment below this part of its length count as zero.
+const ON_LINE: f64 = 1e-14;
+
+/// A rule on the part of a segment in one cell on which one set of patches is active.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EdgeRule {
+    /// What the offsets are measured from: the singular point they are graded toward, else the
+    /// centre of the cell.
+    pub anchor: Vec2,
+    /// Points, relative to the anchor.
+    pub offsets: Vec<Vec2>,
+    /// Quadrature weights; they sum to the length.
+    pub weights: Vec<f64>,
+    /// The patches whose supports hold the points, ascending.
+    pub patches: Vec<u32>,
+    /// Unit normal out of the material.
+    pub normal: Vec2,
+}
+
+impl Quadrature<'_> {
+    /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
+    ///
+    /// `normal` is the segment's unit normal out of the material: on a face of a crack it points into
+    /// the crack. A segment along a cell's border belongs to the cell that `normal` points out of.
+    /// `coverers` are the patches whose open supports meet the cell; more of them do no harm.
+    #[must_use]
+    pub fn edge(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        [from, to]: [Vec2; 2],
+        normal: Vec2,
+    ) -> Vec<EdgeRule> {
+        let anchor = cell.center();
+        let tangent = (to - from).unit();
+        let foot = tangent.left() * tangent.left().dot(from - anchor);
+        let line = Line { anchor, tangent, normal, foot };
+        if line.faces(cell) {
+            return Vec::new();
+        }
+        let ends = [from, to].map(|p| tangent.dot(p - anchor));
+        let Some((lo, hi)) = line.inside(cell, ends, TOLERANCE) else { return Vec::new() };
+        let tolerance = TOLERANCE * cell.size().length();
+        let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new() };
+        run.add(lo, hi, coverers);
+        run.rules
+    }
+}
+
+/// The points anchor + foot + s · tangent.
+struct Line {
+    anchor: Vec2,
+    tangent: Vec2,
+    normal: Vec2,
+    foot: Vec2,
+}
+
+impl Line {
+    /// The part of \[ends\] inside a box, if it has a length. A line along a border is inside for a
+    /// positive `slack`, a part of the box's size.
+    fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
+        let [mut lo, mut hi] = ends;
+        for axis in 0..2 {
+            let slack = slack * component(rect.size(), axis);
+            let (min, max) = (component(rect.min, axis), component(rect.max, axis));
+            match [min, max].map(|at| self.parameter(axis, at)) {
+                [Some(a), Some(b)] => (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b))),
+                _ => {
+                    let at = component(self.anchor + self.foot, axis);
+                    if at < min - slack || at > max + slack {
+                        return None;
+                    }
+                }
+            }
+        }
+        (hi - lo > TOLERANCE * rect.size().length()).then_some((lo, hi))
+    }
+
+    /// s of the point whose coordinate along an axis is `at`; none on a line across the axis.
+    fn parameter(&self, axis: usize, at: f64) -> Option<f64> {
+        let slope = component(self.tangent, axis);
+        let way = at - component(self.anchor, axis) - component(self.foot, axis);
+        (slope != 0.0).then(|| way / slope)
+    }
+
+    /// True if the box lies wholly on the side the normal points to.
+    fn faces(&self, rect: &Rect) -> bool {
+        let slack = TOLERANCE * rect.size().length();
+        let way = |p: Vec2| self.normal.dot(p - self.anchor - self.foot);
+        corners(rect).into_iter().all(|p| way(p) >= -slack)
+    }
+
+    /// s of a point's foot on the line, and the point's distance to the line.
+    fn seen_from(&self, point: Vec2) -> (f64, f64) {
+        let way = point - self.anchor;
+        (self.tangent.dot(way), self.tangent.left().dot(way - self.foot).abs())
+    }
+}
+
+struct Run<'a> {
+    quadrature: &'a Quadrature<'a>,
+    line: Line,
+    tolerance: f64,
+    cell: &'a Rect,
+    rules: Vec<EdgeRule>,
+}
+
+impl Run<'_> {
+    /// Splits at the borders of supports.
+    fn add(&mut self, lo: f64, hi: f64, coverers: &[u32]) {
+        let partition = self.quadrature.geometry.partition;
+        let covered: Vec<(u32, (f64, f64))> = coverers
+            .iter()
+            .filter_map(|&i| {
+                Some((i, self.line.inside(&partition.support(i as usize), [lo, hi], -TOLERANCE)?))
+            })
+            .collect();
+        let borders = covered.iter().flat_map(|&(_, (a, b))| [a, b]).collect();
+        for part in breaks(lo, hi, borders, self.tolerance).windows(2) {
+            let mid = 0.5 * (part[0] + part[1]);
+            let holds = |&(_, (a, b)): &(u32, (f64, f64))| a < mid && mid < b;
+            let mut patches: Vec<u32> = covered.iter().filter(|c| holds(c)).map(|c| c.0).collect();
+            patches.sort_unstable();
+            self.add_constant_set(part[0], part[1], &patches);
+        }
+    }
+
+    /// Splits at kinks of the partition functions and at cracks.
+    fn add_constant_set(&mut self, lo: f64, hi: f64, patches: &[u32]) {
+        let mut points = Vec::new();
+        for axis in 0..2 {
+            let kinks = kinks(self.quadrature.geometry.partition, patches, axis);
+            points.extend(kinks.into_iter().filter_map(|at| self.line.parameter(axis, at)));
+        }
+        points.extend(self.crossings(lo, hi));
+        let singular = self.quadrature.geometry.singular_points(patches);
+        for part in breaks(lo, hi, points, self.tolerance).windows(2) {
+            self.add_smooth(part[0], part[1], patches, &singular);
+        }
+    }
+
+    /// Where the lines of crack segments that meet the cell cross the line.
+    fn crossings(&self, lo: f64, hi: f64) -> Vec<f64> {
+        let point = |s: f64| self.line.foot + self.line.tangent * s;
+        let crossing = |[a, b]: [Vec2; 2]| {
+            let (a, b) = (a - self.line.anchor, b - self.line.anchor);
+            let (from, to) = (line_side(a, b, point(lo)), line_side(a, b, point(hi)));
+            (from != to).then(|| lo + (hi - lo) * (from / (from - to)))
+        };
+        self.quadrature.segments_near(self.cell).filter_map(crossing).collect()
+    }
+
+    fn add_smooth(&mut self, lo: f64, hi: f64, patches: &[u32], singular: &[Vec2]) {
+        let distance = |p: Vec2| {
+            let (s, d) = self.line.seen_from(p);
+            (s - s.clamp(lo, hi)).hypot(d)
+        };
+        let near: Vec<Vec2> = singular.iter().copied().filter(|&p| distance(p) < hi - lo).collect();
+        let nearest = singular.iter().map(|&p| distance(p)).fold(f64::INFINITY, f64::min);
+        let order = self.quadrature.orders.choose(patches.len(), nearest / (hi - lo));
+        match near[..] {
+            [] => {
+                let nodes = gauss(order).on(lo, hi);
+                self.push(self.line.anchor, self.line.foot, patches, nodes);
+            }
+            [point] => self.add_graded(lo, hi, patches, point, order),
+            _ => {
+                let mid = 0.5 * (lo + hi);
+                self.add_smooth(lo, mid, patches, &near);
+                self.add_smooth(mid, hi, patches, &near);
+            }
+        }
+    }
+
+    /// Grades toward a singular point: x = d sinh u at distance d, x = ±t² on the line itself.
+    fn add_graded(&mut self, lo: f64, hi: f64, patches: &[u32], point: Vec2, order: usize) {
+        let (s, d) = self.line.seen_from(point);
+        let (lo, hi) = (lo - s, hi - s);
+        if d > ON_LINE * (hi - lo) {
+            let normal = self.line.tangent.left();
+            let foot = normal * normal.dot(self.line.foot - (point - self.line.anchor));
+            self.push(point, foot, patches, edge_nodes(lo, hi, d, order));
+            return;
+        }
+        for (from, to, sign) in [(lo.max(0.0), hi, 1.0), ((-hi).max(0.0), -lo, -1.0)] {
+            if to > from {
+                let roots = gauss(order).on(from.sqrt(), to.sqrt());
+                let nodes = roots.map(|(t, w)| (sign * t * t, 2.0 * t * w));
+                self.push(point, Vec2::ZERO, patches, nodes);
+            }
+        }
+    }
+
+    fn push(
+        &mut self,
+        anchor: Vec2,
+        foot: Vec2,
+        patches: &[u32],
+        nodes: impl Iterator<Item = (f64, f64)>,
+    ) {
+        let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
+        let at = self.rules.iter().position(same).unwrap_or_else(|| {
+            let (patches, normal) = (patches.to_vec(), self.line.normal);
+            let (offsets, weights) = (Vec::new(), Vec::new());
+            self.rules.push(EdgeRule { anchor, offsets, weights, patches, normal });
+            self.rules.len() - 1
+        });
+        let rule = &mut self.rules[at];
+        for (s, w) in nodes {
+            rule.offsets.push(foot + self.line.tangent * s);
+            rule.weights.push(w);
+        }
+    }
+}

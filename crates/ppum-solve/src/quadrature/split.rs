@@ -1,0 +1,144 @@
+//! Rectangles on which the partition functions are smooth.
+
+use ppum::dataset::Partition;
+use ppum::vec2::{Rect, Vec2};
+
+/// Borders closer than this part of a cell count as one.
+const COINCIDENT: f64 = 1e-12;
+
+/// Splits a cell into rectangles with a constant set of covering patches and no kink of their
+/// partition functions, and hands each rectangle with its patches to `visit`.
+pub(super) fn rectangles(
+    partition: &Partition,
+    cell: &Rect,
+    coverers: &[u32],
+    visit: &mut dyn FnMut(&Rect, &[u32]),
+) {
+    let size = cell.size();
+    let splitter = Splitter { partition, tolerance: COINCIDENT * size.x.min(size.y) };
+    splitter.constant_sets(cell, coverers, visit);
+}
+
+struct Splitter<'a> {
+    partition: &'a Partition,
+    tolerance: f64,
+}
+
+/// A line x = at (axis 0) or y = at (axis 1).
+struct Line {
+    axis: usize,
+    at: f64,
+    /// Part of the rectangle's extent over which it is a border of a patch.
+    share: f64,
+}
+
+impl Splitter<'_> {
+    fn constant_sets(&self, rect: &Rect, patches: &[u32], visit: &mut dyn FnMut(&Rect, &[u32])) {
+        let inside = |r: &Rect| -> Vec<u32> {
+            let meets = |&i: &u32| self.partition.support(i as usize).overlaps(r);
+            patches.iter().copied().filter(meets).collect()
+        };
+        if let Some(line) = self.main_border(rect, patches) {
+            for half in halves(rect, &line) {
+                self.constant_sets(&half, &inside(&half), visit);
+            }
+        } else {
+            let center = rect.center();
+            self.kinks(rect, &inside(&Rect::new(center, center)), visit);
+        }
+    }
+
+    /// The patch border that runs through the largest part of the rectangle: cutting along it first
+    /// leaves the fewest rectangles.
+    fn main_border(&self, rect: &Rect, patches: &[u32]) -> Option<Line> {
+        let mut lines = self.borders(rect, patches);
+        lines.sort_by(|a, b| a.axis.cmp(&b.axis).then(a.at.total_cmp(&b.at)));
+        lines.dedup_by(|next, kept| {
+            let same = next.axis == kept.axis && next.at - kept.at <= self.tolerance;
+            if same {
+                kept.share += next.share;
+            }
+            same
+        });
+        lines.into_iter().reduce(|best, line| if line.share > best.share { line } else { best })
+    }
+
+    fn borders(&self, rect: &Rect, patches: &[u32]) -> Vec<Line> {
+        let size = rect.size();
+        let mut lines = Vec::new();
+        for &patch in patches {
+            let support = self.partition.support(patch as usize);
+            let common = support.intersection(rect).size();
+            for axis in 0..2 {
+                let share = component(common, 1 - axis) / component(size, 1 - axis);
+                for at in [component(support.min, axis), component(support.max, axis)] {
+                    if self.crosses(rect, axis, at) {
+                        lines.push(Line { axis, at, share });
+                    }
+                }
+            }
+        }
+        lines
+    }
+
+    fn crosses(&self, rect: &Rect, axis: usize, at: f64) -> bool {
+        at - component(rect.min, axis) > self.tolerance
+            && component(rect.max, axis) - at > self.tolerance
+    }
+
+    fn kinks(&self, rect: &Rect, patches: &[u32], visit: &mut dyn FnMut(&Rect, &[u32])) {
+        let [xs, ys] = [0, 1].map(|axis| {
+            let kinks = kinks(self.partition, patches, axis);
+            breaks(component(rect.min, axis), component(rect.max, axis), kinks, self.tolerance)
+        });
+        for y in ys.windows(2) {
+            for x in xs.windows(2) {
+                let part = Rect::new(Vec2 { x: x[0], y: y[0] }, Vec2 { x: x[1], y: y[1] });
+                visit(&part, patches);
+            }
+        }
+    }
+}
+
+fn halves(rect: &Rect, line: &Line) -> [Rect; 2] {
+    let (mut low, mut high) = (*rect, *rect);
+    match line.axis {
+        0 => (low.max.x, high.min.x) = (line.at, line.at),
+        _ => (low.max.y, high.min.y) = (line.at, line.at),
+    }
+    [low, high]
+}
+
+/// x for axis 0, y for axis 1.
+pub(super) fn component(v: Vec2, axis: usize) -> f64 {
+    if axis == 0 { v.x } else { v.y }
+}
+
+/// Coordinates along an axis at which the partition functions of these patches have kinks inside
+/// their supports.
+///
+/// None if the patches agree in centre and half-extent along the axis (a single patch does): the
+/// factors w then cancel in W_i / Σ W_l, kinks and all.
+pub(super) fn kinks(partition: &Partition, patches: &[u32], axis: usize) -> Vec<f64> {
+    let frame = |patch: u32| {
+        let i = patch as usize;
+        (component(partition.center[i], axis), component(partition.half[i], axis))
+    };
+    let same =
+        |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= COINCIDENT * a.1;
+    if patches.windows(2).all(|pair| same(frame(pair[0]), frame(pair[1]))) {
+        return Vec::new();
+    }
+    let at = partition.weight.breakpoints();
+    let both = |(c, h)| at.iter().flat_map(move |t| [c - t * h, c + t * h]);
+    patches.iter().flat_map(|&patch| both(frame(patch))).collect()
+}
+
+/// `lo`, the sorted distinct `points` between, and `hi`.
+pub(super) fn breaks(lo: f64, hi: f64, mut points: Vec<f64>, tolerance: f64) -> Vec<f64> {
+    points.retain(|&x| x - lo > tolerance && hi - x > tolerance);
+    points.extend([lo, hi]);
+    points.sort_by(f64::total_cmp);
+    points.dedup_by(|next, kept| *next != hi && *next - *kept <= tolerance);
+    points
+}

@@ -1,0 +1,143 @@
+//! Rules on whole covers against closed forms.
+
+mod cells;
+mod edges;
+mod singular;
+
+use super::*;
+use ppum::crack::CrackEnd;
+use ppum::weight::WeightFunction;
+
+/// A small linear congruential generator (Knuth's MMIX constants).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * self.unit()
+    }
+
+    fn point(&mut self, size: f64) -> Vec2 {
+        vec2(self.between(-size, size), self.between(-size, size))
+    }
+}
+
+const DOMAIN: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+
+/// The leaves of a tree over a box that is divided where `divide` says so.
+fn leaves(rect: Rect, level: u32, divide: &mut dyn FnMut(&Rect, u32) -> bool) -> Vec<Rect> {
+    if !divide(&rect, level) {
+        return vec![rect];
+    }
+    let c = rect.center();
+    let (min, max) = (rect.min, rect.max);
+    [
+        Rect::new(min, c),
+        Rect::new(vec2(c.x, min.y), vec2(max.x, c.y)),
+        Rect::new(vec2(min.x, c.y), vec2(c.x, max.y)),
+        Rect::new(c, max),
+    ]
+    .into_iter()
+    .flat_map(|child| leaves(child, level + 1, divide))
+    .collect()
+}
+
+fn partition(cells: Vec<Rect>, weight: WeightFunction) -> Partition {
+    let center: Vec<Vec2> = cells.iter().map(Rect::center).collect();
+    let half: Vec<Vec2> = cells.iter().map(|c| c.size() * 0.65).collect();
+    Partition {
+        weight,
+        origin: center.clone(),
+        scale: half.clone(),
+        level: vec![0; cells.len()],
+        point: vec![None; cells.len()],
+        points: Vec::new(),
+        cell: cells,
+        center,
+        half,
+    }
+}
+
+fn uniform(level: u32) -> Partition {
+    partition(leaves(DOMAIN, 0, &mut |_, l| l < level), WeightFunction::Linear)
+}
+
+fn graded(random: &mut Random, weight: WeightFunction) -> Partition {
+    let cells = leaves(DOMAIN, 0, &mut |_, level| level < 2 || (level < 4 && random.unit() < 0.4));
+    partition(cells, weight)
+}
+
+/// Patches whose open supports meet the open cell.
+fn coverers(partition: &Partition, cell: &Rect) -> Vec<u32> {
+    let meets = |&i: &u32| partition.support(i as usize).overlaps(cell);
+    (0..partition.len() as u32).filter(meets).collect()
+}
+
+fn crack(points: &[Vec2]) -> Crack {
+    Crack { points: points.to_vec(), ends: [CrackEnd::Tip, CrackEnd::Tip] }
+}
+
+/// A step's geometry with one list of singular points for all patches.
+struct Case {
+    partition: Partition,
+    cracks: Vec<Crack>,
+    singular: Vec<Vec2>,
+    patch_singular: Vec<Vec<u32>>,
+}
+
+impl Case {
+    fn new(partition: Partition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
+        let all: Vec<u32> = (0..singular.len() as u32).collect();
+        let patch_singular = vec![all; partition.len()];
+        Self { partition, cracks, singular, patch_singular }
+    }
+
+    fn quadrature(&self, orders: Orders) -> Quadrature<'_> {
+        let geometry = Geometry {
+            partition: &self.partition,
+            cracks: &self.cracks,
+            singular: &self.singular,
+            patch_singular: &self.patch_singular,
+        };
+        Quadrature::new(geometry, orders)
+    }
+
+    fn rules(&self, orders: Orders) -> Vec<Rule> {
+        let quadrature = self.quadrature(orders);
+        let cell = |c: &Rect| quadrature.cell(c, &coverers(&self.partition, c));
+        self.partition.cell.iter().flat_map(cell).collect()
+    }
+}
+
+/// One patch that covers a single cell alone.
+fn alone(cell: Rect, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Case {
+    Case::new(partition(vec![cell], WeightFunction::Linear), cracks, singular)
+}
+
+/// Σ w f(anchor, offset).
+fn integrate(rules: &[Rule], f: impl Fn(Vec2, Vec2) -> f64) -> f64 {
+    let of_rule = |r: &Rule| -> f64 {
+        r.offsets.iter().zip(&r.weights).map(|(&x, w)| w * f(r.anchor, x)).sum()
+    };
+    rules.iter().map(of_rule).sum()
+}
+
+fn assert_near(value: f64, exact: f64, tolerance: f64, what: &str) {
+    assert!((value - exact).abs() <= tolerance, "{what}: {value:e} instead of {exact:e}");
+}
+
+/// φ_i of the first patch of a list.
+fn partition_function(partition: &Partition, patches: &[u32], p: Vec2) -> f64 {
+    let w = |i: &u32| {
+        let i = *i as usize;
+        let d = p - partition.center[i];
+        let spline = |x: f64| partition.weight.spline(x)[0];
+        spline(d.x / partition.half[i].x) * spline(d.y / partition.half[i].y)
+    };
+    w(&patches[0]) / patches.iter().map(w).sum::<f64>()
+}

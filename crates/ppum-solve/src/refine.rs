@@ -1,0 +1,84 @@
+//! The cover of a problem, refined by itself where crack tips need it.
+//!
+//! No patch may hold two tips, or a tip and a kink of its crack; the cells at a tip are at most a
+//! quarter of the crack length belonging to it. Enrichment does the rest: grading toward a tip
+//! gains nothing once the singular functions are there.
+
+use crate::problem::{Cells, Problem};
+use ppum::cover::{Cover, CoverError};
+use ppum::crack::{Crack, TipId, tips};
+use ppum::vec2::{Rect, Vec2};
+
+/// Refinements below the base cover after which a problem counts as unresolvable.
+const DEEPEST: usize = 16;
+
+/// The cover of a problem cannot be built.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RefineError {
+    /// The cover itself.
+    #[error(transparent)]
+    Cover(#[from] CoverError),
+    /// Refinement at the tips did not end.
+    #[error(
+        "the cover still does not resolve the crack tips after {DEEPEST} refinements; two tips, or a \
+         tip and a kink, are too close together: move them apart or start from smaller cells"
+    )]
+    Unresolved,
+}
+
+/// The cover of a problem, refined at its tips unless the problem says otherwise.
+pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
+    let mut cover = base(problem)?;
+    if !problem.discretization.refine {
+        return Ok(cover);
+    }
+    let needs: Vec<_> = tips(&problem.cracks).map(|tip| Need::new(problem, tip)).collect();
+    let alpha = problem.discretization.overlap;
+    for _ in 0..DEEPEST {
+        if cover.refine(|cell, _| needs.iter().any(|need| need.asks(&cell, alpha)))? == 0 {
+            return Ok(cover);
+        }
+    }
+    Err(RefineError::Unresolved)
+}
+
+fn base(problem: &Problem) -> Result<Cover, CoverError> {
+    match &problem.discretization.cells {
+        Cells::Level(level) => Cover::uniform(problem.domain, *level as u8),
+        Cells::Grid(cells) => Cover::grid(problem.domain, *cells),
+        Cells::Points(points) => Cover::scattered(problem.domain, [1, 1], points.clone()),
+    }
+}
+
+/// What one tip asks of the cells around it.
+struct Need {
+    tip: Vec2,
+    largest: f64,
+    /// Other tips, and the kinks of its own crack.
+    apart: Vec<Vec2>,
+}
+
+impl Need {
+    fn new(problem: &Problem, id: TipId) -> Self {
+        let crack = &problem.cracks[id.crack as usize];
+        let share = length(crack) / crack.tips().count() as f64;
+        let other_tips = tips(&problem.cracks)
+            .filter(|other| *other != id)
+            .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
+        let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
+        let apart = other_tips.chain(kinks).collect();
+        Self { tip: crack.end_point(id.end), largest: share / 4.0, apart }
+    }
+
+    fn asks(&self, cell: &Rect, alpha: f64) -> bool {
+        let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
+        patch.contains(self.tip)
+            && (cell.size().x.max(cell.size().y) > self.largest
+                || self.apart.iter().any(|&p| patch.contains(p)))
+    }
+}
+
+fn length(crack: &Crack) -> f64 {
+    crack.points.windows(2).map(|s| (s[1] - s[0]).length()).sum()
+}

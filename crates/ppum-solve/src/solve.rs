@@ -1,0 +1,221 @@
+//! From a problem to a dataset.
+
+use crate::basis::StableBasis;
+use crate::cholesky::Cholesky;
+use crate::eigen::EigenError;
+use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
+use crate::intensity::intensities;
+use crate::law::Law;
+use crate::problem::Problem;
+use crate::rigid::RigidMotions;
+use crate::space::{Space, SpaceError, discretise};
+use crate::system::{assemble, source_at};
+use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
+use ppum::field::{Field, FieldError};
+use ppum::function::FunctionError;
+use ppum::vec2::Vec2;
+use std::time::Instant;
+
+/// What the solver is doing, for progress bars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// The phase.
+    pub phase: Phase,
+    /// Parts of the phase that are done.
+    pub done: usize,
+    /// Parts of the phase.
+    pub total: usize,
+}
+
+/// A phase of the solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// Building the cover and the local spaces.
+    Cover,
+    /// The stable basis of each patch.
+    Basis,
+    /// Integrating over the cells.
+    Assembly,
+    /// Factorisation and solution.
+    Solution,
+    /// Stress intensity factors.
+    Intensity,
+}
+
+impl Phase {
+    /// Name in reports and in the dataset's history.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cover => "cover",
+            Self::Basis => "basis",
+            Self::Assembly => "assembly",
+            Self::Solution => "solution",
+            Self::Intensity => "intensity",
+        }
+    }
+}
+
+/// A problem that cannot be solved.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// Its cover or local spaces.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
+    /// Data that are not finite.
+    #[error("the data of the problem are not finite somewhere on the plate or its border ({0})")]
+    Data(#[from] EigenError),
+    /// Loads without support.
+    #[error(transparent)]
+    Unbalanced(#[from] UnbalancedError),
+    /// The factorisation.
+    #[error(transparent)]
+    Factor(#[from] crate::cholesky::CholeskyError),
+    /// A function of the space.
+    #[error(transparent)]
+    Function(#[from] FunctionError),
+    /// The field that was found.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+}
+
+/// Solves a problem: one step, one field. `report` is told what is being done.
+///
+/// The coefficients belong to the plain functions; neither the transformed basis nor what it cut
+/// off is seen in the dataset. Results do not depend on the number of threads.
+///
+/// # Errors
+/// See [`SolveError`].
+pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Dataset, SolveError> {
+    let mut clock = Clock::new();
+    report(Progress { phase: Phase::Cover, done: 0, total: 1 });
+    let mut step = discretise(problem)?;
+    clock.lap(Phase::Cover);
+    let solution = Solver { problem, step: &step }.run(&mut clock, report)?;
+    solution.store(&mut step, problem.components());
+    let mut dataset = dataset(problem, step);
+    report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
+    let intensities = stress_intensity(problem, &dataset)?;
+    clock.lap(Phase::Intensity);
+    let step = &mut dataset.steps[0];
+    step.intensities = intensities;
+    step.history.extend(clock.records);
+    Ok(dataset)
+}
+
+fn dataset(problem: &Problem, step: Step) -> Dataset {
+    Dataset {
+        title: problem.title.clone(),
+        program: concat!("ppum ", env!("CARGO_PKG_VERSION")).into(),
+        problem: problem.text.clone(),
+        domain: problem.domain,
+        equation: problem.equation,
+        steps: vec![step],
+    }
+}
+
+fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
+    let space = Space::new(&dataset.steps[0])?;
+    let force = |x: Vec2| source_at(problem, x);
+    Ok(intensities(dataset, &Field::new(dataset, 0)?, &space, Some(&force)))
+}
+
+/// Times phases.
+struct Clock {
+    last: Instant,
+    records: Vec<Record>,
+}
+
+impl Clock {
+    fn new() -> Self {
+        Self { last: Instant::now(), records: Vec::new() }
+    }
+
+    fn lap(&mut self, phase: Phase) {
+        let value = self.last.elapsed().as_secs_f64();
+        self.records.push(Record { name: phase.name().into(), value, unit: "s".into() });
+        self.last = Instant::now();
+    }
+}
+
+/// A problem and its empty step.
+struct Solver<'a> {
+    problem: &'a Problem,
+    step: &'a Step,
+}
+
+/// What the linear solver found.
+struct Solution {
+    /// Plain coefficients in the order of the system.
+    coefficients: Vec<f64>,
+    /// Functions cut off, a patch.
+    dropped: Vec<usize>,
+    /// Unknowns before the cut-off.
+    unknowns: usize,
+    /// ‖f − K u‖ / ‖f‖ in the stable basis.
+    residual: f64,
+}
+
+impl Solver<'_> {
+    fn run(
+        &self,
+        clock: &mut Clock,
+        report: &mut dyn FnMut(Progress),
+    ) -> Result<Solution, SolveError> {
+        let components = self.problem.components();
+        let space = Space::new(self.step)?;
+        let law = Law::new(&self.problem.equation);
+        let motions = RigidMotions::new(&self.problem.domain, components);
+        let total = space.partition.len();
+        report(Progress { phase: Phase::Basis, done: 0, total: 1 });
+        let basis = StableBasis::new(&space)?;
+        clock.lap(Phase::Basis);
+        let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
+        let mut system = assemble(self.problem, &space, &basis, &law, motions, &mut tell)?;
+        let free = free_motions(&system, &motions)?;
+        check_balance(&system, &free)?;
+        gauge(&mut system, &space, &basis, &motions, &free);
+        clock.lap(Phase::Assembly);
+        report(Progress { phase: Phase::Solution, done: 0, total: 1 });
+        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
+        clock.lap(Phase::Solution);
+        Ok(Solution {
+            coefficients: basis.plain(&space, &solution.unknowns, components),
+            dropped: basis.dropped().collect(),
+            unknowns: space.sizes.iter().sum::<usize>() * components,
+            residual: solution.relative_residual,
+        })
+    }
+}
+
+impl Solution {
+    /// Writes the solution into its step.
+    fn store(self, step: &mut Step, components: usize) {
+        let data = &mut step.fields[0];
+        let mut rest = self.coefficients.as_slice();
+        let mut starts =
+            data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
+        let mut first = starts.next().flatten().unwrap_or(0) as usize;
+        let all = data.coefficients[0].len();
+        for next in starts {
+            let next = next.map_or(all, |offset| offset as usize);
+            for component in &mut data.coefficients {
+                let (part, tail) = rest.split_at(next - first);
+                component[first..next].copy_from_slice(part);
+                rest = tail;
+            }
+            first = next;
+        }
+        let cut = self.dropped.iter().map(|&n| (n * components) as f64);
+        let values: Vec<_> = cut.collect();
+        let total = values.iter().sum();
+        step.attributes.push(Attribute { name: "cut-off".into(), values });
+        let record = |name: &str, value| Record { name: name.into(), value, unit: String::new() };
+        step.history = vec![
+            record("unknowns", self.unknowns as f64),
+            record("cut-off", total),
+            record("residual", self.residual),
+        ];
+    }
+}

@@ -1,0 +1,213 @@
+//! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
+//! to walk over it.
+
+use crate::enrichment::{Block, Enricher, Functions};
+use crate::problem::{OrderError, Problem};
+use crate::quadrature::{Geometry, Orders, Quadrature};
+use crate::refine::{RefineError, cover};
+use ppum::box_tree::BoxTree;
+use ppum::crack::{LocalCrack, Side, tips};
+use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
+use ppum::function::{Frame, Function, FunctionError, FunctionKind, FunctionTable};
+use ppum::vec2::Vec2;
+
+/// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
+/// over the same cells as the system.
+#[derive(Debug)]
+pub struct Space<'d> {
+    /// The partition of unity.
+    pub partition: &'d Partition,
+    /// The step.
+    pub step: &'d Step,
+    /// The field.
+    pub data: &'d FieldData,
+    /// The step's functions, compiled.
+    pub functions: FunctionTable,
+    /// Of each cell, the patches whose open supports meet it.
+    pub coverers: Vec<Vec<u32>>,
+    /// Of each patch, the number of functions of its local space.
+    pub sizes: Vec<usize>,
+    /// Of each block, the constant σ its function is replaced by f − σ with while solving.
+    ///
+    /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
+    /// larger part of the patch: the jump across a sliver is a function of its own, not a small
+    /// difference of large ones. Zero for all other functions.
+    pub shifts: Vec<f64>,
+    singular: Vec<Vec2>,
+    patch_singular: Vec<Vec<u32>>,
+}
+
+impl<'d> Space<'d> {
+    /// The walks over the first field of a step.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    ///
+    /// # Panics
+    /// If the step has no field.
+    pub fn new(step: &'d Step) -> Result<Self, FunctionError> {
+        let (partition, data) = (&step.partition, &step.fields[0]);
+        let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
+        let tree = BoxTree::new(&supports);
+        let coverers = partition.cell.iter().map(|cell| {
+            let mut found = Vec::new();
+            tree.query_box(cell, &mut found);
+            found
+        });
+        let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
+        let singular =
+            tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
+        Ok(Self {
+            partition,
+            step,
+            data,
+            functions: FunctionTable::new(&step.functions)?,
+            coverers: coverers.collect(),
+            sizes: (0..partition.len()).map(size).collect(),
+            shifts: shifts(step, data),
+            singular: singular.collect(),
+            patch_singular: (0..partition.len()).map(|i| singular_of(step, data, i)).collect(),
+        })
+    }
+
+    /// The quadrature over the cells. `extra` Gauss points in each direction come on top of the
+    /// default, for errors.
+    #[must_use]
+    pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
+        let orders = Orders::for_degree(self.degree() + extra);
+        let geometry = Geometry {
+            partition: self.partition,
+            cracks: &self.step.cracks,
+            singular: &self.singular,
+            patch_singular: &self.patch_singular,
+        };
+        Quadrature::new(geometry, orders)
+    }
+
+    /// Largest polynomial degree of a block.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.data.block_degree.iter().copied().max().unwrap_or(0) as usize
+    }
+
+    /// Number of polynomials of a patch: the functions of its first block.
+    #[must_use]
+    pub fn n_polynomials(&self, patch: usize) -> usize {
+        block_size(self.data, self.data.blocks(patch).start)
+    }
+}
+
+fn block_size(data: &FieldData, block: usize) -> usize {
+    monomials(data.block_degree[block] as usize)
+}
+
+fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
+    let shift = |patch: usize, block: usize| match &step.functions
+        [data.block_function[block] as usize]
+        .kind
+    {
+        FunctionKind::Side { crack } => {
+            let seen = LocalCrack::new(&step.cracks[*crack as usize], step.partition.center[patch]);
+            seen.side([0.0, 0.0], Side::Above)
+        }
+        _ => 0.0,
+    };
+    let patches = 0..step.partition.len();
+    patches.flat_map(|patch| data.blocks(patch).map(move |b| shift(patch, b))).collect()
+}
+
+/// The tips (in the order of [`tips`]) at which a function of the patch is singular.
+fn singular_of(step: &Step, data: &FieldData, patch: usize) -> Vec<u32> {
+    let order: Vec<_> = tips(&step.cracks).collect();
+    let tip_of = |function: &Function| match &function.kind {
+        FunctionKind::Formula { frame: Frame::Tip(tip), .. } => {
+            order.iter().position(|known| known == tip)
+        }
+        _ => None,
+    };
+    let functions = data.blocks(patch).map(|b| &step.functions[data.block_function[b] as usize]);
+    let mut found: Vec<_> = functions.filter_map(tip_of).map(|tip| tip as u32).collect();
+    found.dedup();
+    found
+}
+
+/// The space of a problem cannot be built.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpaceError {
+    /// The cover.
+    #[error(transparent)]
+    Refine(#[from] RefineError),
+    /// The order formula.
+    #[error(transparent)]
+    Order(#[from] OrderError),
+}
+
+/// The step of a problem with all coefficients zero.
+///
+/// # Errors
+/// A cover that cannot be built or refined, an order formula that gives no order.
+pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
+    let set = &problem.discretization;
+    let partition =
+        cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
+    let functions = Functions::new(&problem.cracks);
+    let enricher = Enricher::new(problem, &functions);
+    let mut blocks = Vec::with_capacity(partition.len());
+    for patch in 0..partition.len() {
+        let degree = set.order.at(partition.center[patch])? as u8;
+        blocks.push(enricher.blocks(&partition, patch, degree));
+    }
+    Ok(Step {
+        load: 1.0,
+        cracks: problem.cracks.clone(),
+        attributes: attributes(&blocks),
+        fields: vec![field(problem, &blocks)],
+        functions: functions.table,
+        partition,
+        intensities: Vec::new(),
+        history: Vec::new(),
+    })
+}
+
+/// Order of the polynomials, number of blocks with a jump and with a tip function, of each patch.
+fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
+    let attribute = |name: &str, value: &dyn Fn(&Vec<Block>) -> usize| Attribute {
+        name: name.into(),
+        values: blocks.iter().map(|b| value(b) as f64).collect(),
+    };
+    vec![
+        attribute("order", &|b| b[0].1 as usize),
+        attribute("blocks", &|b| b.len()),
+        attribute("functions", &|b| b.iter().map(|&(_, d)| monomials(d as usize)).sum()),
+    ]
+}
+
+fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
+    let n = problem.components();
+    let (name, components): (_, &[&str]) =
+        if n == 1 { ("potential", &["u"]) } else { ("displacement", &["ux", "uy"]) };
+    let mut data = FieldData {
+        name: name.into(),
+        unit: String::new(),
+        components: components.iter().map(|&c| c.to_owned()).collect(),
+        patch_blocks: vec![0],
+        block_function: Vec::new(),
+        block_degree: Vec::new(),
+        block_offset: Vec::new(),
+        coefficients: Vec::new(),
+        exact: problem.exact.iter().map(|e| e.text().to_owned()).collect(),
+    };
+    let mut offset = 0;
+    for patch in blocks {
+        for &(function, degree) in patch {
+            data.block_function.push(function);
+            data.block_degree.push(degree);
+            data.block_offset.push(offset);
+            offset += monomials(degree as usize) as u64;
+        }
+        data.patch_blocks.push(data.block_function.len() as u32);
+    }
+    data.coefficients = vec![vec![0.0; offset as usize]; n];
+    data
+}

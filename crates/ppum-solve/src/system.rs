@@ -1,0 +1,175 @@
+//! The whole system in the stable basis, summed over the cells.
+
+use crate::basis::StableBasis;
+use crate::batch::in_batches;
+use crate::block_matrix::{BlockMatrix, BlockPattern};
+use crate::border::BorderPiece;
+use crate::cell::{CellAssembler, CellSystem, Data};
+use crate::eigen::EigenError;
+use crate::law::Law;
+use crate::problem::{BoundaryCondition, Condition, Problem};
+use crate::quadrature::Quadrature;
+use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
+use crate::space::Space;
+use ppum::vec2::Vec2;
+
+/// The assembled system.
+pub(crate) struct System {
+    pub(crate) matrix: BlockMatrix,
+    /// Right-hand side, in the order of the matrix.
+    pub(crate) load: Vec<f64>,
+    /// ∫ m_k·m_l over the border where values are given.
+    pub(crate) held: [PerMotion; MOTIONS],
+    /// Work of the loads on the rigid motions.
+    pub(crate) resultant: PerMotion,
+    /// ∫ of the magnitude of the loads.
+    pub(crate) magnitude: f64,
+}
+
+/// Assembles the system of a problem on a space. `progress` is told the cells that are done.
+///
+/// # Errors
+/// Data that are not finite.
+pub(crate) fn assemble(
+    problem: &Problem,
+    space: &Space<'_>,
+    basis: &StableBasis,
+    law: &Law,
+    motions: RigidMotions,
+    progress: &mut dyn FnMut(usize),
+) -> Result<System, EigenError> {
+    let quadrature = space.quadrature(0);
+    let mut system = System::new(space, basis, law.components);
+    let source = |x: Vec2| source_at(problem, x);
+    let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
+    let source: Option<Data<'_>> = has_source.then_some(&source);
+    let given: Vec<_> = problem.boundary.iter().map(Given::new).collect();
+    let mut failed = None;
+    in_batches(
+        space.partition.len(),
+        || CellAssembler::new(space, basis, law, motions),
+        |assembler, cell| {
+            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+            let rules = quadrature.cell(rect, coverers);
+            let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
+            let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
+            assembler.assemble(cell, &rules, source, &pieces)
+        },
+        |cell, part| {
+            match part {
+                Ok(part) => system.add(&part, law.components),
+                Err(error) => failed = failed.or(Some(error)),
+            }
+            progress(cell + 1);
+        },
+    );
+    failed.map_or(Ok(system), Err)
+}
+
+/// A boundary condition with its data as a function of position.
+struct Given<'p> {
+    condition: &'p BoundaryCondition,
+    values: Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>,
+}
+
+impl<'p> Given<'p> {
+    fn new(condition: &'p BoundaryCondition) -> Self {
+        let value = move |x: Vec2| {
+            values(condition.components.iter().map(|component| match component {
+                Condition::Free => 0.0,
+                Condition::Dirichlet(g) | Condition::Neumann(g) => g.value(x),
+            }))
+        };
+        Self { condition, values: Box::new(value) }
+    }
+
+    fn piece(
+        &self,
+        problem: &Problem,
+        space: &Space<'_>,
+        quadrature: &Quadrature<'_>,
+        cell: usize,
+    ) -> BorderPiece<'_> {
+        let BoundaryCondition { edge, from, to, components } = self.condition;
+        let ends = [from, to].map(|&s| edge.point(&problem.domain, s));
+        let rect = &space.partition.cell[cell];
+        let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
+        let mut held = [false; 2];
+        held.iter_mut().zip(components).for_each(|(held, c)| *held = is_held(c));
+        BorderPiece {
+            rules: quadrature.edge(rect, &space.coverers[cell], ends, edge.normal()),
+            held,
+            values: &*self.values,
+        }
+    }
+}
+
+/// The right-hand side of a problem at a point.
+pub(crate) fn source_at(problem: &Problem, x: Vec2) -> [f64; 2] {
+    values(problem.source.iter().map(|e| e.value(x)))
+}
+
+/// Up to two values as an array, zero beyond.
+fn values(from: impl Iterator<Item = f64>) -> [f64; 2] {
+    let mut out = [0.0; 2];
+    out.iter_mut().zip(from).for_each(|(out, value)| *out = value);
+    out
+}
+
+impl System {
+    fn new(space: &Space<'_>, basis: &StableBasis, components: usize) -> Self {
+        let sizes: Vec<_> = basis.sizes.iter().map(|n| n * components).collect();
+        let matrix = BlockMatrix::new(&sizes, pattern(space));
+        Self {
+            load: vec![0.0; matrix.n_unknowns()],
+            matrix,
+            held: [[0.0; MOTIONS]; MOTIONS],
+            resultant: [0.0; MOTIONS],
+            magnitude: 0.0,
+        }
+    }
+
+    fn add(&mut self, part: &CellSystem, components: usize) {
+        let patches = &part.functions.patches;
+        for (k, &p) in patches.iter().enumerate() {
+            let p = p as usize;
+            let start = self.matrix.unknowns(p).start;
+            for (row, &from) in part.functions.unknowns(k, components).iter().enumerate() {
+                self.load[start + row] += part.load[from];
+            }
+            for (l, &q) in patches.iter().enumerate().skip(k) {
+                // both meet the cell, but not each other
+                if !self.matrix.couples(p, q as usize) {
+                    continue;
+                }
+                let block = part.block(k, l, components);
+                self.matrix.add_block(p, q as usize, block.as_ref());
+            }
+        }
+        for (row, part) in self.held.iter_mut().zip(&part.held) {
+            row.iter_mut().zip(part).for_each(|(sum, v)| *sum += v);
+        }
+        self.resultant.iter_mut().zip(part.resultant).for_each(|(sum, v)| *sum += v);
+        self.magnitude += part.magnitude;
+    }
+}
+
+/// Two patches are coupled when their open supports meet.
+fn pattern(space: &Space<'_>) -> BlockPattern {
+    let support = |p: u32| space.partition.support(p as usize);
+    let mut rows = vec![Vec::new(); space.partition.len()];
+    for patches in &space.coverers {
+        for (k, &p) in patches.iter().enumerate() {
+            let meets = |q: &&u32| support(p).overlaps(&support(**q));
+            rows[p as usize].extend(patches[k..].iter().filter(meets));
+        }
+    }
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for row in &mut rows {
+        row.sort_unstable();
+        row.dedup();
+        columns.extend_from_slice(row);
+        starts.push(columns.len());
+    }
+    BlockPattern::new(starts, columns)
+}

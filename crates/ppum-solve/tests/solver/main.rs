@@ -1,0 +1,5 @@
+//! The solver against exact solutions and independent reference values.
+
+mod physics;
+mod plates;
+mod support;

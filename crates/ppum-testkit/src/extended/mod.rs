@@ -1,0 +1,340 @@
+//! Evaluation of datasets in double-double arithmetic (some 31 digits), for comparison.
+//!
+//! Written from the definition of the field, in other terms than the evaluator of `ppum`: absolute
+//! coordinates of 106 bits, derivatives by dual numbers, φ_i one by one, powers of ξ, and sides of cracks
+//! by counting how often a ray crosses them. Slow: every patch is looked at.
+
+mod double;
+
+pub use double::Double;
+use ppum::crack::{Crack, End, TipId};
+use ppum::dataset::{Dataset, FieldData, Material, Step, StressState};
+use ppum::function::{Frame, FunctionKind, WESTERGAARD};
+use ppum::polynomial::exponents;
+use ppum::vec2::Vec2;
+use ppum::weight::WeightFunction;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A point of 2 × 106 bits.
+pub type Point = [Double; 2];
+
+/// The exact sum of an anchor and an offset.
+#[must_use]
+pub fn point(anchor: Vec2, offset: Vec2) -> Point {
+    [Double::sum(anchor.x, offset.x), Double::sum(anchor.y, offset.y)]
+}
+
+/// A value and its gradient.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual {
+    /// f
+    pub v: Double,
+    /// ∂f/∂x
+    pub x: Double,
+    /// ∂f/∂y
+    pub y: Double,
+}
+
+impl Dual {
+    /// A constant.
+    #[must_use]
+    pub fn constant(v: impl Into<Double>) -> Self {
+        Self { v: v.into(), x: 0.0.into(), y: 0.0.into() }
+    }
+
+    /// g(f) where g has value `v` and derivative `slope` at f.
+    fn chain(self, v: Double, slope: Double) -> Self {
+        Self { v, x: slope * self.x, y: slope * self.y }
+    }
+
+    /// A function of a and b with value `v` and derivatives `p` by a and `q` by b.
+    fn chain_of_two(v: Double, (a, p): (Self, Double), (b, q): (Self, Double)) -> Self {
+        Self { v, x: p * a.x + q * b.x, y: p * a.y + q * b.y }
+    }
+
+    fn sqrt(self) -> Self {
+        let v = self.v.sqrt();
+        self.chain(v, Double::from(0.5) / v)
+    }
+
+    fn powi(self, n: i32) -> Self {
+        (0..n).fold(Self::constant(1.0), |product, _| product * self)
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Self { v: self.v + b.v, x: self.x + b.x, y: self.y + b.y }
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Self { v: self.v - b.v, x: self.x - b.x, y: self.y - b.y }
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { v: -self.v, x: -self.x, y: -self.y }
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        Self::chain_of_two(self.v * b.v, (self, b.v), (b, self.v))
+    }
+}
+
+impl Mul<f64> for Dual {
+    type Output = Self;
+    fn mul(self, b: f64) -> Self {
+        Self { v: self.v * b, x: self.x * b, y: self.y * b }
+    }
+}
+
+impl Div for Dual {
+    type Output = Self;
+    fn div(self, b: Self) -> Self {
+        let v = self.v / b.v;
+        Self::chain_of_two(v, (self, Double::from(1.0) / b.v), (b, -(v / b.v)))
+    }
+}
+
+/// The first field of a step of a dataset.
+#[derive(Clone, Copy, Debug)]
+pub struct Extended<'d> {
+    step: &'d Step,
+    data: &'d FieldData,
+}
+
+impl<'d> Extended<'d> {
+    /// The first field of a step.
+    #[must_use]
+    pub fn new(dataset: &'d Dataset, step: usize) -> Self {
+        let step = &dataset.steps[step];
+        Self { step, data: &step.fields[0] }
+    }
+
+    /// The components of the field at a point of the domain that is on no crack.
+    ///
+    /// # Panics
+    /// If a patch there has a formula that is no Westergaard function.
+    #[must_use]
+    pub fn evaluate(&self, p: Point) -> Vec<Dual> {
+        let weights: Vec<_> = (0..self.step.partition.len())
+            .filter_map(|patch| Some((patch, self.weight(patch, p)?)))
+            .collect();
+        let sum = weights.iter().fold(Dual::constant(0.0), |sum, &(_, w)| sum + w);
+        let mut u = vec![Dual::constant(0.0); self.data.coefficients.len()];
+        for (patch, weight) in weights {
+            let phi = weight / sum;
+            for (component, u) in u.iter_mut().enumerate() {
+                *u = *u + phi * self.local_field(patch, component, p);
+            }
+        }
+        u
+    }
+
+    /// W_i, if the patch covers the point.
+    fn weight(&self, patch: usize, p: Point) -> Option<Dual> {
+        let partition = &self.step.partition;
+        let s = scaled(p, partition.center[patch], partition.half[patch]);
+        let covers = s.iter().all(|s| s.v >= -1.0 && s.v < 1.0);
+        covers.then(|| spline(partition.weight, s[0]) * spline(partition.weight, s[1]))
+    }
+
+    fn local_field(&self, patch: usize, component: usize, p: Point) -> Dual {
+        let partition = &self.step.partition;
+        let [xi, eta] = scaled(p, partition.origin[patch], partition.scale[patch]);
+        let mut v = Dual::constant(0.0);
+        for block in self.data.blocks(patch) {
+            let coefficients = self.data.block_coefficients(block, component);
+            let degree = self.data.block_degree[block].into();
+            let terms = exponents(degree).zip(coefficients);
+            let polynomial = terms
+                .fold(Dual::constant(0.0), |sum, ((a, b), &c)| sum + xi.powi(a) * eta.powi(b) * c);
+            v = v + self.function(self.data.block_function[block], p) * polynomial;
+        }
+        v
+    }
+
+    fn function(&self, index: u32, p: Point) -> Dual {
+        match &self.step.functions[index as usize].kind {
+            FunctionKind::One => Dual::constant(1.0),
+            FunctionKind::Side { crack } => {
+                Dual::constant(side(&self.step.cracks[*crack as usize], p))
+            }
+            FunctionKind::Formula { text, frame: Frame::Tip(tip), .. } => {
+                let k = WESTERGAARD.iter().position(|known| known == text);
+                self.westergaard(*tip, k.expect("a Westergaard function"), p)
+            }
+            other => panic!("no extended evaluation of {other:?}"),
+        }
+    }
+
+    /// Real or imaginary part of √z, z = x + iy in the tip's frame, or that times sin θ = y / |z|.
+    fn westergaard(&self, tip: TipId, k: usize, p: Point) -> Dual {
+        let crack = &self.step.cracks[tip.crack as usize];
+        let ahead = axis(crack, tip.end);
+        let [dx, dy] = minus(p, crack.end_point(tip.end));
+        let x = Dual { v: ahead[0] * dx + ahead[1] * dy, x: ahead[0], y: ahead[1] };
+        let y = Dual { v: ahead[0] * dy - ahead[1] * dx, x: -ahead[1], y: ahead[0] };
+        // Behind the tip the crack's left is the frame's left at the last vertex, its right at the first.
+        let left = if y.v >= 0.0 { 1.0 } else { -1.0 };
+        let line = if tip.end == End::Last { left } else { -left };
+        let [real, imaginary] = root(x, y);
+        let part = if k == 0 || k == 3 { real } else { imaginary } * (line * side(crack, p));
+        let sine = y / (x * x + y * y).sqrt();
+        if k < 2 { part } else { part * sine }
+    }
+}
+
+/// (p − origin) / scale
+fn scaled(p: Point, origin: Vec2, scale: Vec2) -> [Dual; 2] {
+    let [dx, dy] = minus(p, origin);
+    let one = Double::from(1.0);
+    let (ix, iy) = (one / scale.x, one / scale.y);
+    let zero = Double::from(0.0);
+    [Dual { v: dx * ix, x: ix, y: zero }, Dual { v: dy * iy, x: zero, y: iy }]
+}
+
+fn minus(p: Point, q: Vec2) -> Point {
+    [p[0] - q.x, p[1] - q.y]
+}
+
+/// w(|s|); the derivative of |s| at 0 is +1.
+fn spline(weight: WeightFunction, s: Dual) -> Dual {
+    let t = if s.v >= 0.0 { s } else { -s };
+    let one = Dual::constant(1.0);
+    let rest = one - t;
+    match weight {
+        WeightFunction::Linear => rest,
+        WeightFunction::Quadratic if t.v * 3.0 <= 1.0 => one - t * t * 3.0,
+        WeightFunction::Quadratic => rest * rest * 1.5,
+        WeightFunction::Cubic if t.v <= 0.5 => one - t * t * 6.0 + t * t * t * 6.0,
+        WeightFunction::Cubic => rest * rest * rest * 2.0,
+        other => panic!("no extended evaluation of {other:?}"),
+    }
+}
+
+/// Unit direction out of the crack at an end.
+fn axis(crack: &Crack, end: End) -> Point {
+    let n = crack.points.len();
+    let (from, to) = match end {
+        End::Start => (crack.points[1], crack.points[0]),
+        End::Last => (crack.points[n - 2], crack.points[n - 1]),
+    };
+    let [x, y] = minus(point(to, Vec2::ZERO), from);
+    let length = (x * x + y * y).sqrt();
+    [x / length, y / length]
+}
+
+/// Real and imaginary part of the principal square root of z = x + iy: Re √z = √((|z| + x)/2) and
+/// Im √z = y / (2 Re √z) in the right half-plane, √z = ±i √−z in the left one.
+fn root(x: Dual, y: Dual) -> [Dual; 2] {
+    if x.v < 0.0 {
+        let [real, imaginary] = root(-x, -y);
+        return if y.v >= 0.0 { [-imaginary, real] } else { [imaginary, -real] };
+    }
+    let real = (((x * x + y * y).sqrt() + x) * 0.5).sqrt();
+    [real, y / (real * 2.0)]
+}
+
+/// +1 left of a crack, −1 right of it. Its first and last segment, extended to infinity, part the
+/// plane in two; a ray from the point changes sides whenever it crosses.
+#[must_use]
+pub fn side(crack: &Crack, p: Point) -> f64 {
+    let ray = [Double::from(0.602_214_076), Double::from(0.798_357_313)];
+    let last = crack.points.len() - 2;
+    let crosses = |(k, s): (usize, &[Vec2])| {
+        let from = minus(point(s[0], Vec2::ZERO), s[1]).map(|c| -c);
+        let to_start = minus(p, s[0]).map(|c| -c);
+        let denominator = cross(ray, from);
+        let (along_ray, along) =
+            (cross(to_start, from) / denominator, cross(to_start, ray) / denominator);
+        along_ray > 0.0 && (along >= 0.0 || k == 0) && (along < 1.0 || k == last)
+    };
+    let crossings = crack.points.windows(2).enumerate().filter(|&s| crosses(s)).count();
+    let far = far_side(axis(crack, End::Start), axis(crack, End::Last), ray);
+    if crossings.is_multiple_of(2) { far } else { -far }
+}
+
+/// The side far out in a direction: left is what lies anticlockwise between the crack's end and start.
+fn far_side(start: Point, end: Point, direction: Point) -> f64 {
+    let (turn, to_start) = (angle(end, direction), angle(end, start));
+    if turn < to_start { 1.0 } else { -1.0 }
+}
+
+/// Angle from a to b, anticlockwise, in [0, 2π).
+fn angle(a: Point, b: Point) -> f64 {
+    let (c, s) = ((a[0] * b[0] + a[1] * b[1]).to_f64(), cross(a, b).to_f64());
+    s.atan2(c).rem_euclid(std::f64::consts::TAU)
+}
+
+fn cross(a: Point, b: Point) -> Double {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// von Mises' stress √(3/2 s:s) of a displacement.
+#[must_use]
+pub fn von_mises(material: &Material, u: &[Dual]) -> Double {
+    let (e, nu) = (Double::from(material.young), Double::from(material.poisson));
+    let one = Double::from(1.0);
+    let mu = e / ((one + nu) * 2.0);
+    let (lambda, out) = match material.state {
+        StressState::PlaneStrain => (e * nu / ((one + nu) * (one - nu * 2.0)), nu),
+        StressState::PlaneStress => (e * nu / (one - nu * nu), Double::from(0.0)),
+    };
+    let trace = u[0].x + u[1].y;
+    let xx = mu * u[0].x * 2.0 + lambda * trace;
+    let yy = mu * u[1].y * 2.0 + lambda * trace;
+    let xy = mu * (u[0].y + u[1].x);
+    let zz = out * (xx + yy);
+    let mean = (xx + yy + zz) / 3.0;
+    let (sx, sy, sz) = (xx - mean, yy - mean, zz - mean);
+    ((sx * sx + sy * sy + sz * sz + xy * xy * 2.0) * 1.5).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::CrackEnd;
+    use ppum::vec2::vec2;
+
+    /// (√z)² = z with its gradient, all round.
+    #[test]
+    fn roots() {
+        for k in 0..48 {
+            let (s, c) = (f64::from(k) / 48.0 * 6.2).sin_cos();
+            let zero = Double::from(0.0);
+            let x = Dual { v: c.into(), x: 1.0.into(), y: zero };
+            let y = Dual { v: s.into(), x: zero, y: 1.0.into() };
+            let [re, im] = root(x, y);
+            for rest in [re * re - im * im - x, re * im * 2.0 - y] {
+                for rest in [rest.v, rest.x, rest.y] {
+                    assert!(rest.to_f64().abs() < 1e-30);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sides_by_crossings() {
+        let points = [[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]].map(Vec2::from).to_vec();
+        let mut v = Crack { points, ends: [CrackEnd::Tip; 2] };
+        for (p, expected) in
+            [((0.0, 0.5), 1.0), ((0.0, -0.5), -1.0), ((-3.0, 0.0), -1.0), ((3.0, 4.0), 1.0)]
+        {
+            let p = point(vec2(p.0, p.1), Vec2::ZERO);
+            v.points.sort_by(|a, b| a.x.total_cmp(&b.x));
+            assert_eq!(side(&v, p), expected);
+            v.points.reverse();
+            assert_eq!(side(&v, p), -expected);
+        }
+    }
+}

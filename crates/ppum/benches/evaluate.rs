@@ -1,0 +1,113 @@
+//! Nanoseconds per point of the reference evaluator: one point at a time and on lanes, with the value,
+//! the gradient and the Hessian, from 16 to a million patches; point location is included, and
+//! measured alone.
+//!
+//! Points follow each other along a line of pixels ("line") or are anywhere ("anywhere").
+//! `cargo bench -p ppum --bench evaluate`
+
+use ppum::crack::{CrackEnd, Side};
+use ppum::dataset::Dataset;
+use ppum::field::{Field, LocalField};
+use ppum::jet::Jet;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::{Recipe, crack};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Points a measurement: some milliseconds.
+const POINTS: usize = 20_000;
+
+/// Measurements, of which the fastest counts.
+const REPETITIONS: usize = 5;
+
+fn main() {
+    println!("ns per point, fastest of {REPETITIONS}; order 2, two components, two tips");
+    println!("{:>8} {:>9} {:>8} {:>24} {:>24}", "", "", "", "one at a time", "lanes");
+    println!(
+        "{:>8} {:>9} {:>8} {:>8}{:>8}{:>8} {:>8}{:>8}{:>8}",
+        "patches",
+        "points",
+        "locate",
+        "value",
+        "gradient",
+        "Hessian",
+        "value",
+        "gradient",
+        "Hessian"
+    );
+    for level in [2, 4, 6, 8, 10] {
+        let dataset = plate(level);
+        let field = Field::new(&dataset, 0).expect("a field");
+        report(&field, "line", &line());
+        report(&field, "anywhere", &anywhere());
+    }
+}
+
+/// The unit square with a crack in the middle, 4^level patches, a quarter of them enriched.
+fn plate(level: u8) -> Dataset {
+    let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+    let cracks = vec![crack(&[[-0.5, 0.013], [0.5, 0.013]], [CrackEnd::Tip; 2])];
+    Recipe { domain, cells: [1, 1], level, tip_level: 0, cracks, zone: 0.4, ..Recipe::default() }
+        .dataset()
+}
+
+fn line() -> Vec<Vec2> {
+    let steps = 2000;
+    let at = |k: usize| vec2(-0.998 + 1.996 * (k % steps) as f64 / steps as f64, 0.0);
+    let row = |k: usize| vec2(0.0, -0.93 + 1.87 * (k / steps) as f64 / (POINTS / steps) as f64);
+    (0..POINTS).map(|k| at(k) + row(k)).collect()
+}
+
+fn anywhere() -> Vec<Vec2> {
+    let mut random = Random(1);
+    let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+    (0..POINTS).map(|_| random.point(&domain)).collect()
+}
+
+fn report(field: &Field<'_>, name: &str, points: &[Vec2]) {
+    let local = &mut field.at(Vec2::ZERO);
+    let mut out = vec![Jet::constant(0.0); points.len() * field.components()];
+    let mut found = Vec::new();
+    let locate = nanoseconds(|| {
+        for &p in points {
+            found.clear();
+            field.tree.query_point(p, &mut found);
+            black_box(&found);
+        }
+    });
+    let single = [
+        nanoseconds(|| one_by_one::<0>(local, points, &mut out)),
+        nanoseconds(|| one_by_one::<1>(local, points, &mut out)),
+        nanoseconds(|| one_by_one::<2>(local, points, &mut out)),
+    ];
+    let lanes = [
+        nanoseconds(|| local.evaluate_into::<0>(points, Side::Above, &mut out)),
+        nanoseconds(|| local.evaluate_into::<1>(points, Side::Above, &mut out)),
+        nanoseconds(|| local.evaluate_into::<2>(points, Side::Above, &mut out)),
+    ];
+    black_box(&out);
+    let patches = field.step.partition.len();
+    let [a, b, c] = single;
+    let [d, e, f] = lanes;
+    println!(
+        "{patches:>8} {name:>9} {locate:>8.0} {a:>8.0}{b:>8.0}{c:>8.0} {d:>8.0}{e:>8.0}{f:>8.0}"
+    );
+}
+
+fn one_by_one<const D: usize>(local: &mut LocalField<'_>, points: &[Vec2], out: &mut [Jet<f64>]) {
+    let components = local.field.components();
+    for (&p, out) in points.iter().zip(out.chunks_mut(components)) {
+        local.evaluate::<D>(p, Side::Above, out);
+    }
+}
+
+fn nanoseconds(mut work: impl FnMut()) -> f64 {
+    let once = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    let best = (0..REPETITIONS).map(once).fold(f64::INFINITY, f64::min);
+    best * 1e9 / POINTS as f64
+}

@@ -1,0 +1,509 @@
+//! What a [`Dataset`] must hold before anything may evaluate it.
+//!
+//! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
+//! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
+
+use std::collections::BTreeSet;
+
+use crate::crack::Crack;
+use crate::dataset::{
+    Dataset, Equation, FieldData, MAX_DEGREE, Material, Partition, Step, StressState, TipIntensity,
+    monomials,
+};
+use crate::function::{Frame, Function, FunctionKind};
+use crate::vec2::{Rect, Vec2};
+
+/// The first thing found wrong in a dataset.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {problem}")]
+#[non_exhaustive]
+pub struct CheckError {
+    /// Where, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
+    pub place: String,
+    /// What is wrong with it and what was expected.
+    pub problem: String,
+}
+
+type Checked = Result<(), CheckError>;
+
+impl Dataset {
+    /// Checks that the dataset can be evaluated: consistent lengths, indices in range, rising
+    /// offsets, finite numbers, positive extents, cracks without zero-length segments.
+    ///
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may.
+    /// Formula texts are not parsed here, and whether the supports cover the domain is not asked.
+    /// Linear in the size of the dataset.
+    ///
+    /// # Errors
+    ///
+    /// The first violation, with its place.
+    pub fn check(&self) -> Checked {
+        check_box("domain", &self.domain)?;
+        check_equation(&self.equation)?;
+        require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
+        for (k, step) in self.steps.iter().enumerate() {
+            check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
+        }
+        Ok(())
+    }
+}
+
+impl CheckError {
+    /// The same error seen from the object that holds its place.
+    fn inside(self, outer: &str) -> Self {
+        Self { place: format!("{outer}.{}", self.place), ..self }
+    }
+}
+
+fn fail(place: &str, problem: String) -> Checked {
+    Err(CheckError { place: place.to_owned(), problem })
+}
+
+fn require(condition: bool, place: &str, problem: impl FnOnce() -> String) -> Checked {
+    if condition { Ok(()) } else { fail(place, problem()) }
+}
+
+/// Checks every entry of an array; the place names the first that fails.
+fn check_all<T>(
+    name: &str,
+    values: &[T],
+    good: impl Fn(&T) -> bool,
+    problem: impl Fn(&T) -> String,
+) -> Checked {
+    match values.iter().position(|v| !good(v)) {
+        None => Ok(()),
+        Some(k) => fail(&format!("{name}[{k}]"), problem(&values[k])),
+    }
+}
+
+fn check_number(place: &str, value: f64) -> Checked {
+    require(value.is_finite(), place, || format!("{value} is not a finite number"))
+}
+
+fn check_numbers(name: &str, values: &[f64]) -> Checked {
+    check_all(name, values, |v| v.is_finite(), |v| format!("{v} is not a finite number"))
+}
+
+fn check_points(name: &str, points: &[Vec2]) -> Checked {
+    check_all(
+        name,
+        points,
+        |p| p.is_finite(),
+        |p| format!("({}, {}) is not a finite point", p.x, p.y),
+    )
+}
+
+fn check_extents(name: &str, extents: &[Vec2]) -> Checked {
+    check_all(
+        name,
+        extents,
+        |e| e.is_finite() && e.x > 0.0 && e.y > 0.0,
+        |e| format!("({}, {}) must be finite and positive", e.x, e.y),
+    )
+}
+
+fn is_box(b: &Rect) -> bool {
+    let size = b.size();
+    b.min.is_finite() && b.max.is_finite() && size.is_finite() && size.x > 0.0 && size.y > 0.0
+}
+
+fn check_box(place: &str, b: &Rect) -> Checked {
+    require(is_box(b), place, || {
+        format!("({}, {}) to ({}, {}) is not a box", b.min.x, b.min.y, b.max.x, b.max.y)
+    })
+}
+
+fn check_length(place: &str, length: usize, expected: usize, of: &str) -> Checked {
+    require(length == expected, place, || {
+        format!("has {length} entries, expected {expected} ({of})")
+    })
+}
+
+fn check_index(place: &str, index: usize, count: usize, of: &str) -> Checked {
+    require(index < count, place, || format!("index {index}, but there are {count} {of}"))
+}
+
+fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Checked {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        require(!name.trim().is_empty(), place, || "a name is empty".into())?;
+        require(seen.insert(name), place, || format!("the name `{name}` occurs twice"))?;
+    }
+    Ok(())
+}
+
+fn check_equation(equation: &Equation) -> Checked {
+    match *equation {
+        Equation::Elasticity(material) => check_material(&material),
+        Equation::Poisson { conductivity } => {
+            require(conductivity.is_finite() && conductivity > 0.0, "equation.conductivity", || {
+                format!("{conductivity} must be finite and positive")
+            })
+        }
+    }
+}
+
+fn check_material(material: &Material) -> Checked {
+    let (young, nu) = (material.young, material.poisson);
+    require(young.is_finite() && young > 0.0, "equation.young", || {
+        format!("{young} must be finite and positive")
+    })?;
+    let (possible, range) = match material.state {
+        StressState::PlaneStrain => (nu > -1.0 && nu < 0.5, "-1 < ν < 1/2 in plane strain"),
+        StressState::PlaneStress => (nu > -1.0 && nu <= 0.5, "-1 < ν ≤ 1/2 in plane stress"),
+    };
+    require(possible, "equation.poisson", || format!("{nu} is outside {range}"))
+}
+
+fn check_step(step: &Step, equation: &Equation) -> Checked {
+    check_number("load", step.load)?;
+    check_partition(&step.partition).map_err(|e| e.inside("partition"))?;
+    for (k, crack) in step.cracks.iter().enumerate() {
+        check_crack(&format!("cracks[{k}]"), crack)?;
+    }
+    for (k, function) in step.functions.iter().enumerate() {
+        check_function(function, step.cracks.len())
+            .map_err(|e| e.inside(&format!("functions[{k}]")))?;
+    }
+    check_names("fields", step.fields.iter().map(|f| &f.name))?;
+    for (k, field) in step.fields.iter().enumerate() {
+        check_field(field, step, equation).map_err(|e| e.inside(&format!("fields[{k}]")))?;
+    }
+    check_names("attributes", step.attributes.iter().map(|a| &a.name))?;
+    for attribute in &step.attributes {
+        let place = format!("attributes `{}`", attribute.name);
+        check_length(&place, attribute.values.len(), step.partition.len(), "one a patch")?;
+    }
+    for (k, intensity) in step.intensities.iter().enumerate() {
+        check_intensity(intensity, step.cracks.len())
+            .map_err(|e| e.inside(&format!("intensities[{k}]")))?;
+    }
+    Ok(())
+}
+
+fn check_partition(partition: &Partition) -> Checked {
+    let n = partition.len();
+    require(n > 0, "center", || "there is no patch".into())?;
+    require(u32::try_from(n).is_ok(), "center", || format!("{n} patches are too many"))?;
+    for (name, length) in [
+        ("half", partition.half.len()),
+        ("origin", partition.origin.len()),
+        ("scale", partition.scale.len()),
+        ("cell", partition.cell.len()),
+        ("level", partition.level.len()),
+        ("point", partition.point.len()),
+    ] {
+        check_length(name, length, n, "one a patch")?;
+    }
+    check_points("center", &partition.center)?;
+    check_extents("half", &partition.half)?;
+    check_points("origin", &partition.origin)?;
+    check_extents("scale", &partition.scale)?;
+    check_points("points", &partition.points)?;
+    check_all("cell", &partition.cell, is_box, |c| {
+        format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
+    })?;
+    let points = partition.points.len();
+    check_all(
+        "point",
+        &partition.point,
+        |p| p.is_none_or(|p| (p as usize) < points),
+        |p| format!("index {}, but there are {points} points", p.unwrap_or_default()),
+    )
+}
+
+fn check_crack(place: &str, crack: &Crack) -> Checked {
+    check_points(&format!("{place}.points"), &crack.points)?;
+    require(crack.points.len() >= 2, place, || {
+        format!("has {} points, a crack needs two or more", crack.points.len())
+    })?;
+    let segments: Vec<Vec2> = crack.points.windows(2).map(|p| p[1] - p[0]).collect();
+    check_all(
+        &format!("{place}.segment"),
+        &segments,
+        |s| s.length() > 0.0 && s.unit().is_finite(),
+        |_| "its two points are equal; leave one out".into(),
+    )
+}
+
+fn check_function(function: &Function, cracks: usize) -> Checked {
+    match &function.kind {
+        FunctionKind::One => Ok(()),
+        FunctionKind::Side { crack } => check_index("crack", *crack as usize, cracks, "cracks"),
+        FunctionKind::Formula { text, frame, parameters } => {
+            require(!text.trim().is_empty(), "formula", || "the formula is empty".into())?;
+            check_names("parameters", parameters.iter().map(|(name, _)| name))?;
+            for (name, value) in parameters {
+                check_number(&format!("parameters `{name}`"), *value)?;
+            }
+            check_frame(frame, cracks)
+        }
+    }
+}
+
+fn check_frame(frame: &Frame, cracks: usize) -> Checked {
+    match *frame {
+        Frame::World => Ok(()),
+        Frame::Fixed { origin, angle } => {
+            check_points("frame.origin", &[origin])?;
+            check_number("frame.angle", angle)
+        }
+        Frame::Tip(tip) => check_index("frame.crack", tip.crack as usize, cracks, "cracks"),
+    }
+}
+
+fn check_field(field: &FieldData, step: &Step, equation: &Equation) -> Checked {
+    let components = field.components.len();
+    require(components > 0, "components", || "a field needs at least one".into())?;
+    check_names("components", field.components.iter())?;
+    if field.name == "displacement" || field.name == "potential" {
+        check_length("components", components, equation.components(), "those of the equation")?;
+    }
+    if !field.exact.is_empty() {
+        check_length("exact", field.exact.len(), components, "one a component, or none")?;
+    }
+    check_rows(field, step.partition.len())?;
+    check_coefficients(field)?;
+    check_blocks(field, step.functions.len())
+}
+
+/// Compressed rows: start at zero, never fall, end at the number of blocks.
+fn check_rows(field: &FieldData, patches: usize) -> Checked {
+    let rows = &field.patch_blocks;
+    check_length("patch_blocks", rows.len(), patches + 1, "one more than patches")?;
+    require(rows[0] == 0, "patch_blocks[0]", || format!("is {}, expected 0", rows[0]))?;
+    if let Some(k) = rows.windows(2).position(|w| w[0] > w[1]) {
+        return fail(
+            &format!("patch_blocks[{}]", k + 1),
+            format!("{} falls below {}; offsets must not fall", rows[k + 1], rows[k]),
+        );
+    }
+    let blocks = field.block_function.len();
+    require(rows[patches] as usize == blocks, &format!("patch_blocks[{patches}]"), || {
+        format!("is {}, but there are {blocks} blocks", rows[patches])
+    })?;
+    check_length("block_degree", field.block_degree.len(), blocks, "one a block")?;
+    check_length("block_offset", field.block_offset.len(), blocks, "one a block")
+}
+
+fn check_coefficients(field: &FieldData) -> Checked {
+    check_length("coefficients", field.coefficients.len(), field.components.len(), "components")?;
+    let count = field.coefficients[0].len();
+    for (k, values) in field.coefficients.iter().enumerate() {
+        let place = format!("coefficients[{k}]");
+        check_length(&place, values.len(), count, "as in component 0")?;
+        check_numbers(&place, values)?;
+    }
+    Ok(())
+}
+
+fn check_blocks(field: &FieldData, functions: usize) -> Checked {
+    let count = field.coefficients[0].len() as u64;
+    check_all(
+        "block_function",
+        &field.block_function,
+        |&f| (f as usize) < functions,
+        |f| format!("index {f}, but there are {functions} functions"),
+    )?;
+    check_all(
+        "block_degree",
+        &field.block_degree,
+        |&d| d as usize <= MAX_DEGREE,
+        |d| format!("degree {d} is above {MAX_DEGREE}"),
+    )?;
+    for (b, (&offset, &degree)) in field.block_offset.iter().zip(&field.block_degree).enumerate() {
+        let needed = monomials(degree as usize) as u64;
+        let fits = offset.checked_add(needed).is_some_and(|end| end <= count);
+        require(fits, &format!("block_offset[{b}]"), || {
+            format!("coefficients {offset} + {needed} reach beyond the {count} stored")
+        })?;
+    }
+    Ok(())
+}
+
+fn check_intensity(intensity: &TipIntensity, cracks: usize) -> Checked {
+    check_index("crack", intensity.tip.crack as usize, cracks, "cracks")?;
+    check_number("k1", intensity.k1)?;
+    check_number("k2", intensity.k2)?;
+    check_all(
+        "rings",
+        &intensity.rings,
+        |r| [r.r1, r.r2, r.k1, r.k2].iter().all(|v| v.is_finite()) && 0.0 <= r.r1 && r.r1 < r.r2,
+        |r| format!("r1 = {}, r2 = {}: expected finite values and 0 ≤ r1 < r2", r.r1, r.r2),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::crack::{CrackEnd, End, TipId};
+    use crate::dataset::{Attribute, Ring};
+    use crate::vec2::vec2;
+    use crate::weight::WeightFunction;
+
+    fn partition() -> Partition {
+        let (center, half) = (vec2(0.5, 0.5), vec2(0.65, 0.65));
+        Partition {
+            weight: WeightFunction::Linear,
+            center: vec![center],
+            half: vec![half],
+            origin: vec![center],
+            scale: vec![half],
+            cell: vec![Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0))],
+            level: vec![0],
+            point: vec![Some(0)],
+            points: vec![vec2(0.3, 0.4)],
+        }
+    }
+
+    fn field() -> FieldData {
+        FieldData {
+            name: "displacement".into(),
+            unit: String::new(),
+            components: vec!["ux".into(), "uy".into()],
+            patch_blocks: vec![0, 2],
+            block_function: vec![0, 1],
+            block_degree: vec![1, 0],
+            block_offset: vec![0, 3],
+            coefficients: vec![vec![0.0; 4], vec![1.0; 4]],
+            exact: vec![],
+        }
+    }
+
+    fn dataset() -> Dataset {
+        let tip = TipId { crack: 0, end: End::Last };
+        let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
+        let step = Step {
+            load: 1.0,
+            partition: partition(),
+            cracks: vec![Crack {
+                points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
+                ends: [CrackEnd::Mouth, CrackEnd::Tip],
+            }],
+            functions: vec![
+                Function { name: "one".into(), kind: FunctionKind::One },
+                Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } },
+            ],
+            fields: vec![field()],
+            attributes: vec![Attribute { name: "order".into(), values: vec![f64::NAN] }],
+            intensities: vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }],
+            history: vec![],
+        };
+        Dataset {
+            title: "one patch".into(),
+            program: "test".into(),
+            problem: None,
+            domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)),
+            equation: Equation::Elasticity(Material {
+                young: 1.0,
+                poisson: 0.3,
+                state: StressState::PlaneStrain,
+            }),
+            steps: vec![step],
+        }
+    }
+
+    /// The place of the error after one change of a good dataset.
+    fn place_after(change: impl FnOnce(&mut Dataset)) -> String {
+        let mut data = dataset();
+        change(&mut data);
+        data.check().expect_err("the change must be found").place
+    }
+
+    #[test]
+    fn a_good_dataset_passes() {
+        assert_eq!(dataset().check(), Ok(()));
+    }
+
+    #[test]
+    fn domain_material_and_steps() {
+        assert_eq!(place_after(|d| d.domain.max.x = 0.0), "domain");
+        assert_eq!(place_after(|d| d.domain.max.x = f64::INFINITY), "domain");
+        assert_eq!(place_after(|d| d.equation = Equation::Poisson { conductivity: 0.0 }), {
+            "equation.conductivity"
+        });
+        let material = |young, poisson| {
+            Equation::Elasticity(Material { young, poisson, state: StressState::PlaneStrain })
+        };
+        assert_eq!(place_after(|d| d.equation = material(-1.0, 0.3)), "equation.young");
+        assert_eq!(place_after(|d| d.equation = material(1.0, 0.5)), "equation.poisson");
+        assert_eq!(place_after(|d| d.equation = material(1.0, f64::NAN)), "equation.poisson");
+        assert_eq!(place_after(|d| d.steps.clear()), "steps");
+        assert_eq!(place_after(|d| d.steps[0].load = f64::NAN), "steps[0].load");
+    }
+
+    #[test]
+    fn partition_entries() {
+        let place = |change: fn(&mut Partition)| {
+            let full = place_after(|d| change(&mut d.steps[0].partition));
+            full.strip_prefix("steps[0].partition.").expect("inside the partition").to_owned()
+        };
+        assert_eq!(place(|p| p.half.clear()), "half");
+        assert_eq!(place(|p| p.half[0].y = 0.0), "half[0]");
+        assert_eq!(place(|p| p.scale[0].x = -1.0), "scale[0]");
+        assert_eq!(place(|p| p.origin[0].x = f64::NAN), "origin[0]");
+        assert_eq!(place(|p| p.cell[0].max.x = -1.0), "cell[0]");
+        assert_eq!(place(|p| p.point[0] = Some(1)), "point[0]");
+        assert_eq!(place(|p| p.points[0].y = f64::INFINITY), "points[0]");
+        assert_eq!(place(|p| p.level.push(1)), "level");
+    }
+
+    #[test]
+    fn cracks_and_functions() {
+        let doubled = vec2(0.5, 0.5);
+        assert_eq!(
+            place_after(|d| d.steps[0].cracks[0].points.push(doubled)),
+            "steps[0].cracks[0].segment[1]"
+        );
+        assert_eq!(place_after(|d| d.steps[0].cracks[0].points.truncate(1)), "steps[0].cracks[0]");
+        assert_eq!(
+            place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Side { crack: 1 }),
+            "steps[0].functions[1].crack"
+        );
+        let tip_formula = FunctionKind::Formula {
+            text: "sqrt(r)".into(),
+            frame: Frame::Tip(TipId { crack: 7, end: End::Start }),
+            parameters: vec![],
+        };
+        assert_eq!(
+            place_after(|d| d.steps[0].functions[1].kind = tip_formula),
+            "steps[0].functions[1].frame.crack"
+        );
+    }
+
+    #[test]
+    fn field_arrays() {
+        let place = |change: fn(&mut FieldData)| {
+            let full = place_after(|d| change(&mut d.steps[0].fields[0]));
+            full.strip_prefix("steps[0].fields[0].").expect("inside the field").to_owned()
+        };
+        assert_eq!(place(|f| f.components.truncate(1)), "components");
+        assert_eq!(place(|f| f.components[1] = "ux".into()), "components");
+        assert_eq!(place(|f| f.patch_blocks[0] = 1), "patch_blocks[0]");
+        assert_eq!(place(|f| f.patch_blocks[1] = 1), "patch_blocks[1]");
+        assert_eq!(place(|f| f.patch_blocks.push(2)), "patch_blocks");
+        assert_eq!(place(|f| f.block_function[1] = 2), "block_function[1]");
+        assert_eq!(place(|f| f.block_degree[0] = 9), "block_degree[0]");
+        assert_eq!(place(|f| f.block_offset[1] = 4), "block_offset[1]");
+        assert_eq!(place(|f| f.block_offset[1] = u64::MAX), "block_offset[1]");
+        assert_eq!(place(|f| f.coefficients[1][2] = f64::NAN), "coefficients[1][2]");
+        assert_eq!(place(|f| f.coefficients[1].truncate(3)), "coefficients[1]");
+        assert_eq!(place(|f| f.exact.push("x".into())), "exact");
+    }
+
+    #[test]
+    fn results() {
+        assert_eq!(
+            place_after(|d| d.steps[0].attributes[0].values.clear()),
+            "steps[0].attributes `order`"
+        );
+        assert_eq!(
+            place_after(|d| d.steps[0].intensities[0].rings[0].r1 = 0.1),
+            "steps[0].intensities[0].rings[0]"
+        );
+        assert_eq!(
+            place_after(|d| d.steps[0].intensities[0].tip.crack = 1),
+            "steps[0].intensities[0].crack"
+        );
+    }
+}

@@ -1,0 +1,88 @@
+//! The names every formula knows: functions, constants, words of the language.
+
+use super::operation::{Binary, Unary};
+
+/// A function as a formula calls it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    /// One operation of one number.
+    Unary(Unary),
+    /// One operation of two numbers.
+    Binary(Binary),
+    /// `if(c, a, b)`.
+    If,
+    /// `clamp(x, low, high)` = min(max(x, low), high).
+    Clamp,
+    /// `table(name, x)`.
+    Table,
+}
+
+impl Function {
+    /// The function of a name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+    }
+
+    /// Number of arguments.
+    pub(super) fn arity(self) -> usize {
+        match self {
+            Self::Unary(_) => 1,
+            Self::Binary(_) | Self::Table => 2,
+            Self::If | Self::Clamp => 3,
+        }
+    }
+}
+
+/// All functions.
+pub(super) const FUNCTIONS: [(&str, Function); 24] = [
+    ("sqrt", Function::Unary(Unary::Sqrt)),
+    ("cbrt", Function::Unary(Unary::Cbrt)),
+    ("exp", Function::Unary(Unary::Exp)),
+    ("log", Function::Unary(Unary::Log)),
+    ("log10", Function::Unary(Unary::Log10)),
+    ("sin", Function::Unary(Unary::Sin)),
+    ("cos", Function::Unary(Unary::Cos)),
+    ("tan", Function::Unary(Unary::Tan)),
+    ("asin", Function::Unary(Unary::Asin)),
+    ("acos", Function::Unary(Unary::Acos)),
+    ("atan", Function::Unary(Unary::Atan)),
+    ("sinh", Function::Unary(Unary::Sinh)),
+    ("cosh", Function::Unary(Unary::Cosh)),
+    ("tanh", Function::Unary(Unary::Tanh)),
+    ("abs", Function::Unary(Unary::Abs)),
+    ("sign", Function::Unary(Unary::Sign)),
+    ("floor", Function::Unary(Unary::Floor)),
+    ("atan2", Function::Binary(Binary::Atan2)),
+    ("min", Function::Binary(Binary::Min)),
+    ("max", Function::Binary(Binary::Max)),
+    ("hypot", Function::Binary(Binary::Hypot)),
+    ("if", Function::If),
+    ("clamp", Function::Clamp),
+    ("table", Function::Table),
+];
+
+/// All constants.
+pub(super) const CONSTANTS: [(&str, f64); 2] =
+    [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+
+/// Words of the language that are neither functions nor constants.
+pub(super) const KEYWORDS: [&str; 4] = ["let", "and", "or", "not"];
+
+/// The constant of a name.
+pub(super) fn constant(name: &str) -> Option<f64> {
+    CONSTANTS.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
+}
+
+/// Name of an operation that formulas write as a function.
+pub(super) fn name_of(function: Function) -> &'static str {
+    FUNCTIONS
+        .iter()
+        .find(|(_, known)| *known == function)
+        .map(|&(name, _)| name)
+        .expect("operators are written with their own signs")
+}
+
+/// True if the language itself uses the name.
+pub(super) fn is_reserved(name: &str) -> bool {
+    KEYWORDS.contains(&name) || constant(name).is_some() || Function::named(name).is_some()
+}

@@ -1,0 +1,135 @@
+//! Syntax tree → expression graph: types are checked, functions become operations.
+
+use super::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
+use super::error::{FormulaError, Problem};
+use super::graph::{Graph, NodeId};
+use super::library::Function;
+use super::operation::{Binary, Comparison};
+use super::parser::parse;
+use super::scope::Scope;
+
+/// Parses a formula and makes sure that it is a number.
+pub(super) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
+    let ast = parse(source, scope)?;
+    match lower(&ast, &mut Graph::default()) {
+        Ok(_) => Ok(ast),
+        Err(mistake) => Err(mistake.locate(source, &ast)),
+    }
+}
+
+/// A node of the wrong type.
+#[derive(Debug)]
+pub(super) struct Mistake {
+    expr: ExprId,
+    problem: Problem,
+}
+
+impl Mistake {
+    /// The mistake as an error in the text.
+    pub(super) fn locate(self, source: &str, ast: &Ast) -> FormulaError {
+        FormulaError::new(source, ast.nodes[self.expr.index()].span, self.problem)
+    }
+}
+
+/// Adds a formula to a graph; gives the node of its value.
+pub(super) fn lower(ast: &Ast, graph: &mut Graph) -> Result<NodeId, Mistake> {
+    let mut lowering = Lowering { graph, nodes: Vec::with_capacity(ast.nodes.len()) };
+    for expr in &ast.nodes {
+        let node = lowering.expr(expr)?;
+        lowering.nodes.push(node);
+    }
+    lowering.number(ast.root)
+}
+
+struct Lowering<'a> {
+    graph: &'a mut Graph,
+    /// The graph's node of each node of the tree so far.
+    nodes: Vec<NodeId>,
+}
+
+impl Lowering<'_> {
+    fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
+        match &expr.kind {
+            ExprKind::Number(value) => Ok(self.graph.constant(*value)),
+            ExprKind::Input(index) => Ok(self.graph.input(*index)),
+            ExprKind::Prefix(prefix, a) => self.prefix(*prefix, *a),
+            ExprKind::Infix(infix, a, b) => self.infix(*infix, *a, *b),
+            ExprKind::Call(function, arguments) => self.call(*function, arguments),
+        }
+    }
+
+    fn number(&self, expr: ExprId) -> Result<NodeId, Mistake> {
+        self.typed(expr, false, Problem::ConditionForNumber)
+    }
+
+    fn condition(&self, expr: ExprId) -> Result<NodeId, Mistake> {
+        self.typed(expr, true, Problem::NumberForCondition)
+    }
+
+    fn typed(&self, expr: ExprId, condition: bool, problem: Problem) -> Result<NodeId, Mistake> {
+        let node = self.nodes[expr.index()];
+        if self.graph.op(node).is_condition() == condition {
+            Ok(node)
+        } else {
+            Err(Mistake { expr, problem })
+        }
+    }
+
+    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, Mistake> {
+        match prefix {
+            Prefix::Plus => self.number(a),
+            Prefix::Minus => self.number(a).map(|a| self.graph.neg(a)),
+            Prefix::Not => self.condition(a).map(|a| self.graph.not(a)),
+        }
+    }
+
+    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, Mistake> {
+        if let Infix::And | Infix::Or = infix {
+            let (a, b) = (self.condition(a)?, self.condition(b)?);
+            let joined =
+                if infix == Infix::And { self.graph.and(a, b) } else { self.graph.or(a, b) };
+            return Ok(joined);
+        }
+        let (a, b) = (self.number(a)?, self.number(b)?);
+        let g = &mut *self.graph;
+        Ok(match infix {
+            Infix::And | Infix::Or | Infix::Less => g.compare(Comparison::Less, a, b),
+            Infix::LessEqual => g.compare(Comparison::LessEqual, a, b),
+            Infix::Greater => g.compare(Comparison::Less, b, a),
+            Infix::GreaterEqual => g.compare(Comparison::LessEqual, b, a),
+            Infix::Equal => g.compare(Comparison::Equal, a, b),
+            Infix::NotEqual => {
+                let equal = g.compare(Comparison::Equal, a, b);
+                g.not(equal)
+            }
+            Infix::Add => g.binary(Binary::Add, a, b),
+            Infix::Sub => g.binary(Binary::Sub, a, b),
+            Infix::Mul => g.binary(Binary::Mul, a, b),
+            Infix::Div => g.binary(Binary::Div, a, b),
+            Infix::Pow => g.binary(Binary::Pow, a, b),
+        })
+    }
+
+    fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, Mistake> {
+        match (function, arguments) {
+            (Function::Unary(op), &[a]) => {
+                let a = self.number(a)?;
+                Ok(self.graph.unary(op, a))
+            }
+            (Function::Binary(op), &[a, b]) => {
+                let (a, b) = (self.number(a)?, self.number(b)?);
+                Ok(self.graph.binary(op, a, b))
+            }
+            (Function::If, &[c, a, b]) => {
+                let (c, a, b) = (self.condition(c)?, self.number(a)?, self.number(b)?);
+                Ok(self.graph.select(c, a, b))
+            }
+            (Function::Clamp, &[x, low, high]) => {
+                let (x, low, high) = (self.number(x)?, self.number(low)?, self.number(high)?);
+                let raised = self.graph.binary(Binary::Max, x, low);
+                Ok(self.graph.binary(Binary::Min, raised, high))
+            }
+            _ => unreachable!("the parser counts arguments and refuses tables"),
+        }
+    }
+}

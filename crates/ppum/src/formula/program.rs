@@ -1,0 +1,64 @@
+//! Straight-line programs: what a graph's roots need, in order of execution.
+
+use super::graph::{Graph, NodeId, Op};
+
+/// A list of operations, each the operand of later ones only, and the operations whose results
+/// are wanted. It is the common form from which every back end starts; here is the scalar one.
+#[derive(Clone, Debug)]
+pub(super) struct Program {
+    ops: Vec<Op>,
+    outputs: Vec<NodeId>,
+}
+
+impl Program {
+    /// The program for some nodes of a graph.
+    pub(super) fn new(graph: &Graph, outputs: &[NodeId]) -> Self {
+        let (ops, outputs) = graph.extract(outputs);
+        Self { ops, outputs }
+    }
+
+    /// The operations.
+    pub(super) fn ops(&self) -> &[Op] {
+        &self.ops
+    }
+
+    /// The operations that give the results, in order.
+    pub(super) fn outputs(&self) -> &[NodeId] {
+        &self.outputs
+    }
+
+    /// Computes all operations in double precision; `values` holds their results afterwards,
+    /// conditions as 1 and 0.
+    pub(super) fn run(&self, inputs: &[f64], values: &mut Vec<f64>) {
+        values.clear();
+        values.reserve(self.ops.len());
+        for &op in &self.ops {
+            let value = execute(op, inputs, values);
+            values.push(value);
+        }
+    }
+}
+
+/// The result of one operation; `values` are those of the earlier ones.
+#[inline]
+fn execute(op: Op, inputs: &[f64], values: &[f64]) -> f64 {
+    let at = |id: NodeId| values[id.index()];
+    let holds = |id: NodeId| values[id.index()] > 0.0;
+    match op {
+        Op::Constant(bits) => f64::from_bits(bits),
+        Op::Input(index) => inputs[index as usize],
+        Op::Unary(op, a) => op.apply(at(a)),
+        Op::Power(a, n) => super::operation::power(at(a), n),
+        Op::Binary(op, a, b) => op.apply(at(a), at(b)),
+        Op::Select(c, a, b) => at(if holds(c) { a } else { b }),
+        Op::Truth(known) => truth(known),
+        Op::Compare(op, a, b) => truth(op.holds(at(a), at(b))),
+        Op::Not(c) => truth(!holds(c)),
+        Op::And(a, b) => truth(holds(a) && holds(b)),
+        Op::Or(a, b) => truth(holds(a) || holds(b)),
+    }
+}
+
+fn truth(holds: bool) -> f64 {
+    f64::from(u8::from(holds))
+}

@@ -1,0 +1,36 @@
+//! Tests of the whole path, from text to derivatives.
+
+mod derivatives;
+mod errors;
+mod hostile;
+mod language;
+mod random;
+mod westergaard;
+
+use super::{Formula, Scope};
+
+/// The value of a formula of x and y.
+fn value(text: &str, x: f64, y: f64) -> f64 {
+    parse(text).evaluate(&[x, y])
+}
+
+/// A formula of x and y.
+fn parse(text: &str) -> Formula {
+    Formula::parse(text, &Scope::cartesian()).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// The inputs of the polar scope at a point.
+fn polar(x: f64, y: f64) -> [f64; 4] {
+    [x, y, x.hypot(y), y.atan2(x)]
+}
+
+/// Asserts |a − b| ≤ tolerance · scale.
+#[track_caller]
+fn assert_near(a: f64, b: f64, tolerance: f64, scale: f64, what: &str) {
+    assert!((a - b).abs() <= tolerance * scale, "{what}: {a:e} is not {b:e}");
+}
+
+/// Same bits, or both NaN.
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}

@@ -1,0 +1,13 @@
+//! What must be true of every field, on synthetic datasets.
+
+mod anchors;
+mod borders;
+mod deep_zoom;
+mod derivatives;
+mod formulas;
+mod jumps;
+mod lanes;
+mod partition;
+mod reproduction;
+mod sides;
+mod support;

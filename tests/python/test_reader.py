@@ -1,0 +1,220 @@
+"""Compares the independent reader with the program and with extended precision.
+
+    pip install -r tests/python/requirements.txt
+    python tests/python/test_reader.py          (from the repository's root; or: pytest tests/python)
+
+Needs cargo: the datasets come from the example `fixture` of `ppum-format`.
+"""
+
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import mpmath
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from ppum_reader import Field, checksum, text
+
+ROOT = pathlib.Path(__file__).parents[2]
+COUNT = 6
+TEMPORARY = tempfile.TemporaryDirectory(prefix="ppum-")
+FOLDER = pathlib.Path(TEMPORARY.name)
+mpmath.mp.dps = 40
+
+
+def fixture(*arguments, input=None):
+    """Runs the example: exit status, answer, complaints."""
+    command = ["cargo", "run", "-q", "-p", "ppum-format", "--example", "fixture", "--"]
+    command += [str(a) for a in arguments]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, input=input)
+    return done.returncode, done.stdout, done.stderr
+
+
+def files():
+    if not any(FOLDER.iterdir()):
+        status, _, message = fixture("write", FOLDER, COUNT)
+        assert status == 0, message
+    found = sorted(FOLDER.glob("0*.h5"))
+    assert len(found) == COUNT
+    return found
+
+
+def points(field, distances, count=25):
+    """(anchor, offset): random points, points close to tips and kinks, and middles of cracks."""
+    random = np.random.default_rng(1)
+    for point in field.min + (field.max - field.min) * random.random((count, 2)):
+        yield point, np.zeros(2)
+    for crack in field.cracks:
+        for vertex in crack:
+            for distance in distances:
+                angle = random.random() * 2 * math.pi
+                offset = distance * np.array([math.cos(angle), math.sin(angle)])
+                if (vertex + offset > field.min).all() and (vertex + offset < field.max).all():
+                    yield vertex, offset
+        for middle in (crack[:-1] + crack[1:]) / 2:
+            yield middle, distances[-1] * (random.random(2) - 0.5)
+
+
+def exact_sum(anchor, offset):
+    return [mpmath.mpf(float(a)) + mpmath.mpf(float(b)) for a, b in zip(anchor, offset)]
+
+
+def difference(jets, exact):
+    """Largest difference of values and of gradients, relative to the local size of values and of
+    values and gradients."""
+    values, all = max(abs(jet[0]) for jet in exact), scale(exact)
+    sizes = (values, all, all)
+    return max(
+        float(abs(u - v) / size)
+        for jet, other in zip(jets, exact, strict=True)
+        for u, v, size in zip(jet, other, sizes)
+    )
+
+
+def scale(jets):
+    return max(abs(c) for jet in jets for c in jet)
+
+
+def test_h5py_reads_and_the_checksum_agrees():
+    for path in files():
+        with h5py.File(path) as file:
+            assert text(file.attrs["format"]) == "ppum"
+            assert list(file.attrs["format_version"]) == [1, 0]
+            assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
+            assert checksum(file) == text(file.attrs["sha256"])
+
+
+def test_the_program_agrees_with_extended_precision():
+    worst = 0
+    for path in files():
+        with h5py.File(path) as file:
+            field = Field(file, numbers=mpmath)
+            asked = [(*p, side) for p in points(field, [1e-2, 1e-6, 1e-13]) for side in (1, -1)]
+            lines = [" ".join(map(repr, map(float, [*a, *o, s]))) for a, o, s in asked]
+            status, answer, message = fixture("values", path, input="\n".join(lines))
+            assert status == 0, message
+            for (anchor, offset, side), line in zip(asked, answer.splitlines(), strict=True):
+                numbers = list(map(float, line.split()))
+                jets = [numbers[k : k + 3] for k in range(0, len(numbers), 3)]
+                exact = field.evaluate(*exact_sum(anchor, offset), side)
+                worst = max(worst, difference(jets, exact))
+    print(f"    largest difference {worst:.1e} of the local size")
+    assert worst < 1e-12
+
+
+def test_the_reader_in_double_agrees_with_extended_precision():
+    worst = 0
+    for path in files():
+        with h5py.File(path) as file:
+            double, exact = Field(file), Field(file, numbers=mpmath)
+            for anchor, offset in points(double, [1e-2]):
+                p = anchor + offset
+                worst = max(worst, difference(double.evaluate(*p), exact.evaluate(*p)))
+    print(f"    largest difference {worst:.1e} of the local size")
+    assert worst < 1e-11  # it has no anchors
+
+
+def test_gradients_are_those_of_the_values():
+    for path in files()[:3]:
+        with h5py.File(path) as file:
+            field, h = Field(file, numbers=mpmath), mpmath.mpf(10) ** -18
+            for anchor, offset in list(points(field, [1e-2, 1e-6]))[::3]:
+                x, y = exact_sum(anchor, offset)
+                here = field.evaluate(x, y)
+                for axis, (dx, dy) in enumerate([(h, 0), (0, h)], 1):
+                    after, before = field.evaluate(x + dx, y + dy), field.evaluate(x - dx, y - dy)
+                    for c, jet in enumerate(here):
+                        slope = (after[c][0] - before[c][0]) / (2 * h)
+                        assert abs(slope - jet[axis]) < 1e-12 * scale(here), (path.name, x, y)
+
+
+def test_both_sides_of_a_crack():
+    """On a crack the values jump, and each side continues the field on its side."""
+    jumps = 0
+    for path in files():
+        with h5py.File(path) as file:
+            field = Field(file, numbers=mpmath)
+            for k, crack in enumerate(field.cracks):
+                a, b = [tuple(map(mpmath.mpf, map(float, p))) for p in crack[:2]]
+                middle = [(u + v) / 2 for u, v in zip(a, b)]
+                left = (a[1] - b[1], b[0] - a[0])
+                for side in (1, -1):
+                    beside = [m + side * mpmath.mpf(10) ** -25 * n for m, n in zip(middle, left)]
+                    on, near = field.evaluate(*middle, side), field.evaluate(*beside)
+                    assert field.nearest(middle, k) == 0
+                    assert all(abs(p[0] - q[0]) < 1e-12 * scale(on) for p, q in zip(on, near))
+                above, below = field.evaluate(*middle, 1), field.evaluate(*middle, -1)
+                jumps += any(abs(p[0] - q[0]) > 1e-3 for p, q in zip(above, below))
+    assert jumps > 0
+
+
+def test_outside_the_domain_is_nan():
+    with h5py.File(files()[0]) as file:
+        field = Field(file)
+        assert all(math.isnan(v) for jet in field.evaluate(field.max[0] + 1e-9, 0) for v in jet)
+
+
+def test_the_program_reads_what_h5py_writes():
+    """Chunked, compressed, variable-length text, and groups from the future."""
+    original, copy = files()[2], FOLDER / "copy.h5"
+    with h5py.File(original) as source, h5py.File(copy, "w") as target:
+        recreate(source, target)
+        target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
+    status, _, message = fixture("same", original, copy)
+    assert status == 0, message
+    with h5py.File(copy, "a") as target:
+        target["steps/0000/from-the-future"] = np.arange(3.0)
+        target.attrs["format_version"] = np.array([1, 7], dtype="u4")
+        target.attrs["sha256"] = checksum(target)
+    status, _, message = fixture("same", original, copy)
+    assert status == 0, message
+    with h5py.File(copy, "a") as target:
+        target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
+    status, _, message = fixture("same", original, copy)
+    assert status != 0 and "checksum" in message, message
+    with h5py.File(copy, "a") as target:
+        del target.attrs["sha256"]
+        target["steps/0000/partition/half"][3, 1] = math.nan
+    status, _, message = fixture("same", original, copy)
+    assert status != 0 and "partition.half[3]" in message, message
+
+
+def recreate(source, target):
+    for name, value in source.attrs.items():
+        target.attrs[name] = text(value) if isinstance(value, bytes) else value
+    for name, node in source.items():
+        if isinstance(node, h5py.Group):
+            recreate(node, target.create_group(name))
+        elif node.dtype.kind == "S":
+            target.create_dataset(name, data=node.asstr()[()], dtype=h5py.string_dtype())
+        else:
+            packed = {"compression": "gzip", "shuffle": True} if node.size else {}
+            target.create_dataset(name, data=node[()], **packed)
+
+
+def test_the_newest_hdf5_layout_is_refused_with_a_remedy():
+    original, copy = files()[2], FOLDER / "latest.h5"
+    with h5py.File(original) as source, h5py.File(copy, "w", libver="latest") as target:
+        recreate(source, target)
+    status, _, message = fixture("same", original, copy)
+    assert status == 0 or "h5repack" in message, message
+
+
+def test_a_newer_major_version_is_refused():
+    copy = FOLDER / "newer.h5"
+    copy.write_bytes(files()[0].read_bytes())
+    with h5py.File(copy, "a") as target:
+        target.attrs["format_version"] = np.array([2, 0], dtype="u4")
+    status, _, message = fixture("same", copy, copy)
+    assert status != 0 and "2.0" in message and "newer" in message, message
+
+
+if __name__ == "__main__":
+    for name, test in list(globals().items()):
+        if name.startswith("test_"):
+            test()
+            print(f"ok  {name[5:].replace('_', ' ')}")
