@@ -1,4 +1,14 @@
-//! ppum-render
+//! Draws fields exactly at every pixel.
+//!
+//! A [`View`](view::View) says which part of the plane is shown on how many pixels,
+//! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
+//! [`Raster`](raster::Raster), [`Picture`](picture::Picture) gives its values colours, and
+//! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] writes the result
+//! together with what it shows. Nothing is resampled, interpolated or triangulated on the way.
+//!
+//! [`reference`](mod@reference) evaluates a picture point by point; the renderer is held to it.
+//! Pictures do not depend on the number of threads.
+
 pub mod colormap;
 pub mod figure;
 pub mod image;

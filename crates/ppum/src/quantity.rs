@@ -279,38 +279,47 @@ impl Quantity {
         }
     }
 
-    /// The symbol of the quantity, for labels.
+    /// The symbol of the quantity for labels, with subscripts as `_{…}`: `σ_{yy}`, `∂u_{x}/∂y`.
     #[must_use]
-    pub fn symbol(self) -> &'static str {
+    pub fn symbol(self, components: &[String]) -> String {
+        let component = |c: u8| match components {
+            [only] => only.clone(),
+            _ => format!("u_{{{}}}", ["x", "y", "z"].get(c as usize).unwrap_or(&"?")),
+        };
+        let pair =
+            |letter: &str, a: Axis, b: Axis| format!("{letter}_{{{}{}}}", a.name(), b.name());
         match self {
-            Q::Component(0) => "u_x",
-            Q::Component(_) => "u_y",
-            Q::Magnitude => "|u|",
-            Q::Derivative(0, Axis::X) => "∂u_x/∂x",
-            Q::Derivative(0, Axis::Y) => "∂u_x/∂y",
-            Q::Derivative(_, Axis::X) => "∂u_y/∂x",
-            Q::Derivative(_, Axis::Y) => "∂u_y/∂y",
-            Q::GradientNorm => "|∇u|",
-            Q::Divergence => "div u",
-            Q::Curl => "curl u",
-            Q::Strain(Axis::X, Axis::X) => "ε_xx",
-            Q::Strain(Axis::Y, Axis::Y) => "ε_yy",
-            Q::Strain(..) => "ε_xy",
-            Q::Stress(Axis::X, Axis::X) => "σ_xx",
-            Q::Stress(Axis::Y, Axis::Y) => "σ_yy",
-            Q::Stress(..) => "σ_xy",
-            Q::StressOut => "σ_zz",
-            Q::VonMises => "von Mises stress",
-            Q::Tresca => "Tresca stress",
-            Q::Principal1 => "principal stress σ₁",
-            Q::Principal2 => "principal stress σ₂",
-            Q::PrincipalDirection => "direction of σ₁",
-            Q::Hydrostatic => "hydrostatic stress",
-            Q::EnergyDensity => "energy density",
-            Q::Error => "|u − u_exact|",
-            Q::WeightSum => "Σ W",
-            Q::Overlap => "patches covering",
-            Q::PartitionFunction(_) => "φ",
+            Q::Component(c) => component(c),
+            Q::Derivative(c, axis) => format!("∂{}/∂{}", component(c), axis.name()),
+            Q::Strain(a, b) => pair("ε", a, b),
+            Q::Stress(a, b) => pair("σ", a, b),
+            Q::PartitionFunction(patch) => format!("φ_{{{patch}}}"),
+            Q::Magnitude => "|u|".into(),
+            Q::GradientNorm => "|∇u|".into(),
+            Q::Divergence => "div u".into(),
+            Q::Curl => "curl u".into(),
+            Q::StressOut => "σ_{zz}".into(),
+            Q::VonMises => "von Mises stress".into(),
+            Q::Tresca => "Tresca stress".into(),
+            Q::Principal1 => "principal stress σ_{1}".into(),
+            Q::Principal2 => "principal stress σ_{2}".into(),
+            Q::PrincipalDirection => "direction of σ_{1}".into(),
+            Q::Hydrostatic => "hydrostatic stress".into(),
+            Q::EnergyDensity => "energy density".into(),
+            Q::Error => "|u − u_{exact}|".into(),
+            Q::WeightSum => "Σ W".into(),
+            Q::Overlap => "patches covering".into(),
+        }
+    }
+}
+
+impl Axis {
+    /// `x` or `y`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
         }
     }
 }
@@ -484,6 +493,20 @@ mod tests {
         let nan = Jet { x: f64::NAN, y: f64::NAN, ..Jet::constant(0.0) };
         assert_eq!(value(m, &[nan, nan], "von-mises"), f64::INFINITY);
         assert_eq!(value(m, &[nan, nan], "ux"), 0.0);
+    }
+
+    #[test]
+    fn symbols_name_the_components() {
+        let (one, two) = (["u".to_owned()], ["ux".to_owned(), "uy".to_owned()]);
+        for (quantity, components, expected) in [
+            (Quantity::Stress(Axis::Y, Axis::Y), &two[..], "σ_{yy}"),
+            (Quantity::Derivative(0, Axis::Y), &two[..], "∂u_{x}/∂y"),
+            (Quantity::Derivative(0, Axis::X), &one[..], "∂u/∂x"),
+            (Quantity::Component(1), &two[..], "u_{y}"),
+            (Quantity::PartitionFunction(7), &two[..], "φ_{7}"),
+        ] {
+            assert_eq!(quantity.symbol(components), expected);
+        }
     }
 
     #[test]

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 use clap::ValueEnum;
-use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
@@ -19,8 +18,8 @@ use ppum_render::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::range::Range;
-use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
+use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::arguments::size;
@@ -169,10 +168,9 @@ impl Args {
         quantity: Quantity,
         style: &Style,
     ) -> anyhow::Result<Picture> {
-        let raster = raster(field, view, quantity);
         Ok(match self.precision {
-            Precision::F64 => Picture::bare(&raster, view, style)?,
-            Precision::F32 => Picture::bare(&raster, view, style)?,
+            Precision::F64 => Picture::bare(&render::<f64>(field, view, quantity)?, view, style)?,
+            Precision::F32 => Picture::bare(&render::<f32>(field, view, quantity)?, view, style)?,
         })
     }
 
@@ -196,12 +194,6 @@ impl Args {
         }
         Ok(picture.image.clone())
     }
-}
-
-fn raster(field: &Field<'_>, view: &View, quantity: Quantity) -> Raster {
-    Raster::from_fn(view.pixels, |column, row| {
-        quantity.at(&mut field.at(view.center), view.offset(column, row), Side::Above)
-    })
 }
 
 fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
@@ -228,45 +220,8 @@ fn labels(dataset: &Dataset, field: &Field<'_>, quantity: Quantity) -> Labels {
     };
     Labels {
         title: dataset.title.clone(),
-        quantity: label(quantity, &field.data.components),
+        quantity: quantity.symbol(&field.data.components),
         unit,
         length_unit: String::new(),
-    }
-}
-
-/// The quantity's symbol with its subscripts marked; a single component has none.
-fn label(quantity: Quantity, components: &[String]) -> String {
-    if let Quantity::PartitionFunction(patch) = quantity {
-        return format!("{}_{{{patch}}}", quantity.symbol());
-    }
-    let symbol = match components {
-        [only] => quantity.symbol().replace("u_x", only),
-        _ => quantity.symbol().to_owned(),
-    };
-    let mut parts = symbol.split('_');
-    let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |text, part| {
-        let end = part.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(part.len());
-        format!("{text}_{{{}}}{}", &part[..end], &part[end..])
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use ppum::quantity::Axis;
-
-    use super::*;
-
-    #[test]
-    fn labels_have_subscripts() {
-        let two = ["ux".to_owned(), "uy".to_owned()];
-        assert_eq!(label(Quantity::Stress(Axis::Y, Axis::Y), &two), "σ_{yy}");
-        assert_eq!(label(Quantity::Derivative(0, Axis::Y), &two), "∂u_{x}/∂y");
-        assert_eq!(label(Quantity::VonMises, &two), "von Mises stress");
-        assert_eq!(label(Quantity::Error, &two), "|u − u_{exact}|");
-        assert_eq!(label(Quantity::PartitionFunction(7), &two), "φ_{7}");
-        let one = ["u".to_owned()];
-        assert_eq!(label(Quantity::Component(0), &one), "u");
-        assert_eq!(label(Quantity::Derivative(0, Axis::X), &one), "∂u/∂x");
     }
 }

@@ -5,6 +5,7 @@ mod demo;
 mod errors;
 mod info;
 mod probe;
+mod readme;
 mod render;
 mod sif;
 mod solve;

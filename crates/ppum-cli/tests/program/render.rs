@@ -109,3 +109,39 @@ fn partition_quantities() {
         lab.run(&format!("render plate.h5 -o a.png -q {quantity} --size 30x30"));
     }
 }
+
+/// f64 and f32 are computed apart, and look the same; threads change no bit of a picture.
+#[test]
+fn precision_and_threads() {
+    let lab = Lab::solved(CRACKED);
+    let draw = |options: &str| {
+        lab.run(&format!("render plate.h5 -o a.png --size 200x150 --range 0,3 {options}"));
+        Png::read(&lab.path("a.png")).rgba
+    };
+    let double = draw("--threads 1");
+    assert_eq!(double, draw("--threads 2"));
+    let single = draw("--precision f32");
+    // pixels at the edge of the colour "above" may fall on its other side
+    let far = double.iter().zip(&single).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    assert!(far <= 12, "{far}");
+}
+
+/// A pixel and `probe` show the same value: the colours of a narrow range around it tell.
+#[test]
+fn a_pixel_is_what_probe_prints() {
+    let lab = Lab::solved(CRACKED);
+    let report = lab.json("probe plate.h5 --at 0.5,0.03125 -q syy");
+    let syy = report["points"][0]["values"]["syy"].as_f64().unwrap();
+    for (range, expected) in [
+        (format!("{:?},{:?}", syy - 1e-9, syy + 3e-9), 0.25),
+        (format!("{:?},{:?}", syy - 3e-9, syy + 1e-9), 0.75),
+    ] {
+        // the pixel (1, 1) of three by three has its centre at the view's
+        let window = "--center 0.5,0.03125 --width 0.3 --size 3x3";
+        lab.run(&format!("render plate.h5 -o a.png -q syy {window} --range {range}"));
+        let found = Png::read(&lab.path("a.png")).pixel(1, 1);
+        let exact = Colormap::named("viridis").unwrap().color(expected);
+        let near = found.iter().zip(exact).all(|(a, b)| a.abs_diff(b) <= 1);
+        assert!(near, "{found:?} {exact:?}");
+    }
+}

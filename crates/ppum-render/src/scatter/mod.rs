@@ -9,7 +9,7 @@
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
 //! cover, any degree, any number of functions. A patch's weight and polynomials collapse on each row
-//! to polynomials in x ([`collapse`](mod@collapse)); functions are evaluated once for a tile, and only
+//! to polynomials in x (module `collapse`); functions are evaluated once for a tile, and only
 //! where a patch needs them.
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which

@@ -2,4 +2,5 @@
 
 mod physics;
 mod plates;
-mod support;
+#[path = "../studies/mod.rs"]
+mod studies;

@@ -4,11 +4,13 @@
 //! ones — so that each checks the other. The texts are formulas of x and y in the syntax of
 //! `ppum::formula`; what they bind with `let` is named `dx`, `px`, … and never `r` or `theta`.
 
+mod collinear;
 mod in_plane;
 mod slit;
 mod smooth;
 mod williams;
 
+pub use collinear::CollinearCracks;
 pub use in_plane::CrackInPlane;
 pub use slit::Slit;
 pub use smooth::Smooth;

@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Solving, and norms of what was found.
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
@@ -60,4 +60,9 @@ pub(crate) fn squares(dataset: &Dataset) -> (f64, f64) {
 /// Strain energy ½ ∫ σ:ε.
 pub(crate) fn strain_energy(dataset: &Dataset) -> f64 {
     0.5 * squares(dataset).0
+}
+
+/// Coefficients of the first field.
+pub(crate) fn unknowns(dataset: &Dataset) -> usize {
+    dataset.steps[0].fields[0].coefficients.iter().map(Vec::len).sum()
 }

@@ -1,0 +1,7 @@
+//! Problems whose answers are known. The tests hold the solver to them; `examples/validation` prints
+//! what they give.
+
+pub(crate) mod exact_fields;
+pub(crate) mod plates;
+pub(crate) mod release;
+pub(crate) mod support;

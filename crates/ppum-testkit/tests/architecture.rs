@@ -1,0 +1,128 @@
+//! The arrows between the crates, as ARCHITECTURE.md draws them, against `cargo metadata`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// What each crate may depend on, and does.
+const ARROWS: [(&str, &[&str]); 6] = [
+    ("ppum", &[]),
+    ("ppum-format", &["ppum"]),
+    ("ppum-solve", &["ppum"]),
+    ("ppum-render", &["ppum"]),
+    ("ppum-cli", &["ppum", "ppum-format", "ppum-render", "ppum-solve"]),
+    ("ppum-testkit", &["ppum"]),
+];
+
+/// Foreign crates that are known in one place only, so that they can be replaced there.
+const DOORS: [(&str, &str); 7] = [
+    ("ab_glyph", "ppum-render"),
+    ("clap", "ppum-cli"),
+    ("faer", "ppum-solve"),
+    ("fearless_simd", "ppum"),
+    ("hdf5-pure", "ppum-format"),
+    ("png", "ppum-render"),
+    ("toml", "ppum-solve"),
+];
+
+/// What the field itself must do without: threads, files of any kind, messages.
+const NOT_IN_PPUM: [&str; 4] = ["rayon", "serde", "anyhow", "indicatif"];
+
+type Arrows = BTreeMap<String, BTreeSet<String>>;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn packages() -> Vec<Value> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["metadata", "--no-deps", "--format-version", "1"])
+        .current_dir(root())
+        .output()
+        .expect("cargo runs this test");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("metadata is JSON");
+    list(&metadata["packages"]).to_vec()
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("an array of `cargo metadata`")
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().expect("a text of `cargo metadata`")
+}
+
+/// Dependencies of each crate for which `kind` holds: `None` for normal ones, else `dev` or `build`.
+fn dependencies(kind: impl Fn(Option<&str>) -> bool) -> Arrows {
+    let of = |package: &Value| {
+        let chosen = list(&package["dependencies"]).iter().filter(|d| kind(d["kind"].as_str()));
+        chosen.map(|d| text(&d["name"]).to_owned()).collect()
+    };
+    packages().iter().map(|p| (text(&p["name"]).to_owned(), of(p))).collect()
+}
+
+fn set(names: &[&str]) -> BTreeSet<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
+}
+
+fn is_ours(name: &str) -> bool {
+    name == "ppum" || name.starts_with("ppum-")
+}
+
+/// The table of ARCHITECTURE.md: rows whose first cell is a crate, the last what it depends on.
+fn documented() -> Arrows {
+    let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the page is there");
+    let quoted = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect();
+    let row = |line: &str| -> Option<(String, BTreeSet<String>)> {
+        let cells: Vec<_> =
+            line.strip_prefix('|')?.trim_end().strip_suffix('|')?.split('|').collect();
+        let first = cells.first()?.trim().strip_prefix('`')?.strip_suffix('`')?;
+        is_ours(first).then(|| (first.to_owned(), quoted(cells[cells.len() - 1])))
+    };
+    page.lines().filter_map(row).collect()
+}
+
+#[test]
+fn arrows_are_as_drawn() {
+    let expected: Arrows = ARROWS.iter().map(|&(name, to)| (name.to_owned(), set(to))).collect();
+    let mut found = dependencies(|kind| kind != Some("dev"));
+    for to in found.values_mut() {
+        to.retain(|name| is_ours(name));
+    }
+    assert_eq!(found, expected);
+    assert_eq!(documented(), expected, "the table of crates in ARCHITECTURE.md");
+}
+
+#[test]
+fn tests_lean_on_the_testkit_alone() {
+    for (name, to) in dependencies(|kind| kind == Some("dev")) {
+        let ours: Vec<_> = to.iter().filter(|to| is_ours(to) && *to != "ppum-testkit").collect();
+        assert!(ours.is_empty(), "{name} depends on {ours:?} in its tests");
+    }
+}
+
+#[test]
+fn foreign_crates_have_one_door() {
+    let found = dependencies(|kind| kind != Some("dev"));
+    for (foreign, door) in DOORS {
+        let users: Vec<_> = found.iter().filter(|(_, to)| to.contains(foreign)).collect();
+        let names: Vec<_> = users.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, [door], "who depends on {foreign}");
+    }
+    for name in NOT_IN_PPUM {
+        assert!(!found["ppum"].contains(name), "ppum depends on {name}");
+    }
+}
+
+/// So `cargo run` in the root needs no `--bin`.
+#[test]
+fn there_is_one_program() {
+    let all = packages();
+    let targets = all.iter().flat_map(|package| list(&package["targets"]));
+    let programs = targets.filter(|t| list(&t["kind"]).iter().any(|kind| kind == "bin"));
+    assert_eq!(programs.map(|t| text(&t["name"])).collect::<Vec<_>>(), ["ppum"]);
+}
