@@ -1,7 +1,5 @@
 //! The fast renderer against the scalar reference.
 
-#![expect(clippy::unwrap_used, reason = "a test ends where something fails")]
-
 #[path = "support/synthetic.rs"]
 mod synthetic;
 
