@@ -1,9 +1,11 @@
 //! Stress intensity factors of plates against independent reference values.
 
 use crate::studies::plates::{
-    Plate, centre_crack, centre_cracks, collinear_cracks, edge_cracks, end_shear, slanted_cracks,
+    Plate, centre_crack, centre_cracks, collinear_cracks, edge_cracks, end_shear, kinked_in_plane,
+    slanted_cracks,
 };
 use crate::studies::release::kinked_crack;
+use crate::studies::support::unknowns;
 
 /// Every known factor within a relative tolerance.
 fn check(plate: &Plate, level: u32, tolerance: f64) {
@@ -19,7 +21,7 @@ fn centre_crack_in_a_square_plate() {
     let plate = centre_crack(0.5, 1.0, 1.3337121601);
     check(&plate, 1, 1e-3);
     let solved = plate.solve(1);
-    assert!(solved.unknowns <= 10_000);
+    assert!(unknowns(&solved.dataset) <= 10_000);
     for tip in &solved.dataset.steps[0].intensities {
         assert!((tip.k1 / solved.dataset.steps[0].intensities[0].k1 - 1.0).abs() < 1e-8);
         assert!(tip.k2.abs() < 1e-8);
@@ -54,7 +56,13 @@ fn edge_crack_under_end_shear() {
 
 #[test]
 fn two_collinear_cracks() {
-    check(&collinear_cracks(), 1, 1e-3);
+    check(&collinear_cracks(), 1, 2e-3);
+}
+
+/// The references are good to 1e-4, half a per cent of the smallest factor.
+#[test]
+fn kinked_crack_in_the_plane() {
+    check(&kinked_in_plane(), 1, 5e-3);
 }
 
 /// Irwin's relation at the tip of a kinked crack.
@@ -62,7 +70,7 @@ fn two_collinear_cracks() {
 fn the_energy_released_by_a_kinked_crack() {
     let release = kinked_crack(32);
     println!("{release:?}");
-    assert!((release.from_energy / release.from_intensities - 1.0).abs() < 2e-3, "{release:?}");
+    assert!((release.by_energy / release.by_intensities() - 1.0).abs() < 5e-4, "{release:?}");
 }
 
 /// The same bits with one and with two threads.

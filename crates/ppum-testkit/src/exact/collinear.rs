@@ -133,7 +133,8 @@ mod tests {
         let formulas = field
             .stress_formulas()
             .map(|text| Formula::parse(&text, &Scope::cartesian()).expect("a formula"));
-        for p in [vec2(2.0, 0.0), vec2(0.1, 0.4), vec2(-1.0, -0.2), vec2(-3.0, 0.7), vec2(0.9, 2.0)] {
+        for p in [vec2(2.0, 0.0), vec2(0.1, 0.4), vec2(-1.0, -0.2), vec2(-3.0, 0.7), vec2(0.9, 2.0)]
+        {
             for (formula, expected) in formulas.iter().zip(field.stress(p)) {
                 let found = formula.evaluate(&[p.x, p.y]);
                 assert!((found - expected).abs() < 1e-12, "{p:?}: {found} instead of {expected}");
