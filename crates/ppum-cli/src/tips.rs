@@ -64,6 +64,34 @@ fn spread(intensity: &TipIntensity) -> f64 {
     pairs.fold(f64::NAN, f64::max) / intensity.k1.hypot(intensity.k2)
 }
 
+/// Spread above which the factors of a tip are not to be trusted.
+const LARGE_SPREAD: f64 = 0.01;
+
+/// What a specialist would remark on, for standard error.
+pub(crate) fn warnings(tips: &[Tip]) -> Vec<String> {
+    let of_tip = |tip: &Tip| {
+        let (at, k1, spread) = (point(tip.tip), tip.k1.0, tip.spread.0);
+        let overlap = (k1 < 0.0).then(|| {
+            format!("tip {at}: K_I < 0, the faces of the crack overlap and the solution has no meaning there")
+        });
+        let apart = (spread > LARGE_SPREAD).then(|| {
+            format!(
+                "tip {at}: the values at three radii differ by {:.0} %; use smaller cells there",
+                100.0 * spread
+            )
+        });
+        overlap.into_iter().chain(apart)
+    };
+    tips.iter().flat_map(of_tip).collect()
+}
+
+/// Writes the warnings of some tips to standard error.
+pub(crate) fn warn(tips: &[Tip]) {
+    for warning in warnings(tips) {
+        eprintln!("warning: {warning}");
+    }
+}
+
 /// A table, one line a tip; tips are numbered in each step.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
@@ -96,5 +124,22 @@ mod tests {
         let intensity = TipIntensity { tip, k1: 3.0, k2: 4.0, rings };
         assert!((spread(&intensity) - 0.01).abs() < 1e-15);
         assert!(spread(&TipIntensity { rings: Vec::new(), ..intensity }).is_nan());
+    }
+
+    #[test]
+    fn overlap_and_spread_are_remarked_on() {
+        let tip = |k1, spread| Tip {
+            step: 0,
+            crack: 0,
+            tip: [0.5, 0.0],
+            angle: 0.0,
+            k1: Number(k1),
+            k2: Number(0.0),
+            spread: Number(spread),
+            rings: Vec::new(),
+        };
+        assert_eq!(warnings(&[tip(1.0, 1e-3), tip(1.0, f64::NAN)]), [""; 0]);
+        let found = warnings(&[tip(-1.0, 0.2)]);
+        assert!(found[0].contains("overlap") && found[1].contains("20 %"), "{found:?}");
     }
 }

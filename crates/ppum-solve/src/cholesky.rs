@@ -28,8 +28,8 @@ pub enum CholeskyError {
     /// A zero, negative or undefined pivot.
     #[error(
         "the stiffness matrix is not positive definite: elimination stops at unknown {unknown} of \
-         patch {patch}; prescribe displacements that hold every rigid motion of every separate \
-         piece of the domain, or raise the cut-off of the stable transformation"
+         patch {patch}; hold the plate by displacements if a part of it can move freely; if cracks \
+         leave thin strips of material between them there, use smaller cells"
     )]
     NotPositiveDefinite {
         /// The patch.

@@ -38,8 +38,8 @@ const RADII: [f64; 3] = [0.5, 0.7, 0.9];
 /// A body force b at a point.
 pub type BodyForce<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
-/// The stress intensity factors of all tips of a step, each at three radii; none unless the equation
-/// is that of elasticity.
+/// The stress intensity factors of all tips of a step, each at three radii; none unless the field is
+/// a displacement.
 ///
 /// # Panics
 /// If the field is not of the dataset and step of `space`.
@@ -51,6 +51,9 @@ pub fn intensities(
     force: Option<BodyForce<'_>>,
 ) -> Vec<TipIntensity> {
     let Some(material) = dataset.equation.material() else { return Vec::new() };
+    if field.components() != dataset.equation.components() {
+        return Vec::new();
+    }
     let law = Law::new(&dataset.equation);
     tips(&field.step.cracks)
         .map(|tip| {
@@ -63,17 +66,17 @@ pub fn intensities(
         .collect()
 }
 
-/// Radius of the largest disc around a tip that holds no border, no kink or other end of its own
-/// crack and no part of another one.
+/// Radius of the largest disc around a tip that holds no border and no part of a crack but the last
+/// segment of its own.
 #[must_use]
 pub fn free_radius(cracks: &[Crack], domain: &Rect, tip: TipId) -> f64 {
     let own = &cracks[tip.crack as usize];
     let p = own.end_point(tip.end);
     let border = (p - domain.min).min(domain.max - p);
     let vertices = own.points.iter().filter(|&&v| v != p).map(|&v| (v - p).length());
-    let others = (0u32..).zip(cracks).filter(|&(k, _)| k != tip.crack);
-    let segments = others.flat_map(|(_, c)| c.points.windows(2)).map(|s| segment_distance(s, p));
-    vertices.chain(segments).fold(border.x.min(border.y), f64::min)
+    let segments = cracks.iter().flat_map(|c| c.points.windows(2));
+    let others = segments.filter(|s| !s.contains(&p)).map(|s| segment_distance(s, p));
+    vertices.chain(others).fold(border.x.min(border.y), f64::min)
 }
 
 fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {

@@ -146,8 +146,10 @@ pub fn names(equation: Equation, components: &[String]) -> Vec<(String, Quantity
         all.push((format!("d{name}_dx"), Q::Derivative(c, Axis::X)));
         all.push((format!("d{name}_dy"), Q::Derivative(c, Axis::Y)));
     }
-    let elastic: &[_] = if equation.material().is_some() { &ELASTIC } else { &[] };
-    all.extend(GENERAL.iter().chain(elastic).map(|&(name, q)| (name.to_owned(), q)));
+    let solves = components.len() == equation.components();
+    let elastic: &[_] = if solves && equation.material().is_some() { &ELASTIC } else { &[] };
+    let general = GENERAL.iter().filter(|(_, q)| solves || *q != Q::EnergyDensity);
+    all.extend(general.chain(elastic).map(|&(name, q)| (name.to_owned(), q)));
     all
 }
 
@@ -507,6 +509,17 @@ mod tests {
         ] {
             assert_eq!(quantity.symbol(components), expected);
         }
+    }
+
+    /// Stresses are made of displacements: a temperature beside them has none.
+    #[test]
+    fn other_fields_have_no_stress() {
+        let equation = Equation::Elasticity(material(StressState::PlaneStrain));
+        let one = ["temperature".to_owned()];
+        for name in ["von-mises", "energy", "divergence"] {
+            assert!(Quantity::from_name(name, equation, &one).is_err());
+        }
+        assert!(Quantity::from_name("gradient", equation, &one).is_ok());
     }
 
     #[test]

@@ -168,6 +168,10 @@ impl Args {
         quantity: Quantity,
         style: &Style,
     ) -> anyhow::Result<Picture> {
+        ensure!(
+            view.rect().overlaps(&field.domain),
+            "the view shows nothing of the domain; `ppum info` says where that is"
+        );
         Ok(match self.precision {
             Precision::F64 => Picture::bare(&render::<f64>(field, view, quantity)?, view, style)?,
             Precision::F32 => Picture::bare(&render::<f32>(field, view, quantity)?, view, style)?,

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use crate::dataset::open;
 use crate::number::json;
-use crate::tips::{Tip, table};
+use crate::tips::{Tip, table, warn};
 
 /// Print the stress intensity factors of all crack tips
 ///
@@ -52,6 +52,7 @@ impl Args {
             );
         }
         let tips = tips(&dataset, &self.file)?;
+        warn(&tips);
         if self.json {
             json(out, &Report { file, tips })?;
         } else if tips.is_empty() {

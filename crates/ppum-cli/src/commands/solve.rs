@@ -12,7 +12,7 @@ use ppum_solve::solve::solve;
 use crate::number::trimmed;
 use crate::progress::Bar;
 use crate::threads;
-use crate::tips::{Tip, table};
+use crate::tips::{Tip, table, warn};
 
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]
@@ -84,6 +84,7 @@ fn summary(out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
         let tips: Vec<_> = step.intensities.iter().map(|t| Tip::new(index, step, t)).collect();
         if !tips.is_empty() {
             table(out, &tips)?;
+            warn(&tips);
         }
     }
     Ok(())

@@ -44,19 +44,47 @@ pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
         found.extend(check_points(&problem.discretization.cells, &problem.domain));
         found.extend(check_order(&problem.discretization.order, &problem.domain));
         found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_zone(problem));
         found.extend(check_boundary(&problem.boundary, &problem.domain));
     }
     found.extend(domain);
     found
 }
 
+/// The functions of a tip jump on the whole straight extension of its segment, also beyond the other
+/// end of the crack: no zone may reach that far.
+fn check_zone(problem: &Problem) -> Option<Violation> {
+    let radius = problem.discretization.enrichment_radius?;
+    let two_tips = problem.cracks.iter().filter(|crack| crack.tips().count() == 2);
+    let apart = two_tips.map(|c| (c.points[c.points.len() - 1] - c.points[0]).length());
+    let nearest = apart.fold(f64::INFINITY, f64::min);
+    (radius >= nearest).then(|| {
+        let message = format!(
+            "`enrichment_radius` is {radius}, but the tips of a crack are only {nearest} apart; give \
+             less than half of that"
+        );
+        Violation::new(Key::new("discretization").name("enrichment_radius"), message)
+    })
+}
+
+/// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
 fn check_domain(domain: &Rect) -> Vec<Violation> {
     let size = domain.size();
     let axes = [("x", size.x), ("y", size.y)];
-    let wrong = axes.into_iter().filter(|(_, size)| !(*size > 0.0 && size.is_finite()));
-    let message = |(axis, _)| {
-        let message =
-            format!("`max` must exceed `min` in {axis}; give two opposite corners of a box");
+    let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
+    let message = |(axis, size): (&str, f64)| {
+        let message = if size > 0.0 {
+            format!(
+                "the domain is {size:e} long in {axis}, but lengths must lie between {:e} and {:e}; \
+                 choose another unit of length",
+                SIZES.start(),
+                SIZES.end()
+            )
+        } else {
+            format!("`max` must exceed `min` in {axis}; give two opposite corners of a box")
+        };
         Violation::new(Key::new("domain").name("max"), message)
     };
     wrong.map(message).collect()

@@ -123,11 +123,29 @@ fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<
         );
         return Some(Violation::new(key.clone().index(second), message));
     }
+    if let Some(segment) = hook(points, domain, touch) {
+        let message = "the straight extension of an end of the crack meets the crack itself, and such \
+                       hooks are not supported yet in this version: the side of the crack would be \
+                       wrong beyond the end; straighten it";
+        return Some(Violation::new(key.clone().index(segment), message));
+    }
     let ends = crack(points.to_vec(), domain).ends;
     (ends == [CrackEnd::Mouth; 2]).then(|| {
         let message = "the crack cuts the plate from border to border, and detached pieces are not \
                        supported yet in this version; let one end lie inside";
         Violation::new(key.clone(), message)
+    })
+}
+
+/// The segment that the straight extension of an end, as far as the domain reaches, runs into.
+fn hook(points: &[Vec2], domain: &Rect, touch: f64) -> Option<usize> {
+    let last = points.len() - 1;
+    let reach = domain.size().length();
+    let ends = [(points[0], points[1], 0), (points[last], points[last - 1], last - 1)];
+    ends.into_iter().find_map(|(end, before, own)| {
+        let ray = [end, end + (end - before).unit() * reach];
+        let meets = |k: &usize| *k != own && distance(ray, [points[*k], points[*k + 1]]) <= touch;
+        (0..last).find(meets)
     })
 }
 
