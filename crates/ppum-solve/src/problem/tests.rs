@@ -341,6 +341,8 @@ fn bad_values() {
             ("level = 4", "cells = [0, 2]", 18, 9, "at least 1 in each direction"),
             ("level = 4", "cells = [2048, 2048]", 18, 9, "2048 × 2048, but at most 1048576"),
             ("level = 4", "level = 4\norder = 9", 19, 9, "the order is 9"),
+            ("max = [1.0, 1.0]", "max = [1e31, 1.0]", 4, 7, "choose another unit of length"),
+            ("level = 4", "level = 4\nenrichment_radius = 1", 19, 21, "are only 1 apart"),
             ("level = 4", "level = 4\noverlap = 1", 19, 11, "1 < α < 2"),
             ("level = 4", "level = 4\noverlap = 2.0", 19, 11, "1 < α < 2"),
             ("level = 4", "level = 4\ntip_degree = 9", 19, 14, "must be 0 to 8"),
@@ -401,6 +403,7 @@ fn bad_cracks() {
         ("[[0, 0], [0.5, 0], [0.5, 0.5], [0.2, -0.5]]", 10, 29, "its segments 1 and 3 meet"),
         ("[[0, 0], [0.5, 0], [0.25, 0.0]]", 10, 19, "folds back on itself"),
         ("[[0, 0], [0.5, 0], [0.5, 0.5], [0, 0]]", 10, 29, "its segments 1 and 3 meet"),
+        ("[[0, 0], [0.5, 0], [0.5, 0.5], [0.25, 0.25]]", 10, 11, "such hooks are not supported"),
         (
             "[[0, 0], [0.5, 0]]\n[[crack]]\npoints = [[0.2, 0.5], [0.2, -0.5]]",
             12,
