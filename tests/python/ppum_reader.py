@@ -246,7 +246,7 @@ class Field:
     def nearest(self, p, crack):
         """Signed line distance of the nearest segment; of equally near ones the largest."""
         segments = [(square, distance) for _, _, distance, square, _ in self.segments(p, crack)]
-        limit = min(segments)[0] * (1 + self.real(1e-12))
+        limit = min(segments)[0] * (1 + self.real(1e-6))
         return max((d for square, d in segments if square <= limit), key=abs)
 
     def names(self, p, row):

@@ -14,6 +14,8 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::real::Scalar;
 use ppum::vec2::{Vec2, vec2};
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::Range;
 use ppum_render::raster::Sample;
 use ppum_render::reference::reference;
 use ppum_render::scatter::render;
@@ -41,6 +43,16 @@ fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
         black_box(render::<T>(field, &view(), Quantity::VonMises).expect("a stress"));
     };
     time(draw, 100)
+}
+
+/// Least milliseconds of mapping a frame to colours, which comes on top.
+fn colors<T: Scalar + Sample>(field: &Field) -> f64 {
+    let raster = render::<T>(field, &view(), Quantity::VonMises).expect("a stress");
+    let style = Style { range: Range::Fixed(0.0, 5.0), ..Style::default() };
+    let paint = || {
+        black_box(Picture::bare(&raster, &view(), &style).expect("a range"));
+    };
+    time(paint, 50)
 }
 
 fn row(name: &str, dataset: &Dataset) -> [f64; 2] {
@@ -83,6 +95,7 @@ fn main() {
         println!("largest / smallest, uniform: {:.2} {:.2}", ratio(0), ratio(1));
         let dataset = dataset(&recipe(3, 3));
         let field = Field::new(&dataset, 0).expect("a field");
+        println!("colours: {:.2} {:.2}", colors::<f64>(&field), colors::<f32>(&field));
         let draw = || {
             black_box(reference(&field, &view(), Quantity::VonMises).expect("a stress"));
         };

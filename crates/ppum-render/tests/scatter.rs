@@ -1,10 +1,9 @@
 //! The fast renderer against the scalar reference.
 
-#![expect(clippy::unwrap_used, reason = "a test ends where something fails")]
-
 #[path = "support/synthetic.rs"]
 mod synthetic;
 
+use cpu_time::ThreadTime;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity, QuantityError, Source};
@@ -20,11 +19,11 @@ use synthetic::{KINKED, Recipe, dataset, domain};
 /// A view of the whole domain whose pixels are commensurate with no cell.
 fn whole(pixels: [u32; 2]) -> View {
     let center = domain().center() + vec2(0.0123, -0.0171);
-    View::new(center, 1.2637, pixels).unwrap()
+    View::new(center, 1.2637, pixels).expect("a view")
 }
 
 fn view(center: Vec2, zoom: f64) -> View {
-    View::new(center, 4.0 / 3.0 / zoom, [149, 117]).unwrap()
+    View::new(center, 4.0 / 3.0 / zoom, [149, 117]).expect("a view")
 }
 
 /// The local scale of a quantity: the largest value around each pixel; for quantities of the
@@ -86,13 +85,13 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 
 /// Largest difference in f64, 99th percentile and largest in f32.
 fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
-    let slow = |quantity| reference(field, view, quantity).unwrap();
+    let slow = |quantity| reference(field, view, quantity).expect("a quantity");
     let by_gradient = quantity.source() == Source::Gradient;
     let gradient = by_gradient.then(|| slow(Quantity::GradientNorm));
     let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
     let scale = Scale { values: slow(quantity), gradient, floor: 0.1 * mean };
-    let wide = render::<f64>(field, view, quantity).unwrap();
-    let narrow = render::<f32>(field, view, quantity).unwrap();
+    let wide = render::<f64>(field, view, quantity).expect("a quantity");
+    let narrow = render::<f32>(field, view, quantity).expect("a quantity");
     let (wide, narrow) = (differences(&wide, &scale), differences(&narrow, &scale));
     let found = [quantile(&wide, 1.0), quantile(&narrow, 0.99), quantile(&narrow, 1.0)];
     println!("{quantity:?} width {:e}: {found:?}", view.width);
@@ -100,7 +99,7 @@ fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
 }
 
 fn agree(dataset: &Dataset, view: &View, quantities: &[Quantity]) {
-    let field = Field::new(dataset, 0).unwrap();
+    let field = Field::new(dataset, 0).expect("a field");
     for &quantity in quantities {
         let [wide, narrow, _] = compare(&field, view, quantity);
         assert!(wide < 1e-12, "{quantity:?}: {wide:e} in f64");
@@ -144,6 +143,11 @@ fn mixed_degrees_and_frames_of_their_own() {
         ..Recipe::default()
     };
     agree(&dataset(&recipe), &whole([131, 97]), &SOME);
+}
+
+#[test]
+fn functions_that_are_formulas() {
+    agree(&dataset(&Recipe { formulas: true, ..Recipe::default() }), &whole([67, 49]), &SOME);
 }
 
 #[test]
@@ -239,4 +243,29 @@ fn what_cannot_be_drawn_is_refused() {
     assert!(matches!(error(Quantity::Error), QuantityError::NoExact(_)));
     let beyond = field.step.partition.len() as u32;
     assert!(matches!(error(Quantity::PartitionFunction(beyond)), QuantityError::Patch { .. }));
+}
+
+/// Guards the kernels: a function in them that is not inlined leaves the code for wide vectors, which
+/// changes no value but costs a factor of ten and more.
+#[test]
+fn lanes_are_much_faster_than_scalars() {
+    let dataset = dataset(&Recipe { level: 1, tip_level: 1, ..Recipe::default() });
+    let field = Field::new(&dataset, 0).unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let least = |frame: &(dyn Fn() + Sync)| {
+        let time = |_| {
+            let start = ThreadTime::now();
+            frame();
+            start.elapsed().as_secs_f64()
+        };
+        pool.install(|| (0..5).map(time).fold(f64::INFINITY, f64::min))
+    };
+    let view = whole([256, 192]);
+    for quantity in [Quantity::VonMises, Quantity::GradientNorm, Quantity::Magnitude] {
+        let slow = least(&|| drop(reference(&field, &view, quantity)));
+        let wide = slow / least(&|| drop(render::<f64>(&field, &view, quantity)));
+        let narrow = slow / least(&|| drop(render::<f32>(&field, &view, quantity)));
+        println!("{quantity:?}: {wide:.1} times faster in f64, {narrow:.1} in f32");
+        assert!(wide > 2.5 && narrow > 2.5, "{quantity:?}: {wide} {narrow}");
+    }
 }

@@ -23,6 +23,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             (Quantity::VonMises, 2) => {
                 self.finish_as::<R, 2>(Quantity::VonMises, scratch, out, zero);
             }
+            (quantity, 2) => self.finish_as::<R, 2>(quantity, scratch, out, zero),
             (quantity, _) => self.finish_as::<R, ANY>(quantity, scratch, out, zero),
         }
     }
@@ -37,6 +38,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let components = known(C, scratch.shift.len());
+        // Two stay in registers.
         let mut pair = [Jet::constant(zero); 2];
         let mut many = Vec::new();
         let jets = if C == 2 {

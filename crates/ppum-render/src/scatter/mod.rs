@@ -44,8 +44,8 @@ use tile::{Band, Scratch};
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 in parallel.
 ///
 /// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
-/// the side above is taken. f32 keeps some 5 digits of
-/// a stress; a view whose pixels are too small for squares of f32 is computed in f64.
+/// the side above is taken. f32 keeps some 5 digits of a stress; a view whose pixels are too small
+/// for squares of f32 is computed in f64.
 ///
 /// # Errors
 /// [`QuantityError::Patch`] for the partition function of a patch that does not exist;

@@ -24,13 +24,15 @@ pub(super) struct Affine {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Block {
     pub(super) function: Slot,
-    pub(super) degree: usize,
-    /// First coefficient; `None` for the polynomial 0.
-    pub(super) offset: Option<usize>,
+    pub(super) degree: u8,
+    /// The polynomial is 0; there are no coefficients.
+    zero: bool,
+    /// First coefficient.
+    offset: u64,
 }
 
 impl Block {
-    const NOTHING: Self = Self { function: Slot::One, degree: 0, offset: None };
+    const NOTHING: Self = Self { function: Slot::One, degree: 0, zero: true, offset: 0 };
 }
 
 /// A patch in sight.
@@ -74,9 +76,10 @@ impl<'f> Plan<'f> {
         let pixels = Pixels::new(view);
         let mut visible = Vec::new();
         field.tree.query_box(&pixels.window(), &mut visible);
+        let count = visible.iter().map(|&i| 1 + field.data.blocks(i as usize).len()).sum();
         let mut plan = Self {
             patches: Vec::with_capacity(visible.len()),
-            blocks: Vec::with_capacity(3 * visible.len()),
+            blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
             inside: pixels.inside(&field.domain),
             tiles: Tiles::default(),
@@ -107,10 +110,10 @@ impl<'f> Plan<'f> {
     /// Coefficients of a block for one component.
     #[inline(always)]
     pub(super) fn block_coefficients(&self, block: &Block, component: usize) -> &'f [f64] {
-        match block.offset {
-            Some(offset) => &self.coefficients[component][offset..],
-            None => &[0.0],
+        if block.zero {
+            return &[0.0];
         }
+        &self.coefficients[component][block.offset as usize..]
     }
 
     /// The constant coefficient of a patch's first block.
@@ -123,14 +126,14 @@ impl<'f> Plan<'f> {
     fn add_blocks(&mut self, field: &Field, patch: usize, quantity: Quantity) -> Range<u32> {
         let start = self.blocks.len();
         if let Quantity::PartitionFunction(of) = quantity {
-            let offset = (of as usize == patch).then_some(0);
-            self.blocks.push(Block { offset, ..Block::NOTHING });
+            self.blocks.push(Block { zero: of as usize != patch, ..Block::NOTHING });
         } else if !self.coefficients.is_empty() {
             let data = field.data;
             self.blocks.extend(data.blocks(patch).map(|block| Block {
                 function: field.functions.of(data.block_function[block]),
-                degree: data.block_degree[block].into(),
-                offset: Some(data.block_offset[block] as usize),
+                degree: data.block_degree[block],
+                zero: false,
+                offset: data.block_offset[block],
             }));
             let smooth = |block: &Block| block.function == Slot::One;
             match self.blocks[start..].iter().position(smooth) {

@@ -59,7 +59,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 for (block, term) in blocks.iter().zip(&*terms) {
                     let coefficients = self.scene.plan.block_coefficients(block, component);
                     let table = &mut table[at..];
-                    collapse::<R, D>(coefficients, block.degree, shift, &rows, table);
+                    collapse::<R, D>(coefficients, term.degree, shift, &rows, table);
                     at += term.len;
                     shift = 0.0;
                 }
@@ -75,14 +75,15 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         collapsed.terms.clear();
         collapsed.len = 0;
         for block in &self.scene.plan.blocks[patch.blocks()] {
-            let len = table_len::<D>(block.degree);
+            let degree = block.degree.into();
+            let len = table_len::<D>(degree);
             let function = match block.function {
                 Slot::One => None,
                 Slot::Jet { group, entry } => {
                     Some(basis_offset::<R, D>(active, group) + entry as usize * size::<R, D>())
                 }
             };
-            collapsed.terms.push(Term { degree: block.degree, len, function });
+            collapsed.terms.push(Term { degree, len, function });
             collapsed.len += len;
         }
         let needed = weight_len::<D>() + collapsed.len * shift.len();

@@ -31,6 +31,8 @@ pub(crate) struct Recipe {
     pub(crate) crack: &'static [Vec2],
     /// Patches that the crack cuts have jumps.
     pub(crate) jumps: bool,
+    /// Tip functions are formulas without a kernel of their own.
+    pub(crate) formulas: bool,
     /// Components.
     pub(crate) components: usize,
     /// Weight function.
@@ -50,6 +52,7 @@ impl Default for Recipe {
             zone: 0.2,
             crack: &KINKED,
             jumps: true,
+            formulas: false,
             components: 2,
             weight: WeightFunction::Linear,
             own_frames: false,
@@ -71,7 +74,8 @@ const TIPS: [TipId; 2] = [TipId { crack: 0, end: End::Start }, TipId { crack: 0,
 /// Index of the first tip function; the side comes before.
 const FIRST_TIP: u32 = 2;
 
-fn functions() -> Vec<Function> {
+/// The function table; `wrap` puts the tip functions into parentheses, which hides what they are.
+fn functions(wrap: bool) -> Vec<Function> {
     let mut all = vec![
         Function { name: "one".into(), kind: FunctionKind::One },
         Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } },
@@ -80,7 +84,7 @@ fn functions() -> Vec<Function> {
         all.extend(WESTERGAARD.map(|text| Function {
             name: text.into(),
             kind: FunctionKind::Formula {
-                text: text.into(),
+                text: if wrap { format!("({text})") } else { text.into() },
                 frame: Frame::Tip(tip),
                 parameters: Vec::new(),
             },
@@ -118,8 +122,8 @@ struct Maker<'a> {
 /// A dataset after a recipe.
 pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
     let crack = Crack { points: recipe.crack.to_vec(), ends: [CrackEnd::Tip; 2] };
-    let (cracks, functions) = (vec![crack], functions());
-    let table = FunctionTable::new(&functions).expect("built-in functions");
+    let (cracks, functions) = (vec![crack], functions(recipe.formulas));
+    let table = FunctionTable::new(&self::functions(false)).expect("built-in functions");
     let partition = partition(recipe);
     let mut maker = Maker { recipe, cracks, table, partition, data: empty(recipe.components) };
     for patch in 0..maker.partition.len() {

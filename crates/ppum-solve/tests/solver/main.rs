@@ -1,5 +1,6 @@
 //! The solver against exact solutions and independent reference values.
 
+mod examples;
 mod physics;
 mod plates;
 #[path = "../studies/mod.rs"]
