@@ -343,6 +343,31 @@ impl Graph {
         (ops, roots.iter().map(|root| number[root.index()]).collect())
     }
 
+    /// Adds extracted operations; gives the node of each.
+    pub(super) fn absorb(&mut self, ops: &[Op]) -> Vec<NodeId> {
+        let mut nodes = Vec::with_capacity(ops.len());
+        for op in ops {
+            let node = self.made_anew(op.renumbered(|operand: NodeId| nodes[operand.index()]));
+            nodes.push(node);
+        }
+        nodes
+    }
+
+    /// The node of an operation, folded and with its operands in order.
+    fn made_anew(&mut self, op: Op) -> NodeId {
+        match op {
+            Op::Constant(_) | Op::Input(_) | Op::Truth(_) => self.node(op),
+            Op::Unary(op, a) => self.unary(op, a),
+            Op::Power(a, n) => self.power(a, n),
+            Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Select(c, a, b) => self.select(c, a, b),
+            Op::Compare(op, a, b) => self.compare(op, a, b),
+            Op::Not(c) => self.not(c),
+            Op::And(a, b) => self.and(a, b),
+            Op::Or(a, b) => self.or(a, b),
+        }
+    }
+
     /// The graph of extracted operations, with the same numbers.
     pub(super) fn from_ops(ops: &[Op]) -> Self {
         let known = (0..).zip(ops).map(|(id, &op)| (op, NodeId(id))).collect();

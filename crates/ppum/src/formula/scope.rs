@@ -175,6 +175,11 @@ impl Scope {
         Some(&self.dependent[dependent].rules)
     }
 
+    /// True if the variables and their rules are those of the other scope; parameters may differ.
+    pub(super) fn has_variables_of(&self, other: &Self) -> bool {
+        self.independent == other.independent && self.dependent == other.dependent
+    }
+
     /// All names: inputs and parameters.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.inputs().chain(self.parameters.iter().map(|(name, _)| name.as_str()))
