@@ -52,7 +52,7 @@ impl FormulaJets {
     pub fn new(formulas: &[&Formula], order: usize) -> Result<Self, DerivativeError> {
         let scope = &formulas.first().expect("at least one formula").scope;
         assert!(order <= 2, "derivatives of order {order} were asked for; there are up to 2");
-        let mut graph = Graph::default();
+        let mut graph = Graph::new(scope.tables());
         let roots: Vec<NodeId> =
             formulas.iter().map(|formula| root_in(&mut graph, formula, scope)).collect();
         let outputs = jets(&mut graph, scope, &roots, order)?;
@@ -95,7 +95,10 @@ impl FormulaJets {
 
 /// The node of a formula's value.
 fn root_in(graph: &mut Graph, formula: &Formula, scope: &Scope) -> NodeId {
-    assert!(formula.scope.has_variables_of(scope), "formulas must have the variables in common");
+    assert!(
+        formula.scope.has_variables_of(scope),
+        "formulas must have variables and tables in common"
+    );
     graph.absorb(formula.program.ops())[formula.root().index()]
 }
 

@@ -91,7 +91,7 @@ fn parameters_may_differ() {
 }
 
 #[test]
-#[should_panic(expected = "variables in common")]
+#[should_panic(expected = "variables and tables in common")]
 fn variables_may_not() {
     let f = Formula::parse("x", &Scope::cartesian()).expect("valid");
     let g = Formula::parse("x", &Scope::polar()).expect("valid");

@@ -6,6 +6,7 @@ mod hostile;
 mod jets;
 mod language;
 mod random;
+mod tables;
 mod westergaard;
 
 use super::{Formula, FormulaJets, Scope};
