@@ -61,7 +61,7 @@ impl<'d> Space<'d> {
             partition,
             step,
             data,
-            functions: FunctionTable::new(&step.functions)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len())?,
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),

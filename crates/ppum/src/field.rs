@@ -97,7 +97,7 @@ impl<'d> Field<'d> {
             equation: dataset.equation,
             step,
             data,
-            functions: FunctionTable::new(&step.functions)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len())?,
             tree: BoxTree::new(&supports),
             exact: exact(data)?,
         })

@@ -4,7 +4,7 @@
 //! the four Westergaard functions of a tip, one formula.
 
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
-use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
+use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId, TipPoint};
 use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
@@ -45,6 +45,21 @@ enum Group {
 struct Compiled {
     jet: FormulaJets,
     frame: Frame,
+    /// Whether θ itself is used, which costs an arc tangent.
+    theta: bool,
+    /// Whether the side of each crack is used.
+    sides: Vec<bool>,
+}
+
+impl Compiled {
+    fn new(formula: &Formula, frame: Frame, cracks: usize) -> Result<Self, DerivativeError> {
+        Ok(Self {
+            jet: FormulaJets::new(&[formula], 2)?,
+            frame,
+            theta: formula.uses("theta"),
+            sides: (0..cracks).map(|k| formula.uses(&format!("side({k})"))).collect(),
+        })
+    }
 }
 
 /// A function's formula is wrong.
@@ -73,14 +88,14 @@ pub enum CompileError {
 }
 
 impl FunctionTable {
-    /// Compiles a table.
+    /// Compiles a table for a step with this number of cracks.
     ///
     /// # Errors
     /// A formula that does not parse.
-    pub fn new(functions: &[Function]) -> Result<Self, FunctionError> {
+    pub fn new(functions: &[Function], cracks: usize) -> Result<Self, FunctionError> {
         let mut table = Self { slots: Vec::new(), groups: Vec::new() };
         for (index, function) in functions.iter().enumerate() {
-            let slot = table.slot(&function.kind).map_err(|source| FunctionError {
+            let slot = table.slot(&function.kind, cracks).map_err(|source| FunctionError {
                 index,
                 name: function.name.clone(),
                 source: Box::new(source),
@@ -90,16 +105,16 @@ impl FunctionTable {
         Ok(table)
     }
 
-    fn slot(&mut self, kind: &FunctionKind) -> Result<Slot, CompileError> {
+    fn slot(&mut self, kind: &FunctionKind, cracks: usize) -> Result<Slot, CompileError> {
         Ok(match kind {
             FunctionKind::One => Slot::One,
             FunctionKind::Side { crack } => self.group(Group::Side(*crack), 0),
             FunctionKind::Formula { text, frame, parameters } => match native(text, *frame) {
                 Some((tip, k)) => self.group(Group::Westergaard(tip), k),
                 None => {
-                    let jet = FormulaJets::new(&[&Formula::parse(text, &scope(parameters)?)?], 2)?;
-                    let compiled = Box::new(Compiled { jet, frame: *frame });
-                    self.group(Group::Formula(compiled), 0)
+                    let formula = Formula::parse(text, &scope(parameters, cracks)?)?;
+                    let compiled = Compiled::new(&formula, *frame, cracks)?;
+                    self.group(Group::Formula(Box::new(compiled)), 0)
                 }
             },
         })
@@ -149,7 +164,7 @@ impl FunctionTable {
             }
             &Group::Westergaard(tip) => LocalGroup::Westergaard(local_tip(cracks, tip, anchor)),
             Group::Formula(compiled) => {
-                LocalGroup::Formula(&compiled.jet, LocalFrame::new(cracks, compiled.frame, anchor))
+                LocalGroup::Formula(LocalFormula::new(compiled, cracks, anchor))
             }
         };
         LocalFunctions { table: self, groups: self.groups.iter().map(seen).collect() }
@@ -162,9 +177,10 @@ fn native(text: &str, frame: Frame) -> Option<(TipId, usize)> {
     WESTERGAARD.iter().position(|&known| known == text).map(|k| (tip, k))
 }
 
-fn scope(parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
+fn scope(parameters: &[(String, f64)], cracks: usize) -> Result<Scope, ScopeError> {
     let mut parameters = parameters.iter();
-    parameters.try_fold(Scope::polar(), |scope, (name, value)| scope.with_parameter(name, *value))
+    let polar = Scope::polar().with_sides(cracks);
+    parameters.try_fold(polar, |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 fn local_tip(cracks: &[Crack], tip: TipId, anchor: Vec2) -> LocalTip {
@@ -182,7 +198,7 @@ pub struct LocalFunctions<'t> {
 enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
-    Formula(&'t FormulaJets, LocalFrame),
+    Formula(LocalFormula<'t>),
 }
 
 impl<'t> LocalFunctions<'t> {
@@ -212,9 +228,7 @@ impl<'t> LocalFunctions<'t> {
                 out[2] = c.turned::<D>(x, y);
                 out[3] = d.turned::<D>(x, y);
             }
-            LocalGroup::Formula(formula, frame) => {
-                out[0] = frame.jet::<R, D>(formula, offset, side);
-            }
+            LocalGroup::Formula(formula) => out[0] = formula.jet::<R, D>(offset, side),
         }
     }
 }
@@ -237,39 +251,71 @@ impl LocalFrame {
         }
     }
 
-    /// x, y, r, θ of a point, and the frame's x axis.
-    fn coordinates(&self, offset: Vec2, side: Side) -> ([f64; 4], Vec2) {
+    /// The point `anchor + offset` in the frame. In a fixed frame the negative x axis belongs to the
+    /// upper side, θ = +π.
+    fn point(&self, offset: Vec2, side: Side) -> TipPoint<f64> {
         match self {
             Self::Fixed { from_origin, axis } => {
                 let d = *from_origin + offset;
                 let (x, y) = (axis.dot(d), axis.cross(d));
-                ([x, y, x.hypot(y), y.atan2(x)], *axis)
+                TipPoint { x, y, sign: if y >= 0.0 { 1.0 } else { -1.0 }, branch: 1.0 }
             }
-            Self::Tip(tip) => {
-                let p = tip.point([offset.x, offset.y], side);
-                let (r, theta) = p.polar();
-                ([p.x, p.y, r, theta], tip.axis)
-            }
+            Self::Tip(tip) => tip.point([offset.x, offset.y], side),
         }
     }
 
+    fn axis(&self) -> Vec2 {
+        match self {
+            Self::Fixed { axis, .. } => *axis,
+            Self::Tip(tip) => tip.axis,
+        }
+    }
+}
+
+/// A formula seen from an anchor.
+#[derive(Clone, Debug)]
+struct LocalFormula<'t> {
+    formula: &'t Compiled,
+    frame: LocalFrame,
+    /// The cracks whose sides are used.
+    cracks: Vec<Option<LocalCrack>>,
+}
+
+impl<'t> LocalFormula<'t> {
+    fn new(formula: &'t Compiled, cracks: &[Crack], anchor: Vec2) -> Self {
+        let used = |(crack, &used): (_, &bool)| used.then(|| LocalCrack::new(crack, anchor));
+        Self {
+            formula,
+            frame: LocalFrame::new(cracks, formula.frame, anchor),
+            cracks: cracks.iter().zip(&formula.sides).map(used).collect(),
+        }
+    }
+
+    /// The inputs of the formula at a point; NaN for those it does not use.
+    fn inputs(&self, offset: Vec2, side: Side, inputs: &mut Vec<f64>) {
+        let p = self.frame.point(offset, side);
+        let r = p.x.hypot(p.y);
+        let theta = if self.formula.theta { p.polar().1 } else { f64::NAN };
+        let [cos_half, sin_half] = p.half_angle(r);
+        inputs.clear();
+        inputs.extend([p.x, p.y, r, theta, cos_half, sin_half]);
+        let side_of = |crack: &LocalCrack| crack.side([offset.x, offset.y], side);
+        inputs.extend(self.cracks.iter().map(|crack| crack.as_ref().map_or(f64::NAN, side_of)));
+    }
+
     /// The formula at the lanes of `offset`, one lane after the other.
-    fn jet<R: Real, const D: usize>(
-        &self,
-        formula: &FormulaJets,
-        offset: [R; 2],
-        side: Side,
-    ) -> Jet<R> {
+    fn jet<R: Real, const D: usize>(&self, offset: [R; 2], side: Side) -> Jet<R> {
         let [mut xs, mut ys] = [[R::Scalar::default(); 16]; 2];
         offset[0].store(&mut xs);
         offset[1].store(&mut ys);
         let mut lanes = [[R::Scalar::default(); 16]; 6];
-        let mut scratch = Vec::new();
+        let (mut inputs, mut scratch) = (Vec::new(), Vec::new());
+        let axis = self.frame.axis();
         for k in 0..R::LANES {
             let point = vec2(xs[k].to_f64(), ys[k].to_f64());
-            let (inputs, axis) = self.coordinates(point, side);
+            self.inputs(point, side, &mut inputs);
             let mut out = [0.0; 6];
-            formula.evaluate(&inputs, &mut scratch, &mut out);
+            self.formula.jet.evaluate(&inputs, &mut scratch, &mut out);
             let [v, x, y, xx, xy, yy] = out;
             let world = Jet { v, x, y, xx, xy, yy }.turned::<D>(axis.x, axis.y);
             let world = [world.v, world.x, world.y, world.xx, world.xy, world.yy];
