@@ -173,7 +173,7 @@ class Computed:
         at = {k: float(v) for k, v in self.case.at.items()}
         if self.case.scope != "polar":
             return at
-        with mp.workdps(60):
+        with mp.workdps(700):
             x, y = mpf(at["x"]), mpf(at["y"])
             theta = mpmath.atan2(y, x) + 2 * mp.pi * self.case.turns
             numbers = [mpmath.hypot(x, y), theta, mpmath.cos(theta / 2), mpmath.sin(theta / 2)]

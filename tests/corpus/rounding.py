@@ -120,11 +120,17 @@ OPERATIONS = {
     "sqrt": (sympy.sqrt(A), 1, 0, {}), "exp": (sympy.exp(A), 0, 1, {}),
     "log": (sympy.log(A), 0, 1, {}), "log10": (sympy.log(A) / sympy.log(10), 0, 1, {}),
     "sin": (sympy.sin(A), 0, 1, {}), "cos": (sympy.cos(A), 0, 1, {}), "tan": (sympy.tan(A), 0, 1, {}),
-    "asin": (sympy.asin(A), 0, 1, {}), "acos": (sympy.acos(A), 0, 1, {}),
+    # the slope of (1 − a)(1 + a), a difference
+    "asin": (sympy.asin(A), 0, 1, {(0, 0): (1 - A**2) ** sympy.Rational(-3, 2)}),
+    "acos": (sympy.acos(A), 0, 1, {(0, 0): (1 - A**2) ** sympy.Rational(-3, 2)}),
     "atan": (sympy.atan(A), 0, 1, {}), "sinh": (sympy.sinh(A), 0, 1, {}),
     "cosh": (sympy.cosh(A), 0, 1, {}), "tanh": (sympy.tanh(A), 0, 1, {}),
-    # a^b (1 + b log a)/a cancels where a derivative of a^b by both vanishes
-    "pow": (A**B, 0, 1, {(0, 1): A ** (B - 1) * (1 + sympy.Abs(B * sympy.log(A)))}),
+    # exponents b − 1, b − 2 are rounded; 1 + b log a cancels
+    "pow": (A**B, 0, 1, {
+        (0,): B * A ** (B - 1) * (1 + sympy.Abs((B - 1) * sympy.log(A))),
+        (0, 0): B * (B - 1) * A ** (B - 2) * (1 + sympy.Abs((B - 2) * sympy.log(A))),
+        (0, 1): A ** (B - 1) * (1 + sympy.Abs(B * sympy.log(A))),
+    }),
     # second derivatives are differences such as (1 − cos²)/r
     "hypot": (RADIUS, 0, 1, {k: 1 / RADIUS for k in pairs(2)}),
     "atan2": (sympy.atan2(A, B), 0, 1, {k: 1 / RADIUS**2 for k in pairs(2)}),

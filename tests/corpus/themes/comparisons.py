@@ -30,7 +30,7 @@ CASES = [
     *plane("if(2 <= 1, x, x*y)", P, meaning="x*y"),
     *plane("exp(if(x > y, x, y))", P, Q, meaning="choose(x > y, exp(x), exp(y))"),
     *line("if(t < 0, 0, if(t < 1, t^2*(3 - 2*t), 1))", -0.5, 0, 0.25, 1, 2, meaning="Piecewise((0, t < 0), (t**2*(3 - 2*t), t < 1), (1, True))"),
-    *line("if(t <= 0.5 and t >= -0.5, cos(pi*t)^2, 0)", 0.25, 0.5, 0.75, meaning="choose(And(t <= 0.5, t >= -0.5), cos(pi*t)**2, 0)"),
+    *line("if(t <= 0.5 and t >= -0.5, 1 + cos(pi*t), 0)", 0.25, 0.5, 0.75, meaning="choose(And(t <= 0.5, t >= -0.5), 1 + cos(pi*t), 0)"),
     # a selected branch is the only one whose trouble counts
     *line("if(t > 0, exp(-1/t), 0)", -1, 0, 0.25, meaning="choose(t > 0, exp(-1/t), 0)"),
     *line("if(t < 1, sqrt(1 - t), 0)", 0.75, 2, meaning="choose(t < 1, sqrt(1 - t), 0)"),

@@ -17,7 +17,7 @@ CASES = [
     *line("max(1 - t^2, 0)^4", 0, 0.5, 0.875, 1.5, meaning="choose(t < 1, (1 - t**2)**4, 0)"),
     *line("max(1 - t^2, 0)^2.5", 0, 0.5, 0.875, 1.5, meaning="choose(t < 1, (1 - t**2)**Rational(5, 2), 0)"),
     *line("if(t < 1, (1 - t)^4*(1 + 4*t), 0)", 0, 0.5, 1, meaning="choose(t < 1, (1 - t)**4*(1 + 4*t), 0)"),
-    *line("cos(pi*min(t, 1)/2)^2", 0, 0.25, 0.75, 2, meaning="choose(t < 1, cos(pi*t/2)**2, 0)"),
+    *line("(1 + cos(pi*min(t, 1)))/2", 0, 0.25, 0.75, 2, meaning="choose(t < 1, (1 + cos(pi*t))/2, 0)"),
     *line("max(1 - t, 0)^3 - 4*max(0.5 - t, 0)^3", 0.25, 0.75, meaning="choose(t < Rational(1, 2), (1 - t)**3 - 4*(Rational(1, 2) - t)**3, (1 - t)**3)"),
     *line("let u = clamp((t - 0.25)/0.5, 0, 1); 1 - u^3*(10 - 15*u + 6*u^2)", 0, 0.375, 0.5, 0.8125, meaning="Piecewise((1, t < Rational(1, 4)), (1 - (2*t - Rational(1, 2))**3*(10 - 15*(2*t - Rational(1, 2)) + 6*(2*t - Rational(1, 2))**2), t < Rational(3, 4)), (0, True))"),
     *plane("max(1 - abs(x), 0)*max(1 - abs(y), 0)", (0.25, -0.5), (-0.75, 0.125), (2, 0.5)),

@@ -23,11 +23,11 @@ pub struct Tolerance {
 
 /// One point in double precision by the operations of std.
 ///
-/// Arithmetic of the derivatives is bound for the chain rule of second order, while the programs
-/// differentiate twice: some terms stand twice. Functions of the platform's library are wrong by
-/// less than one unit in the last place, which is two roundoffs, and derivatives take up to two each.
+/// c = 2: the bound is that of the chain rule of second order, while programs are differentiated twice, so
+/// that some terms stand twice. f = 2: functions of the platform's library are wrong by less than one
+/// unit in the last place, which is two roundoffs.
 pub const SCALAR: Tolerance =
-    Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 4.0, rounds_inputs: false };
+    Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 2.0, rounds_inputs: false };
 
 impl Tolerance {
     /// The largest allowed difference from `expected`, the corpus' number as a double.
