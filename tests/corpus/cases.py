@@ -31,6 +31,8 @@ class Case:
     parameters: dict = dataclasses.field(default_factory=dict)
     tables: tuple = ()
     turns: int = 0
+    # k: +1 or −1
+    sides: dict = dataclasses.field(default_factory=dict)
     # by the rules of IEEE 754: value and gradient as texts
     special: tuple = None
 
@@ -44,9 +46,10 @@ def plane(formula, *points, meaning=None, order=2, tables=(), **parameters):
     return [make(p) for p in points]
 
 
-def frame(formula, *points, meaning=None, order=2, turns=0, **parameters):
+def frame(formula, *points, meaning=None, order=2, turns=0, sides={}, **parameters):
     """Cases of the scope `polar`. Behind the origin, at y = 0, θ = π; whole turns are added to it."""
-    make = lambda p: Case(formula, "polar", dict(x=p[0], y=p[1]), meaning, order, parameters, (), turns)
+    at = lambda p: dict(x=p[0], y=p[1])
+    make = lambda p: Case(formula, "polar", at(p), meaning, order, parameters, (), turns, sides)
     return [make(p) for p in points]
 
 
@@ -103,13 +106,15 @@ class Computed:
         tables = {name: sympy.Symbol(name) for name in self.case.tables}
         table = lambda name, *at: exact.Spline(name, 0, 0, *at)
         dtable = lambda name, *rest: exact.Spline(name, *(rest[: len(rest) // 2] + (0,))[:2], *rest[len(rest) // 2 :])
-        return names | tables | {"table": table, "dtable": dtable}
+        side = lambda k: sympy.Integer(self.case.sides[int(k)])
+        return names | tables | {"table": table, "dtable": dtable, "side": side}
 
     # running errors
 
     def names(self):
         n = len(self.variables)
         names = {k: Jet.constant(given(v), n) for k, v in self.case.parameters.items()}
+        names |= {f"side({k})": Jet.constant(given(v), n) for k, v in self.case.sides.items()}
         for i, v in enumerate(self.variables):
             names[v] = Jet.constant(given(self.case.at[v]), n)
             names[v].gradient[i] = rounding.ONE
@@ -171,15 +176,16 @@ class Computed:
     def inputs(self):
         """All inputs as doubles: for a frame the doubles nearest to r, θ and the half angles."""
         at = {k: float(v) for k, v in self.case.at.items()}
+        sides = {f"side({k})": float(v) for k, v in self.case.sides.items()}
         if self.case.scope != "polar":
-            return at
+            return at | sides
         with mp.workdps(700):
             x, y = mpf(at["x"]), mpf(at["y"])
             theta = mpmath.atan2(y, x) + 2 * mp.pi * self.case.turns
             numbers = [mpmath.hypot(x, y), theta, mpmath.cos(theta / 2), mpmath.sin(theta / 2)]
             if y == 0 and x < 0:
                 numbers[2] = 0
-            return at | dict(zip(("r", "theta", *HALF_ANGLES), map(float, numbers)))
+            return at | dict(zip(("r", "theta", *HALF_ANGLES), map(float, numbers))) | sides
 
     def record(self):
         lines = head(self.case, self.inputs())

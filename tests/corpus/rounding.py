@@ -204,6 +204,8 @@ class Evaluation:
     def call(self, name, arguments):
         if name == "if":
             return self.jet(arguments[1] if self.holds(arguments[0]) else arguments[2])
+        if name == "side":
+            return self.names[f"side({int(arguments[0][1])})"]
         if name == "table":
             return self.table(arguments[0][1], [0, 0], [self.jet(a) for a in arguments[1:]])
         if name == "dtable":

@@ -36,6 +36,15 @@ CASES = [
     *frame("cos(theta/2)", AROUND[1], (-0.5, 0.25), turns=-1),
     *frame("sin(theta/2)*x", AROUND[1], (-0.5, 0.25), turns=-1),
     *frame("sin(3*theta/2)", AROUND[2], turns=1),
+    # many turns, and tangents
+    *frame("cos(8*theta)", AROUND[1], *BEHIND[:1]),
+    *frame("sin(21*theta/2)", AROUND[0], *BEHIND[:1]),
+    *frame("cos(32*theta)*sin(-31.5*theta)", AROUND[3]),
+    *frame("tan(theta)*tan(theta/2)", AROUND[0], AHEAD[0]),
+    # sides of cracks
+    *frame("side(0)*r^2*cos(2*theta)", AROUND[1], sides={0: 1}),
+    *frame("side(0)*side(1)*x*y + side(1)", AROUND[2], sides={0: 1, 1: -1}),
+    *frame("if(side(0) > 0, x^2, y^2)", AROUND[2], sides={0: -1}, meaning="y^2"),
     # plain angles
     *frame("theta", *AROUND, BEHIND[0], AHEAD[0], *CUT),
     *frame("theta", *CUT, turns=-1),

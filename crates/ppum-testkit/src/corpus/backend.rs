@@ -1,6 +1,6 @@
 //! Evaluators of formulas as the corpus sees them.
 
-use ppum::formula::Formula;
+use ppum::formula::{Formula, FormulaJets};
 
 use super::Case;
 
@@ -49,6 +49,44 @@ impl Backend for Derivatives {
         };
         Outcome::Results(vec![all(&[f]), all(&first), all(&second)])
     }
+}
+
+/// Double precision at one point, all derivatives in one program: [`FormulaJets`].
+#[derive(Debug, Default)]
+pub struct Scalar {
+    scratch: Vec<f64>,
+}
+
+impl Backend for Scalar {
+    fn name(&self) -> &str {
+        "scalar f64"
+    }
+
+    fn evaluate(&mut self, case: &Case) -> Outcome {
+        let f = parse(case);
+        let jets = jets(case, &f);
+        let mut out = vec![0.0; jets.n_outputs()];
+        jets.evaluate(&case.inputs, &mut self.scratch, &mut out);
+        Outcome::Results(orders(case, &out))
+    }
+}
+
+/// Value and derivatives in one program; of more than two variables the value.
+pub(super) fn jets(case: &Case, f: &Formula) -> FormulaJets {
+    let order = if case.variables.len() > 2 { 0 } else { case.expected.len() - 1 };
+    FormulaJets::new(&[f], order).unwrap_or_else(|error| panic!("{}: {error}", case.place))
+}
+
+/// The outputs of a [`FormulaJets`] order by order.
+pub(super) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
+    let n = case.variables.len();
+    let counts = [1, n, n * (n + 1) / 2];
+    let of_order = |count: usize| {
+        let (now, later) = out.split_at_checked(count)?;
+        out = later;
+        Some(now.to_vec())
+    };
+    counts.into_iter().map_while(of_order).collect()
 }
 
 /// The formula of a case.

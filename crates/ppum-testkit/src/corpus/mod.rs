@@ -14,7 +14,7 @@ use std::sync::Arc;
 use ppum::formula::{Scope, Table};
 use record::{Record, records};
 
-pub use backend::{Backend, Derivatives, Outcome};
+pub use backend::{Backend, Derivatives, Outcome, Scalar};
 pub use report::{Report, check};
 pub use tolerance::{SCALAR, Tolerance};
 
@@ -152,7 +152,8 @@ fn scope(record: &Record, tables: &[Arc<Table>]) -> (Scope, Vec<String>) {
         scope.and_then(|s| s.with_table(Arc::clone(table)))
     });
     let scope = scope.unwrap_or_else(|error| record.fail(&error.to_string()));
-    (scope, names.into_iter().map(str::to_owned).collect())
+    let sides = record.pairs("at").iter().filter(|(name, _)| name.starts_with("side(")).count();
+    (scope.with_sides(sides), names.into_iter().map(str::to_owned).collect())
 }
 
 fn bounds(record: &Record) -> [Bound; 3] {
