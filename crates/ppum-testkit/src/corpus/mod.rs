@@ -4,6 +4,7 @@
 //! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
 mod backend;
+pub mod hostile;
 mod record;
 mod report;
 mod tolerance;
@@ -167,6 +168,16 @@ fn bounds(record: &Record) -> [Bound; 3] {
     })
 }
 
+/// The text of an escaped one: `\n`, `\r`, `\t`, and `\u{…}` for any character.
 fn unescaped(text: &str) -> String {
-    text.replace("\\n", "\n").replace("\\r", "\r").replace("\\t", "\t")
+    let mut parts = text.split("\\u{");
+    let plain = |part: &str| part.replace("\\n", "\n").replace("\\r", "\r").replace("\\t", "\t");
+    let mut whole = parts.next().map_or_else(String::new, plain);
+    for part in parts {
+        let (code, rest) = part.split_once('}').expect("`\\u{` is followed by `}`");
+        let code = u32::from_str_radix(code, 16).expect("a number in hexadecimal");
+        whole.push(char::from_u32(code).expect("a character"));
+        whole += &plain(rest);
+    }
+    whole
 }

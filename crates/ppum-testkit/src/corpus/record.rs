@@ -35,6 +35,11 @@ impl Record {
         self.lines.iter().filter(move |(known, _)| known == key).map(|(_, value)| value.as_str())
     }
 
+    /// All lines, as keys and values.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.lines.iter().map(|(key, value)| (key.as_str(), value.as_str()))
+    }
+
     /// The value of a key, if it is there.
     pub(super) fn find(&self, key: &str) -> Option<&str> {
         self.all(key).next()
