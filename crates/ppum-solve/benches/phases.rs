@@ -18,8 +18,8 @@ fn report(level: u32) {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let pull = |t: f64| {
         vec![
-            Condition::Neumann(Expression::constant(0.0)),
-            Condition::Neumann(Expression::constant(t)),
+            Condition::Neumann(Expression::number(0.0)),
+            Condition::Neumann(Expression::number(t)),
         ]
     };
     let problem = Problem::elasticity(domain, material, Discretization::new(Cells::Level(level)))

@@ -37,7 +37,7 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
-    let law = Law::new(&field.equation);
+    let law = Law::new(field.equation);
     let quadrature = space.quadrature(EXTRA);
     let cells = &space.partition.cell;
     let parts: Vec<_> = (0..cells.len())

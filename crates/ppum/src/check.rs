@@ -7,8 +7,7 @@ use std::collections::BTreeSet;
 
 use crate::crack::Crack;
 use crate::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Material, Partition, Step, StressState, TipIntensity,
-    monomials,
+    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Step, TipIntensity, monomials,
 };
 use crate::function::{Frame, Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
@@ -39,7 +38,10 @@ impl Dataset {
     /// The first violation, with its place.
     pub fn check(&self) -> Checked {
         check_box("domain", &self.domain)?;
-        check_equation(&self.equation)?;
+        if let Some((name, problem)) = self.equation.mistake(&self.domain) {
+            return fail(&format!("equation.{name}"), problem);
+        }
+        check_names("quantities", self.quantities.iter().map(|quantity| &quantity.name))?;
         require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
         for (k, step) in self.steps.iter().enumerate() {
             check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
@@ -130,29 +132,6 @@ fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Chec
         require(seen.insert(name), place, || format!("the name `{name}` occurs twice"))?;
     }
     Ok(())
-}
-
-fn check_equation(equation: &Equation) -> Checked {
-    match *equation {
-        Equation::Elasticity(material) => check_material(&material),
-        Equation::Poisson { conductivity } => {
-            require(conductivity.is_finite() && conductivity > 0.0, "equation.conductivity", || {
-                format!("{conductivity} must be finite and positive")
-            })
-        }
-    }
-}
-
-fn check_material(material: &Material) -> Checked {
-    let (young, nu) = (material.young, material.poisson);
-    require(young.is_finite() && young > 0.0, "equation.young", || {
-        format!("{young} must be finite and positive")
-    })?;
-    let (possible, range) = match material.state {
-        StressState::PlaneStrain => (nu > -1.0 && nu < 0.5, "-1 < ν < 1/2 in plane strain"),
-        StressState::PlaneStress => (nu > -1.0 && nu <= 0.5, "-1 < ν ≤ 1/2 in plane stress"),
-    };
-    require(possible, "equation.poisson", || format!("{nu} is outside {range}"))
 }
 
 fn check_step(step: &Step, equation: &Equation) -> Checked {
@@ -394,7 +373,7 @@ mod tests {
             program: "test".into(),
             problem: None,
             domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)),
-            equation: Equation::Elasticity(Material {
+            equation: Equation::elasticity(Material {
                 young: 1.0,
                 poisson: 0.3,
                 state: StressState::PlaneStrain,
@@ -419,11 +398,11 @@ mod tests {
     fn domain_material_and_steps() {
         assert_eq!(place_after(|d| d.domain.max.x = 0.0), "domain");
         assert_eq!(place_after(|d| d.domain.max.x = f64::INFINITY), "domain");
-        assert_eq!(place_after(|d| d.equation = Equation::Poisson { conductivity: 0.0 }), {
+        assert_eq!(place_after(|d| d.equation = Equation::poisson(0.0)), {
             "equation.conductivity"
         });
         let material = |young, poisson| {
-            Equation::Elasticity(Material { young, poisson, state: StressState::PlaneStrain })
+            Equation::elasticity(Material { young, poisson, state: StressState::PlaneStrain })
         };
         assert_eq!(place_after(|d| d.equation = material(-1.0, 0.3)), "equation.young");
         assert_eq!(place_after(|d| d.equation = material(1.0, 0.5)), "equation.poisson");

@@ -54,7 +54,7 @@
 //!     program: "by hand".into(),
 //!     problem: None,
 //!     domain,
-//!     equation: Equation::Poisson { conductivity: 1.0 },
+//!     equation: Equation::poisson(1.0),
 //!     steps: vec![step],
 //! };
 //! dataset.check()?;
@@ -195,6 +195,8 @@ pub mod check;
 pub mod cover;
 pub mod crack;
 pub mod dataset;
+pub mod equation;
+pub mod expression;
 pub mod field;
 pub mod formula;
 pub mod function;

@@ -132,7 +132,7 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
     let Maker { cracks, partition, data, .. } = maker;
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let equation = match recipe.components {
-        1 => Equation::Poisson { conductivity: 1.0 },
+        1 => Equation::poisson(1.0),
         _ => Equation::Elasticity(material),
     };
     Dataset {

@@ -50,7 +50,7 @@ pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use error::{Finding, Place, ProblemError};
-pub use expression::Expression;
+pub use ppum::expression::Expression;
 
 /// What is to be solved, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,7 +131,7 @@ impl Problem {
         Self {
             title: String::new(),
             domain,
-            source: vec![Expression::constant(0.0); equation.components()],
+            source: vec![Expression::number(0.0); equation.components()],
             equation,
             cracks: Vec::new(),
             boundary: Vec::new(),

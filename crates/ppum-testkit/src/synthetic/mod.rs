@@ -140,7 +140,7 @@ impl Recipe {
     pub fn dataset(&self) -> Dataset {
         let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
         let equation = match self.components {
-            1 => Equation::Poisson { conductivity: 1.0 },
+            1 => Equation::poisson(1.0),
             _ => Equation::Elasticity(material),
         };
         Dataset {

@@ -217,6 +217,13 @@ impl Formula {
     }
 }
 
+/// Formulas are equal when their texts and scopes are.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text && self.scope == other.scope
+    }
+}
+
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()

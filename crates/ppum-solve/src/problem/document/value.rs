@@ -8,7 +8,8 @@ use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeValue};
 
 use super::super::error::Finding;
-use super::super::expression::{self, Expression};
+use super::super::expression;
+use ppum::expression::Expression;
 use super::{Report, Section, nearest};
 
 /// A value of the document. The readers of its type report and return `None` where it has another.
@@ -144,7 +145,7 @@ impl<'a> Value<'a> {
     pub(in super::super) fn expression(&self) -> Option<Expression> {
         match self.item.get_ref() {
             DeValue::String(text) => self.formula(text),
-            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::constant),
+            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::number),
             _ => self.expected("a number or a formula in quotes"),
         }
     }

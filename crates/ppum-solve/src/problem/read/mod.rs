@@ -17,7 +17,7 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::expression::Expression;
+use ppum::expression::Expression;
 use super::{Problem, Solver};
 use boundary::boundary;
 use discretization::discretization;
@@ -243,7 +243,7 @@ fn source(root: &Section<'_>, kind: Kind) -> Vec<Expression> {
         let example = if kind == Kind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
         expressions(&section.require("value", example)?, kind)
     };
-    read().unwrap_or_else(|| vec![Expression::constant(0.0); words.components])
+    read().unwrap_or_else(|| vec![Expression::number(0.0); words.components])
 }
 
 /// The exact solution: empty if there is none, `None` if it cannot be read.
