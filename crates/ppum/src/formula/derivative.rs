@@ -56,6 +56,18 @@ impl Pass<'_> {
                 self.times(slope, self.d(a, v))
             }
             Op::Binary(op, a, b) => self.binary(op, node, a, b, v),
+            Op::Table { table, orders: [m, n], x, y } => {
+                let mut raised = |orders| self.graph.table(table, orders, x, y);
+                let (in_x, in_y) = (raised([m + 1, n]), y.map(|_| raised([m, n + 1])));
+                let along_x = self.times(in_x, self.d(x, v));
+                match (in_y, y) {
+                    (Some(in_y), Some(y)) => {
+                        let along_y = self.times(in_y, self.d(y, v));
+                        self.plus(along_x, along_y)
+                    }
+                    _ => along_x,
+                }
+            }
             Op::Select(c, a, b) => self.graph.select(c, self.d(a, v), self.d(b, v)),
             Op::Constant(_)
             | Op::Truth(_)

@@ -76,6 +76,24 @@ pub enum Problem {
     TooLong,
     /// `table(…)` where no tables are known.
     NoTables,
+    /// No table has this name.
+    UnknownTable {
+        /// The nearest table, if one is near.
+        suggestion: Option<Box<str>>,
+        /// All tables.
+        known: Box<str>,
+    },
+    /// The name of a table stands for a value.
+    TableForNumber,
+    /// A table has too few or too many arguments.
+    TableArguments {
+        /// The right form.
+        form: Box<str>,
+        /// How many arguments there are, the table's name included.
+        given: usize,
+    },
+    /// The order of a table's derivative is not a whole number written out.
+    InvalidOrder,
 }
 
 impl Problem {
@@ -116,7 +134,18 @@ impl Problem {
                 format!("nested deeper than {MAX_DEPTH} levels; name parts with `let`")
             }
             Self::TooLong => format!("longer than {MAX_LENGTH} bytes; formulas are short texts"),
-            Self::NoTables => "tables are not available here; use a closed expression".to_owned(),
+            Self::NoTables => "there are no tables here; use a closed expression".to_owned(),
+            Self::UnknownTable { suggestion, known } => match suggestion {
+                Some(name) => format!("no table {quoted}; did you mean `{name}`?"),
+                None => format!("no table {quoted}; tables are {known}"),
+            },
+            Self::TableForNumber => format!("{quoted} is a table; write `table({found}, …)`"),
+            Self::TableArguments { form, given } => {
+                format!("wrong number of arguments, {given}; write `{form}`")
+            }
+            Self::InvalidOrder => format!(
+                "{quoted} is not the order of a derivative; write 0, 1, 2 or 3, as in `dtable(name, 1, x)`"
+            ),
         }
     }
 }

@@ -5,7 +5,9 @@
 //! before what uses them, so every pass is a loop.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
+use super::Table;
 use super::operation::{Binary, Comparison, Unary, power};
 
 /// Index of a node; an operand's is smaller than that of its user.
@@ -32,6 +34,8 @@ pub(super) enum Op {
     Power(NodeId, i32),
     /// A function of two numbers.
     Binary(Binary, NodeId, NodeId),
+    /// A derivative of a table: its index in the scope, the orders in x and y, its arguments.
+    Table { table: u32, orders: [u8; 2], x: NodeId, y: Option<NodeId> },
     /// `Select(c, a, b)`: a where c holds, else b.
     Select(NodeId, NodeId, NodeId),
     /// A condition that is known.
@@ -71,6 +75,7 @@ impl Op {
             Self::Binary(_, a, b) | Self::Compare(_, a, b) | Self::And(a, b) | Self::Or(a, b) => {
                 [Some(a), Some(b), None]
             }
+            Self::Table { x, y, .. } => [Some(x), y, None],
             Self::Select(c, a, b) => [Some(c), Some(a), Some(b)],
         };
         array.into_iter().flatten()
@@ -87,6 +92,9 @@ impl Op {
             Self::Compare(op, a, b) => Self::Compare(op, new(a), new(b)),
             Self::And(a, b) => Self::And(new(a), new(b)),
             Self::Or(a, b) => Self::Or(new(a), new(b)),
+            Self::Table { table, orders, x, y } => {
+                Self::Table { table, orders, x: new(x), y: y.map(new) }
+            }
             Self::Select(c, a, b) => Self::Select(new(c), new(a), new(b)),
         }
     }
@@ -99,11 +107,22 @@ const MAX_INTEGER_POWER: f64 = 16.0;
 /// A growing set of distinct nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Graph {
+    tables: Arc<[Arc<Table>]>,
     ops: Vec<Op>,
     known: HashMap<Op, NodeId>,
 }
 
 impl Graph {
+    /// No nodes; the tables that later ones may use.
+    pub(super) fn new(tables: Arc<[Arc<Table>]>) -> Self {
+        Self { tables, ops: Vec::new(), known: HashMap::new() }
+    }
+
+    /// The tables, in the order of the scope.
+    pub(super) fn tables(&self) -> &Arc<[Arc<Table>]> {
+        &self.tables
+    }
+
     /// Number of nodes.
     pub(super) fn len(&self) -> usize {
         self.ops.len()
@@ -238,6 +257,25 @@ impl Graph {
         }
     }
 
+    /// A derivative of a table; `y` if it has two arguments.
+    pub(super) fn table(
+        &mut self,
+        table: u32,
+        orders: [u8; 2],
+        x: NodeId,
+        y: Option<NodeId>,
+    ) -> NodeId {
+        // cubics: beyond the third derivative there is nothing
+        if orders[0] > 3 || orders[1] > 3 {
+            return self.constant(0.0);
+        }
+        if let (Some(x), Some(y)) = (self.value(x), y.map_or(Some(0.0), |y| self.value(y))) {
+            let value = self.tables[table as usize].derivative(orders, x, y);
+            return self.constant(value);
+        }
+        self.node(Op::Table { table, orders, x, y })
+    }
+
     /// The node whose negative `a` is, if it is made so.
     fn negated(&self, a: NodeId) -> Option<NodeId> {
         match self.op(a) {
@@ -344,9 +382,9 @@ impl Graph {
     }
 
     /// The graph of extracted operations, with the same numbers.
-    pub(super) fn from_ops(ops: &[Op]) -> Self {
+    pub(super) fn from_ops(ops: &[Op], tables: Arc<[Arc<Table>]>) -> Self {
         let known = (0..).zip(ops).map(|(id, &op)| (op, NodeId(id))).collect();
-        Self { ops: ops.to_vec(), known }
+        Self { tables, ops: ops.to_vec(), known }
     }
 }
 
@@ -402,7 +440,7 @@ mod tests {
         let (ops, roots) = g.extract(&[root]);
         assert_eq!(ops, [Op::Input(0), Op::Unary(Unary::Sin, NodeId(0))]);
         assert_eq!(roots, [NodeId(1)]);
-        let again = Graph::from_ops(&ops);
+        let again = Graph::from_ops(&ops, Arc::default());
         assert_eq!(again.extract(&roots), (ops, roots));
     }
 }

@@ -13,8 +13,10 @@ pub(super) enum Function {
     If,
     /// `clamp(x, low, high)` = min(max(x, low), high).
     Clamp,
-    /// `table(name, x)`.
+    /// `table(name, x)` or `table(name, x, y)`.
     Table,
+    /// `dtable(name, m, x)` or `dtable(name, m, n, x, y)`: a derivative of a table.
+    TableDerivative,
 }
 
 impl Function {
@@ -23,18 +25,19 @@ impl Function {
         FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
     }
 
-    /// Number of arguments.
-    pub(super) fn arity(self) -> usize {
+    /// Number of arguments; `None` if a table decides.
+    pub(super) fn arity(self) -> Option<usize> {
         match self {
-            Self::Unary(_) => 1,
-            Self::Binary(_) | Self::Table => 2,
-            Self::If | Self::Clamp => 3,
+            Self::Unary(_) => Some(1),
+            Self::Binary(_) => Some(2),
+            Self::If | Self::Clamp => Some(3),
+            Self::Table | Self::TableDerivative => None,
         }
     }
 }
 
 /// All functions.
-pub(super) const FUNCTIONS: [(&str, Function); 24] = [
+pub(super) const FUNCTIONS: [(&str, Function); 25] = [
     ("sqrt", Function::Unary(Unary::Sqrt)),
     ("cbrt", Function::Unary(Unary::Cbrt)),
     ("exp", Function::Unary(Unary::Exp)),
@@ -59,6 +62,7 @@ pub(super) const FUNCTIONS: [(&str, Function); 24] = [
     ("if", Function::If),
     ("clamp", Function::Clamp),
     ("table", Function::Table),
+    ("dtable", Function::TableDerivative),
 ];
 
 /// All constants.

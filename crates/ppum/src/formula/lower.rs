@@ -11,7 +11,7 @@ use super::scope::Scope;
 /// Parses a formula and makes sure that it is a number.
 pub(super) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     let ast = parse(source, scope)?;
-    match lower(&ast, &mut Graph::default()) {
+    match lower(&ast, &mut Graph::new(scope.tables())) {
         Ok(_) => Ok(ast),
         Err(mistake) => Err(mistake.locate(source, &ast)),
     }
@@ -55,6 +55,11 @@ impl Lowering<'_> {
             ExprKind::Prefix(prefix, a) => self.prefix(*prefix, *a),
             ExprKind::Infix(infix, a, b) => self.infix(*infix, *a, *b),
             ExprKind::Call(function, arguments) => self.call(*function, arguments),
+            ExprKind::Table { table, orders, x, y } => {
+                let y = y.map(|y| self.number(y)).transpose()?;
+                let x = self.number(*x)?;
+                Ok(self.graph.table(*table, *orders, x, y))
+            }
         }
     }
 
@@ -129,7 +134,7 @@ impl Lowering<'_> {
                 let raised = self.graph.binary(Binary::Max, x, low);
                 Ok(self.graph.binary(Binary::Min, raised, high))
             }
-            _ => unreachable!("the parser counts arguments and refuses tables"),
+            _ => unreachable!("the parser counts arguments and knows tables"),
         }
     }
 }

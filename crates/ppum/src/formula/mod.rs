@@ -10,6 +10,8 @@
 //! operators   or,  and,  not,  < <= > >= == !=,  + -,  * /,  unary -,  ^        weakest to tightest
 //! functions   sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh
 //!             abs sign min max floor hypot clamp(x, low, high) if(condition, a, b)
+//! tables      table(name, x)  table(name, x, y)             see [`Table`]
+//!             dtable(name, m, x)  dtable(name, m, n, x, y)  derivatives of orders m, n (whole numbers)
 //! constants   pi e
 //! comments    # to the end of the line
 //! ```
@@ -49,6 +51,7 @@ mod parser;
 mod print;
 mod program;
 mod scope;
+mod table;
 #[cfg(test)]
 mod tests;
 
@@ -57,6 +60,7 @@ use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
 pub use scope::{Scope, ScopeError};
+pub use table::{Table, TableError};
 
 use derivative::gradients;
 use graph::{Graph, NodeId};
@@ -114,7 +118,7 @@ impl Formula {
     /// When the text is no formula of the scope; the error points at the place.
     pub fn parse(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
-        let mut graph = Graph::default();
+        let mut graph = Graph::new(scope.tables());
         let root = lower::lower(&ast, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
@@ -174,7 +178,7 @@ impl Formula {
     /// When there is no such variable, or the derivative is too large.
     pub fn derivative(&self, variable: &str) -> Result<Self, DerivativeError> {
         let v = self.independent(variable)?;
-        let mut graph = Graph::from_ops(self.program.ops());
+        let mut graph = self.program.graph();
         let gradient = self.gradients(&mut graph, &[self.root()])?;
         let program = Program::new(&graph, &[gradient[0][v]]);
         let text = print::print(&program, &self.scope);
@@ -187,7 +191,7 @@ impl Formula {
     /// When `x` and `y` are not independent variables of the scope, or the derivatives are too large.
     pub fn jet(&self) -> Result<FormulaJet, DerivativeError> {
         let (x, y) = (self.independent("x")?, self.independent("y")?);
-        let mut graph = Graph::from_ops(self.program.ops());
+        let mut graph = self.program.graph();
         let first = self.gradients(&mut graph, &[self.root()])?;
         let (dx, dy) = (first[0][x], first[0][y]);
         let second = self.gradients(&mut graph, &[dx, dy])?;

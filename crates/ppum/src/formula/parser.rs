@@ -145,6 +145,7 @@ impl<'a> Parser<'a> {
         }
         let kind = match (self.scope.meaning(name), library::constant(name)) {
             (Some(Meaning::Input(index)), _) => ExprKind::Input(index),
+            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Problem::TableForNumber)),
             (Some(Meaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
             (None, None) => return Err(self.error(span, self.unknown_name(name))),
         };
@@ -155,26 +156,83 @@ impl<'a> Parser<'a> {
     fn call(&mut self, name: Span) -> Parsed {
         let function = self.function(name)?;
         self.expect(TokenKind::Open, "`(`")?;
+        let Some(expected) = function.arity() else {
+            return self.table(name, function == Function::TableDerivative);
+        };
         let mut arguments = Vec::new();
         if self.peek().kind != TokenKind::Close {
             arguments.push(self.nested(Self::block)?);
-            while self.accept(TokenKind::Comma) {
-                arguments.push(self.nested(Self::block)?);
-            }
+            arguments.extend(self.further_arguments()?);
         }
         let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
-        let (expected, given) = (function.arity(), arguments.len());
+        let given = arguments.len();
         if given != expected {
             return Err(self.error(name, Problem::ArgumentCount { expected, given }));
         }
         Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
     }
 
+    /// Arguments, each after a comma.
+    fn further_arguments(&mut self) -> Result<Vec<ExprId>, FormulaError> {
+        let mut arguments = Vec::new();
+        while self.accept(TokenKind::Comma) {
+            arguments.push(self.nested(Self::block)?);
+        }
+        Ok(arguments)
+    }
+
+    /// `name, x)`, `name, x, y)` or, of a derivative, `name, m, x)`, `name, m, n, x, y)` after the
+    /// parenthesis of `table(`; its name stands at `function`.
+    fn table(&mut self, function: Span, derivative: bool) -> Parsed {
+        let name = self.expect(TokenKind::Name, "the name of a table")?.span;
+        let table = self.table_named(name)?;
+        let n = self.scope.tables()[table as usize].n_arguments();
+        let arguments = self.further_arguments()?;
+        let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
+        let expected = if derivative { 2 * n } else { n };
+        if arguments.len() != expected {
+            let given = arguments.len() + 1;
+            let form = table_form(self.text(name), n, derivative).into();
+            return Err(self.error(function, Problem::TableArguments { form, given }));
+        }
+        let mut orders = [0; 2];
+        for (order, &argument) in orders.iter_mut().zip(&arguments[..expected - n]) {
+            *order = self.order(argument)?;
+        }
+        let (x, y) = (arguments[expected - n], arguments.get(expected - n + 1).copied());
+        Ok(self.push(ExprKind::Table { table, orders, x, y }, function.to(close.span)))
+    }
+
+    fn table_named(&self, span: Span) -> Result<u32, FormulaError> {
+        let name = self.text(span);
+        if let Some(Meaning::Table(table)) = self.scope.meaning(name) {
+            return Ok(table);
+        }
+        let names: Vec<&str> = self.scope.table_names().collect();
+        let problem = if names.is_empty() {
+            Problem::NoTables
+        } else {
+            let suggestion = nearest(name, names.iter().copied()).map(String::into_boxed_str);
+            Problem::UnknownTable { suggestion, known: names.join(", ").into() }
+        };
+        Err(self.error(span, problem))
+    }
+
+    /// The order of a derivative; beyond the third they are 0, but may be asked for.
+    fn order(&self, argument: ExprId) -> Result<u8, FormulaError> {
+        match self.nodes[argument.index()].kind {
+            ExprKind::Number(order) if (0.0..=9.0).contains(&order) && order.fract() == 0.0 => {
+                Ok(order as u8)
+            }
+            _ => Err(self.error(self.span(argument), Problem::InvalidOrder)),
+        }
+    }
+
     fn function(&self, span: Span) -> Result<Function, FormulaError> {
         let name = self.text(span);
         let problem = match Function::named(name) {
-            Some(Function::Table) => Problem::NoTables,
             Some(function) => return Ok(function),
+            None if self.scope.table_names().any(|known| known == name) => Problem::TableForNumber,
             None if self.known_names().any(|known| known == name) => Problem::NotAFunction,
             None => {
                 let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
@@ -255,6 +313,16 @@ impl<'a> Parser<'a> {
 
     fn error(&self, span: Span, problem: Problem) -> FormulaError {
         FormulaError::new(self.source, span, problem)
+    }
+}
+
+/// How a table of `n` arguments is written.
+fn table_form(name: &str, n: usize, derivative: bool) -> String {
+    let arguments = if n == 1 { "x" } else { "x, y" };
+    match (derivative, n) {
+        (false, _) => format!("table({name}, {arguments})"),
+        (true, 1) => format!("dtable({name}, m, {arguments})"),
+        (true, _) => format!("dtable({name}, m, n, {arguments})"),
     }
 }
 

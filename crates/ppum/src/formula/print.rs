@@ -41,6 +41,7 @@ struct Piece {
 
 struct Printer<'a> {
     inputs: Vec<&'a str>,
+    tables: Vec<&'a str>,
     taken: HashSet<&'a str>,
     /// How often each operation is an operand.
     uses: Vec<u32>,
@@ -57,7 +58,8 @@ impl<'a> Printer<'a> {
         }
         Self {
             inputs: scope.inputs().collect(),
-            taken: scope.names().collect(),
+            tables: scope.table_names().collect(),
+            taken: scope.names().chain(scope.table_names()).collect(),
             uses,
             pieces: Vec::new(),
             bindings: String::new(),
@@ -91,6 +93,7 @@ impl<'a> Printer<'a> {
                 self.before(a, precedence::ATOM, &format!("^{n}"), precedence::POWER)
             }
             Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
             Op::Select(c, a, b) => self.call(Function::If, &[c, a, b]),
             Op::Truth(holds) => Piece {
                 text: if holds { "0 == 0" } else { "0 == 1" }.to_owned(),
@@ -144,6 +147,22 @@ impl<'a> Printer<'a> {
         let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
         let texts: Vec<&str> = pieces.iter().map(|piece| piece.text.as_str()).collect();
         atom(format!("{}({})", name_of(function), texts.join(", ")), depth + 1)
+    }
+
+    /// `table(name, x, y)` or `dtable(name, m, n, x, y)`.
+    fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> Piece {
+        let given = 1 + usize::from(y.is_some());
+        let mut parts = vec![self.tables[table].to_owned()];
+        let derived = orders != [0, 0];
+        if derived {
+            parts.extend(orders[..given].iter().map(u8::to_string));
+        }
+        let pieces: Vec<Piece> =
+            [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
+        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
+        parts.extend(pieces.into_iter().map(|piece| piece.text));
+        let function = if derived { Function::TableDerivative } else { Function::Table };
+        atom(format!("{}({})", name_of(function), parts.join(", ")), depth + 1)
     }
 
     /// The text of an operand, in parentheses if it binds less tightly than `weakest`.

@@ -1,5 +1,8 @@
 //! The variables a formula may use.
 
+use std::sync::Arc;
+
+use super::Table;
 use super::ast::Ast;
 use super::error::FormulaError;
 use super::{library, lower};
@@ -11,6 +14,7 @@ use super::{library, lower};
 ///   independent ones: each comes with its derivatives as formulas. The polar angle is the model:
 ///   which branch it is on depends on the crack, its derivatives do not.
 /// - *Parameters* are constants with a name.
+/// - *Tables* are data, used by `table(name, x)`.
 ///
 /// The inputs of an evaluation are the independent, then the dependent variables, in the order in
 /// which they were given.
@@ -29,6 +33,7 @@ pub struct Scope {
     independent: Vec<String>,
     dependent: Vec<Dependent>,
     parameters: Vec<(String, f64)>,
+    tables: Arc<[Arc<Table>]>,
 }
 
 /// A dependent variable.
@@ -85,6 +90,8 @@ pub(super) enum Meaning {
     Input(u32),
     /// A parameter.
     Value(f64),
+    /// A table: its index.
+    Table(u32),
 }
 
 impl Scope {
@@ -93,7 +100,12 @@ impl Scope {
     /// # Errors
     /// When a name is not one, or is taken.
     pub fn new(independent: &[&str]) -> Result<Self, ScopeError> {
-        let empty = Self { independent: vec![], dependent: vec![], parameters: vec![] };
+        let empty = Self {
+            independent: vec![],
+            dependent: vec![],
+            parameters: vec![],
+            tables: Arc::default(),
+        };
         independent.iter().try_fold(empty, |mut scope, name| {
             scope.check_name(name)?;
             scope.independent.push((*name).to_owned());
@@ -125,6 +137,16 @@ impl Scope {
     pub fn with_parameter(mut self, name: &str, value: f64) -> Result<Self, ScopeError> {
         self.check_name(name)?;
         self.parameters.push((name.to_owned(), value));
+        Ok(self)
+    }
+
+    /// Adds a table.
+    ///
+    /// # Errors
+    /// When its name is not one, or is taken.
+    pub fn with_table(mut self, table: Arc<Table>) -> Result<Self, ScopeError> {
+        self.check_name(table.name())?;
+        self.tables = self.tables.iter().cloned().chain([table]).collect();
         Ok(self)
     }
 
@@ -175,9 +197,19 @@ impl Scope {
         Some(&self.dependent[dependent].rules)
     }
 
-    /// All names: inputs and parameters.
+    /// All names of values: inputs and parameters.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.inputs().chain(self.parameters.iter().map(|(name, _)| name.as_str()))
+    }
+
+    /// The tables, in the order in which they were given: formulas refer to them by index.
+    pub(super) fn tables(&self) -> Arc<[Arc<Table>]> {
+        Arc::clone(&self.tables)
+    }
+
+    /// Names of the tables, in order.
+    pub(super) fn table_names(&self) -> impl Iterator<Item = &str> {
+        self.tables.iter().map(|table| table.name())
     }
 
     /// What a name stands for.
@@ -186,8 +218,13 @@ impl Scope {
         if let Some((index, _)) = input {
             return Some(Meaning::Input(index));
         }
-        let parameter = self.parameters.iter().find(|(known, _)| known == name);
-        parameter.map(|&(_, value)| Meaning::Value(value))
+        if let Some((_, value)) = self.parameters.iter().find(|(known, _)| known == name) {
+            return Some(Meaning::Value(*value));
+        }
+        (0..)
+            .zip(self.table_names())
+            .find(|(_, known)| *known == name)
+            .map(|(i, _)| Meaning::Table(i))
     }
 
     fn check_name(&self, name: &str) -> Result<(), ScopeError> {

@@ -64,7 +64,7 @@ fn places_and_problems() {
         ("if(x, 1, 0)", 1, 4, "x", Problem::NumberForCondition),
         ("if(x > 0 and y, 1, 0)", 1, 14, "y", Problem::NumberForCondition),
         ("not x", 1, 5, "x", Problem::NumberForCondition),
-        ("2*table(kc, x)", 1, 3, "table", Problem::NoTables),
+        ("2*table(kc, x)", 1, 9, "kc", Problem::NoTables),
         ("äö + x", 1, 1, "ä", unexpected("a number, a name or an operator")),
     ];
     for (text, line, column, found, problem) in cases {

@@ -5,6 +5,7 @@ mod errors;
 mod hostile;
 mod language;
 mod random;
+mod tables;
 mod westergaard;
 
 use super::{Formula, Scope};
