@@ -209,12 +209,14 @@ fn check_function(function: &Function, cracks: usize) -> Checked {
     match &function.kind {
         FunctionKind::One => Ok(()),
         FunctionKind::Side { crack } => check_index("crack", *crack as usize, cracks, "cracks"),
-        FunctionKind::Formula { text, frame, parameters } => {
+        FunctionKind::Formula { text, frame, parameters, declared } => {
             require(!text.trim().is_empty(), "formula", || "the formula is empty".into())?;
             check_names("parameters", parameters.iter().map(|(name, _)| name))?;
             for (name, value) in parameters {
                 check_number(&format!("parameters `{name}`"), *value)?;
             }
+            check_points("declared.kinks", declared.kinks.as_flattened())?;
+            check_points("declared.singular", &declared.singular)?;
             check_frame(frame, cracks)
         }
     }
@@ -378,6 +380,8 @@ mod tests {
                 poisson: 0.3,
                 state: StressState::PlaneStrain,
             }),
+            quantities: Vec::new(),
+            tables: Vec::new(),
             steps: vec![step],
         }
     }
@@ -439,11 +443,8 @@ mod tests {
             place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Side { crack: 1 }),
             "steps[0].functions[1].crack"
         );
-        let tip_formula = FunctionKind::Formula {
-            text: "sqrt(r)".into(),
-            frame: Frame::Tip(TipId { crack: 7, end: End::Start }),
-            parameters: vec![],
-        };
+        let frame = Frame::Tip(TipId { crack: 7, end: End::Start });
+        let tip_formula = FunctionKind::formula("sqrt(r)", frame);
         assert_eq!(
             place_after(|d| d.steps[0].functions[1].kind = tip_formula),
             "steps[0].functions[1].frame.crack"

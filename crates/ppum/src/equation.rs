@@ -147,7 +147,8 @@ impl Equation {
     pub fn moduli<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> Moduli<R> {
         match self {
             Self::Elasticity(e) => {
-                let (young, poisson) = (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
+                let (young, poisson) =
+                    (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
                 Moduli::new(young, poisson, e.state)
             }
             Self::Poisson { conductivity } => {
@@ -185,9 +186,7 @@ impl<R: Real> Moduli<R> {
         let (zero, one) = (young.lit(0.0), young.lit(1.0));
         let mu = young / (one.lit(2.0) * (one + poisson));
         let (denominator, out_of_plane) = match state {
-            StressState::PlaneStrain => {
-                ((one + poisson) * (one - one.lit(2.0) * poisson), poisson)
-            }
+            StressState::PlaneStrain => ((one + poisson) * (one - one.lit(2.0) * poisson), poisson),
             StressState::PlaneStress => (one - poisson * poisson, zero),
         };
         let lambda = young * poisson / denominator;
@@ -196,7 +195,14 @@ impl<R: Real> Moduli<R> {
 
     #[inline(always)]
     fn zero(zero: R) -> Self {
-        Self { young: zero, poisson: zero, lambda: zero, mu: zero, out_of_plane: zero, conductivity: zero }
+        Self {
+            young: zero,
+            poisson: zero,
+            lambda: zero,
+            mu: zero,
+            out_of_plane: zero,
+            conductivity: zero,
+        }
     }
 }
 

@@ -105,7 +105,7 @@ impl<'d> Field<'d> {
             tables: &dataset.tables,
             step,
             data,
-            functions: FunctionTable::new(&step.functions)?,
+            functions: FunctionTable::new(&step.functions, &dataset.tables)?,
             tree: BoxTree::new(&supports),
             exact: exact(data)?,
         })

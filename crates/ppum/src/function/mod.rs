@@ -36,7 +36,28 @@ pub enum FunctionKind {
         frame: Frame,
         /// Named constants the formula may use.
         parameters: Vec<(String, f64)>,
+        /// Where it is not smooth, beside what the formula itself shows.
+        declared: Declared,
     },
+}
+
+impl FunctionKind {
+    /// A formula without parameters and declarations.
+    #[must_use]
+    pub fn formula(text: &str, frame: Frame) -> Self {
+        let (text, parameters, declared) = (text.to_owned(), Vec::new(), Declared::default());
+        Self::Formula { text, frame, parameters, declared }
+    }
+}
+
+/// Places where a function is not smooth, as its author declares them; in the coordinates of its
+/// frame. Quadrature honours them, evaluation does not need them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Declared {
+    /// Segments across which the function or a derivative jumps.
+    pub kinks: Vec<[Vec2; 2]>,
+    /// Points at which the function or a derivative is infinite.
+    pub singular: Vec<Vec2>,
 }
 
 /// The coordinates of a formula. In each of them r = √(x² + y²) and θ ∈ \[−π, π\] is the polar angle.

@@ -3,9 +3,13 @@
 //! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack,
 //! the four Westergaard functions of a tip, one formula.
 
+use std::sync::Arc;
+
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
-use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJet, Scope, ScopeError};
+use crate::formula::{
+    DerivativeError, Formula, FormulaError, FormulaJet, Scope, ScopeError, Table,
+};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
 use crate::vec2::{Vec2, vec2};
@@ -73,35 +77,60 @@ pub enum CompileError {
 }
 
 impl FunctionTable {
-    /// Compiles a table.
+    /// Compiles a table whose formulas may read `tables`.
     ///
     /// # Errors
     /// A formula that does not parse.
-    pub fn new(functions: &[Function]) -> Result<Self, FunctionError> {
+    pub fn new(functions: &[Function], tables: &[Arc<Table>]) -> Result<Self, FunctionError> {
+        Self::compile(functions, tables, true)
+    }
+
+    /// Like [`FunctionTable::new`], but formulas are evaluated as such where there is a native kernel
+    /// for them too.
+    ///
+    /// # Errors
+    /// A formula that does not parse.
+    pub fn of_formulas(
+        functions: &[Function],
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        Self::compile(functions, tables, false)
+    }
+
+    fn compile(
+        functions: &[Function],
+        tables: &[Arc<Table>],
+        kernels: bool,
+    ) -> Result<Self, FunctionError> {
         let mut table = Self { slots: Vec::new(), groups: Vec::new() };
         for (index, function) in functions.iter().enumerate() {
-            let slot = table.slot(&function.kind).map_err(|source| FunctionError {
-                index,
-                name: function.name.clone(),
-                source: Box::new(source),
+            let slot = table.slot(&function.kind, tables, kernels).map_err(|source| {
+                FunctionError { index, name: function.name.clone(), source: Box::new(source) }
             })?;
             table.slots.push(slot);
         }
         Ok(table)
     }
 
-    fn slot(&mut self, kind: &FunctionKind) -> Result<Slot, CompileError> {
+    fn slot(
+        &mut self,
+        kind: &FunctionKind,
+        tables: &[Arc<Table>],
+        kernels: bool,
+    ) -> Result<Slot, CompileError> {
         Ok(match kind {
             FunctionKind::One => Slot::One,
             FunctionKind::Side { crack } => self.group(Group::Side(*crack), 0),
-            FunctionKind::Formula { text, frame, parameters } => match native(text, *frame) {
-                Some((tip, k)) => self.group(Group::Westergaard(tip), k),
-                None => {
-                    let jet = Formula::parse(text, &scope(parameters)?)?.jet()?;
-                    let compiled = Box::new(Compiled { jet, frame: *frame });
-                    self.group(Group::Formula(compiled), 0)
+            FunctionKind::Formula { text, frame, parameters, .. } => {
+                match native(text, *frame).filter(|_| kernels) {
+                    Some((tip, k)) => self.group(Group::Westergaard(tip), k),
+                    None => {
+                        let jet = Formula::parse(text, &scope(parameters, tables)?)?.jet()?;
+                        let compiled = Box::new(Compiled { jet, frame: *frame });
+                        self.group(Group::Formula(compiled), 0)
+                    }
                 }
-            },
+            }
         })
     }
 
@@ -162,9 +191,12 @@ fn native(text: &str, frame: Frame) -> Option<(TipId, usize)> {
     WESTERGAARD.iter().position(|&known| known == text).map(|k| (tip, k))
 }
 
-fn scope(parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
+fn scope(parameters: &[(String, f64)], tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
+    let mut tables = tables.iter();
+    let scope =
+        tables.try_fold(Scope::polar(), |scope, table| scope.with_table(Arc::clone(table)))?;
     let mut parameters = parameters.iter();
-    parameters.try_fold(Scope::polar(), |scope, (name, value)| scope.with_parameter(name, *value))
+    parameters.try_fold(scope, |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 fn local_tip(cracks: &[Crack], tip: TipId, anchor: Vec2) -> LocalTip {

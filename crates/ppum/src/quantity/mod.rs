@@ -197,13 +197,14 @@ impl Quantity {
             return Ok(Self::PartitionFunction(patch));
         }
         let all = names(equation, components);
-        all.iter().find(|(known, _)| known == name).map(|(_, quantity)| quantity.clone()).ok_or_else(
-            || {
+        all.iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, quantity)| quantity.clone())
+            .ok_or_else(|| {
                 let mut known: Vec<_> = all.iter().map(|(known, _)| known.as_str()).collect();
                 known.push("phi:N");
                 QuantityError::Unknown { name: name.into(), known: known.join(", ") }
-            },
-        )
+            })
     }
 
     /// The quantity of a name, one the dataset names, or a formula of the names; see
@@ -416,7 +417,13 @@ mod tests {
         let quantity = Quantity::from_name(name, &Equation::elasticity(m), &names);
         let moduli = Moduli::new(m.young, m.poisson, m.state);
         let (anchor, offset) = (Vec2::ZERO, [0.0, 0.0]);
-        quantity.expect("known name").of_field(&Sample { anchor, offset, moduli, jets: u, exact: &[] })
+        quantity.expect("known name").of_field(&Sample {
+            anchor,
+            offset,
+            moduli,
+            jets: u,
+            exact: &[],
+        })
     }
 
     #[test]
@@ -499,7 +506,8 @@ mod tests {
     #[test]
     fn unknown_names_list_the_known() {
         let equation = Equation::poisson(1.0);
-        let error = Quantity::from_name("sxx", &equation, &["u".to_owned()]).expect_err("no stress");
+        let error =
+            Quantity::from_name("sxx", &equation, &["u".to_owned()]).expect_err("no stress");
         assert!(error.to_string().contains("du_dx"), "{error}");
     }
 }

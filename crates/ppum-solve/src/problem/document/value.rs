@@ -9,8 +9,8 @@ use toml::de::{DeArray, DeInteger, DeValue};
 
 use super::super::error::Finding;
 use super::super::expression;
-use ppum::expression::Expression;
 use super::{Report, Section, nearest};
+use ppum::expression::Expression;
 
 /// A value of the document. The readers of its type report and return `None` where it has another.
 #[derive(Clone)]
@@ -126,13 +126,14 @@ impl<'a> Value<'a> {
     }
 
     /// One of several words, each standing for something.
-    pub(in super::super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+    pub(in super::super) fn choice<T: Clone>(&self, choices: &[(&str, T)]) -> Option<T> {
         let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
         let text = match self.as_text() {
             Some(text) => text,
             None => return self.expected(&alternatives(&words)),
         };
-        let chosen = choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| *choice);
+        let chosen =
+            choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| choice.clone());
         chosen.or_else(|| {
             let hint = nearest(text, &words)
                 .map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
