@@ -319,6 +319,7 @@ mod tests {
     use super::*;
     use crate::crack::{CrackEnd, End, TipId};
     use crate::dataset::{Attribute, Ring};
+    use crate::equation::{Material, StressState};
     use crate::vec2::vec2;
     use crate::weight::WeightFunction;
 

@@ -54,18 +54,12 @@ impl From<Material> for Elasticity {
 
 impl Equation {
     /// Elasticity of one material.
-    ///
-    /// # Panics
-    /// A constant of the material is not finite.
     #[must_use]
     pub fn elasticity(material: Material) -> Self {
         Self::Elasticity(material.into())
     }
 
     /// Poisson's equation with one conductivity κ.
-    ///
-    /// # Panics
-    /// The conductivity is not finite.
     #[must_use]
     pub fn poisson(conductivity: f64) -> Self {
         Self::Poisson { conductivity: conductivity.into() }

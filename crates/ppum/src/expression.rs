@@ -32,15 +32,17 @@ impl Expression {
         Ok(Self { constant: formula.constant(), formula })
     }
 
-    /// A finite number.
-    ///
-    /// # Panics
-    /// The number is not finite.
+    /// A number. Formulas have no word for what is not finite: infinities are quotients by 0.
     #[must_use]
     pub fn number(value: f64) -> Self {
-        assert!(value.is_finite(), "a constant expression is finite, not {value}");
-        // `{:?}` is the shortest text that reads back as the same number
-        Self::parse(&format!("{value:?}")).expect("a finite number is a formula")
+        let text = match value {
+            v if v.is_nan() => "0/0".to_owned(),
+            f64::INFINITY => "1/0".to_owned(),
+            f64::NEG_INFINITY => "-1/0".to_owned(),
+            // `{:?}` is the shortest text that reads back as the same number
+            v => format!("{v:?}"),
+        };
+        Self::parse(&text).expect("a number is a formula")
     }
 
     /// The formula's text; reads back as the same expression.
@@ -121,6 +123,14 @@ mod tests {
             let expression = Expression::number(value);
             assert_eq!(expression.value(vec2(3.0, 4.0)), value);
             assert_eq!(Expression::parse(expression.text()), Ok(expression.clone()));
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite() {
+        for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let found = Expression::number(value).constant().expect("a constant");
+            assert!(found == value || found.is_nan() && value.is_nan());
         }
     }
 
