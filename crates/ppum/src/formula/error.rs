@@ -92,6 +92,13 @@ pub enum Problem {
         /// How many arguments there are, the table's name included.
         given: usize,
     },
+    /// `side(…)` where there are no cracks.
+    NoCracks,
+    /// The argument of `side` is not the number of a crack.
+    UnknownCrack {
+        /// Number of cracks.
+        cracks: usize,
+    },
     /// The order of a table's derivative is not a whole number written out.
     InvalidOrder,
 }
@@ -143,6 +150,14 @@ impl Problem {
             Self::TableArguments { form, given } => {
                 format!("wrong number of arguments, {given}; write `{form}`")
             }
+            Self::NoCracks => format!("{quoted} needs a crack, but there is none here"),
+            Self::UnknownCrack { cracks: 1 } => {
+                format!("{quoted} is no crack; there is one, write `side(0)`")
+            }
+            Self::UnknownCrack { cracks } => format!(
+                "{quoted} is no crack; there are {cracks}, from `side(0)` to `side({})`",
+                cracks - 1
+            ),
             Self::InvalidOrder => format!(
                 "{quoted} is not the order of a derivative; write 0, 1, 2 or 3, as in `dtable(name, 1, x)`"
             ),

@@ -10,11 +10,15 @@
 //! operators   or,  and,  not,  < <= > >= == !=,  + -,  * /,  unary -,  ^        weakest to tightest
 //! functions   sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh
 //!             abs sign min max floor hypot clamp(x, low, high) if(condition, a, b)
+//! cracks      side(k): +1 on the left of crack k, -1 on its right
 //! tables      table(name, x)  table(name, x, y)             see [`Table`]
 //!             dtable(name, m, x)  dtable(name, m, n, x, y)  derivatives of orders m, n (whole numbers)
 //! constants   pi e
 //! comments    # to the end of the line
 //! ```
+//!
+//! What names there are besides is the matter of a [`Scope`]: x and y, polar coordinates r and theta,
+//! parameters, tables, the sides of cracks.
 //!
 //! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
 //! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the left,
@@ -33,6 +37,14 @@
 //! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
+//! # Half angles
+//!
+//! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
+//! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
+//! with a parameter λ = ½, sums of such terms. There is no arc tangent, and no cancellation near
+//! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
+//! theta take θ itself.
+//!
 //! # Limits
 //!
 //! Texts up to [`MAX_LENGTH`] bytes, nested up to [`MAX_DEPTH`] levels, with derivatives up to
@@ -43,6 +55,7 @@ mod ast;
 mod derivative;
 mod error;
 mod graph;
+mod half_angle;
 mod jets;
 mod lexer;
 mod library;
@@ -128,7 +141,8 @@ impl Formula {
     pub fn parse(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
         let mut graph = Graph::new(scope.tables());
-        let root = lower::lower(&ast, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
+        let root =
+            lower::lower(&ast, scope, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }

@@ -157,7 +157,10 @@ impl<'a> Parser<'a> {
         let function = self.function(name)?;
         self.expect(TokenKind::Open, "`(`")?;
         let Some(expected) = function.arity() else {
-            return self.table(name, function == Function::TableDerivative);
+            return match function {
+                Function::Side => self.side(name),
+                _ => self.table(name, function == Function::TableDerivative),
+            };
         };
         let mut arguments = Vec::new();
         if self.peek().kind != TokenKind::Close {
@@ -201,6 +204,28 @@ impl<'a> Parser<'a> {
         }
         let (x, y) = (arguments[expected - n], arguments.get(expected - n + 1).copied());
         Ok(self.push(ExprKind::Table { table, orders, x, y }, function.to(close.span)))
+    }
+
+    /// `k)` after the parenthesis of `side(`; its name stands at `function`.
+    fn side(&mut self, function: Span) -> Parsed {
+        let cracks = self.scope.n_sides();
+        if cracks == 0 {
+            return Err(self.error(function, Problem::NoCracks));
+        }
+        if self.peek().kind == TokenKind::Close {
+            let expected = "the number of a crack";
+            return Err(self.error(self.peek().span, Problem::Unexpected { expected }));
+        }
+        let argument = self.nested(Self::block)?;
+        let close = self.expect(TokenKind::Close, "an operator or `)`")?;
+        let input = match self.nodes[argument.index()].kind {
+            ExprKind::Number(k) => self.scope.input(&format!("side({k})")),
+            _ => None,
+        };
+        match input {
+            Some(input) => Ok(self.push(ExprKind::Input(input), function.to(close.span))),
+            None => Err(self.error(self.span(argument), Problem::UnknownCrack { cracks })),
+        }
     }
 
     fn table_named(&self, span: Span) -> Result<u32, FormulaError> {

@@ -49,8 +49,9 @@ fn formulas_agree_with_the_native_kernel() {
 fn single_functions_agree() {
     let native = Recipe::random(2);
     let formulas = Recipe { tip_functions: OTHER_WORDS.map(str::to_owned), ..native.clone() };
-    let tables = [native, formulas]
-        .map(|recipe| (FunctionTable::new(&recipe.functions(), &[]).unwrap(), recipe));
+    let tables = [native, formulas].map(|recipe| {
+        (FunctionTable::new(&recipe.functions(), recipe.cracks.len(), &[]).unwrap(), recipe)
+    });
     let [(kernel, recipe), (table, _)] = &tables;
     let mut random = Random(2);
     for (tip, id) in recipe.tips().enumerate() {

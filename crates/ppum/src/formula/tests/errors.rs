@@ -43,7 +43,7 @@ fn places_and_problems() {
             Problem::UnknownName { suggestion: similar("theta") },
         ),
         ("velocity", 1, 1, "velocity", Problem::UnknownName { suggestion: None }),
-        ("let side = 1; sde", 1, 15, "sde", Problem::UnknownName { suggestion: similar("side") }),
+        ("let size = 1; sze", 1, 15, "sze", Problem::UnknownName { suggestion: similar("size") }),
         ("PI*x", 1, 1, "PI", Problem::UnknownName { suggestion: similar("pi") }),
         ("(let a = 1; a) + a", 1, 18, "a", Problem::UnknownName { suggestion: None }),
         ("1 + snh(x)", 1, 5, "snh", Problem::UnknownFunction { suggestion: similar("sinh") }),

@@ -178,7 +178,7 @@ fn join(random: &mut Random, a: Sample, b: Sample) -> Sample {
 }
 
 fn point(x: f64, y: f64) -> [Jet; 4] {
-    let [_, _, r, theta] = polar(x, y);
+    let [_, _, r, theta, ..] = polar(x, y);
     let (c, s) = (x / r, y / r);
     [
         Jet([x, 1.0, 0.0, 0.0, 0.0, 0.0]),
