@@ -172,7 +172,8 @@ impl WeightFormula {
         let w = Formula::parse(text, scope)?;
         let slope = w.derivative("t")?;
         let curvature = slope.derivative("t")?;
-        let mut breakpoints = Vec::new();
+        let mut breakpoints = w.breakpoints(0.0, 1.0);
+        breakpoints.retain(|&t| t > 0.0 && t < 1.0);
         if slope.evaluate(&[0.0]) != 0.0 {
             breakpoints.insert(0, 0.0);
         }
