@@ -57,6 +57,7 @@ mod error;
 mod graph;
 mod half_angle;
 mod jets;
+mod kinks;
 mod lexer;
 mod library;
 mod lower;
@@ -64,7 +65,9 @@ mod operation;
 mod parser;
 mod print;
 mod program;
+mod roots;
 mod scope;
+mod substitute;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -74,6 +77,7 @@ use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
+pub use kinks::Kink;
 pub use scope::{Scope, ScopeError};
 pub use table::{Table, TableError};
 
@@ -217,6 +221,13 @@ impl Formula {
         known.iter().position(|variable| variable == name).ok_or_else(|| {
             DerivativeError::NotIndependent { name: name.to_owned(), known: known.join(", ") }
         })
+    }
+}
+
+/// Formulas are equal when their texts and scopes are.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text && self.scope == other.scope
     }
 }
 
