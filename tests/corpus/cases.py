@@ -1,4 +1,4 @@
-"""Cases: a formula, a place, what must come out. How themes state them, how they are computed and printed."""
+"""Cases: how themes state them, how they are computed and printed."""
 
 import dataclasses
 import math
@@ -42,14 +42,16 @@ class Case:
 
 def plane(formula, *points, meaning=None, order=2, tables=(), **parameters):
     """Cases of the scope `cartesian`."""
-    make = lambda p: Case(formula, "cartesian", dict(x=p[0], y=p[1]), meaning, order, parameters, tables)
+    make = lambda p: Case(
+        formula, "cartesian", dict(x=p[0], y=p[1]), meaning, order, parameters, tables
+    )
     return [make(p) for p in points]
 
 
-def frame(formula, *points, meaning=None, order=2, turns=0, sides={}, **parameters):
+def frame(formula, *points, meaning=None, order=2, turns=0, sides=None, **parameters):
     """Cases of the scope `polar`. Behind the origin, at y = 0, θ = π; whole turns are added to it."""
     at = lambda p: dict(x=p[0], y=p[1])
-    make = lambda p: Case(formula, "polar", at(p), meaning, order, parameters, (), turns, sides)
+    make = lambda p: Case(formula, "polar", at(p), meaning, order, parameters, (), turns, sides or {})
     return [make(p) for p in points]
 
 
@@ -66,7 +68,9 @@ def named(scope, formula, *points, meaning=None, order=2, **parameters):
 
 def special(scope, formula, point, value, gradient=None):
     """A case that arithmetic of doubles decides, and real numbers do not."""
-    names = {"cartesian": ["x", "y"], "polar": ["x", "y", "r", "theta", *HALF_ANGLES]}.get(scope, scope.split())
+    names = {"cartesian": ["x", "y"], "polar": ["x", "y", "r", "theta", *HALF_ANGLES]}.get(
+        scope, scope.split()
+    )
     return [Case(formula, scope, dict(zip(names, point)), special=(value, gradient))]
 
 
@@ -81,7 +85,10 @@ class Computed:
         with mp.workdps(700):
             evaluation = Evaluation(self.names(), len(self.variables), self.tables, case.order)
             self.jet = evaluation.jet(self.tree)
-            self.decisions, self.sizes = evaluation.decisions, [abs(v) for v in evaluation.sizes if v]
+            self.decisions, self.sizes = (
+                evaluation.decisions,
+                [abs(v) for v in evaluation.sizes if v],
+            )
             self.check()
 
     # sympy
@@ -100,12 +107,16 @@ class Computed:
 
     def symbols(self):
         names = {v: sympy.Symbol(v, real=True) for v in self.variables}
-        names |= {k: sympy.Rational(*float(v).as_integer_ratio()) for k, v in self.case.parameters.items()}
+        names |= {
+            k: sympy.Rational(*float(v).as_integer_ratio()) for k, v in self.case.parameters.items()
+        }
         if self.case.scope == "polar":
             names |= {"r": exact.r, "theta": exact.theta}
         tables = {name: sympy.Symbol(name) for name in self.case.tables}
         table = lambda name, *at: exact.Spline(name, 0, 0, *at)
-        dtable = lambda name, *rest: exact.Spline(name, *(rest[: len(rest) // 2] + (0,))[:2], *rest[len(rest) // 2 :])
+        dtable = lambda name, *rest: exact.Spline(
+            name, *(rest[: len(rest) // 2] + (0,))[:2], *rest[len(rest) // 2 :]
+        )
         side = lambda k: sympy.Integer(self.case.sides[int(k)])
         return names | tables | {"table": table, "dtable": dtable, "side": side}
 
@@ -127,12 +138,19 @@ class Computed:
         c, s = x / r, y / r
         n = lambda v, roundings, size: Number(v).rounded(roundings, 0, size)
         jet = lambda v, g, h, size: Jet(
-            Number(v).rounded(), [n(a, 3, size) for a in g], dict(zip(pairs(2), (n(a, 8, size / r) for a in h)))
+            Number(v).rounded(),
+            [n(a, 3, size) for a in g],
+            dict(zip(pairs(2), (n(a, 8, size / r) for a in h))),
         )
         theta = mpmath.atan2(y, x) + 2 * mp.pi * self.case.turns
         return {
             "r": jet(r, [c, s], [s * s / r, -s * c / r, c * c / r], mpf(1)),
-            "theta": jet(theta, [-s / r, c / r], [2 * s * c / r**2, (s * s - c * c) / r**2, -2 * s * c / r**2], 1 / r),
+            "theta": jet(
+                theta,
+                [-s / r, c / r],
+                [2 * s * c / r**2, (s * s - c * c) / r**2, -2 * s * c / r**2],
+                1 / r,
+            ),
         }
 
     def bounds(self):
@@ -146,18 +164,26 @@ class Computed:
         for order, (row, other) in enumerate(zip(self.orders, self.jet.orders())):
             size = max(a.total() + abs(a.v) for a in other)
             for v, a in zip(row, other, strict=True):
-                assert abs(v - a.v) <= mpf(10) ** -38 * size, f"{self.case}: order {order}: {v} is not {a.v}"
+                assert abs(v - a.v) <= mpf(10) ** -38 * size, (
+                    f"{self.case}: order {order}: {v} is not {a.v}"
+                )
         assert not self.undecided("double"), f"{self.case}: undecided in double precision"
         assert max(self.sizes, default=0) < LARGEST, f"{self.case}: leaves the range of doubles"
         for row, bound in zip(self.orders, self.bounds()):
             size = max(map(abs, row))
-            lost = 0 < rounding.LEAST_NORMAL <= size < 100 * UNIT["double"] * (bound[0] + 4 * bound[1])
+            lost = (
+                0 < rounding.LEAST_NORMAL <= size < 100 * UNIT["double"] * (bound[0] + 4 * bound[1])
+            )
             assert not lost, f"{self.case}: no digits are left"
 
     def undecided(self, precision):
         """Whether rounding may decide a comparison or a kink."""
         weights = (16, 64, 16 if precision == "single" else 0)
-        return any(gap <= UNIT[precision] * sum(w * e for w, e in zip(weights, error)) for gap, error in self.decisions if any(w * e for w, e in zip(weights, error)))
+        return any(
+            gap <= UNIT[precision] * sum(w * e for w, e in zip(weights, error))
+            for gap, error in self.decisions
+            if any(w * e for w, e in zip(weights, error))
+        )
 
     def single(self):
         """Why single precision cannot be asked, if so."""
@@ -240,5 +266,3 @@ def upwards(v):
         exponent = int(mpmath.floor(mpmath.log10(v))) - 1
         digits = int(mpmath.ceil(mpf(v) / mpf(10) ** exponent))
     return repr(float(f"{digits}e{exponent}")) if abs(exponent) < 300 else f"{digits}e{exponent}"
-
-

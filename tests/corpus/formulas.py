@@ -35,7 +35,9 @@ def texts():
             records.append(computed.record())
         assert len(set(records)) == len(records), f"{name}: a case stands twice"
         files[f"formulas/{name}.txt"] = "\n".join(records)
-        print(f"{name}: {len(cases)} cases, {skipped} not for single precision, {time.monotonic() - start:.0f} s")
+        print(
+            f"{name}: {len(cases)} cases, {skipped} not for single precision, {time.monotonic() - start:.0f} s"
+        )
     return files
 
 

@@ -10,7 +10,16 @@ TOKEN = re.compile(
     r"(?P<number>(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[<>=!]=|[-+*/^<>=(),;·−])"
 )
 BLANK = re.compile(r"(\s|#[^\n]*)*")
-LEVELS = [["or"], ["and"], ["not"], ["<", "<=", ">", ">=", "==", "!="], ["+", "-"], ["*", "/"], [], ["^"]]
+LEVELS = [
+    ["or"],
+    ["and"],
+    ["not"],
+    ["<", "<=", ">", ">=", "==", "!="],
+    ["+", "-"],
+    ["*", "/"],
+    [],
+    ["^"],
+]
 NOT, COMPARISON, POWER = 2, 3, 7
 STRENGTH = {operator: level for level, row in enumerate(LEVELS) for operator in row}
 

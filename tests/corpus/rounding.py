@@ -262,7 +262,14 @@ class Evaluation:
                 return self.holds(a) | self.holds(b)
             case (operator, a, b):
                 sign = self.decide(self.jet(a).v, self.jet(b).v)
-                accepted = {"<": [-1], "<=": [-1, 0], ">": [1], ">=": [0, 1], "==": [0], "!=": [-1, 1]}
+                accepted = {
+                    "<": [-1],
+                    "<=": [-1, 0],
+                    ">": [1],
+                    ">=": [0, 1],
+                    "==": [0],
+                    "!=": [-1, 1],
+                }
                 return sign in accepted[operator]
 
     # operations
@@ -306,7 +313,11 @@ class Evaluation:
                     terms.append(times(partial(tuple(sorted((i, j)))), product))
             return total(terms)
 
-        gradient = [first(lambda a: a.gradient[p]) for p in range(self.n)] if self.order else [ZERO] * self.n
+        gradient = (
+            [first(lambda a: a.gradient[p]) for p in range(self.n)]
+            if self.order
+            else [ZERO] * self.n
+        )
         hessian = {(p, q): second(p, q) if self.order > 1 else ZERO for p, q in pairs(self.n)}
         return Jet(partial(()), gradient, hessian)
 
@@ -339,7 +350,9 @@ class Evaluation:
 
         def partial(k):
             orders = [taken[i] + k.count(i) for i in range(len(arguments))]
-            at = lambda more: table.value([a.v for a in values], [o + m for o, m in zip(orders, more)])
+            at = lambda more: table.value(
+                [a.v for a in values], [o + m for o, m in zip(orders, more)]
+            )
             result = Number(at([0, 0]))
             for i, a in enumerate(values):
                 if any(a.errors):

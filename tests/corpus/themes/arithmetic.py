@@ -61,7 +61,12 @@ CASES = [
     *plane("max(let a = x; a*a, y)", P, meaning="x**2"),
     *plane("let unused = 1/0; x*y", P, meaning="x*y"),
     *plane("let c1 = 2*y; let c2 = (let c3 = c1^2; c3*x); c2 - c1", P, Q, meaning="4*y**2*x - 2*y"),
-    *plane("let q = 1 - x^2 - y^2/4; q*q*q + q", P, Q, meaning="(1 - x**2 - y**2/4)**3 + 1 - x**2 - y**2/4"),
+    *plane(
+        "let q = 1 - x^2 - y^2/4; q*q*q + q",
+        P,
+        Q,
+        meaning="(1 - x**2 - y**2/4)**3 + 1 - x**2 - y**2/4",
+    ),
     # blanks and comments
     *plane("# a parabola\n  x^2 # in x\n\t+ y  # and a line", P, meaning="x**2 + y"),
     *plane("x   *y\r\n-1", P, meaning="x*y - 1"),

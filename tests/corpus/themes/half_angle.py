@@ -27,7 +27,12 @@ CASES = [
     *frame("cos(2*theta)", AROUND[0], *BEHIND[:2]),
     *frame("sin(7*theta/2)", AROUND[3], *BEHIND[:1]),
     *frame("cos(4*theta)", AROUND[3], *BEHIND[:1]),
-    *frame("let h = theta/2; sin(h)*cos(3*h)", AROUND[1], *BEHIND, meaning="sin(theta/2)*cos(3*theta/2)"),
+    *frame(
+        "let h = theta/2; sin(h)*cos(3*h)",
+        AROUND[1],
+        *BEHIND,
+        meaning="sin(theta/2)*cos(3*theta/2)",
+    ),
     *frame("sin(theta)*sin(theta/2)", AROUND[0], *BEHIND, *AHEAD[:1]),
     *frame("cos(theta/2)*(1 - sin(theta/2)*sin(3*theta/2))", AROUND[0], *BEHIND),
     *frame("sin(theta/2)^2 + cos(theta/2)^2", AROUND[2], BEHIND[0]),

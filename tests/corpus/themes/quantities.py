@@ -38,7 +38,18 @@ CASES = [
         meaning="young*poisson/((1 + poisson)*(1 - 2*poisson))*(dux_dx + duy_dy) + young/(1 + poisson)*dux_dx",
         **STEEL,
     ),
-    *named("exx eyy exy sxx syy sxy", "(sxx*exx + syy*eyy + 2*sxy*exy)/2", (1e-3, -5e-4, 2e-4, 200, -80, 30)),
-    *named("s1 s2", "if(s1*s2 < 0, s1 - s2, max(abs(s1), abs(s2)))", (3, -1), (3, 1), (-1, -3), meaning="choose(s1*s2 < 0, s1 - s2, max(abs(s1), abs(s2)))"),
+    *named(
+        "exx eyy exy sxx syy sxy",
+        "(sxx*exx + syy*eyy + 2*sxy*exy)/2",
+        (1e-3, -5e-4, 2e-4, 200, -80, 30),
+    ),
+    *named(
+        "s1 s2",
+        "if(s1*s2 < 0, s1 - s2, max(abs(s1), abs(s2)))",
+        (3, -1),
+        (3, 1),
+        (-1, -3),
+        meaning="choose(s1*s2 < 0, s1 - s2, max(abs(s1), abs(s2)))",
+    ),
     *named("temperature", "1/(1 + exp(-(temperature - 293.15)/12))", (300,), (250,)),
 ]

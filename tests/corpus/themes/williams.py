@@ -11,20 +11,14 @@ def potential(n):
     return f"r^({n}/2)*{'sin' if n % 2 else 'cos'}({n}*theta/2)"
 
 
-def mode_one(n, component):
-    """Displacement of order n of mode I (Williams 1957): r^{n/2}/(2μ) times angular functions."""
-    sign = "+" if component == "x" else "-"
-    function = "cos" if component == "x" else "sin"
-    constant = f"(kappa {sign} {n}/2 {sign} (-1)^{n})"
-    return f"r^({n}/2)/(2*mu)*({constant}*{function}({n}*theta/2) {'-' if sign == '+' else '+'} {n}/2*{function}(({n} - 4)*theta/2))"
-
-
-def mode_two(n, component):
-    """The same of mode II."""
-    sign = "+" if component == "x" else "-"
-    function = "sin" if component == "x" else "cos"
-    constant = f"(kappa {sign} {n}/2 {'-' if component == 'x' else '+'} (-1)^{n})"
-    return f"r^({n}/2)/(2*mu)*({constant}*{function}({n}*theta/2) {'-' if sign == '+' else '+'} {n}/2*{function}(({n} - 4)*theta/2))"
+def mode(n, kind, component):
+    """The displacement of order n of mode I or II (Williams 1957), mode II up to its sign."""
+    sign, other = "+-" if component == "x" else "-+"
+    parity = sign if kind == 1 else other
+    function = "cos" if (component == "x") == (kind == 1) else "sin"
+    constant = f"(kappa {sign} {n}/2 {parity} (-1)^{n})"
+    second = f"{n}/2*{function}(({n} - 4)*theta/2)"
+    return f"r^({n}/2)/(2*mu)*({constant}*{function}({n}*theta/2) {other} {second})"
 
 
 MATERIAL = dict(kappa=1.8, mu=0.375)
@@ -33,8 +27,18 @@ CORNER = "r^lambda*sin(lambda*theta)"
 
 CASES = [
     *(case for n in (1, 2, 3, 4, 5, 7) for case in frame(potential(n), *POINTS)),
-    *(case for n in (1, 2, 3, 4, 5) for c in "xy" for case in frame(mode_one(n, c), *SHORT, **MATERIAL)),
-    *(case for n in (1, 2, 3, 4, 5) for c in "xy" for case in frame(mode_two(n, c), SHORT[0], **MATERIAL)),
+    *(
+        case
+        for n in (1, 2, 3, 4, 5)
+        for c in "xy"
+        for case in frame(mode(n, 1, c), *SHORT, **MATERIAL)
+    ),
+    *(
+        case
+        for n in (1, 2, 3, 4, 5)
+        for c in "xy"
+        for case in frame(mode(n, 2, c), SHORT[0], **MATERIAL)
+    ),
     *frame("sqrt(r)^3*cos(3*theta/2)", *POINTS),
     *frame("r*sqrt(r)*sin(3*theta/2)", *POINTS),
     *frame("r^1.5*sin(theta)*cos(theta/2)", *POINTS[:3]),
