@@ -23,9 +23,9 @@ pub(crate) fn field(dataset: &Dataset, step: Option<usize>) -> anyhow::Result<Fi
     Ok(Field::new(dataset, step.unwrap_or(last))?)
 }
 
-/// A quantity by its name, if the field has what it needs.
+/// A quantity by its name or formula, if the field has what it needs.
 pub(crate) fn quantity(field: &Field<'_>, name: &str) -> Result<Quantity, QuantityError> {
-    let quantity = Quantity::from_name(name, field.equation, &field.data.components)?;
+    let quantity = Quantity::parse(name, field)?;
     quantity.check(field)?;
     Ok(quantity)
 }

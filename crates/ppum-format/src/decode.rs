@@ -4,7 +4,7 @@ use ppum::crack::{Crack, CrackEnd, TipId};
 use ppum::dataset::{
     Attribute, Dataset, Equation, FieldData, Material, Partition, Record, Ring, Step, TipIntensity,
 };
-use ppum::function::{Frame, Function, FunctionKind};
+use ppum::function::{Declared, Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
@@ -41,6 +41,8 @@ pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
         problem: if root.has("problem") { Some(root.scalar("problem")?) } else { None },
         domain: domain(&mut root.group("domain"))?,
         equation: equation(&mut root.group("equation"))?,
+        quantities: Vec::new(),
+        tables: Vec::new(),
         steps: numbered(&mut root, "steps", step)?,
     })
 }
@@ -219,13 +221,13 @@ fn equation(group: &mut Group) -> Read<Equation> {
     match kind.as_str() {
         "elasticity" => {
             let state: String = group.attribute("state")?;
-            Ok(Equation::Elasticity(Material {
+            Ok(Equation::elasticity(Material {
                 young: group.attribute("young")?,
                 poisson: group.attribute("poisson")?,
                 state: group.word(STRESS_STATES, &state, "@state")?,
             }))
         }
-        "poisson" => Ok(Equation::Poisson { conductivity: group.attribute("conductivity")? }),
+        "poisson" => Ok(Equation::poisson(group.attribute("conductivity")?)),
         _ => Err(group.error("@kind", format!("unknown equation `{kind}`"))),
     }
 }
@@ -352,6 +354,7 @@ impl Columns {
                 frame: self.frame(group, k)?,
                 text: std::mem::take(&mut self.formula[k]),
                 parameters: std::mem::take(&mut self.parameters[k]),
+                declared: Declared::default(),
             }),
             _ => Err(group.error("kind", format!("function {k} is of unknown kind `{kind}`"))),
         }

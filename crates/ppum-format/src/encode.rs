@@ -77,18 +77,19 @@ impl Group<'_> {
 }
 
 fn equation(group: &mut Group, equation: &Equation) -> Written {
-    let kind = match *equation {
-        Equation::Elasticity(material) => {
-            let state = group.word(STRESS_STATES, material.state, "state")?;
-            group.attribute("young", Array::scalar(material.young));
-            group.attribute("poisson", Array::scalar(material.poisson));
+    for (name, expression) in equation.constants() {
+        match expression.constant() {
+            Some(value) => group.attribute(name, Array::scalar(value)),
+            None => group.attribute(name, Array::scalar(expression.text().to_owned())),
+        }
+    }
+    let kind = match equation {
+        Equation::Elasticity(elasticity) => {
+            let state = group.word(STRESS_STATES, elasticity.state, "state")?;
             group.attribute("state", Array::scalar(state));
             "elasticity"
         }
-        Equation::Poisson { conductivity } => {
-            group.attribute("conductivity", Array::scalar(conductivity));
-            "poisson"
-        }
+        Equation::Poisson { .. } => "poisson",
     };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     Ok(())
@@ -113,7 +114,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
 }
 
 fn partition(group: &mut Group, partition: &Partition) {
-    let weight = partition.weight;
+    let weight = &partition.weight;
     group.attribute("kind", Array::scalar("shepard-box".to_owned()));
     group.attribute("weight", Array::scalar(weight.name().to_owned()));
     group.vector("weight_breakpoints", weight.breakpoints().iter().copied());
@@ -187,7 +188,7 @@ impl<'a> Row<'a> {
             FunctionKind::Side { crack } => {
                 Ok(Self { crack: i64::from(*crack), ..Self::new("side") })
             }
-            FunctionKind::Formula { text, frame, parameters } => {
+            FunctionKind::Formula { text, frame, parameters, .. } => {
                 let row = Self { formula: text, parameters, ..Self::new("formula") };
                 row.in_frame(frame, group)
             }

@@ -37,11 +37,7 @@ impl Functions {
         let westergaard = tips.iter().flat_map(|&tip| {
             WESTERGAARD.iter().enumerate().map(move |(k, text)| Function {
                 name: format!("westergaard {} of crack {} {}", k + 1, tip.crack, tip.end.name()),
-                kind: FunctionKind::Formula {
-                    text: (*text).into(),
-                    frame: Frame::Tip(tip),
-                    parameters: Vec::new(),
-                },
+                kind: FunctionKind::formula(text, Frame::Tip(tip)),
             })
         });
         let sides = (0..cracks.len() as u32).map(side);

@@ -10,7 +10,7 @@
 //!
 //! The crack must be straight inside the disc, its faces free, and nothing else may lie in it.
 
-use crate::law::Law;
+use crate::law::{Law, LawAt};
 use crate::quadrature::Rule;
 use crate::space::Space;
 use ppum::crack::{Crack, LocalTip, Side, TipId, tips};
@@ -50,7 +50,7 @@ pub fn intensities(
     space: &Space<'_>,
     force: Option<BodyForce<'_>>,
 ) -> Vec<TipIntensity> {
-    let Some(material) = dataset.equation.material() else { return Vec::new() };
+    let Some(elasticity) = dataset.equation.elastic() else { return Vec::new() };
     if field.components() != dataset.equation.components() {
         return Vec::new();
     }
@@ -58,7 +58,10 @@ pub fn intensities(
     tips(&field.step.cracks)
         .map(|tip| {
             let largest = free_radius(&field.step.cracks, &dataset.domain, tip);
-            let integral = Interaction { field, space, law: &law, material, tip, force };
+            // The auxiliary field is that of the material at the tip.
+            let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+            let (material, law) = (elasticity.at(at), law.at(at));
+            let integral = Interaction { field, space, law, material, tip, force };
             let rings = integral.rings(RADII.map(|part| part * largest));
             let Ring { k1, k2, .. } = rings[RADII.len() - 1];
             TipIntensity { tip, k1, k2, rings: rings.to_vec() }
@@ -88,7 +91,7 @@ fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
 struct Interaction<'a> {
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    law: &'a Law,
+    law: LawAt,
     material: Material,
     tip: TipId,
     force: Option<BodyForce<'a>>,

@@ -7,9 +7,11 @@ use crate::quadrature::{Geometry, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side, tips};
-use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
+use ppum::dataset::{Attribute, Equation, FieldData, Partition, Step, monomials};
+use ppum::formula::Table;
 use ppum::function::{Frame, Function, FunctionError, FunctionKind, FunctionTable};
 use ppum::vec2::Vec2;
+use std::sync::Arc;
 
 /// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
 /// over the same cells as the system.
@@ -45,7 +47,11 @@ impl<'d> Space<'d> {
     ///
     /// # Panics
     /// If the step has no field.
-    pub fn new(step: &'d Step) -> Result<Self, FunctionError> {
+    pub fn new(
+        step: &'d Step,
+        _equation: &Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
         let (partition, data) = (&step.partition, &step.fields[0]);
         let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
         let tree = BoxTree::new(&supports);
@@ -61,7 +67,7 @@ impl<'d> Space<'d> {
             partition,
             step,
             data,
-            functions: FunctionTable::new(&step.functions, step.cracks.len())?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),
@@ -150,7 +156,7 @@ pub enum SpaceError {
 pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
-        cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
+        cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
     let functions = Functions::new(&problem.cracks);
     let enricher = Enricher::new(problem, &functions);
     let mut blocks = Vec::with_capacity(partition.len());

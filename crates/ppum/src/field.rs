@@ -8,13 +8,16 @@
 //! S = Σ W_i     U = Σ W_i v_i     u = U / S     ∇u = (∇U − u ∇S) / S
 //! ```
 
+use std::sync::Arc;
+
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
-use crate::dataset::{Dataset, Equation, FieldData, Step};
-use crate::formula::{Formula, FormulaError, Scope};
+use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::formula::{Formula, FormulaError, Scope, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
+use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
 use crate::vec2::{Rect, Vec2};
 
@@ -24,7 +27,11 @@ pub struct Field<'d> {
     /// The domain; outside nothing is defined.
     pub domain: Rect,
     /// The equation the field solves.
-    pub equation: Equation,
+    pub equation: &'d Equation,
+    /// Quantities the dataset names.
+    pub quantities: &'d [NamedQuantity],
+    /// Tables that formulas may read.
+    pub tables: &'d [Arc<Table>],
     /// The step.
     pub step: &'d Step,
     /// Blocks and coefficients.
@@ -94,10 +101,12 @@ impl<'d> Field<'d> {
             (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
         Ok(Self {
             domain: dataset.domain,
-            equation: dataset.equation,
+            equation: &dataset.equation,
+            quantities: &dataset.quantities,
+            tables: &dataset.tables,
             step,
             data,
-            functions: FunctionTable::new(&step.functions, step.cracks.len())?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::new(&supports),
             exact: exact(data)?,
         })
@@ -107,6 +116,17 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn components(&self) -> usize {
         self.data.coefficients.len()
+    }
+
+    /// What formulas of quantities may name.
+    #[must_use]
+    pub fn vocabulary(&self) -> Vocabulary<'d> {
+        Vocabulary {
+            equation: self.equation,
+            components: &self.data.components,
+            tables: self.tables,
+            named: self.quantities,
+        }
     }
 
     /// True if the exact solution is known.

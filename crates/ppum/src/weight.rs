@@ -1,11 +1,15 @@
 //! Weight functions w(t), t = |ξ|: the generators of the partition of unity.
 
-use crate::jet::Jet;
-use crate::real::Real;
+use std::sync::Arc;
 
-/// A one-dimensional even B-spline with support \[−1, 1\], scaled so that w(0) = 1 (the scale does not
-/// matter: φ_i = W_i / Σ W does not see it).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+use crate::formula::{DerivativeError, Formula, FormulaError, Scope};
+use crate::jet::Jet;
+use crate::library;
+use crate::real::{Real, Scalar};
+
+/// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
+/// does not see it. The B-splines have w(0) = 1.
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum WeightFunction {
     /// Degree 1: w = 1 − t.
@@ -15,35 +19,56 @@ pub enum WeightFunction {
     Quadratic,
     /// Degree 3, knots at 0, ±1/2, ±1: w = 1 − 6t² + 6t³ for t ≤ 1/2, else 2 (1 − t)³.
     Cubic,
+    /// A formula of t for 0 ≤ t < 1.
+    Formula(Arc<WeightFormula>),
 }
 
 impl WeightFunction {
-    /// All weight functions.
+    /// The B-splines.
     pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Cubic];
 
-    /// Name in problem files and datasets.
+    /// Name in problem files and datasets; `formula` of a formula.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Quadratic => "quadratic",
             Self::Cubic => "cubic",
+            Self::Formula(_) => "formula",
         }
     }
 
-    /// The weight function of a name.
+    /// The B-spline of a name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|w| w.name() == name)
     }
 
+    /// The weight function of the [library](crate::library::WEIGHTS) with this name.
+    #[must_use]
+    pub fn from_library(name: &str) -> Option<Self> {
+        let scope = Scope::new(&["t"]).expect("t is a name");
+        let formula =
+            |text| Self::formula(text, &scope).expect("the library's weights are weights");
+        Self::from_name(name).or_else(|| library::weight(name).map(|w| formula(w.texts[0])))
+    }
+
+    /// The weight function of a formula of t in a scope with the one input `t`.
+    ///
+    /// # Errors
+    /// See [`WeightError`].
+    pub fn formula(text: &str, scope: &Scope) -> Result<Self, WeightError> {
+        WeightFormula::parse(text, scope).map(|formula| Self::Formula(Arc::new(formula)))
+    }
+
     /// Places t = |ξ| in \[0, 1) where a derivative of w(|ξ|) jumps; quadrature splits there.
     #[must_use]
-    pub fn breakpoints(self) -> &'static [f64] {
+    pub fn breakpoints(&self) -> &[f64] {
         match self {
             Self::Linear => &[0.0],
             Self::Quadratic => &[1.0 / 3.0],
             Self::Cubic => &[0.0, 0.5],
+            Self::Formula(formula) => &formula.breakpoints,
         }
     }
 
@@ -52,7 +77,7 @@ impl WeightFunction {
     /// Where a derivative jumps, the one from the right is taken, so that a border belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
-    pub fn spline<R: Real>(self, xi: R) -> [R; 3] {
+    pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
         let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
         let t = xi.abs();
         let s = R::sign(xi.ge(zero), one);
@@ -60,13 +85,17 @@ impl WeightFunction {
             Self::Linear => [one - t, -one, zero],
             Self::Quadratic => quadratic(xi, t),
             Self::Cubic => cubic(t),
+            Self::Formula(formula) => {
+                let [w, slope, curvature] = formula.evaluate(t);
+                [inside(xi, w), slope, curvature]
+            }
         };
         [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
     }
 
     /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
     #[inline(always)]
-    pub fn tensor<R: Real, const D: usize>(self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
+    pub fn tensor<R: Real, const D: usize>(&self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
         let [a, ax, axx] = self.spline(xi[0]);
         let [b, by, byy] = self.spline(xi[1]);
         let (ix, iy) = (a.lit(inverse[0]), a.lit(inverse[1]));
@@ -81,6 +110,122 @@ impl WeightFunction {
             w.yy = a * (byy * (iy * iy));
         }
         w
+    }
+}
+
+/// A weight function given by a formula of t = |ξ| on 0 ≤ t < 1; it is 0 beyond.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeightFormula {
+    /// w, dw/dt, d²w/dt²
+    derivatives: [Formula; 3],
+    breakpoints: Vec<f64>,
+}
+
+/// A formula that is no weight function.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WeightError {
+    /// The text.
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
+    /// Its derivatives.
+    #[error(transparent)]
+    Derivative(#[from] DerivativeError),
+    /// w(1) ≠ 0: the patch would end in a jump.
+    #[error(
+        "a weight must vanish where the patch ends, but `{text}` is {value} at t = 1; \
+         multiply it by e.g. (1 - t)"
+    )]
+    Support {
+        /// The formula.
+        text: String,
+        /// Its value at 1.
+        value: f64,
+    },
+    /// A value that no weight has.
+    #[error(
+        "a weight must be positive for 0 <= t < 1 and finite, with a finite slope, \
+         but `{text}` is {value} with slope {slope} at t = {t}"
+    )]
+    Sign {
+        /// The formula.
+        text: String,
+        /// Where.
+        t: f64,
+        /// The value there.
+        value: f64,
+        /// The slope there.
+        slope: f64,
+    },
+}
+
+/// Places at which a weight is looked at, between its breakpoints and near the ends.
+const LOOKS: u32 = 4096;
+
+/// Largest w(1) in parts of the largest value that counts as rounding.
+const VANISHING: f64 = 1e-12;
+
+impl WeightFormula {
+    /// Parses a formula of `t` and checks that it can be a weight: positive where t < 1, zero at
+    /// t = 1, with finite slopes. Positivity is looked for at some thousand places.
+    fn parse(text: &str, scope: &Scope) -> Result<Self, WeightError> {
+        let w = Formula::parse(text, scope)?;
+        let slope = w.derivative("t")?;
+        let curvature = slope.derivative("t")?;
+        let mut breakpoints = Vec::new();
+        if slope.evaluate(&[0.0]) != 0.0 {
+            breakpoints.insert(0, 0.0);
+        }
+        let formula = Self { derivatives: [w, slope, curvature], breakpoints };
+        formula.check()?;
+        Ok(formula)
+    }
+
+    fn check(&self) -> Result<(), WeightError> {
+        let text = || self.text().to_owned();
+        let mut largest = 0.0f64;
+        for k in 0..LOOKS {
+            let t = f64::from(k) / f64::from(LOOKS);
+            let [value, slope, _] = self.evaluate(t);
+            // Far out a smooth weight underflows.
+            let possible = value > 0.0 || (value == 0.0 && t > 0.9);
+            if !(possible && value.is_finite() && slope.is_finite()) {
+                return Err(WeightError::Sign { text: text(), t, value, slope });
+            }
+            largest = largest.max(value);
+        }
+        let value = self.derivatives[0].evaluate(&[1.0]);
+        // A bump has no value at 1, but a limit.
+        let before = self.derivatives[0].evaluate(&[1.0 - f64::EPSILON]);
+        let end = if value.is_nan() { before } else { value };
+        if end.abs() <= VANISHING * largest {
+            Ok(())
+        } else {
+            Err(WeightError::Support { text: text(), value: end })
+        }
+    }
+
+    /// The formula of w.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.derivatives[0].text()
+    }
+
+    /// w, dw/dt, d²w/dt² at t.
+    fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
+        // 16 lanes are the widest vector there is.
+        let mut lanes = [R::Scalar::default(); 16];
+        t.store(&mut lanes);
+        let mut scratch = Vec::new();
+        let mut out = [[R::Scalar::default(); 16]; 3];
+        for (formula, out) in self.derivatives.iter().zip(&mut out) {
+            for (t, out) in lanes.iter().zip(out).take(R::LANES) {
+                // Beyond the support the formula need not have a value.
+                let t = t.to_f64().min(1.0);
+                *out = R::Scalar::from_f64(formula.evaluate_with(&[t], &mut scratch));
+            }
+        }
+        out.map(|values| t.load(&values))
     }
 }
 
@@ -136,11 +281,11 @@ mod tests {
         left + right
     }
 
-    fn knots(weight: WeightFunction) -> Vec<f64> {
+    fn knots(weight: &WeightFunction) -> Vec<f64> {
         let n = match weight {
             WeightFunction::Linear => 2,
             WeightFunction::Quadratic => 3,
-            WeightFunction::Cubic => 4,
+            _ => 4,
         };
         (0..=n).map(|k| -1.0 + 2.0 * f64::from(k) / f64::from(n)).collect()
     }
@@ -148,7 +293,7 @@ mod tests {
     #[test]
     fn proportional_to_the_b_spline() {
         for weight in WeightFunction::ALL {
-            let knots = knots(weight);
+            let knots = knots(&weight);
             let scale = b_spline(&knots, 0.0);
             for k in -120..=120 {
                 let xi = f64::from(k) / 100.0;

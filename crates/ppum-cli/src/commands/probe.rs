@@ -94,7 +94,7 @@ impl Args {
     }
 
     fn quantities(&self, field: &Field<'_>) -> anyhow::Result<Vec<(String, Quantity)>> {
-        let stresses = field.equation.material().is_some().then_some(STRESSES);
+        let stresses = field.equation.elastic().is_some().then_some(STRESSES);
         let stresses = stresses.into_iter().flatten().map(str::to_owned);
         let names = match self.quantity.as_slice() {
             [] => field.data.components.iter().cloned().chain(stresses).collect(),

@@ -126,8 +126,8 @@ impl Args {
         let view = self.view(&field)?;
         let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
         let mut picture =
-            threads::with(self.threads, || self.picture(&field, &view, quantity, &style))??;
-        let image = self.image(&mut picture, &field, &labels(&dataset, &field, quantity))?;
+            threads::with(self.threads, || self.picture(&field, &view, &quantity, &style))??;
+        let image = self.image(&mut picture, &field, &labels(&dataset, &field, &quantity))?;
         let file = self.file.file_name().unwrap_or_default().to_string_lossy();
         let texts = picture.description(&dataset.title, &file, name);
         png::write(&self.output, &image, &texts)?;
@@ -165,7 +165,7 @@ impl Args {
         &self,
         field: &Field<'_>,
         view: &View,
-        quantity: Quantity,
+        quantity: &Quantity,
         style: &Style,
     ) -> anyhow::Result<Picture> {
         ensure!(
@@ -201,7 +201,7 @@ impl Args {
 }
 
 fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
-    match field.equation.material() {
+    match field.equation.elastic() {
         Some(_) => "von-mises",
         None => &field.data.components[0],
     }
@@ -217,7 +217,7 @@ fn style(name: &str) -> anyhow::Result<Style> {
     Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
 }
 
-fn labels(dataset: &Dataset, field: &Field<'_>, quantity: Quantity) -> Labels {
+fn labels(dataset: &Dataset, field: &Field<'_>, quantity: &Quantity) -> Labels {
     let unit = match quantity {
         Quantity::Component(_) | Quantity::Magnitude => field.data.unit.clone(),
         _ => String::new(),

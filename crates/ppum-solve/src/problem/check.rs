@@ -1,6 +1,6 @@
 //! What the values of a problem must obey, whether it was read from a file or built in code.
 
-use ppum::dataset::{Equation, MAX_DEGREE, Material, StressState};
+use ppum::dataset::{Equation, MAX_DEGREE};
 use ppum::vec2::Rect;
 
 use super::cracks::check_cracks;
@@ -36,7 +36,7 @@ impl Violation {
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
 pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
-    let mut found = check_equation(&problem.equation);
+    let mut found = check_equation(&problem.equation, &problem.domain);
     found.extend(check_components(problem));
     found.extend(check_discretization(&problem.discretization));
     let domain = check_domain(&problem.domain);
@@ -90,33 +90,11 @@ fn check_domain(domain: &Rect) -> Vec<Violation> {
     wrong.map(message).collect()
 }
 
-fn check_equation(equation: &Equation) -> Vec<Violation> {
-    match equation {
-        Equation::Elasticity(material) => check_material(material),
-        Equation::Poisson { conductivity } => positive("conductivity", *conductivity),
-    }
-}
-
-fn positive(name: &'static str, value: f64) -> Vec<Violation> {
-    if value > 0.0 && value.is_finite() {
-        return Vec::new();
-    }
-    let message = format!("`{name}` is {value}, but must be positive and finite");
-    vec![Violation::new(Key::new("material").name(name), message)]
-}
-
-fn check_material(material: &Material) -> Vec<Violation> {
-    let mut found = positive("young", material.young);
-    let nu = material.poisson;
-    let (possible, rule) = match material.state {
-        StressState::PlaneStrain => (-1.0 < nu && nu < 0.5, "-1 < ν < 0.5 in plane strain"),
-        StressState::PlaneStress => (-1.0 < nu && nu <= 0.5, "-1 < ν ≤ 0.5 in plane stress"),
-    };
-    if !possible {
-        let message = format!("`poisson` is {nu}, but {rule}");
-        found.push(Violation::new(Key::new("material").name("poisson"), message));
-    }
-    found
+fn check_equation(equation: &Equation, domain: &Rect) -> Vec<Violation> {
+    let mistake = equation.mistake(domain).map(|(name, message)| {
+        Violation::new(Key::new("material").name(name), format!("`{name}` {message}"))
+    });
+    mistake.into_iter().collect()
 }
 
 /// One value a component everywhere; files cannot break this, code can.

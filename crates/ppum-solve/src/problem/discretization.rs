@@ -4,7 +4,7 @@ use ppum::dataset::MAX_DEGREE;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
 
-use super::expression::Expression;
+use ppum::expression::Expression;
 
 /// Cover, local spaces and enrichment.
 #[derive(Clone, Debug, PartialEq)]

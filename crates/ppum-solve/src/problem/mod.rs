@@ -41,16 +41,18 @@ mod read;
 mod tests;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId, tips};
-use ppum::dataset::{Equation, Material};
+use ppum::dataset::{Equation, Material, NamedQuantity};
+use ppum::formula::Table;
 use ppum::vec2::{Rect, Vec2};
 
 pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use error::{Finding, Place, ProblemError};
-pub use expression::Expression;
+pub use ppum::expression::Expression;
 
 /// What is to be solved, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +71,10 @@ pub struct Problem {
     pub source: Vec<Expression>,
     /// The exact solution, one expression a component; empty if unknown.
     pub exact: Vec<Expression>,
+    /// Quantities the problem names, beside the built-in ones.
+    pub quantities: Vec<NamedQuantity>,
+    /// Tables its formulas may read.
+    pub tables: Vec<Arc<Table>>,
     /// Cover, local spaces and enrichment.
     pub discretization: Discretization,
     /// The linear solver.
@@ -117,25 +123,27 @@ impl Problem {
     /// A problem of elasticity on a box, as yet without cracks, loads and supports.
     #[must_use]
     pub fn elasticity(domain: Rect, material: Material, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::Elasticity(material), discretization)
+        Self::new(domain, Equation::elasticity(material), discretization)
     }
 
     /// A Poisson problem with conductivity κ on a box, as yet without cracks, sources and
     /// conditions.
     #[must_use]
     pub fn poisson(domain: Rect, conductivity: f64, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::Poisson { conductivity }, discretization)
+        Self::new(domain, Equation::poisson(conductivity), discretization)
     }
 
     fn new(domain: Rect, equation: Equation, discretization: Discretization) -> Self {
         Self {
             title: String::new(),
             domain,
-            source: vec![Expression::constant(0.0); equation.components()],
+            source: vec![Expression::number(0.0); equation.components()],
             equation,
             cracks: Vec::new(),
             boundary: Vec::new(),
             exact: Vec::new(),
+            quantities: Vec::new(),
+            tables: Vec::new(),
             discretization,
             solver: Solver::default(),
             text: None,

@@ -113,7 +113,7 @@ fn plate() {
 fn membrane() {
     let problem = good(MEMBRANE);
     assert_eq!(problem.title, "plate", "the title is the file's name if none is given");
-    assert_eq!(problem.equation, Equation::Poisson { conductivity: 2.0 });
+    assert_eq!(problem.equation, Equation::poisson(2.0));
     assert_eq!(problem.source[0].value(vec2(3.0, 4.0)), 12.0);
     assert_eq!(problem.exact[0].text(), "x + y");
     assert_eq!(problem.discretization.cells, Cells::Grid([8, 4]));

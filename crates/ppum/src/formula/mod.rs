@@ -76,6 +76,7 @@ mod print;
 mod program;
 mod roots;
 mod scope;
+mod substitute;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -229,6 +230,13 @@ impl Formula {
         known.iter().position(|variable| variable == name).ok_or_else(|| {
             DerivativeError::NotIndependent { name: name.to_owned(), known: known.join(", ") }
         })
+    }
+}
+
+/// Formulas are equal when their texts and scopes are.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text && self.scope == other.scope
     }
 }
 

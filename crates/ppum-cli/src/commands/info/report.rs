@@ -1,9 +1,11 @@
 //! What `ppum info` tells, in the shape of its JSON.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use ppum::crack::{Crack, CrackEnd, tips};
 use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, StressState};
+use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
 use ppum::function::{Function, FunctionKind};
 use ppum::quantity::names;
@@ -32,8 +34,34 @@ pub(super) struct Domain {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum EquationRow {
-    Elasticity { young: f64, poisson: f64, state: &'static str },
-    Poisson { conductivity: f64 },
+    Elasticity { young: Constant, poisson: Constant, state: &'static str },
+    Poisson { conductivity: Constant },
+}
+
+/// A constant of the material: a number, or the text of a formula.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Constant {
+    Number(f64),
+    Formula(String),
+}
+
+impl From<&Expression> for Constant {
+    fn from(expression: &Expression) -> Self {
+        match expression.constant() {
+            Some(value) => Self::Number(value),
+            None => Self::Formula(expression.text().to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Constant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(value) => write!(f, "{value}"),
+            Self::Formula(text) => f.write_str(text),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -149,16 +177,18 @@ impl StepReport {
 }
 
 fn equation(equation: &Equation) -> EquationRow {
-    match *equation {
+    match equation {
         Equation::Elasticity(m) => EquationRow::Elasticity {
-            young: m.young,
-            poisson: m.poisson,
+            young: (&m.young).into(),
+            poisson: (&m.poisson).into(),
             state: match m.state {
                 StressState::PlaneStrain => "plane-strain",
                 StressState::PlaneStress => "plane-stress",
             },
         },
-        Equation::Poisson { conductivity } => EquationRow::Poisson { conductivity },
+        Equation::Poisson { conductivity } => {
+            EquationRow::Poisson { conductivity: conductivity.into() }
+        }
     }
 }
 

@@ -8,8 +8,9 @@ use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeValue};
 
 use super::super::error::Finding;
-use super::super::expression::{self, Expression};
+use super::super::expression;
 use super::{Report, Section, nearest};
+use ppum::expression::Expression;
 
 /// A value of the document. The readers of its type report and return `None` where it has another.
 #[derive(Clone)]
@@ -125,13 +126,14 @@ impl<'a> Value<'a> {
     }
 
     /// One of several words, each standing for something.
-    pub(in super::super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+    pub(in super::super) fn choice<T: Clone>(&self, choices: &[(&str, T)]) -> Option<T> {
         let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
         let text = match self.as_text() {
             Some(text) => text,
             None => return self.expected(&alternatives(&words)),
         };
-        let chosen = choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| *choice);
+        let chosen =
+            choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| choice.clone());
         chosen.or_else(|| {
             let hint = nearest(text, &words)
                 .map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
@@ -144,7 +146,7 @@ impl<'a> Value<'a> {
     pub(in super::super) fn expression(&self) -> Option<Expression> {
         match self.item.get_ref() {
             DeValue::String(text) => self.formula(text),
-            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::constant),
+            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::number),
             _ => self.expected("a number or a formula in quotes"),
         }
     }

@@ -4,8 +4,8 @@ use ppum::vec2::{Rect, vec2};
 
 use super::super::boundary::{BoundaryCondition, Condition, Edge};
 use super::super::document::{Section, Value};
-use super::super::expression::Expression;
 use super::{Kind, Later, Words, all, components};
+use ppum::expression::Expression;
 
 /// The conditions; none at all if one of them cannot be read, as the checks count them.
 pub(super) fn boundary(

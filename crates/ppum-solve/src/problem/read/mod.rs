@@ -8,7 +8,7 @@ mod discretization;
 
 use std::path::Path;
 
-use ppum::dataset::{Equation, Material, StressState};
+use ppum::dataset::{Elasticity, Equation, StressState};
 use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
 
@@ -17,10 +17,10 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::expression::Expression;
 use super::{Problem, Solver};
 use boundary::boundary;
 use discretization::discretization;
+use ppum::expression::Expression;
 
 pub(super) fn read(text: &str, file: &str, base_dir: &Path) -> Result<Problem, ProblemError> {
     let report = Report::new(file, text);
@@ -140,6 +140,8 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
         boundary,
         source,
         exact: exact.unwrap_or_default(),
+        quantities: Vec::new(),
+        tables: Vec::new(),
         discretization: discretization?,
         solver,
         text: None,
@@ -202,25 +204,25 @@ fn equation(root: &Section<'_>, kind: Kind) -> Equation {
         Kind::Poisson => {
             let read = || {
                 let section = root.section("material")?.only(&["conductivity"], kind.foreign());
-                section.get("conductivity")?.number()
+                section.get("conductivity")?.expression()
             };
-            Equation::Poisson { conductivity: read().unwrap_or(1.0) }
+            Equation::Poisson { conductivity: read().unwrap_or(1.0.into()) }
         }
     }
 }
 
 /// What is missing or wrong is reported, and replaced by a possible value.
-fn material(root: &Section<'_>) -> Material {
+fn material(root: &Section<'_>) -> Elasticity {
     let states =
         [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
     let keys = ["young", "poisson", "state"];
     let section = required(root, "material", &keys, Kind::Elasticity.foreign());
     let value = |key, example| section.as_ref()?.require(key, example);
-    let number = |key, example| value(key, example)?.number();
+    let constant = |key, example| value(key, example)?.expression();
     let state = || value("state", "state = \"plane-strain\"")?.choice(&states);
-    Material {
-        young: number("young", "young = 1.0").unwrap_or(1.0),
-        poisson: number("poisson", "poisson = 0.3").unwrap_or(0.0),
+    Elasticity {
+        young: constant("young", "young = 1.0").unwrap_or(1.0.into()),
+        poisson: constant("poisson", "poisson = 0.3").unwrap_or(0.0.into()),
         state: state().unwrap_or(StressState::PlaneStress),
     }
 }
@@ -243,7 +245,7 @@ fn source(root: &Section<'_>, kind: Kind) -> Vec<Expression> {
         let example = if kind == Kind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
         expressions(&section.require("value", example)?, kind)
     };
-    read().unwrap_or_else(|| vec![Expression::constant(0.0); words.components])
+    read().unwrap_or_else(|| vec![Expression::number(0.0); words.components])
 }
 
 /// The exact solution: empty if there is none, `None` if it cannot be read.
