@@ -1,5 +1,6 @@
 //! The variables a formula may use.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::Table;
@@ -144,9 +145,23 @@ impl Scope {
     ///
     /// # Errors
     /// When its name is not one, or is taken.
-    pub fn with_table(mut self, table: Arc<Table>) -> Result<Self, ScopeError> {
-        self.check_name(table.name())?;
-        self.tables = self.tables.iter().cloned().chain([table]).collect();
+    pub fn with_table(self, table: Arc<Table>) -> Result<Self, ScopeError> {
+        self.with_tables(&[table])
+    }
+
+    /// Adds tables.
+    ///
+    /// # Errors
+    /// When the name of one is no name, or is taken.
+    pub fn with_tables(mut self, tables: &[Arc<Table>]) -> Result<Self, ScopeError> {
+        let mut names = BTreeSet::new();
+        for table in tables {
+            self.check_name(table.name())?;
+            if !names.insert(table.name()) {
+                return Err(ScopeError::NameTaken { name: table.name().to_owned() });
+            }
+        }
+        self.tables = self.tables.iter().chain(tables).cloned().collect();
         Ok(self)
     }
 
@@ -225,6 +240,11 @@ impl Scope {
             .zip(self.table_names())
             .find(|(_, known)| *known == name)
             .map(|(i, _)| Meaning::Table(i))
+    }
+
+    /// True if a name can still be added.
+    pub(crate) fn allows(&self, name: &str) -> bool {
+        self.check_name(name).is_ok()
     }
 
     fn check_name(&self, name: &str) -> Result<(), ScopeError> {

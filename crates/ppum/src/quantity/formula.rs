@@ -1,15 +1,18 @@
 //! Quantities given by formulas of other quantities.
 
+use std::sync::Arc;
+
+use crate::equation::Equation;
 use crate::field::Field;
-use crate::formula::{Formula, FormulaError, Scope};
+use crate::formula::{Formula, Scope, Table};
 use crate::real::{Real, Scalar};
 
-use super::{Quantity, Sample, Source, names};
+use super::{Quantity, QuantityError, Sample, Source, names};
 
 /// A quantity that a dataset names: the text of a [`QuantityFormula`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedQuantity {
-    /// Its name, a word that no built-in quantity has.
+    /// Its name, one that no built-in quantity has: letters, digits, `_` and `-`, a letter or `_` first.
     pub name: String,
     /// The formula.
     pub text: String,
@@ -21,7 +24,8 @@ pub struct NamedQuantity {
 ///
 /// It may use the position `x`, `y`; the components and derivatives of the field; every named
 /// quantity that is made of values and gradients, `-` written as `_` (`von_mises`); the constants of
-/// the equation: `young`, `poisson`, `mu`, `lambda`, or `conductivity`; the dataset's tables.
+/// the equation: `young`, `poisson`, `mu`, `lambda`, or `conductivity`; the dataset's tables, whose
+/// names come before all these but `x` and `y`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuantityFormula {
     name: Option<String>,
@@ -44,8 +48,12 @@ enum Input {
     Quantity(Quantity),
 }
 
-/// The inputs formulas may have for a field.
-fn inputs(field: &Field<'_>) -> Vec<(String, Input)> {
+/// What a formula of quantities may use: the inputs, and the scope of their names in their order.
+fn inputs(
+    equation: &Equation,
+    components: &[String],
+    tables: &[Arc<Table>],
+) -> Result<(Vec<Input>, Scope), QuantityError> {
     let mut all = vec![("x".to_owned(), Input::X), ("y".to_owned(), Input::Y)];
     let elastic = [
         ("young", Input::Young),
@@ -53,23 +61,27 @@ fn inputs(field: &Field<'_>) -> Vec<(String, Input)> {
         ("mu", Input::Mu),
         ("lambda", Input::Lambda),
     ];
-    let constants = match field.equation.elastic() {
+    let constants = match equation.elastic() {
         Some(_) => elastic.to_vec(),
         None => vec![("conductivity", Input::Conductivity)],
     };
-    let named = names(field.equation, &field.data.components).into_iter();
+    let named = names(equation, components).into_iter();
     let named = named.filter(|(_, q)| matches!(q.source(), Source::Values | Source::Gradient));
     all.extend(constants.into_iter().map(|(name, input)| (name.to_owned(), input)));
     all.extend(named.map(|(name, q)| (name.replace('-', "_"), Input::Quantity(q))));
-    // A component from a file may be called anything.
+    // A component from a file may be called anything, also like a table.
+    let plane = Scope::cartesian().with_tables(tables)?;
     let mut known: Vec<(String, Input)> = Vec::new();
     for (name, input) in all {
         let is_new = known.iter().all(|(other, _)| *other != name);
-        if is_new && Scope::new(&[&name]).is_ok() {
+        let is_free = matches!(input, Input::X | Input::Y) || plane.allows(&name);
+        if is_new && is_free {
             known.push((name, input));
         }
     }
-    known
+    let names: Vec<_> = known.iter().map(|(name, _)| name.as_str()).collect();
+    let scope = Scope::new(&names)?.with_tables(tables)?;
+    Ok((known.into_iter().map(|(_, input)| input).collect(), scope))
 }
 
 impl QuantityFormula {
@@ -77,13 +89,25 @@ impl QuantityFormula {
     ///
     /// # Errors
     /// The text is no formula of the names; the error points at the place.
-    pub fn parse(name: Option<&str>, text: &str, field: &Field<'_>) -> Result<Self, FormulaError> {
-        let all = inputs(field);
-        let names: Vec<_> = all.iter().map(|(name, _)| name.as_str()).collect();
-        let scope = Scope::new(&names).expect("inputs have names of their own");
+    pub fn parse(name: Option<&str>, text: &str, field: &Field<'_>) -> Result<Self, QuantityError> {
+        Self::parse_for(name, text, field.equation, &field.data.components, field.tables)
+    }
+
+    /// Parses a formula of quantities of fields with these components.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub(crate) fn parse_for(
+        name: Option<&str>,
+        text: &str,
+        equation: &Equation,
+        components: &[String],
+        tables: &[Arc<Table>],
+    ) -> Result<Self, QuantityError> {
+        let (all, scope) = inputs(equation, components, tables)?;
         let formula = Formula::parse(text, &scope)?;
         let n_inputs = all.len();
-        let used = all.into_iter().enumerate().filter(|(_, (name, _))| formula.uses(name));
+        let used = scope.inputs().zip(all).enumerate().filter(|(_, (name, _))| formula.uses(name));
         let inputs = used.map(|(index, (_, input))| (index, input)).collect();
         Ok(Self { name: name.map(str::to_owned), formula, inputs, n_inputs })
     }

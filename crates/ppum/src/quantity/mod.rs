@@ -13,7 +13,7 @@ use std::sync::Arc;
 use crate::crack::Side;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
-use crate::formula::FormulaError;
+use crate::formula::{FormulaError, ScopeError};
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::vec2::Vec2;
@@ -118,6 +118,9 @@ pub enum QuantityError {
     /// A formula is wrong.
     #[error("the formula of the quantity is wrong: {0}")]
     Formula(#[from] FormulaError),
+    /// A table has a name that formulas cannot use.
+    #[error("the tables of the dataset: {0}")]
+    Scope(#[from] ScopeError),
 }
 
 use Quantity as Q;
