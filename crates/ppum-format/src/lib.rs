@@ -22,12 +22,12 @@ mod content;
 mod decode;
 mod encode;
 mod error;
+#[cfg(test)]
+#[path = "../examples/fixture/everything.rs"]
+mod everything;
 mod file;
 mod hdf5;
 mod names;
-#[cfg(test)]
-#[path = "../examples/fixture/synthetic.rs"]
-mod synthetic;
 
 use ppum::dataset::Dataset;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ppum::formula::{Scope, ScopeError, Table, TableError};
+use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 
 use super::Read;
 use super::group::{Extent, Group, numbered};
@@ -24,6 +24,7 @@ impl Scopes {
     }
 
     fn of(scope: impl Fn(&[&str]) -> Result<Scope, ScopeError>) -> Result<Self, ScopeError> {
+        scope(&VARIABLES)?;
         Ok(Self { plane: scope(&["x", "y"])?, weight: scope(&["t"])? })
     }
 }

@@ -5,13 +5,10 @@ use std::sync::Arc;
 
 use super::{CheckError, Checked, check_names, fail};
 use crate::dataset::{Dataset, NamedQuantity, Step};
-use crate::formula::{Formula, Scope, ScopeError, Table};
+use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 use crate::function::{CompileError, FunctionTable};
 use crate::quantity::{QuantityFormula, names};
 use crate::weight::WeightFunction;
-
-/// Variables of formulas; a table that is called like one could not be read where it is known.
-const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 
 /// Checks names of tables, then all formulas but those of quantities, which need checked fields.
 pub(super) fn check(dataset: &Dataset) -> Checked {

@@ -59,7 +59,7 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
-pub use scope::{Scope, ScopeError};
+pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
 
 use derivative::gradients;

@@ -8,6 +8,10 @@ use super::ast::Ast;
 use super::error::FormulaError;
 use super::{library, lower};
 
+/// The variables of a dataset's formulas. No table may be called like one of them: it could not be
+/// read where the variable is known.
+pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
+
 /// The names a formula may use besides functions and constants.
 ///
 /// - *Independent variables* are inputs of an evaluation; derivatives are taken with respect to them.
