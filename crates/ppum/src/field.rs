@@ -17,6 +17,7 @@ use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
+use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
 use crate::vec2::{Rect, Vec2};
 
@@ -108,7 +109,7 @@ impl<'d> Field<'d> {
             tables: &dataset.tables,
             step,
             data,
-            functions: FunctionTable::new(&step.functions, &dataset.tables)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::new(&supports),
             exact: exact(data, &dataset.tables)?,
         })
@@ -118,6 +119,17 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn components(&self) -> usize {
         self.data.coefficients.len()
+    }
+
+    /// What formulas of quantities may name.
+    #[must_use]
+    pub fn vocabulary(&self) -> Vocabulary<'d> {
+        Vocabulary {
+            equation: self.equation,
+            components: &self.data.components,
+            tables: self.tables,
+            named: self.quantities,
+        }
     }
 
     /// True if the exact solution is known.

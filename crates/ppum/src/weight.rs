@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::formula::{DerivativeError, Formula, FormulaError, Scope};
 use crate::jet::Jet;
+use crate::library;
 use crate::real::{Real, Scalar};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
@@ -41,6 +42,15 @@ impl WeightFunction {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|w| w.name() == name)
+    }
+
+    /// The weight function of the [library](crate::library::WEIGHTS) with this name.
+    #[must_use]
+    pub fn from_library(name: &str) -> Option<Self> {
+        let scope = Scope::new(&["t"]).expect("t is a name");
+        let formula =
+            |text| Self::formula(text, &scope).expect("the library's weights are weights");
+        Self::from_name(name).or_else(|| library::weight(name).map(|w| formula(w.texts[0])))
     }
 
     /// The weight function of a formula of t in a scope with the one input `t`.
@@ -168,6 +178,9 @@ pub enum WeightError {
 /// Places at which a weight is looked at, between its breakpoints and near the ends.
 const LOOKS: u32 = 4096;
 
+/// Breakpoints nearer to each other than this are one, found twice.
+const ROUNDING: f64 = 1e-12;
+
 /// Largest w(1) in parts of the largest value that counts as rounding.
 const VANISHING: f64 = 1e-12;
 
@@ -181,12 +194,14 @@ impl WeightFormula {
         if let Some(&outside) = declared.iter().find(|&t| !(0.0..1.0).contains(t)) {
             return Err(WeightError::Breakpoint(outside));
         }
-        let mut breakpoints = declared.to_vec();
+        let mut breakpoints = w.breakpoints(0.0, 1.0);
+        breakpoints.retain(|&t| t > 0.0 && t < 1.0);
+        breakpoints.extend_from_slice(declared);
         if slope.evaluate(&[0.0]) != 0.0 {
             breakpoints.push(0.0);
         }
         breakpoints.sort_by(f64::total_cmp);
-        breakpoints.dedup();
+        breakpoints.dedup_by(|b, a| *b - *a < ROUNDING);
         let formula = Self { derivatives: [w, slope, curvature], breakpoints };
         formula.check()?;
         Ok(formula)
@@ -335,8 +350,8 @@ mod tests {
                 .map(|weight| weight.breakpoints().to_vec())
         };
         let roof = "min(1 - t, 0.75 - 0.5*t)";
-        assert_eq!(breakpoints(roof, &[]), Ok(vec![0.0]));
-        assert_eq!(breakpoints(roof, &[0.5, 0.0, 0.5]), Ok(vec![0.0, 0.5]));
+        assert_eq!(breakpoints(roof, &[]), Ok(vec![0.0, 0.5]));
+        assert_eq!(breakpoints(roof, &[0.7, 0.0, 0.5 + 1e-15]), Ok(vec![0.0, 0.5, 0.7]));
         assert_eq!(breakpoints("(1 - t^2)^2", &[0.25]), Ok(vec![0.25]));
         for outside in [-0.1, 1.0, f64::INFINITY] {
             let error = breakpoints(roof, &[outside]);

@@ -1,5 +1,6 @@
 //! The formulas of a dataset: each must be one of its scope, with the dataset's tables.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
@@ -7,8 +8,11 @@ use super::{CheckError, Checked, check_names, fail};
 use crate::dataset::{Dataset, NamedQuantity, Step};
 use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 use crate::function::{CompileError, FunctionTable};
-use crate::quantity::{QuantityFormula, names};
+use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
+
+/// Most quantities a dataset may name. Each is read with all before it, so time grows as the square.
+const MAX_QUANTITIES: usize = 256;
 
 /// Checks names of tables, then all formulas but those of quantities, which need checked fields.
 pub(super) fn check(dataset: &Dataset) -> Checked {
@@ -52,7 +56,9 @@ fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope) -> Checked {
 }
 
 fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
-    let Err(error) = FunctionTable::new(&step.functions, tables) else { return Ok(()) };
+    let Err(error) = FunctionTable::new(&step.functions, step.cracks.len(), tables) else {
+        return Ok(());
+    };
     let part = match *error.source {
         CompileError::Scope(_) => "parameters",
         _ => "formula",
@@ -61,33 +67,58 @@ fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
 }
 
 /// Checks the quantities that a dataset names: names of their own, and formulas of the first field of
-/// each step.
+/// each step, which may use the quantities before them.
 pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
+    let count = dataset.quantities.len();
+    if count > MAX_QUANTITIES {
+        return fail(
+            "quantities",
+            format!("there are {count}, but at most {MAX_QUANTITIES} may be"),
+        );
+    }
     check_names("quantities", dataset.quantities.iter().map(|quantity| &quantity.name))?;
-    for quantity in &dataset.quantities {
-        let place = format!("quantities `{}`", quantity.name);
-        check_quantity(quantity, dataset).map_err(|problem| mistake(&place, &problem))?;
+    let mut seen = BTreeSet::new();
+    for field in dataset.steps.iter().flat_map(|step| &step.fields) {
+        if seen.insert(&field.components) {
+            check_names_of(dataset, &field.components)?;
+        }
+    }
+    seen.clear();
+    for field in dataset.steps.iter().filter_map(|step| step.fields.first()) {
+        if seen.insert(&field.components) {
+            check_texts(dataset, &field.components)?;
+        }
     }
     Ok(())
 }
 
-fn check_quantity(quantity: &NamedQuantity, dataset: &Dataset) -> Result<(), String> {
-    let NamedQuantity { name, text, .. } = quantity;
-    if !is_name(name) {
-        return Err("names are letters, digits, `_` and `-`, a letter or `_` first".into());
+fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
+    let built_in = names(&dataset.equation, components);
+    for NamedQuantity { name, .. } in &dataset.quantities {
+        let place = format!("quantities `{name}`");
+        if !is_name(name) {
+            let rule = "names are letters, digits, `_` and `-`, a letter or `_` first";
+            return fail(&place, rule.into());
+        }
+        if built_in.iter().any(|(known, _)| known == name) {
+            return fail(&place, "a field has a quantity of this name; choose another".into());
+        }
     }
-    for step in &dataset.steps {
-        for field in &step.fields {
-            let built_in = names(&dataset.equation, &field.components);
-            if built_in.iter().any(|(known, _)| known == name) {
-                return Err(format!("field `{}` has a quantity of this name", field.name));
-            }
-        }
-        if let Some(field) = step.fields.first() {
-            let (equation, tables) = (&dataset.equation, &dataset.tables);
-            QuantityFormula::parse_for(None, text, equation, &field.components, tables)
-                .map_err(|error| error.to_string())?;
-        }
+    Ok(())
+}
+
+fn check_texts(dataset: &Dataset, components: &[String]) -> Checked {
+    let Dataset { equation, tables, quantities, .. } = dataset;
+    let parse = |place: &str, text: &str, named| {
+        let vocabulary = Vocabulary { equation, components, tables, named };
+        QuantityFormula::new(text, &vocabulary).map(drop).map_err(|error| mistake(place, &error))
+    };
+    // any number is a formula where the names do not clash
+    parse("tables", "0", &[])?;
+    for (k, NamedQuantity { name, text, .. }) in quantities.iter().enumerate() {
+        let place = format!("quantities `{name}`");
+        parse(&place, text, &quantities[..k])?;
+        parse(&place, "0", &quantities[..=k])?;
     }
     Ok(())
 }
@@ -131,14 +162,14 @@ mod tests {
     /// Every kind of formula, all of them with a table.
     fn good() -> Dataset {
         let mut data = dataset();
-        data.tables = vec![table("k"), table("sxx")];
+        data.tables = vec![table("k"), table("q")];
         data.equation = body("table(k, x*y)", &data.tables);
         let scope = with_tables(&["t"], &data.tables).expect("new names");
         let weight = WeightFunction::formula("(1 - t)*table(k, t)", &scope);
         data.steps[0].partition.weight = weight.expect("a weight");
         data.steps[0].functions[1].kind = function("a*table(k, r)*theta");
         data.steps[0].fields[0].exact = vec!["table(k, y)".into(), "0".into()];
-        data.quantities = vec![quantity("a-b", "von_mises/table(sxx, ux) + young*duy_dx")];
+        data.quantities = vec![quantity("a-b", "von_mises/table(q, ux) + young*duy_dx")];
         data
     }
 
@@ -151,7 +182,8 @@ mod tests {
     #[test]
     fn tables_are_known_in_every_formula() {
         assert_eq!(good().check(), Ok(()));
-        let places: [(&str, fn(&mut Dataset)); 5] = [
+        type Change = fn(&mut Dataset);
+        let places: [(&str, Change); 5] = [
             ("equation.young", |_| {}),
             ("steps[0].partition.weight", |d| d.equation = dataset().equation),
             ("steps[0].functions[1].formula", |d| {
@@ -198,7 +230,23 @@ mod tests {
         }
         let error = error_after(|d| d.tables.push(table("a")));
         assert_eq!(error.place, "steps[0].functions[1].parameters");
-        for name in ["", "ux", "von-mises", "duy_dx", "a b", "phi:3", "7", "-a", "a-b"] {
+        for name in ["ux", "sxx", "duy_dx", "mu"] {
+            assert_eq!(error_after(|d| d.tables.push(table(name))).place, "tables", "{name}");
+        }
+        for name in [
+            "",
+            "ux",
+            "von-mises",
+            "von_mises",
+            "duy_dx",
+            "a b",
+            "phi:3",
+            "7",
+            "-a",
+            "a-b",
+            "a_b",
+            "k",
+        ] {
             let error = error_after(|d| d.quantities.push(quantity(name, "x")));
             assert!(error.place.starts_with("quantities"), "{name}: {error}");
         }
@@ -206,12 +254,18 @@ mod tests {
 
     #[test]
     fn quantities_are_formulas_of_the_first_field() {
-        for text in ["u", "theta", "sxx", "phi", "x < y", ""] {
+        for text in ["u", "theta", "q", "phi", "a_b", "x < y", ""] {
             let error = error_after(|d| d.quantities[0].text = text.into());
             assert_eq!(error.place, "quantities `a-b`", "{text}");
         }
         let mut data = good();
         data.quantities[0].text = "s1 - s2 + exx*lambda/mu + poisson + energy".into();
+        data.quantities.push(quantity("twice", "2*a_b"));
         assert_eq!(data.check(), Ok(()));
+        data.quantities.swap(0, 1);
+        let error = data.check().expect_err("used before it is defined");
+        assert_eq!(error.place, "quantities `twice`");
+        data.quantities = (0..300).map(|k| quantity(&format!("q{k}"), "x")).collect();
+        assert_eq!(data.check().expect_err("too many").place, "quantities");
     }
 }

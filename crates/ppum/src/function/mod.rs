@@ -1,11 +1,15 @@
 //! The function table: the f_b of function × polynomial.
 
+mod formulas;
 mod table;
 mod westergaard;
 
 use crate::crack::TipId;
+pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
-pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
+pub use table::{
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope,
+};
 pub use westergaard::westergaard;
 
 /// One entry of a step's function table.
@@ -77,11 +81,3 @@ pub enum Frame {
     /// kinks included.
     Tip(TipId),
 }
-
-/// The four Westergaard functions in the order of equation (6) of Üffinger et al. 2011.
-pub const WESTERGAARD: [&str; 4] = [
-    "sqrt(r)*cos(theta/2)",
-    "sqrt(r)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*cos(theta/2)",
-];
