@@ -197,7 +197,9 @@ impl WeightFormula {
         let mut breakpoints = w.breakpoints(0.0, 1.0);
         breakpoints.retain(|&t| t > 0.0 && t < 1.0);
         breakpoints.extend_from_slice(declared);
-        if slope.evaluate(&[0.0]) != 0.0 {
+        // w(|ξ|) is smooth at 0 if odd derivatives of w vanish there.
+        let odd = [&slope, &curvature.derivative("t")?];
+        if odd.iter().any(|derivative| derivative.evaluate(&[0.0]) != 0.0) {
             breakpoints.push(0.0);
         }
         breakpoints.sort_by(f64::total_cmp);
