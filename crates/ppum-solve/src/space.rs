@@ -1,7 +1,7 @@
 //! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
 //! to walk over it.
 
-use crate::enrichment::{Block, Enricher, Functions};
+use crate::enrichment::{Block, Enrichments};
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
@@ -157,19 +157,18 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
         cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
-    let functions = Functions::new(&problem.cracks);
-    let enricher = Enricher::new(problem, &functions);
+    let enrichments = Enrichments::new(problem);
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
         let degree = set.order.at(partition.center[patch])? as u8;
-        blocks.push(enricher.blocks(&partition, patch, degree));
+        blocks.push(enrichments.blocks(&partition, patch, degree));
     }
     Ok(Step {
         load: 1.0,
         cracks: problem.cracks.clone(),
         attributes: attributes(&blocks),
         fields: vec![field(problem, &blocks)],
-        functions: functions.table,
+        functions: enrichments.table,
         partition,
         intensities: Vec::new(),
         history: Vec::new(),

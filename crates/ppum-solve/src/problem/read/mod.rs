@@ -142,6 +142,7 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
         exact: exact.unwrap_or_default(),
         quantities: Vec::new(),
         tables: Vec::new(),
+        enrichments: Vec::new(),
         discretization: discretization?,
         solver,
         text: None,
