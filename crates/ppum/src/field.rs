@@ -17,6 +17,7 @@ use crate::formula::{Formula, FormulaError, Scope, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
+use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
 use crate::vec2::{Rect, Vec2};
 
@@ -115,6 +116,17 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn components(&self) -> usize {
         self.data.coefficients.len()
+    }
+
+    /// What formulas of quantities may name.
+    #[must_use]
+    pub fn vocabulary(&self) -> Vocabulary<'d> {
+        Vocabulary {
+            equation: self.equation,
+            components: &self.data.components,
+            tables: self.tables,
+            named: self.quantities,
+        }
     }
 
     /// True if the exact solution is known.

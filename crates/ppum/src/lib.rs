@@ -201,6 +201,7 @@ pub mod field;
 pub mod formula;
 pub mod function;
 pub mod jet;
+pub mod library;
 mod morton;
 pub mod polynomial;
 pub mod quantity;

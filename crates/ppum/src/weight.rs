@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::formula::{DerivativeError, Formula, FormulaError, Scope};
 use crate::jet::Jet;
+use crate::library;
 use crate::real::{Real, Scalar};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
@@ -41,6 +42,15 @@ impl WeightFunction {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|w| w.name() == name)
+    }
+
+    /// The weight function of the [library](crate::library::WEIGHTS) with this name.
+    #[must_use]
+    pub fn from_library(name: &str) -> Option<Self> {
+        let scope = Scope::new(&["t"]).expect("t is a name");
+        let formula =
+            |text| Self::formula(text, &scope).expect("the library's weights are weights");
+        Self::from_name(name).or_else(|| library::weight(name).map(|w| formula(w.texts[0])))
     }
 
     /// The weight function of a formula of t in a scope with the one input `t`.

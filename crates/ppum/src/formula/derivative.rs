@@ -4,28 +4,24 @@
 //! point, and if that is undecided, of the piece above it (for further variables likewise): u = 0
 //! counts as positive if u grows with x, or does not change with x and grows with y.
 
-use super::MAX_NODES;
 use super::graph::{Graph, NodeId, Op};
 use super::lower::lower;
 use super::operation::{Binary, Comparison, Unary};
 use super::scope::Scope;
-
-/// A formula has grown beyond [`MAX_NODES`] operations.
-#[derive(Debug)]
-pub(super) struct TooLarge;
+use super::{DerivativeError, MAX_NODES};
 
 /// For each root its partial derivatives with respect to the independent variables, in order.
 pub(super) fn gradients(
     graph: &mut Graph,
     scope: &Scope,
     roots: &[NodeId],
-) -> Result<Vec<Vec<NodeId>>, TooLarge> {
+) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
     let needed = graph.needed(roots);
     let zero = graph.constant(0.0);
     let mut pass = Pass { graph, scope, zero, partials: vec![Vec::new(); needed.len()] };
     for node in (0u32..).zip(needed).filter(|&(_, needed)| needed).map(|(id, _)| NodeId(id)) {
         if pass.graph.len() > MAX_NODES {
-            return Err(TooLarge);
+            return Err(DerivativeError::TooLarge);
         }
         if !pass.graph.op(node).is_condition() {
             pass.partials[node.index()] =

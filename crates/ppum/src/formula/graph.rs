@@ -4,7 +4,7 @@
 //! Folding never changes a value, NaN included: `0*x` stays, `1*x` does not. Operands always come
 //! before what uses them, so every pass is a loop.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use super::Table;
@@ -379,6 +379,42 @@ impl Graph {
             ops.push(self.ops[old].renumbered(|operand| number[operand.index()]));
         }
         (ops, roots.iter().map(|root| number[root.index()]).collect())
+    }
+
+    /// Adds extracted operations; gives the node of each.
+    pub(super) fn absorb(&mut self, ops: &[Op]) -> Vec<NodeId> {
+        self.absorb_with(ops, &BTreeMap::new())
+    }
+
+    /// [`Graph::absorb`] with nodes in place of some inputs.
+    pub(super) fn absorb_with(
+        &mut self,
+        ops: &[Op],
+        inputs: &BTreeMap<u32, NodeId>,
+    ) -> Vec<NodeId> {
+        let mut nodes = Vec::with_capacity(ops.len());
+        for op in ops {
+            let given = if let Op::Input(index) = op { inputs.get(index) } else { None };
+            let renumbered = op.renumbered(|operand: NodeId| nodes[operand.index()]);
+            nodes.push(given.copied().unwrap_or_else(|| self.made_anew(renumbered)));
+        }
+        nodes
+    }
+
+    /// The node of an operation, folded and with its operands in order.
+    fn made_anew(&mut self, op: Op) -> NodeId {
+        match op {
+            Op::Constant(_) | Op::Input(_) | Op::Truth(_) => self.node(op),
+            Op::Unary(op, a) => self.unary(op, a),
+            Op::Power(a, n) => self.power(a, n),
+            Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Table { table, orders, x, y } => self.table(table, orders, x, y),
+            Op::Select(c, a, b) => self.select(c, a, b),
+            Op::Compare(op, a, b) => self.compare(op, a, b),
+            Op::Not(c) => self.not(c),
+            Op::And(a, b) => self.and(a, b),
+            Op::Or(a, b) => self.or(a, b),
+        }
     }
 
     /// The graph of extracted operations, with the same numbers.

@@ -43,6 +43,7 @@ mod ast;
 mod derivative;
 mod error;
 mod graph;
+mod jets;
 mod lexer;
 mod library;
 mod lower;
@@ -51,6 +52,7 @@ mod parser;
 mod print;
 mod program;
 mod scope;
+mod substitute;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -59,6 +61,7 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
+pub use jets::FormulaJets;
 pub use scope::{Scope, ScopeError};
 pub use table::{Table, TableError};
 
@@ -106,9 +109,15 @@ pub enum DerivativeError {
         /// The independent variables.
         known: String,
     },
-    /// The derivative has more than [`MAX_NODES`] operations.
-    #[error("the derivative has more than {MAX_NODES} operations; simplify the formula")]
+    /// The derivatives have more than [`MAX_NODES`] operations.
+    #[error("the derivatives have more than {MAX_NODES} operations; simplify the formula")]
     TooLarge,
+    /// [`FormulaJets`] know derivatives with respect to one or two variables.
+    #[error("derivatives of functions of one or two variables only; here are {variables}")]
+    Variables {
+        /// Number of independent variables.
+        variables: usize,
+    },
 }
 
 impl Formula {
@@ -179,37 +188,14 @@ impl Formula {
     pub fn derivative(&self, variable: &str) -> Result<Self, DerivativeError> {
         let v = self.independent(variable)?;
         let mut graph = self.program.graph();
-        let gradient = self.gradients(&mut graph, &[self.root()])?;
+        let gradient = gradients(&mut graph, &self.scope, &[self.root()])?;
         let program = Program::new(&graph, &[gradient[0][v]]);
         let text = print::print(&program, &self.scope);
         Ok(Self { text, scope: Arc::clone(&self.scope), program })
     }
 
-    /// Value, gradient and Hessian with respect to `x` and `y` in one.
-    ///
-    /// # Errors
-    /// When `x` and `y` are not independent variables of the scope, or the derivatives are too large.
-    pub fn jet(&self) -> Result<FormulaJet, DerivativeError> {
-        let (x, y) = (self.independent("x")?, self.independent("y")?);
-        let mut graph = self.program.graph();
-        let first = self.gradients(&mut graph, &[self.root()])?;
-        let (dx, dy) = (first[0][x], first[0][y]);
-        let second = self.gradients(&mut graph, &[dx, dy])?;
-        let outputs = [self.root(), dx, dy, second[0][x], second[0][y], second[1][y]];
-        Ok(FormulaJet { scope: Arc::clone(&self.scope), program: Program::new(&graph, &outputs) })
-    }
-
     fn root(&self) -> NodeId {
         self.program.outputs()[0]
-    }
-
-    fn gradients(
-        &self,
-        graph: &mut Graph,
-        roots: &[NodeId],
-    ) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
-        gradients(graph, &self.scope, roots)
-            .map_err(|derivative::TooLarge| DerivativeError::TooLarge)
     }
 
     /// Index of an independent variable.
@@ -231,32 +217,6 @@ impl PartialEq for Formula {
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()
-    }
-}
-
-/// Value, gradient and Hessian of a [`Formula`], computed together: common parts once.
-#[derive(Clone, Debug)]
-pub struct FormulaJet {
-    scope: Arc<Scope>,
-    program: Program,
-}
-
-impl FormulaJet {
-    /// v, ∂v/∂x, ∂v/∂y, ∂²v/∂x², ∂²v/∂x∂y, ∂²v/∂y² at one point. `inputs` has one number for each
-    /// of [`Scope::inputs`]; `scratch` is working space, best reused from call to call.
-    ///
-    /// # Panics
-    /// When `inputs` has the wrong length.
-    pub fn evaluate(&self, inputs: &[f64], scratch: &mut Vec<f64>) -> [f64; 6] {
-        check_inputs(&self.scope, inputs);
-        self.program.run(inputs, scratch);
-        std::array::from_fn(|k| scratch[self.program.outputs()[k].index()])
-    }
-
-    /// Number of operations of one evaluation, constants and inputs included.
-    #[must_use]
-    pub fn n_operations(&self) -> usize {
-        self.program.ops().len()
     }
 }
 

@@ -197,6 +197,13 @@ impl Scope {
         Some(&self.dependent[dependent].rules)
     }
 
+    /// True if it differs from the other scope in its parameters at most.
+    pub(super) fn has_variables_of(&self, other: &Self) -> bool {
+        self.independent == other.independent
+            && self.dependent == other.dependent
+            && self.tables == other.tables
+    }
+
     /// All names of values: inputs and parameters.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.inputs().chain(self.parameters.iter().map(|(name, _)| name.as_str()))

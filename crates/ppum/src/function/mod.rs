@@ -4,6 +4,7 @@ mod table;
 mod westergaard;
 
 use crate::crack::TipId;
+pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 pub use westergaard::westergaard;
@@ -77,11 +78,3 @@ pub enum Frame {
     /// kinks included.
     Tip(TipId),
 }
-
-/// The four Westergaard functions in the order of equation (6) of Üffinger et al. 2011.
-pub const WESTERGAARD: [&str; 4] = [
-    "sqrt(r)*cos(theta/2)",
-    "sqrt(r)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*cos(theta/2)",
-];

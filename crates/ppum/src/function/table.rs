@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
 use crate::formula::{
-    DerivativeError, Formula, FormulaError, FormulaJet, Scope, ScopeError, Table,
+    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table,
 };
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
@@ -47,7 +47,7 @@ enum Group {
 
 #[derive(Clone, Debug)]
 struct Compiled {
-    jet: FormulaJet,
+    jet: FormulaJets,
     frame: Frame,
 }
 
@@ -125,7 +125,8 @@ impl FunctionTable {
                 match native(text, *frame).filter(|_| kernels) {
                     Some((tip, k)) => self.group(Group::Westergaard(tip), k),
                     None => {
-                        let jet = Formula::parse(text, &scope(parameters, tables)?)?.jet()?;
+                        let formula = Formula::parse(text, &scope(parameters, tables)?)?;
+                        let jet = FormulaJets::new(&[&formula], 2)?;
                         let compiled = Box::new(Compiled { jet, frame: *frame });
                         self.group(Group::Formula(compiled), 0)
                     }
@@ -214,7 +215,7 @@ pub struct LocalFunctions<'t> {
 enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
-    Formula(&'t FormulaJet, LocalFrame),
+    Formula(&'t FormulaJets, LocalFrame),
 }
 
 impl<'t> LocalFunctions<'t> {
@@ -288,7 +289,7 @@ impl LocalFrame {
     /// The formula at the lanes of `offset`, one lane after the other.
     fn jet<R: Real, const D: usize>(
         &self,
-        formula: &FormulaJet,
+        formula: &FormulaJets,
         offset: [R; 2],
         side: Side,
     ) -> Jet<R> {
@@ -300,7 +301,9 @@ impl LocalFrame {
         for k in 0..R::LANES {
             let point = vec2(xs[k].to_f64(), ys[k].to_f64());
             let (inputs, axis) = self.coordinates(point, side);
-            let [v, x, y, xx, xy, yy] = formula.evaluate(&inputs, &mut scratch);
+            let mut out = [0.0; 6];
+            formula.evaluate(&inputs, &mut scratch, &mut out);
+            let [v, x, y, xx, xy, yy] = out;
             let world = Jet { v, x, y, xx, xy, yy }.turned::<D>(axis.x, axis.y);
             let world = [world.v, world.x, world.y, world.xx, world.xy, world.yy];
             for (lane, value) in lanes.iter_mut().zip(world) {

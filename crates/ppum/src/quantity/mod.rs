@@ -13,11 +13,10 @@ use std::sync::Arc;
 use crate::crack::Side;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
-use crate::formula::FormulaError;
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::vec2::Vec2;
-pub use formula::{NamedQuantity, QuantityFormula};
+pub use formula::{NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
 use tensors::Strain;
 
 /// A scalar made of a field. Made from its name or formula with [`Quantity::parse`].
@@ -116,8 +115,8 @@ pub enum QuantityError {
         count: usize,
     },
     /// A formula is wrong.
-    #[error("the formula of the quantity is wrong: {0}")]
-    Formula(#[from] FormulaError),
+    #[error("{0}")]
+    Formula(#[from] QuantityFormulaError),
 }
 
 use Quantity as Q;
@@ -215,18 +214,25 @@ impl Quantity {
     /// for a formula that is wrong.
     pub fn parse(text: &str, field: &Field<'_>) -> Result<Self, QuantityError> {
         let components = &field.data.components;
-        let unknown = match Self::from_name(text.trim(), field.equation, components) {
+        let text = text.trim();
+        let unknown = match Self::from_name(text, field.equation, components) {
             Err(unknown) => unknown,
             known => return known,
         };
-        let named = field.quantities.iter().find(|named| named.name == text.trim());
-        let is_name = text.trim().chars().all(|c| c.is_alphanumeric() || "_-:".contains(c));
-        let (name, text) = match named {
-            Some(named) => (Some(named.name.as_str()), named.text.as_str()),
-            None if is_name && text.trim().parse::<f64>().is_err() => return Err(unknown),
-            None => (None, text),
-        };
-        Ok(Self::Formula(Arc::new(QuantityFormula::parse(name, text, field)?)))
+        let mut vocabulary = field.vocabulary();
+        if let Some(at) = field.quantities.iter().position(|named| named.name == text) {
+            let NamedQuantity { name, text, unit } = &field.quantities[at];
+            vocabulary.named = &field.quantities[..at];
+            let formula = QuantityFormula::new(text, &vocabulary)?.named(name, unit);
+            return Ok(Self::Formula(Arc::new(formula)));
+        }
+        let is_name = text.starts_with(char::is_alphabetic)
+            && text.chars().all(|c| c.is_alphanumeric() || "_-:".contains(c));
+        match QuantityFormula::new(text, &vocabulary) {
+            Ok(formula) => Ok(Self::Formula(Arc::new(formula))),
+            Err(_) if is_name => Err(unknown),
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// What the quantity is made of.

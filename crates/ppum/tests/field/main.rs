@@ -7,6 +7,7 @@ mod derivatives;
 mod formulas;
 mod jumps;
 mod lanes;
+mod library;
 mod partition;
 mod reproduction;
 mod sides;

@@ -3,12 +3,13 @@
 mod derivatives;
 mod errors;
 mod hostile;
+mod jets;
 mod language;
 mod random;
 mod tables;
 mod westergaard;
 
-use super::{Formula, Scope};
+use super::{Formula, FormulaJets, Scope};
 
 /// The value of a formula of x and y.
 fn value(text: &str, x: f64, y: f64) -> f64 {
@@ -18,6 +19,18 @@ fn value(text: &str, x: f64, y: f64) -> f64 {
 /// A formula of x and y.
 fn parse(text: &str) -> Formula {
     Formula::parse(text, &Scope::cartesian()).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// A formula with its gradient and Hessian.
+fn jets(formula: &Formula) -> FormulaJets {
+    FormulaJets::new(&[formula], 2).expect("small, of two variables")
+}
+
+/// v, x, y, xx, xy, yy of a formula at a point.
+fn jet_at(jets: &FormulaJets, inputs: &[f64]) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    jets.evaluate(inputs, &mut Vec::new(), &mut out);
+    out
 }
 
 /// The inputs of the polar scope at a point.

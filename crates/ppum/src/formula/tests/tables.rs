@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::formula::{Formula, FormulaError, Problem, Scope, ScopeError, Table};
 
-use super::assert_near;
+use super::{assert_near, jet_at, jets};
 
 fn cube(x: f64) -> f64 {
     x * x * x - 2.0 * x
@@ -30,7 +30,6 @@ fn parse(text: &str) -> Formula {
 /// Inside the range the tables are the polynomials they are made of; so are their compositions.
 #[test]
 fn jets_are_those_of_the_polynomials() {
-    let mut scratch = Vec::new();
     for (text, closed) in [
         ("table(k, x)", "x^3 - 2*x"),
         ("table(k, x*y) + 1", "(x*y)^3 - 2*x*y + 1"),
@@ -40,11 +39,10 @@ fn jets_are_those_of_the_polynomials() {
         ("dtable(g, 1, 2, y, x)", "2*(3*y^2 - 2)"),
         ("table(g, let s = x; s + 0.25, sin(y))", "((x + 0.25)^3 - 2*(x + 0.25))*sin(y)^2"),
     ] {
-        let (table, polynomial) = (parse(text).jet(), parse(closed).jet());
-        let (table, polynomial) = (table.expect("small"), polynomial.expect("small"));
+        let (table, polynomial) = (jets(&parse(text)), jets(&parse(closed)));
         for point in [[0.3, 0.7], [-0.6, 0.9], [1.1, -0.4], [-1.2, -1.5]] {
-            let found = table.evaluate(&point, &mut scratch);
-            let expected = polynomial.evaluate(&point, &mut scratch);
+            let found = jet_at(&table, &point);
+            let expected = jet_at(&polynomial, &point);
             for i in 0..6 {
                 let what = format!("{text}, component {i} at {point:?}");
                 assert_near(found[i], expected[i], 1e-12, 10.0, &what);
@@ -63,8 +61,7 @@ fn constants_fold() {
 /// Outside the range a table is constant.
 #[test]
 fn flat_outside() {
-    let jet = parse("table(g, x, y)").jet().expect("small");
-    let found = jet.evaluate(&[5.0, 1.0], &mut Vec::new());
+    let found = jet_at(&jets(&parse("table(g, x, y)")), &[5.0, 1.0]);
     for (found, expected) in found.into_iter().zip([21.0, 0.0, 42.0, 0.0, 0.0, 42.0]) {
         assert_near(found, expected, 1e-13, 42.0, "at (5, 1)");
     }
