@@ -10,12 +10,10 @@
 //! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
 //! functions, beside jumps where they are cut.
 
-mod clip;
-
 use std::ops::Range;
 
+use crate::clip::{distance, inside, length_inside, segment_inside};
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
-use clip::{distance, inside, length_inside, segment_inside};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::expression::Expression;

@@ -2,6 +2,7 @@
 //! to walk over it.
 
 use crate::enrichment::{Block, Enrichments};
+use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
@@ -189,9 +190,7 @@ fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
 }
 
 fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
-    let n = problem.components();
-    let (name, components): (_, &[&str]) =
-        if n == 1 { ("potential", &["u"]) } else { ("displacement", &["ux", "uy"]) };
+    let (name, components) = field_names(&problem.equation);
     let mut data = FieldData {
         name: name.into(),
         unit: String::new(),
@@ -213,6 +212,6 @@ fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
         }
         data.patch_blocks.push(data.block_function.len() as u32);
     }
-    data.coefficients = vec![vec![0.0; offset as usize]; n];
+    data.coefficients = vec![vec![0.0; offset as usize]; components.len()];
     data
 }

@@ -30,6 +30,7 @@
 mod boundary;
 mod check;
 mod cracks;
+mod csv;
 mod discretization;
 mod document;
 mod enrichment;
@@ -37,7 +38,10 @@ mod error;
 mod expression;
 mod key;
 mod points;
+pub(crate) mod quantities;
 mod read;
+mod scopes;
+mod table_file;
 #[cfg(test)]
 mod tests;
 

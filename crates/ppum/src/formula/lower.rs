@@ -33,12 +33,14 @@ impl Mistake {
 
 /// Adds a formula to a graph; gives the node of its value.
 pub(super) fn lower(ast: &Ast, graph: &mut Graph) -> Result<NodeId, Mistake> {
-    let mut lowering = Lowering { graph, nodes: Vec::with_capacity(ast.nodes.len()) };
-    for expr in &ast.nodes {
-        let node = lowering.expr(expr)?;
-        lowering.nodes.push(node);
-    }
-    lowering.number(ast.root)
+    Lowering::new(ast, graph)?.number(ast.root)
+}
+
+/// Adds a condition to a graph; gives the node of 1 where it holds, 0 elsewhere.
+pub(super) fn lower_condition(ast: &Ast, graph: &mut Graph) -> Result<NodeId, Mistake> {
+    let condition = Lowering::new(ast, graph)?.condition(ast.root)?;
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    Ok(graph.select(condition, one, zero))
 }
 
 struct Lowering<'a> {
@@ -47,7 +49,16 @@ struct Lowering<'a> {
     nodes: Vec<NodeId>,
 }
 
-impl Lowering<'_> {
+impl<'a> Lowering<'a> {
+    fn new(ast: &Ast, graph: &'a mut Graph) -> Result<Self, Mistake> {
+        let mut lowering = Self { graph, nodes: Vec::with_capacity(ast.nodes.len()) };
+        for expr in &ast.nodes {
+            let node = lowering.expr(expr)?;
+            lowering.nodes.push(node);
+        }
+        Ok(lowering)
+    }
+
     fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(self.graph.constant(*value)),
