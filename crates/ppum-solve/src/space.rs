@@ -68,7 +68,7 @@ impl<'d> Space<'d> {
             partition,
             step,
             data,
-            functions: FunctionTable::new(&step.functions, tables)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),

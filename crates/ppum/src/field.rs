@@ -106,7 +106,7 @@ impl<'d> Field<'d> {
             tables: &dataset.tables,
             step,
             data,
-            functions: FunctionTable::new(&step.functions, &dataset.tables)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::new(&supports),
             exact: exact(data)?,
         })

@@ -122,7 +122,7 @@ struct Maker<'a> {
 pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
     let crack = Crack { points: recipe.crack.to_vec(), ends: [CrackEnd::Tip; 2] };
     let (cracks, functions) = (vec![crack], functions(recipe.formulas));
-    let table = FunctionTable::new(&self::functions(false), &[]).expect("built-in functions");
+    let table = FunctionTable::new(&self::functions(false), 1, &[]).expect("built-in functions");
     let partition = partition(recipe);
     let mut maker = Maker { recipe, cracks, table, partition, data: empty(recipe.components) };
     for patch in 0..maker.partition.len() {

@@ -4,12 +4,12 @@ use ppum::crack::tips;
 use ppum::dataset::MAX_DEGREE;
 use ppum::expression::Expression;
 use ppum::formula::{Formula, FormulaJets};
-use ppum::function::Declared;
+use ppum::function::{Declared, function_scope};
 use ppum::vec2::{Rect, Vec2};
 
 use super::check::{Violation, too_wide};
 use super::key::Key;
-use super::{Problem, expression, scopes};
+use super::{Problem, expression};
 use crate::clip::meets;
 
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
@@ -129,7 +129,7 @@ fn bad_functions(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
     if new.functions.is_empty() {
         return Some(("functions", "there is no function; give at least one".to_owned()));
     }
-    let scope = match scopes::function(&new.parameters, &problem.tables) {
+    let scope = match function_scope(&new.parameters, problem.cracks.len(), &problem.tables) {
         Ok(scope) => scope,
         Err(error) => return Some(("parameters", error.to_string())),
     };

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use ppum::dataset::Equation;
 use ppum::formula::{Scope, ScopeError, Table};
+use ppum::function::function_scope;
 use ppum::quantity::QuantityFormulaError;
 
 use super::quantities;
 
 /// Makes sure that all formulas of a problem may use these tables.
 pub(super) fn check(tables: &[Arc<Table>], equation: &Equation) -> Result<(), ScopeError> {
-    function(&[], tables)?;
+    function_scope(&[], 0, tables)?;
     weight(tables)?;
     match quantities::parse("0", equation, tables, &[]) {
         Err(QuantityFormulaError::Scope(error)) => Err(error),
@@ -26,15 +27,6 @@ pub(super) fn position(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
 /// Names of a weight function.
 pub(super) fn weight(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
     with_tables(Scope::new(&["t"])?, tables)
-}
-
-/// Names of an enrichment function.
-pub(super) fn function(
-    parameters: &[(String, f64)],
-    tables: &[Arc<Table>],
-) -> Result<Scope, ScopeError> {
-    let scope = with_tables(Scope::polar(), tables)?;
-    parameters.iter().try_fold(scope, |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 fn with_tables(scope: Scope, tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {

@@ -293,7 +293,8 @@ mod tests {
         let recipe = Recipe { level, tip_level: level + 2, zone: 0.15, ..Recipe::default() };
         let dataset = recipe.dataset();
         let field = Field::new(&dataset, 0).expect("a field");
-        let table = FunctionTable::new(&recipe.functions(), &[]).expect("functions");
+        let table =
+            FunctionTable::new(&recipe.functions(), recipe.cracks.len(), &[]).expect("functions");
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(1));
         let apart = |_| {
             let p = random.point(&recipe.domain);

@@ -211,6 +211,32 @@ impl LocalTip {
     }
 }
 
+impl<R: Real> TipPoint<R> {
+    /// √r cos(θ/2) and √r sin(θ/2), the parts of √z, for `r` = |z|: no trigonometry.
+    ///
+    /// The larger of the two magnitudes is a root, the smaller follows by division, so nothing cancels
+    /// near θ = ±π. Both are zero at r = 0.
+    #[inline(always)]
+    pub fn half_root(&self, r: R) -> [R; 2] {
+        let (zero, half) = (r.lit(0.0), r.lit(0.5));
+        let large = ((r + self.x.abs()) * half).sqrt();
+        let small = R::select(r.gt(zero), half * self.y.abs() / large, zero);
+        let ahead = self.x.ge(zero);
+        [
+            self.branch * R::select(ahead, large, small),
+            self.branch * self.sign * R::select(ahead, small, large),
+        ]
+    }
+
+    /// cos(θ/2) and sin(θ/2), from [`TipPoint::half_root`]; those of θ = 0 on the branch at `r` = 0.
+    #[inline(always)]
+    pub fn half_angle(&self, r: R) -> [R; 2] {
+        let [c, s] = self.half_root(r);
+        let (apart, root) = (r.gt(r.lit(0.0)), r.sqrt());
+        [R::select(apart, c / root, self.branch), R::select(apart, s / root, s)]
+    }
+}
+
 impl TipPoint<f64> {
     /// Distance to the tip and polar angle on the branch that jumps on the crack itself.
     #[must_use]

@@ -4,6 +4,7 @@
 //! point, and if that is undecided, of the piece above it (for further variables likewise): u = 0
 //! counts as positive if u grows with x, or does not change with x and grows with y.
 
+use super::ast::Ast;
 use super::graph::{Graph, NodeId, Op};
 use super::lower::lower;
 use super::operation::{Binary, Comparison, Unary};
@@ -18,7 +19,8 @@ pub(super) fn gradients(
 ) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
     let needed = graph.needed(roots);
     let zero = graph.constant(0.0);
-    let mut pass = Pass { graph, scope, zero, partials: vec![Vec::new(); needed.len()] };
+    let defined = scope.definitions(graph);
+    let mut pass = Pass { graph, scope, zero, defined, partials: vec![Vec::new(); needed.len()] };
     for node in (0u32..).zip(needed).filter(|&(_, needed)| needed).map(|(id, _)| NodeId(id)) {
         if pass.graph.len() > MAX_NODES {
             return Err(DerivativeError::TooLarge);
@@ -36,12 +38,17 @@ struct Pass<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope,
     zero: NodeId,
+    /// Functions with derivative rules of their own.
+    defined: Vec<NodeId>,
     /// Derivatives of the nodes so far, one a variable.
     partials: Vec<Vec<NodeId>>,
 }
 
 impl Pass<'_> {
     fn partial(&mut self, node: NodeId, v: usize) -> NodeId {
+        if let Some(defined) = self.defined.iter().position(|&defined| defined == node) {
+            return self.rule(&self.scope.defined_rules(defined)[v]);
+        }
         match self.graph.op(node) {
             Op::Input(input) => self.input(input as usize, v),
             Op::Unary(op, a) => self.unary(op, node, a, v),
@@ -81,10 +88,14 @@ impl Pass<'_> {
 
     fn input(&mut self, input: usize, v: usize) -> NodeId {
         match self.scope.rules(input) {
-            Some(rules) => lower(&rules[v], self.graph).expect("rules were checked by the scope"),
+            Some(rules) => self.rule(&rules[v]),
             None if input == v => self.graph.constant(1.0),
             None => self.zero,
         }
+    }
+
+    fn rule(&mut self, rule: &Ast) -> NodeId {
+        lower(rule, self.scope, self.graph).expect("rules were checked by the scope")
     }
 
     /// `node` = op(a).
@@ -313,6 +324,8 @@ impl Pass<'_> {
     /// The parts of a selection with a branch that is the constant zero.
     fn vanishing_branch(&self, node: NodeId) -> Option<(NodeId, NodeId, NodeId)> {
         match self.graph.op(node) {
+            // the derivatives of sin θ do not exist where it has its own branch
+            _ if self.defined.contains(&node) => None,
             Op::Select(c, a, b) if self.is_zero(a) || self.is_zero(b) => Some((c, a, b)),
             _ => None,
         }

@@ -77,7 +77,7 @@ impl FormulaJets {
     /// variable counts by itself only.
     #[must_use]
     pub fn uses(&self, input: usize) -> bool {
-        self.program.ops().iter().any(|op| *op == Op::Input(input as u32))
+        self.program.ops().contains(&Op::Input(input as u32))
     }
 
     /// Number of results: of formulas times that of each.

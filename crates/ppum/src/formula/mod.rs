@@ -10,11 +10,15 @@
 //! operators   or,  and,  not,  < <= > >= == !=,  + -,  * /,  unary -,  ^        weakest to tightest
 //! functions   sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh
 //!             abs sign min max floor hypot clamp(x, low, high) if(condition, a, b)
+//! cracks      side(k): +1 on the left of crack k, -1 on its right
 //! tables      table(name, x)  table(name, x, y)             see [`Table`]
 //!             dtable(name, m, x)  dtable(name, m, n, x, y)  derivatives of orders m, n (whole numbers)
 //! constants   pi e
 //! comments    # to the end of the line
 //! ```
+//!
+//! What names there are besides is the matter of a [`Scope`]: x and y, polar coordinates r and theta,
+//! parameters, tables, the sides of cracks.
 //!
 //! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
 //! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the left,
@@ -33,6 +37,14 @@
 //! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
+//! # Half angles
+//!
+//! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
+//! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
+//! with a parameter λ = ½, sums of such terms. There is no arc tangent, and no cancellation near
+//! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
+//! theta take θ itself.
+//!
 //! # Limits
 //!
 //! Texts up to [`MAX_LENGTH`] bytes, nested up to [`MAX_DEPTH`] levels, with derivatives up to
@@ -43,7 +55,9 @@ mod ast;
 mod derivative;
 mod error;
 mod graph;
+mod half_angle;
 mod jets;
+mod kinks;
 mod lexer;
 mod library;
 mod lower;
@@ -51,6 +65,7 @@ mod operation;
 mod parser;
 mod print;
 mod program;
+mod roots;
 mod scope;
 mod substitute;
 mod table;
@@ -62,6 +77,7 @@ use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
+pub use kinks::Kink;
 pub use scope::{Scope, ScopeError};
 pub use table::{Table, TableError};
 
@@ -128,7 +144,8 @@ impl Formula {
     pub fn parse(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
         let mut graph = Graph::new(scope.tables());
-        let root = lower::lower(&ast, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
+        let root =
+            lower::lower(&ast, scope, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }
@@ -141,15 +158,15 @@ impl Formula {
     pub fn parse_condition(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
         let mut graph = Graph::new(scope.tables());
-        let root = lower::lower_condition(&ast, &mut graph);
+        let root = lower::lower_condition(&ast, scope, &mut graph);
         let root = root.map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         let text = print::print(&program, scope);
         Ok(Self { text, scope: Arc::new(scope.clone()), program })
     }
 
-    /// The text: as it was parsed, or, of a derivative or a condition, as it can be parsed again in the same scope
-    /// (if it is within [`MAX_LENGTH`]).
+    /// The text: as it was parsed, or, of a derivative or a condition, as it can be parsed again in
+    /// the same scope (if it is within [`MAX_LENGTH`]).
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text

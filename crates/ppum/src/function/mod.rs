@@ -1,12 +1,15 @@
 //! The function table: the f_b of function × polynomial.
 
+mod formulas;
 mod table;
 mod westergaard;
 
 use crate::crack::TipId;
 pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
-pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
+pub use table::{
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope,
+};
 pub use westergaard::westergaard;
 
 /// One entry of a step's function table.

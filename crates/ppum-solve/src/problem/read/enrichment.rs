@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use ppum::expression::Expression;
-use ppum::formula::{Formula, FormulaJets, Scope, Table};
-use ppum::function::Declared;
+use ppum::formula::{Formula, FormulaJets, Scope, ScopeError, Table};
+use ppum::function::{Declared, function_scope};
 use ppum::library::{self, Entry};
 use ppum::vec2::Vec2;
 
@@ -28,16 +28,28 @@ const KEYS: [&str; 12] = [
     "singular",
 ];
 
+/// What formulas of enrichments may name beside their parameters.
+pub(super) struct Names<'n> {
+    pub(super) cracks: usize,
+    pub(super) tables: &'n [Arc<Table>],
+}
+
+impl Names<'_> {
+    fn scope(&self, parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
+        function_scope(parameters, self.cracks, self.tables)
+    }
+}
+
 /// The enrichments; none at all if one of them cannot be read, as the checks count them.
-pub(super) fn enrichments(root: &Section<'_>, tables: &[Arc<Table>]) -> Vec<LocalEnrichment> {
-    let read = |section: Section<'_>| enrichment(&section.only(&KEYS, &[]), tables);
+pub(super) fn enrichments(root: &Section<'_>, names: &Names<'_>) -> Vec<LocalEnrichment> {
+    let read = |section: Section<'_>| enrichment(&section.only(&KEYS, &[]), names);
     all(root.sections("enrichment").into_iter().map(read)).unwrap_or_default()
 }
 
-fn enrichment(section: &Section<'_>, tables: &[Arc<Table>]) -> Option<LocalEnrichment> {
-    let functions = functions(section, tables);
+fn enrichment(section: &Section<'_>, names: &Names<'_>) -> Option<LocalEnrichment> {
+    let functions = functions(section, names);
     let site = site(section);
-    let region = region(section, tables);
+    let region = region(section, names.tables);
     let declared = declared(section);
     let name = section.get("name").map_or(Some(None), |value| value.text().map(Some));
     let degree = section.get("degree").map_or(Some(None), |value| value.whole().map(Some));
@@ -61,12 +73,12 @@ struct Functions {
     parameters: Vec<(String, f64)>,
 }
 
-fn functions(section: &Section<'_>, tables: &[Arc<Table>]) -> Option<Functions> {
+fn functions(section: &Section<'_>, names: &Names<'_>) -> Option<Functions> {
     let given = given(section)?;
     let entries: Vec<_> = given.iter().filter_map(entry).collect();
     let of_library = entries.len() == given.len();
-    let parameters = parameters(section, &entries, of_library, tables)?;
-    let scope = scopes::function(&parameters, tables).ok()?;
+    let parameters = parameters(section, &entries, of_library, names)?;
+    let scope = names.scope(&parameters).ok()?;
     let texts = all(given.iter().map(|value| texts(value, &scope)))?.concat();
     let name = match entries[..] {
         [entry] if of_library => entry.name.to_owned(),
@@ -101,7 +113,7 @@ fn parameters(
     section: &Section<'_>,
     entries: &[&Entry],
     of_library: bool,
-    tables: &[Arc<Table>],
+    names: &Names<'_>,
 ) -> Option<Vec<(String, f64)>> {
     let defaults: Vec<_> = entries.iter().flat_map(|entry| entry.parameters).collect();
     let table = match section.get("parameters") {
@@ -112,7 +124,7 @@ fn parameters(
         if of_library && !defaults.iter().any(|(known, _)| *known == name) {
             return value.error(&no_parameter(name, &defaults));
         }
-        let scope = scopes::function(&[(name.to_owned(), 1.0)], tables);
+        let scope = names.scope(&[(name.to_owned(), 1.0)]);
         scope.map_err(|error| value.report(&error.to_string())).ok()?;
         Some((name.to_owned(), value.constant()?))
     };

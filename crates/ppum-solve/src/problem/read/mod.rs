@@ -142,9 +142,10 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let tables = tables(root, base_dir, &kind.unwrap_or(Kind::Elasticity).example());
     let scope = scopes::position(&tables).ok()?;
     let discretization = discretization(root, base_dir, &tables);
-    let enrichments = enrichments(root, &tables);
     let solver = solver(root);
     let cracks = cracks(root);
+    let names = enrichment::Names { cracks: cracks.len(), tables: &tables };
+    let enrichments = enrichments(root, &names);
     let kind = kind?;
     let exact = exact(root, kind, &scope);
     let source = source(root, kind, &scope);

@@ -87,7 +87,7 @@ fn parameters_may_differ() {
         Formula::parse("a*x", &scope(3.0)).expect("valid"),
     );
     let jets = FormulaJets::new(&[&f, &g], 0).expect("small");
-    assert_eq!(evaluate(&jets, &[1.0, 0.0, 4.0, 0.0]), [16.0, 3.0]);
+    assert_eq!(evaluate(&jets, &[1.0, 0.0, 4.0, 0.0, 1.0, 0.0]), [16.0, 3.0]);
 }
 
 #[test]

@@ -2,10 +2,13 @@
 
 mod derivatives;
 mod errors;
+mod half_angle;
 mod hostile;
 mod jets;
+mod kinks;
 mod language;
 mod random;
+mod sides;
 mod tables;
 mod westergaard;
 
@@ -34,8 +37,13 @@ fn jet_at(jets: &FormulaJets, inputs: &[f64]) -> [f64; 6] {
 }
 
 /// The inputs of the polar scope at a point.
-fn polar(x: f64, y: f64) -> [f64; 4] {
-    [x, y, x.hypot(y), y.atan2(x)]
+fn polar(x: f64, y: f64) -> [f64; 6] {
+    at_angle([x, y], x.hypot(y), y.atan2(x))
+}
+
+/// The inputs of the polar scope where they do not follow from the point.
+fn at_angle([x, y]: [f64; 2], r: f64, theta: f64) -> [f64; 6] {
+    [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin()]
 }
 
 /// Asserts |a − b| ≤ tolerance · scale.
