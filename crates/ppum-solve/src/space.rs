@@ -3,13 +3,12 @@
 
 use crate::enrichment::{Block, Enricher, Functions};
 use crate::problem::{OrderError, Problem};
-use crate::quadrature::{Geometry, Orders, Quadrature};
+use crate::quadrature::{Geometry, Orders, Quadrature, Singular};
 use crate::refine::{RefineError, cover};
 use ppum::box_tree::BoxTree;
-use ppum::crack::{LocalCrack, Side, tips};
+use ppum::crack::{LocalCrack, Side, TipId, tips};
 use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
 use ppum::function::{Frame, Function, FunctionError, FunctionKind, FunctionTable};
-use ppum::vec2::Vec2;
 
 /// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
 /// over the same cells as the system.
@@ -33,7 +32,7 @@ pub struct Space<'d> {
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub shifts: Vec<f64>,
-    singular: Vec<Vec2>,
+    singular: Vec<Singular>,
     patch_singular: Vec<Vec<u32>>,
 }
 
@@ -55,8 +54,8 @@ impl<'d> Space<'d> {
             found
         });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let singular =
-            tips(&step.cracks).map(|tip| step.cracks[tip.crack as usize].end_point(tip.end));
+        let end_point = |tip: TipId| step.cracks[tip.crack as usize].end_point(tip.end);
+        let singular = tips(&step.cracks).map(|tip| Singular::tip(end_point(tip)));
         Ok(Self {
             partition,
             step,
@@ -76,10 +75,9 @@ impl<'d> Space<'d> {
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
         let orders = Orders::for_degree(self.degree() + extra);
         let geometry = Geometry {
-            partition: self.partition,
-            cracks: &self.step.cracks,
             singular: &self.singular,
             patch_singular: &self.patch_singular,
+            ..Geometry::new(self.partition, &self.step.cracks)
         };
         Quadrature::new(geometry, orders)
     }
