@@ -1,6 +1,7 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
 use super::adapt::{Demand, Part as _, refined};
+use super::gauss::gauss;
 use super::orders::Active;
 use super::polygon::line_side;
 use super::roots::{sign_changes, tame};
@@ -181,7 +182,8 @@ impl Run<'_> {
     fn curve_crossings(&self, lo: f64, hi: f64, level: &Level) -> Vec<f64> {
         let start = self.line.anchor + self.line.foot;
         let at = |s: f64| tame(level(start + self.line.tangent * s));
-        let size = [lo, 0.5 * (lo + hi), hi].map(at).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let size =
+            [lo, 0.5 * (lo + hi), hi].map(at).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let snapped = |s: f64| {
             let value = at(s);
             if value.abs() <= ZERO * size { 0.0 } else { value }
@@ -223,7 +225,9 @@ impl Run<'_> {
     /// the line itself.
     fn graded(&self, lo: f64, hi: f64, at: &Singular, order: usize) -> Vec<Stretch> {
         let (s, d) = self.line.seen_from(at.point);
-        let (lo, hi) = (lo - s, hi - s);
+        // an end at the point itself is there exactly: what rounding would leave between them counts
+        let from_point = |x: f64| if (x - s).abs() > ON_LINE * (hi - lo) { x - s } else { 0.0 };
+        let (lo, hi) = (from_point(lo), from_point(hi));
         let tangent = self.line.tangent;
         if d > ON_LINE * (hi - lo) {
             let normal = tangent.left();
@@ -263,7 +267,7 @@ impl Run<'_> {
         });
         let rule = &mut self.rules[at];
         for stretch in refined(stretches, &demand) {
-            stretch.nodes(order, &mut |x, w| {
+            stretch.nodes(gauss, order, &mut |x, w| {
                 rule.offsets.push(x);
                 rule.weights.push(w);
             });

@@ -175,7 +175,7 @@ fn powers(lambda: f64, n: usize) -> Grading {
     let lambda = lambda.max(LEAST_EXPONENT);
     let extra = (EXTRA_POINTS / lambda.sqrt()).ceil() as usize;
     let all = (n + extra).min(MAX_POINTS);
-    Grading { power: (all as f64 / lambda).sqrt(), extra: all.saturating_sub(n) }
+    Grading { power: (all as f64 / lambda).sqrt().max(1.0), extra: all.saturating_sub(n) }
 }
 
 /// The zero set of a function, seen from its two sides. Nothing is assumed but that it is a smooth

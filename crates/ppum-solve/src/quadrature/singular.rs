@@ -11,13 +11,14 @@
 //!
 //! [`Growth`]: super::Growth
 
+use super::Rules;
 use super::adapt::{Demand, Part as _, refined};
 use super::chart::{Apex, Chart, quadrilaterals};
 use super::curve::{Window, cut_all};
+use super::gauss::gauss;
 use super::geometry::{Level, Probes, Singular};
 use super::piece::Piece;
 use super::polygon::Polygon;
-use super::Rules;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
 
@@ -95,7 +96,7 @@ impl Pieces<'_, '_> {
         let demand = Demand { probes, active, anchor, curved, points };
         let rule = self.rules.rule(self.patches, anchor);
         for part in refined(parts, &demand) {
-            part.nodes(self.order, &mut |x, w| rule.push(x, w));
+            part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
         }
     }
 }
