@@ -23,6 +23,12 @@ const AREA_ACCURACY: f64 = 1e-8;
 /// Most parts that one piece is divided into.
 const BUDGET: usize = 400;
 
+/// Numbers of parts, each twice the one before, at which the errors must have come down to this
+/// share. Noise does not get less by division: what does not converge is left whole. A layer of
+/// 1e-9 of a piece is found before the first of these numbers.
+const FIRST_CHECK: usize = 32;
+const SHARE: f64 = 0.5;
+
 /// Most divisions one inside the other. Halves of halves are rounding before.
 const DEPTH: usize = 45;
 
@@ -40,7 +46,7 @@ const RIDGE: f64 = 1e-4;
 const PARALLEL: f64 = 1e-3;
 
 /// Something with a Gauss rule that can be divided.
-pub(super) trait Part: Sized {
+pub(super) trait Part: Clone {
     /// Calls `push` with the offsets and weights of a rule that is as exact as `n` Gauss points in
     /// each direction.
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64));
@@ -61,6 +67,8 @@ pub(super) struct Demand<'a> {
     pub(super) anchor: Vec2,
     /// True if parts have curved borders: then the integral of 1 is held, too.
     pub(super) curved: bool,
+    /// Size of the cell.
+    pub(super) size: f64,
     /// Gauss points in each direction of the rules that are compared.
     pub(super) points: usize,
 }
@@ -92,11 +100,19 @@ pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
     if demand.active.is_empty() && !demand.curved {
         return parts;
     }
-    let accuracies = demand.accuracies();
-    let mut entries: Vec<Entry<P>> = parts.into_iter().map(|p| demand.entry(p, 0)).collect();
+    let mut entries: Vec<Entry<P>> =
+        parts.iter().map(|part| demand.entry(part.clone(), 0)).collect();
+    let (mut check, mut before) = (FIRST_CHECK, f64::INFINITY);
     while entries.len() < BUDGET {
-        let allowed = allowed(&entries, &accuracies);
+        let allowed = demand.allowed(&entries);
         let Some(at) = worst(&entries, &allowed) else { break };
+        if entries.len() >= check {
+            let now = excess(&entries, &allowed);
+            if now > SHARE * before {
+                return parts;
+            }
+            (check, before) = (2 * check, now);
+        }
         let depth = entries[at].depth + 1;
         let Some(halves) = entries[at].best_halves(&allowed) else { break };
         let [first, second] = halves.map(|part| demand.entry(part, depth));
@@ -106,10 +122,10 @@ pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
     entries.into_iter().map(|e| e.part).collect()
 }
 
-/// The error that each integral over all parts may have.
-fn allowed<P>(entries: &[Entry<P>], accuracies: &[f64]) -> Vec<f64> {
-    let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
-    accuracies.iter().enumerate().map(|(k, accuracy)| accuracy * size(k)).collect()
+/// Largest ratio of the error of an integral over all parts to what is allowed.
+fn excess<P>(entries: &[Entry<P>], allowed: &[f64]) -> f64 {
+    let error = |k: usize| entries.iter().map(|e| e.errors[k]).sum::<f64>();
+    allowed.iter().enumerate().map(|(k, allowed)| error(k) / allowed).fold(0.0, f64::max)
 }
 
 /// The entry with the largest error of those integrals whose errors add up to too much.
@@ -243,11 +259,17 @@ impl Demand<'_> {
         Sums { gauss: both(gauss), closed: both(closed) }
     }
 
-    /// The accuracy that each of the integrals needs.
-    fn accuracies(&self) -> Vec<f64> {
-        let mut all = vec![ACCURACY; 3 * self.active.len()];
-        all.extend(self.curved.then_some(AREA_ACCURACY));
-        all
+    /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over
+    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding.
+    fn allowed<P>(&self, entries: &[Entry<P>]) -> Vec<f64> {
+        let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
+        let of_function = |k: usize| {
+            let [value, square, gradient] = [0, 1, 2].map(|i| size(3 * k + i));
+            [value, square, gradient + square / (self.size * self.size)]
+        };
+        let functions = (0..self.active.len()).flat_map(of_function).map(|s| ACCURACY * s);
+        let area = self.curved.then(|| AREA_ACCURACY * size(3 * self.active.len()));
+        functions.chain(area).collect()
     }
 
     /// For each function the direction in which its gradient changes most, if there is one; and the

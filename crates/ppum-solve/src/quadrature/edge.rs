@@ -256,6 +256,7 @@ impl Run<'_> {
             active: &geometry.active_probes(patches),
             anchor,
             curved: false,
+            size: self.cell.size().length(),
             points: order.saturating_sub(orders.reserve).max(1),
         };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;

@@ -246,6 +246,7 @@ impl Run<'_> {
             patches,
             order,
             reserve: self.orders.reserve,
+            size: self.cell.size().length(),
             least: self.least,
             curves: &curves,
             probes: (geometry.probes, &active),

@@ -11,6 +11,7 @@ use ppum::vec2::{Vec2, vec2};
 const WAYS: usize = 4;
 
 /// A piece on which the integrand is smooth, relative to an anchor.
+#[derive(Clone)]
 pub(super) enum Piece<'c> {
     /// With straight sides, away from singular points.
     Polygon(Polygon),

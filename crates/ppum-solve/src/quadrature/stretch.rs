@@ -17,6 +17,7 @@ pub(super) enum Path {
 }
 
 /// The points foot + s · tangent, relative to an anchor, for an interval of the parameter.
+#[derive(Clone)]
 pub(super) struct Stretch {
     pub(super) path: Path,
     pub(super) foot: Vec2,

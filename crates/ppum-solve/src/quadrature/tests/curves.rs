@@ -6,6 +6,7 @@ use super::curve::{Window, cut_all};
 use super::piece::Piece;
 use super::*;
 use std::f64::consts::PI;
+use std::slice::from_ref;
 use std::sync::Arc;
 
 fn curve(level: impl Fn(Vec2) -> f64 + Send + Sync + 'static) -> Kink {
@@ -48,12 +49,12 @@ fn discs_in_one_cell() {
             let case = alone(UNIT, Vec::new(), Vec::new());
             for (p, tolerance) in [(1, 1e-6), (2, 1e-7), (3, 1e-8)] {
                 let orders = Orders::for_degree(p);
-                let kinks = [kink.clone()];
+                let kinks = from_ref(&kink);
                 let inside = |x: Vec2| (x - c).length() < r;
-                let area = integral(&case, &kinks, orders, inside, |_| 1.0);
+                let area = integral(&case, kinks, orders, inside, |_| 1.0);
                 let exact = part * PI * r * r;
                 assert_near(area, exact, tolerance * exact, &format!("disc at {c:?}, p = {p}"));
-                let geometry = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+                let geometry = Geometry { kinks, common_kinks: &[0], ..case.geometry() };
                 let pieces = n_points(&rules(geometry, orders)) / orders.overlap.pow(2);
                 assert!(pieces <= 110, "{pieces} pieces");
             }
@@ -72,7 +73,7 @@ fn moments_of_discs_on_graded_covers() {
         for kink in circles(c, r) {
             let orders = Orders::for_degree(2);
             let moment =
-                |f: &dyn Fn(Vec2) -> f64| integral(&case, &[kink.clone()], orders, inside, f);
+                |f: &dyn Fn(Vec2) -> f64| integral(&case, from_ref(&kink), orders, inside, f);
             let square = PI * r * r;
             assert_near(moment(&|_| 1.0), square, 1e-9, "1");
             assert_near(moment(&|x| x.x), square * c.x, 1e-9, "x");
@@ -214,7 +215,7 @@ fn a_curve_on_borders_cuts_nothing() {
 #[test]
 fn curves_around_and_through_singular_points() {
     for (lambda, beta) in
-        [(0.5, 2.0), (0.25, PI.sqrt() * 1.225_416_702_465_177_6 / 0.906_402_477_055_477_1)]
+        [(0.5, 2.0), (0.25, PI.sqrt() * 1.225_416_702_465_177_6 / 0.906_402_477_055_477)]
     {
         let growth =
             if lambda == 0.5 { Growth::HalfPowers } else { Growth::Powers { least: lambda } };
@@ -253,7 +254,8 @@ fn strips_are_divided_where_a_curve_bends() {
     let square = Chart::Quadrilateral(corners(&UNIT));
     let (windows, cut) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
     assert!(cut);
-    let demand = Demand { probes: &(), active: &[], anchor: Vec2::ZERO, curved: true, points: 5 };
+    let demand =
+        Demand { probes: &(), active: &[], anchor: Vec2::ZERO, curved: true, size: 1.0, points: 5 };
     let mut below = 0.0;
     for part in refined(windows.into_iter().map(Piece::Window).collect(), &demand) {
         part.nodes(gauss, 6, &mut |x, w| below += if bend(x) < 0.0 { w } else { 0.0 });

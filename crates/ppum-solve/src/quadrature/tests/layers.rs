@@ -119,7 +119,7 @@ fn layers_on_both_sides_of_a_circle() {
         let exact = 2.0 * PI * r * eps;
         assert_near(value, exact, 1e-8 * exact, &format!("ε = {eps:e}"));
         let pieces = n_points(&rules) / orders.singular.pow(2);
-        println!("{eps:e} {pieces}");
+        assert!(pieces < 1200, "{pieces} pieces along ten rectangles and more");
     }
 }
 
@@ -135,10 +135,8 @@ fn waves_and_undeclared_kinks() {
     let value = integrate(&resolved(&case, &wave, orders), |a, x| {
         (k * (a + x).x + l * (a + x).y).sin().powi(2)
     });
-    let exact = 0.5
-        - ((2.0 * k).cos() + (2.0 * l).cos() - 1.0 - (2.0 * (k + l)).cos()) / (8.0 * k * l)
-            * -1.0
-            * -1.0;
+    let cosines = (2.0 * (k + l)).cos() - (2.0 * k).cos() - (2.0 * l).cos() + 1.0;
+    let exact = 0.5 + cosines / (8.0 * k * l);
     assert_near(value, exact, 1e-9, "wave");
 
     let (normal, at) = (vec2(0.6, 0.8), 0.5137);

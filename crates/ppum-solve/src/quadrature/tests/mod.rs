@@ -7,6 +7,7 @@ mod layers;
 mod lines;
 mod powers;
 mod singular;
+mod together;
 mod weights;
 
 use super::*;
