@@ -23,11 +23,13 @@ const AREA_ACCURACY: f64 = 1e-8;
 /// Most parts that one piece is divided into.
 const BUDGET: usize = 400;
 
-/// Numbers of parts, each twice the one before, at which the errors must have come down to this
-/// share. Noise does not get less by division: what does not converge is left whole. A layer of
-/// 1e-9 of a piece is found before the first of these numbers.
+/// Number of parts from which on errors must come down whenever it doubles. A layer of 1e-9 of a
+/// piece is found with fewer.
 const FIRST_CHECK: usize = 32;
-const SHARE: f64 = 0.5;
+
+/// The share they must come down to. Noise does not get less by division, while the value on a border
+/// of a layer that is still too thin to be seen otherwise counts half at each.
+const SHARE: f64 = 0.8;
 
 /// Most divisions one inside the other. Halves of halves are rounding before.
 const DEPTH: usize = 45;
@@ -95,23 +97,20 @@ struct Division<P> {
     changes: Vec<f64>,
 }
 
-/// The parts divided until their rules resolve the functions that are demanded.
+/// The parts divided until their rules resolve the functions that are demanded; as they are if
+/// division does not help.
 pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
     if demand.active.is_empty() && !demand.curved {
         return parts;
     }
     let mut entries: Vec<Entry<P>> =
         parts.iter().map(|part| demand.entry(part.clone(), 0)).collect();
-    let (mut check, mut before) = (FIRST_CHECK, f64::INFINITY);
+    let mut progress = Progress { check: FIRST_CHECK, before: f64::INFINITY };
     while entries.len() < BUDGET {
         let allowed = demand.allowed(&entries);
         let Some(at) = worst(&entries, &allowed) else { break };
-        if entries.len() >= check {
-            let now = excess(&entries, &allowed);
-            if now > SHARE * before {
-                return parts;
-            }
-            (check, before) = (2 * check, now);
+        if progress.has_stopped(entries.len(), || excess(&entries, &allowed)) {
+            return parts;
         }
         let depth = entries[at].depth + 1;
         let Some(halves) = entries[at].best_halves(&allowed) else { break };
@@ -120,6 +119,26 @@ pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
         entries.push(second);
     }
     entries.into_iter().map(|e| e.part).collect()
+}
+
+/// Watches whether errors come down.
+struct Progress {
+    /// Number of parts to look at next.
+    check: usize,
+    /// Error at the last look.
+    before: f64,
+}
+
+impl Progress {
+    fn has_stopped(&mut self, parts: usize, error: impl FnOnce() -> f64) -> bool {
+        if parts < self.check {
+            return false;
+        }
+        let error = error();
+        let stopped = error > SHARE * self.before;
+        *self = Self { check: 2 * parts, before: error };
+        stopped
+    }
 }
 
 /// Largest ratio of the error of an integral over all parts to what is allowed.
@@ -172,8 +191,13 @@ impl Sums {
 }
 
 /// Differences of values.
-fn difference<'i>(a: &'i [Integral], b: &'i [Integral]) -> impl Iterator<Item = f64> + 'i {
-    a.iter().zip(b).map(|(a, b)| (a.value - b.value).abs())
+fn differences(a: &[Integral], b: &[Integral]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| (a.value - b.value).abs()).collect()
+}
+
+/// The larger of each two numbers.
+fn larger(a: Vec<f64>, b: &[f64]) -> Vec<f64> {
+    a.into_iter().zip(b).map(|(a, b)| a.max(*b)).collect()
 }
 
 /// Samples of functions at points with weights.
@@ -197,20 +221,21 @@ impl Demand<'_> {
     fn entry<P: Part>(&self, part: P, depth: usize) -> Entry<P> {
         let (inside, border) = (self.samples(&part, gauss), self.samples(&part, closed));
         let whole = Sums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
-        let mut errors: Vec<f64> = difference(&whole.gauss, &whole.closed).collect();
-        let mut divisions = Vec::new();
-        if depth < DEPTH {
-            for halves in part.divisions(&self.directions([&inside, &border])) {
-                let sums = self.sums(&halves);
-                let by_gauss = difference(&sums.gauss, &whole.gauss);
-                let by_closed = difference(&sums.closed, &whole.closed);
-                for (error, change) in errors.iter_mut().zip(difference(&sums.gauss, &whole.gauss))
-                {
-                    *error = error.max(change);
-                }
-                let changes = by_gauss.zip(by_closed).map(|(a, b)| a.max(b)).collect();
-                divisions.push(Division { halves, changes });
+        let mut errors = differences(&whole.gauss, &whole.closed);
+        let hidden = errors.iter().zip(&whole.gauss).any(|(e, i)| *e > ACCURACY * i.size);
+        let ways = if depth < DEPTH {
+            part.divisions(&self.directions([&inside, &border]))
+        } else {
+            Vec::new()
+        };
+        let mut divisions = Vec::with_capacity(ways.len());
+        for halves in ways {
+            let mut changes = differences(&self.sums(&halves, gauss), &whole.gauss);
+            errors = larger(errors, &changes);
+            if hidden {
+                changes = larger(changes, &differences(&self.sums(&halves, closed), &whole.closed));
             }
+            divisions.push(Division { halves, changes });
         }
         if divisions.is_empty() {
             errors.fill(0.0);
@@ -247,16 +272,14 @@ impl Demand<'_> {
     }
 
     /// The integrals over two parts together.
-    fn sums<P: Part>(&self, [a, b]: &[P; 2]) -> Sums {
-        let both = |rules: Rules1d| {
-            let [a, b] = [a, b].map(|part| self.integrals(&self.samples(part, rules)));
-            let sum = |(a, b): (Integral, Integral)| Integral {
-                value: a.value + b.value,
-                size: a.size + b.size,
-            };
-            a.into_iter().zip(b).map(sum).collect()
-        };
-        Sums { gauss: both(gauss), closed: both(closed) }
+    fn sums<P: Part>(&self, parts: &[P; 2], rules: Rules1d) -> Vec<Integral> {
+        let [mut sums, other] =
+            parts.each_ref().map(|part| self.integrals(&self.samples(part, rules)));
+        for (sum, other) in sums.iter_mut().zip(other) {
+            sum.value += other.value;
+            sum.size += other.size;
+        }
+        sums
     }
 
     /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over

@@ -115,6 +115,24 @@ fn shapes_with_closed_forms() {
 }
 
 #[test]
+fn thin_bands_whose_middle_is_declared_before() {
+    let case = alone(UNIT, Vec::new(), Vec::new());
+    let area = |kinks: &[Kink], inside: &dyn Fn(Vec2) -> bool| {
+        integral(&case, kinks, Orders::for_degree(2), inside, |_| 1.0)
+    };
+    let line = |p: Vec2| p.y - 0.2 * p.x - 0.437;
+    let band = move |p: Vec2| line(p).abs() - 1e-3;
+    assert_near(area(&[curve(line), curve(band)], &|p| band(p) < 0.0), 2e-3, 1e-10, "band");
+    let middle = Kink::Line([vec2(0.0, 0.437), vec2(1.0, 0.637)]);
+    assert_near(area(&[middle, curve(band)], &|p| band(p) < 0.0), 2e-3, 1e-10, "straight band");
+
+    let circle = |p: Vec2| (p - vec2(0.45, 0.55)).length() - 0.35;
+    let ring = move |p: Vec2| circle(p).abs() - 1e-3;
+    let value = area(&[curve(circle), curve(ring)], &|p| ring(p) < 0.0);
+    assert_near(value, PI * 1.4e-3, 1e-9, "ring");
+}
+
+#[test]
 fn curves_that_cross() {
     let case = alone(UNIT, Vec::new(), Vec::new());
     let (a, b, r) = (vec2(0.35, 0.5), vec2(0.65, 0.5), 0.3);

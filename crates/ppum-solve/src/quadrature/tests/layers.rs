@@ -209,6 +209,25 @@ fn hostile_probes_end_within_the_budget() {
 }
 
 #[test]
+fn noise_is_left_whole() {
+    // from x = 1/2 on nothing is left of 1 − tanh but rounding
+    let cell = Rect::new(vec2(0.6, 0.0), vec2(1.0, 0.4));
+    let probes = vec![|a: Vec2, x: Vec2| {
+        let f = (35.0 * (a + x).x).tanh();
+        [1.0 - f, -35.0 * (1.0 - f * f), 0.0]
+    }];
+    let case = alone(cell, Vec::new(), Vec::new());
+    let orders = Orders::for_degree(2);
+    let rules = resolved(&case, &probes, orders);
+    assert_eq!(n_points(&rules), orders.singular.pow(2));
+    let probes = vec![|a: Vec2, x: Vec2| {
+        let f = (35.0 * (a + x).x).tanh();
+        [f, 35.0 * (1.0 - f * f), 0.0]
+    }];
+    assert_eq!(n_points(&resolved(&case, &probes, orders)), orders.singular.pow(2));
+}
+
+#[test]
 fn layers_at_a_corner_with_a_power() {
     // r^λ exp(−r/ε) on a quarter disc's worth of the plane: ∫ r^(2λ−1) e^(−2r/ε) dr = (ε/2)^(2λ) Γ(2λ)
     let (lambda, eps) = (0.5_f64, 1e-3);

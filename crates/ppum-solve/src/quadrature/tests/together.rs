@@ -10,7 +10,7 @@ fn scene(random: &mut Random, trial: usize) -> (Case, Vec<Kink>) {
         _ => uniform(trial as u32 % 3),
     };
     let (start, tip) = (random.point(0.9), random.point(0.9));
-    let corner = if trial % 3 == 0 { vec2(-1.0, 1.0) } else { random.point(0.9) };
+    let corner = if trial.is_multiple_of(3) { vec2(-1.0, 1.0) } else { random.point(0.9) };
     let mut case = Case::new(cover, vec![crack(&[start, tip])], vec![tip, corner]);
     case.singular[1].growth = Growth::Powers { least: random.between(0.1, 1.9) };
     let (c, r) = (random.point(0.5), random.between(0.05, 0.6));
@@ -37,7 +37,7 @@ fn side(kinks: &[Kink], p: Vec2) -> f64 {
 fn all_kinds_of_geometry_keep_the_area_and_tell_sides() {
     let mut random = Random(2024);
     let orders = Orders::for_degree(2);
-    for trial in 0..24 {
+    for trial in 0..12 {
         let (case, kinks) = scene(&mut random, trial);
         let e = random.point(1.0).unit();
         let probes = vec![move |a: Vec2, x: Vec2| {
@@ -52,9 +52,7 @@ fn all_kinds_of_geometry_keep_the_area_and_tell_sides() {
             common_probes: &[0],
             ..case.geometry()
         };
-        let t = std::time::Instant::now();
         let rules = rules(geometry, orders);
-        println!("{trial} {} {:?}", n_points(&rules), t.elapsed());
         let what = format!("trial {trial}");
         assert_near(integrate(&rules, |_, _| 1.0), 4.0, 1e-8, &what);
         assert_near(integrate(&rules, |a, x| (a + x).x.powi(3) * (a + x).y), 0.0, 1e-8, &what);
