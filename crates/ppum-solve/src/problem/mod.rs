@@ -30,13 +30,18 @@
 mod boundary;
 mod check;
 mod cracks;
+mod csv;
 mod discretization;
 mod document;
+mod enrichment;
 mod error;
 mod expression;
 mod key;
 mod points;
+pub(crate) mod quantities;
 mod read;
+mod scopes;
+mod table_file;
 #[cfg(test)]
 mod tests;
 
@@ -51,6 +56,7 @@ use ppum::vec2::{Rect, Vec2};
 pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
+pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
 pub use ppum::expression::Expression;
 
@@ -75,6 +81,8 @@ pub struct Problem {
     pub quantities: Vec<NamedQuantity>,
     /// Tables its formulas may read.
     pub tables: Vec<Arc<Table>>,
+    /// Functions of the local spaces beside the built-in ones.
+    pub enrichments: Vec<LocalEnrichment>,
     /// Cover, local spaces and enrichment.
     pub discretization: Discretization,
     /// The linear solver.
@@ -83,10 +91,26 @@ pub struct Problem {
     pub text: Option<String>,
 }
 
+/// How the system is made and solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Solver {
+    /// The linear solver.
+    pub kind: SolverKind,
+    /// Use native kernels where there are any; false evaluates their formulas, which should give the
+    /// same to rounding.
+    pub kernels: bool,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self { kind: SolverKind::default(), kernels: true }
+    }
+}
+
 /// The linear solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Solver {
+pub enum SolverKind {
     /// What suits the problem.
     #[default]
     Auto,
@@ -144,6 +168,7 @@ impl Problem {
             exact: Vec::new(),
             quantities: Vec::new(),
             tables: Vec::new(),
+            enrichments: Vec::new(),
             discretization,
             solver: Solver::default(),
             text: None,

@@ -122,19 +122,24 @@ fn any<'a>(seeds: &'a [Seed], random: &mut Random) -> &'a str {
 
 /// A border of characters.
 fn place(text: &str, random: &mut Random) -> usize {
-    text.floor_char_boundary(random.below(text.len() + 1))
+    border(text, random.below(text.len() + 1))
+}
+
+/// The first border of characters at a byte or after it; the end if there is none.
+fn border(text: &str, byte: usize) -> usize {
+    (byte..text.len()).find(|&k| text.is_char_boundary(k)).unwrap_or(text.len())
 }
 
 /// A border up to eight bytes further on.
 fn near(text: &str, start: usize, random: &mut Random) -> usize {
-    text.ceil_char_boundary((start + random.below(9)).min(text.len()))
+    border(text, start + random.below(9))
 }
 
 /// A part of another seed.
 fn fragment<'a>(seeds: &'a [Seed], random: &mut Random) -> &'a str {
     let text = any(seeds, random);
     let start = place(text, random);
-    let end = text.ceil_char_boundary((start + random.below(60)).min(text.len()));
+    let end = border(text, start + random.below(60));
     &text[start..end]
 }
 
