@@ -57,6 +57,7 @@ mod error;
 mod graph;
 mod half_angle;
 mod jets;
+mod kinks;
 mod lexer;
 mod library;
 mod lower;
@@ -64,6 +65,7 @@ mod operation;
 mod parser;
 mod print;
 mod program;
+mod roots;
 mod scope;
 mod substitute;
 mod table;
@@ -75,6 +77,7 @@ use std::sync::Arc;
 
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
+pub use kinks::Kink;
 pub use scope::{Scope, ScopeError};
 pub use table::{Table, TableError};
 

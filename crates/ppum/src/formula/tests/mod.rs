@@ -5,6 +5,7 @@ mod errors;
 mod half_angle;
 mod hostile;
 mod jets;
+mod kinks;
 mod language;
 mod random;
 mod sides;
