@@ -165,10 +165,17 @@ impl QuantityFormula {
         Self { name: Some(name.to_owned()), unit: unit.to_owned(), ..self }
     }
 
-    /// Its name, or its text if it has none.
+    /// Its name, or its text on one line if it has none.
     #[must_use]
-    pub fn label(&self) -> &str {
-        self.name.as_deref().unwrap_or(self.formula.text())
+    pub fn label(&self) -> String {
+        self.name.clone().unwrap_or_else(|| self.formula.one_line())
+    }
+
+    /// The formula, of components, derivatives and constants: other quantities that its text names
+    /// are put in.
+    #[must_use]
+    pub fn formula(&self) -> &Formula {
+        &self.formula
     }
 
     /// Its unit; may be empty.
