@@ -172,8 +172,11 @@ impl WeightFormula {
         let w = Formula::parse(text, scope)?;
         let slope = w.derivative("t")?;
         let curvature = slope.derivative("t")?;
-        let mut breakpoints = Vec::new();
-        if slope.evaluate(&[0.0]) != 0.0 {
+        let mut breakpoints = w.breakpoints(0.0, 1.0);
+        breakpoints.retain(|&t| t > 0.0 && t < 1.0);
+        // w(|ξ|) is smooth at 0 if odd derivatives of w vanish there.
+        let odd = [&slope, &curvature.derivative("t")?];
+        if odd.iter().any(|derivative| derivative.evaluate(&[0.0]) != 0.0) {
             breakpoints.insert(0, 0.0);
         }
         let formula = Self { derivatives: [w, slope, curvature], breakpoints };

@@ -37,11 +37,20 @@
 //! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
+//! A table is flat outside its range; on the ends of the range its derivatives are those of the inside.
+//! `side` has derivative 0.
+//!
+//! Where a formula may not be smooth is known without evaluating it: [`Formula::kinks`] are the zero
+//! sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch on, with
+//! their equations where they are lines; [`Formula::singularities`] those of what stands under
+//! roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval. Angles jump on
+//! their cut ([`Formula::uses_branch`]), sides on their crack.
+//!
 //! # Half angles
 //!
 //! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
 //! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
-//! with a parameter λ = ½, sums of such terms. There is no arc tangent, and no cancellation near
+//! with a parameter λ = ½, `cos(theta/2 + theta)`. There is no arc tangent, and no cancellation near
 //! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
 //! theta take θ itself.
 //!
