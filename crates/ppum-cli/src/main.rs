@@ -7,6 +7,7 @@ mod arguments;
 mod cli;
 mod commands;
 mod dataset;
+mod families;
 mod given;
 mod number;
 mod progress;

@@ -10,6 +10,7 @@ use anyhow::{Context as _, bail, ensure};
 use clap::ValueEnum;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::figure::{Labels, figure, plot_area};
@@ -237,7 +238,7 @@ fn name(quantity: &Quantity, given: &str) -> String {
 /// The formula of a quantity, as a note in the picture.
 fn notes(quantity: &Quantity) -> Option<(String, String)> {
     let Quantity::Formula(formula) = quantity else { return None };
-    Some(("ppum:formula".to_owned(), formula.formula().one_line()))
+    Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
 }
 
 fn labels(dataset: &Dataset, field: &Field<'_>, quantity: &Quantity) -> Labels {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::equation::Equation;
 use crate::formula::{
-    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table,
+    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
 };
 use crate::library::{Definition, ELASTICITY, POISSON};
 use crate::real::{Real, Scalar};
@@ -114,6 +114,13 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
+    /// The text behind the name of a quantity of the library or of the dataset, with `-` or `_`.
+    #[must_use]
+    pub fn definition(&self, name: &str) -> Option<&'a str> {
+        let name = name.replace('-', "_");
+        self.definitions().find(|(known, _)| *known == name).map(|(_, text)| text)
+    }
+
     /// The quantities of the library and of the dataset: names and texts.
     fn definitions(&self) -> impl Iterator<Item = (String, &'a str)> {
         let library: &[Definition] = match (self.equation, self.components) {
@@ -168,7 +175,7 @@ impl QuantityFormula {
     /// Its name, or its text on one line if it has none.
     #[must_use]
     pub fn label(&self) -> String {
-        self.name.clone().unwrap_or_else(|| self.formula.one_line())
+        self.name.clone().unwrap_or_else(|| one_line(self.formula.text()))
     }
 
     /// The formula, of components, derivatives and constants: other quantities that its text names
