@@ -87,7 +87,7 @@ use std::sync::Arc;
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
-pub use scope::{Scope, ScopeError};
+pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
 
 use derivative::gradients;
