@@ -43,6 +43,7 @@ mod block_matrix;
 mod border;
 mod cell;
 mod cholesky;
+mod clip;
 mod eigen;
 mod enrichment;
 mod gauge;

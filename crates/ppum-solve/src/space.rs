@@ -1,7 +1,8 @@
 //! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
 //! to walk over it.
 
-use crate::enrichment::{Block, Enricher, Functions};
+use crate::enrichment::{Block, Enrichments};
+use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
@@ -157,19 +158,18 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
         cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
-    let functions = Functions::new(&problem.cracks);
-    let enricher = Enricher::new(problem, &functions);
+    let enrichments = Enrichments::new(problem);
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
         let degree = set.order.at(partition.center[patch])? as u8;
-        blocks.push(enricher.blocks(&partition, patch, degree));
+        blocks.push(enrichments.blocks(&partition, patch, degree));
     }
     Ok(Step {
         load: 1.0,
         cracks: problem.cracks.clone(),
         attributes: attributes(&blocks),
         fields: vec![field(problem, &blocks)],
-        functions: functions.table,
+        functions: enrichments.table,
         partition,
         intensities: Vec::new(),
         history: Vec::new(),
@@ -190,9 +190,7 @@ fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
 }
 
 fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
-    let n = problem.components();
-    let (name, components): (_, &[&str]) =
-        if n == 1 { ("potential", &["u"]) } else { ("displacement", &["ux", "uy"]) };
+    let (name, components) = field_names(&problem.equation);
     let mut data = FieldData {
         name: name.into(),
         unit: String::new(),
@@ -214,6 +212,6 @@ fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
         }
         data.patch_blocks.push(data.block_function.len() as u32);
     }
-    data.coefficients = vec![vec![0.0; offset as usize]; n];
+    data.coefficients = vec![vec![0.0; offset as usize]; components.len()];
     data
 }

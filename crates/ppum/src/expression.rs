@@ -32,6 +32,15 @@ impl Expression {
         Ok(Self { constant: formula.constant(), formula })
     }
 
+    /// The expression that is 1 where a condition holds and 0 elsewhere.
+    ///
+    /// # Errors
+    /// The text is no condition of the scope, e.g. `x > 0 and y > 0`.
+    pub fn condition(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
+        let formula = Formula::parse_condition(text, scope)?;
+        Ok(Self { constant: formula.constant(), formula })
+    }
+
     /// A number. Formulas have no word for what is not finite: infinities are quotients by 0.
     #[must_use]
     pub fn number(value: f64) -> Self {
@@ -141,5 +150,19 @@ mod tests {
         assert_eq!(expression.values(vec2(2.0, 0.25), [1.0, 0.25]), 7.5);
         assert_eq!(expression.constant(), None);
         assert!(Expression::parse("r + 1").is_err());
+    }
+
+    #[test]
+    fn conditions() {
+        let condition = |text| Expression::condition(text, &Scope::cartesian());
+        let right = condition("let a = 0.5; x > a and not y > 1").expect("a condition");
+        for (x, y, expected) in [(0.6, 0.0, 1.0), (0.5, 0.0, 0.0), (1.0, 2.0, 0.0), (1.0, 1.0, 1.0)]
+        {
+            assert_eq!(right.value(vec2(x, y)), expected, "{x} {y}");
+        }
+        let again = Expression::parse(right.text()).expect("its text is a formula");
+        assert_eq!(again.value(vec2(0.6, 0.0)), 1.0);
+        assert_eq!(condition("1 < 2").expect("a condition").constant(), Some(1.0));
+        assert!(condition("x + 1").is_err());
     }
 }

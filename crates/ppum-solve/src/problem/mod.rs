@@ -30,13 +30,18 @@
 mod boundary;
 mod check;
 mod cracks;
+mod csv;
 mod discretization;
 mod document;
+mod enrichment;
 mod error;
 mod expression;
 mod key;
 mod points;
+pub(crate) mod quantities;
 mod read;
+mod scopes;
+mod table_file;
 #[cfg(test)]
 mod tests;
 
@@ -51,6 +56,7 @@ use ppum::vec2::{Rect, Vec2};
 pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
+pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
 pub use ppum::expression::Expression;
 
@@ -75,6 +81,8 @@ pub struct Problem {
     pub quantities: Vec<NamedQuantity>,
     /// Tables its formulas may read.
     pub tables: Vec<Arc<Table>>,
+    /// Functions of the local spaces beside the built-in ones.
+    pub enrichments: Vec<LocalEnrichment>,
     /// Cover, local spaces and enrichment.
     pub discretization: Discretization,
     /// The linear solver.
@@ -144,6 +152,7 @@ impl Problem {
             exact: Vec::new(),
             quantities: Vec::new(),
             tables: Vec::new(),
+            enrichments: Vec::new(),
             discretization,
             solver: Solver::default(),
             text: None,

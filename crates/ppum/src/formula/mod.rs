@@ -159,8 +159,23 @@ impl Formula {
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }
 
-    /// The text: as it was parsed, or, of a derivative, as it can be parsed again in the same scope
-    /// (if it is within [`MAX_LENGTH`]).
+    /// Parses a condition, e.g. `x > 0 and y > 0`, as the formula that is 1 where it holds and 0
+    /// elsewhere.
+    ///
+    /// # Errors
+    /// When the text is no condition of the scope; the error points at the place.
+    pub fn parse_condition(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
+        let ast = parser::parse(text, scope)?;
+        let mut graph = Graph::new(scope.tables());
+        let root = lower::lower_condition(&ast, scope, &mut graph);
+        let root = root.map_err(|mistake| mistake.locate(text, &ast))?;
+        let program = Program::new(&graph, &[root]);
+        let text = print::print(&program, scope);
+        Ok(Self { text, scope: Arc::new(scope.clone()), program })
+    }
+
+    /// The text: as it was parsed, or, of a derivative or a condition, as it can be parsed again in
+    /// the same scope (if it is within [`MAX_LENGTH`]).
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
