@@ -96,13 +96,7 @@ impl Step {
     ) -> Result<(), ReplaceError> {
         self.partition.weight = match WeightFunction::from_library(text.trim()) {
             Some(weight) => weight,
-            None => {
-                let mut tables = tables.iter();
-                let scope = tables.try_fold(Scope::new(&["t"])?, |scope, table| {
-                    scope.with_table(Arc::clone(table))
-                })?;
-                WeightFunction::formula(text, &scope)?
-            }
+            None => WeightFunction::formula(text, &Scope::new(&["t"])?.with_tables(tables)?)?,
         };
         Ok(())
     }

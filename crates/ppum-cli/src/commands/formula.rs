@@ -7,6 +7,12 @@ mod subject;
 mod text;
 
 use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::Context as _;
+use ppum::formula::Table;
+use ppum_solve::problem::read_table;
 
 use crate::arguments::{assignment, value};
 use crate::given::Given;
@@ -62,9 +68,16 @@ impl Args {
         let question = Question {
             given: Given::read(self.formula.as_deref().unwrap_or_default())?,
             parameters: &self.parameter,
-            tables: Vec::new(),
+            tables: self.tables()?,
         };
         let report = Report::new(&question.subjects(self.of.as_ref())?, &self.at)?;
         if self.json { Ok(json(out, &report)?) } else { Ok(text::write(out, &report)?) }
+    }
+
+    fn tables(&self) -> anyhow::Result<Vec<Arc<Table>>> {
+        let table = |(name, file): &(String, String)| {
+            read_table(name, Path::new(file)).map(Arc::new).context("--table")
+        };
+        self.table.iter().map(table).collect()
     }
 }

@@ -213,9 +213,7 @@ impl Question<'_> {
 
 /// What a weight may name.
 fn weight_scope(parameters: &[(String, f64)], tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
-    let mut tables = tables.iter();
-    let scope =
-        tables.try_fold(Scope::new(&["t"])?, |scope, table| scope.with_table(Arc::clone(table)))?;
+    let scope = Scope::new(&["t"])?.with_tables(tables)?;
     let mut parameters = parameters.iter();
     parameters.try_fold(scope, |scope, (name, value)| scope.with_parameter(name, *value))
 }
