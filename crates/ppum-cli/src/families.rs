@@ -3,7 +3,7 @@
 use ppum::dataset::FieldData;
 use ppum::function::{Declared, Frame, Function, FunctionKind};
 
-use crate::number::{count, point, trimmed};
+use crate::number::{count, trimmed};
 
 /// Functions that differ in their places and numbers only.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +87,7 @@ fn range(run: &[usize]) -> String {
 /// Functions that differ in their places only.
 struct Group<'f> {
     stem: &'f str,
+    names: Vec<&'f str>,
     kinds: Vec<&'f FunctionKind>,
     numbers: Vec<usize>,
     blocks: usize,
@@ -98,11 +99,15 @@ fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> 
         let (stem, kind) = (function.stem(), &function.kind);
         match groups.iter_mut().find(|g| g.stem == stem && is_moved(g.kinds[0], kind)) {
             Some(group) => {
+                group.names.push(&function.name);
                 group.kinds.push(kind);
                 group.numbers.push(number);
                 group.blocks += blocks;
             }
-            None => groups.push(Group { stem, kinds: vec![kind], numbers: vec![number], blocks }),
+            None => {
+                let (names, kinds, numbers) = (vec![&*function.name], vec![kind], vec![number]);
+                groups.push(Group { stem, names, kinds, numbers, blocks });
+            }
         }
     }
     groups
@@ -150,25 +155,16 @@ impl Group<'_> {
         is_next && last.kinds.iter().map(place).eq(self.kinds.iter().map(place))
     }
 
+    /// Where the functions are; of a single one its name tells.
     fn place(&self) -> String {
-        let n = self.kinds.len();
-        match (self.kinds[0], n) {
-            (FunctionKind::Side { .. }, _) => format!("of {}", count(n, "crack", "cracks")),
-            (FunctionKind::Formula { frame: Frame::Tip(_), .. }, _) => {
+        let n = self.names.len();
+        match self.kinds[0] {
+            FunctionKind::Side { .. } => format!("of {}", count(n, "crack", "cracks")),
+            FunctionKind::Formula { frame: Frame::Tip(_), .. } => {
                 format!("at {}", count(n, "tip", "tips"))
             }
-            (FunctionKind::Formula { frame: Frame::Fixed { origin, angle }, .. }, 1) => {
-                let angle = if *angle == 0.0 {
-                    String::new()
-                } else {
-                    format!(", angle {}", trimmed(*angle))
-                };
-                format!("at {}{angle}", point((*origin).into()))
-            }
-            (FunctionKind::Formula { frame: Frame::Fixed { .. }, .. }, _) => {
-                format!("at {n} places")
-            }
-            _ => String::new(),
+            _ if n > 1 => format!("at {n} places"),
+            _ => self.names[0][self.stem.len()..].trim_start().to_owned(),
         }
     }
 
@@ -255,7 +251,7 @@ mod tests {
             function("corner 2 at [1, 0.5]", corner("r", 1.0)),
             function("x*y", FunctionKind::formula("x*y", Frame::World)),
         ];
-        assert_eq!(told(&all), ["0–1 corner 1–2 at (1, 0.5), angle 1.5 4", "2 x*y 2"]);
+        assert_eq!(told(&all), ["0–1 corner 1–2 at [1, 0.5] 4", "2 x*y 2"]);
         let families = families(&all, &[1; 3]);
         assert_eq!(families[0].formulas, ["r^lambda, lambda = 0.5", "r, lambda = 0.5"]);
         assert!(families[1].formulas.is_empty());

@@ -120,6 +120,8 @@ impl Question<'_> {
             _ if library::enrichment(name).is_some() => Of::Plane,
             name if ELASTICITY.iter().any(|(known, _)| *known == name) => Of::Elasticity,
             name if POISSON.iter().any(|(known, _)| *known == name) => Of::Poisson,
+            // names that clash are to be told
+            _ if function_scope(self.parameters, 0, &self.tables).is_err() => Of::Plane,
             _ => {
                 let kinds = [Of::Plane, Of::Weight, Of::Elasticity, Of::Poisson];
                 let fits = |of: &Of| self.subjects(Some(of)).is_ok();
