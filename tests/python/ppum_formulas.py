@@ -95,7 +95,8 @@ class Jet:
     def __truediv__(self, b):
         b = Jet.of(b)
         value = quotient(self.v, b.v)
-        slopes = total(self.slopes, b.scaled(-value))
+        # 1/b has the slope 0 where b overflows, not 0 · ∞
+        slopes = total(self.slopes, {} if abs(b.v) == math.inf else b.scaled(-value))
         return Jet(value, {k: quotient(slope, b.v) for k, slope in slopes.items()})
 
     def __neg__(self):
@@ -111,6 +112,18 @@ class Jet:
 
 def total(a, b):
     return {k: a[k] + b[k] if k in a and k in b else a.get(k, b.get(k)) for k in a | b}
+
+
+def polar(x, y, theta, n):
+    """The names of a frame's coordinates; `theta` is the polar angle on its branch."""
+    r = n.call("hypot", x, y)
+    cos, sin = quotient(x, r), quotient(y, r)
+    return {
+        "x": Jet(x, {"x": n.real(1)}),
+        "y": Jet(y, {"y": n.real(1)}),
+        "r": Jet(r, {"x": cos, "y": sin}),
+        "theta": Jet(theta, {"x": -quotient(sin, r), "y": quotient(cos, r)}),
+    }
 
 
 class Functions:

@@ -14,7 +14,7 @@ import math
 
 import h5py
 import numpy as np
-from ppum_formulas import Double, Formula, Jet, Table
+from ppum_formulas import Double, Formula, Jet, Table, polar
 
 
 def text(value):
@@ -244,16 +244,8 @@ class Field:
     def in_frame(self, p, row):
         """A formula of x, y, r, theta of its frame, with derivatives in the world."""
         x, y, theta, (c, s) = self.tip(p, row) if row["frame"] == "tip" else self.fixed(p, row)
-        r = self.n.call("hypot", x, y)
-        X, Y = Jet(x) / Jet(r), Jet(y) / Jet(r)
-        names = {
-            "x": x,
-            "y": y,
-            "r": Jet(r, {"x": X.v, "y": Y.v}),
-            "theta": Jet(theta, {"x": (-Y / r).v, "y": (X / r).v}),
-        }
         sides = {f"side({crack})": self.side_of(p, crack) for crack in row["formula"].sides}
-        f = row["formula"].evaluate(row["parameters"] | names | sides)
+        f = row["formula"].evaluate(polar(x, y, theta, self.n) | row["parameters"] | sides)
         fx, fy = f.slopes.get("x", 0), f.slopes.get("y", 0)
         return Jet(f.v, {"x": c * fx - s * fy, "y": s * fx + c * fy})
 

@@ -248,9 +248,11 @@ impl WeightFormula {
         let mut out = [[R::Scalar::default(); 16]; 3];
         for (formula, out) in self.derivatives.iter().zip(&mut out) {
             for (t, out) in lanes.iter().zip(out).take(R::LANES) {
-                // Beyond the support the formula need not have a value.
+                // Beyond the support the formula need not have a value, at its end perhaps a limit.
                 let t = t.to_f64().min(1.0);
-                *out = R::Scalar::from_f64(formula.evaluate_with(&[t], &mut scratch));
+                let value = formula.evaluate_with(&[t], &mut scratch);
+                let possible = t < 1.0 || value.is_finite();
+                *out = R::Scalar::from_f64(if possible { value } else { 0.0 });
             }
         }
         out.map(|values| t.load(&values))
@@ -360,6 +362,17 @@ mod tests {
             assert_eq!(error, Err(WeightError::Breakpoint(outside)));
         }
         assert!(breakpoints(roof, &[f64::NAN]).is_err());
+    }
+
+    #[test]
+    fn a_bump_vanishes_with_its_derivatives_at_the_ends() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let bump = WeightFunction::formula("exp(1 - 1/((1 - t)*(1 + t)))", &scope);
+        let bump = bump.expect("a weight");
+        assert_eq!(bump.spline(0.0), [1.0, 0.0, -2.0]);
+        for xi in [-1.0, 1.0, -7.0, 2.0] {
+            assert_eq!(bump.spline(xi), [0.0; 3], "{xi}");
+        }
     }
 
     #[test]

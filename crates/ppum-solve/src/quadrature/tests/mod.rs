@@ -6,6 +6,7 @@ mod singular;
 
 use super::*;
 use ppum::crack::CrackEnd;
+use ppum::dataset::Partition;
 use ppum::weight::WeightFunction;
 
 /// A small linear congruential generator (Knuth's MMIX constants).
@@ -86,7 +87,7 @@ fn crack(points: &[Vec2]) -> Crack {
 struct Case {
     partition: Partition,
     cracks: Vec<Crack>,
-    singular: Vec<Vec2>,
+    singular: Vec<Singular>,
     patch_singular: Vec<Vec<u32>>,
 }
 
@@ -94,17 +95,20 @@ impl Case {
     fn new(partition: Partition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
         let all: Vec<u32> = (0..singular.len() as u32).collect();
         let patch_singular = vec![all; partition.len()];
+        let singular = singular.into_iter().map(Singular::tip).collect();
         Self { partition, cracks, singular, patch_singular }
     }
 
-    fn quadrature(&self, orders: Orders) -> Quadrature<'_> {
-        let geometry = Geometry {
-            partition: &self.partition,
-            cracks: &self.cracks,
+    fn geometry(&self) -> Geometry<'_> {
+        Geometry {
             singular: &self.singular,
             patch_singular: &self.patch_singular,
-        };
-        Quadrature::new(geometry, orders)
+            ..Geometry::new(&self.partition, &self.cracks)
+        }
+    }
+
+    fn quadrature(&self, orders: Orders) -> Quadrature<'_> {
+        Quadrature::new(self.geometry(), orders)
     }
 
     fn rules(&self, orders: Orders) -> Vec<Rule> {
