@@ -59,6 +59,7 @@ pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
 pub use ppum::expression::Expression;
+pub use table_file::read_table;
 
 /// What is to be solved, and how.
 #[derive(Clone, Debug, PartialEq)]

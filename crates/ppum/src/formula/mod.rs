@@ -181,6 +181,21 @@ impl Formula {
         &self.text
     }
 
+    /// The formula as it is computed, as a text that parses to the same operations in the same scope
+    /// (if it is within [`MAX_LENGTH`]): parameters and constants folded, definitions put in their
+    /// places, long and common parts named by `let`.
+    ///
+    /// ```
+    /// use ppum::formula::{Formula, Scope};
+    ///
+    /// let f = Formula::parse("2^3*(x/1 + (y))", &Scope::cartesian()).expect("a formula");
+    /// assert_eq!(f.normal_form(), "8*(x + y)");
+    /// ```
+    #[must_use]
+    pub fn normal_form(&self) -> String {
+        print::print(&self.program, &self.scope)
+    }
+
     /// The variables it may use.
     #[must_use]
     pub fn scope(&self) -> &Scope {
@@ -259,6 +274,18 @@ impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()
     }
+}
+
+/// A formula's text on one line, without comments: for labels.
+///
+/// ```
+/// let text = "let d = x - y;   # distance\n d^2";
+/// assert_eq!(ppum::formula::one_line(text), "let d = x - y; d^2");
+/// ```
+#[must_use]
+pub fn one_line(text: &str) -> String {
+    let code = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    code.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
 }
 
 fn check_inputs(scope: &Scope, inputs: &[f64]) {
