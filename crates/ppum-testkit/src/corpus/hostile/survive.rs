@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use ppum::formula::{Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope};
+use ppum::formula::{
+    Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope, Scratch,
+};
+use ppum::real::Scalar as Number;
 
 use crate::corpus::tables;
 use crate::random::Random;
@@ -137,10 +140,41 @@ fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
         jets.evaluate(inputs, &mut scratch, &mut out);
         same(out[0], *value, "value of the jet")?;
     }
+    on_lanes(&jets, &points, &mut scratch)?;
     if jets.n_operations() <= PRINTED {
         check_print(formula)?;
     }
     Ok(Fate::Evaluated)
+}
+
+/// Blocks of both precisions run; in double precision their results are those of single points.
+fn on_lanes(jets: &FormulaJets, points: &[Vec<f64>], scratch: &mut Vec<f64>) -> Result<(), String> {
+    let doubles = lanes::<f64>(jets, points);
+    let _ = lanes::<f32>(jets, points);
+    let mut out = vec![0.0; jets.n_outputs()];
+    for (inputs, found) in points.iter().zip(doubles) {
+        jets.evaluate(inputs, scratch, &mut out);
+        for (a, b) in out.iter().zip(found) {
+            same(*a, b, "a point and a lane")?;
+        }
+    }
+    Ok(())
+}
+
+/// All results at some points of a block.
+fn lanes<T: Number>(jets: &FormulaJets, points: &[Vec<f64>]) -> Vec<Vec<T>> {
+    let mut scratch = Scratch::default();
+    let mut block = jets.block::<T>(&mut scratch);
+    for index in 0..points[0].len() {
+        let input = block.input(index);
+        input.fill(T::from_f64(points[0][index]));
+        for (to, point) in input.iter_mut().zip(points) {
+            *to = T::from_f64(point[index]);
+        }
+    }
+    block.run();
+    let at = |place: usize| (0..jets.n_outputs()).map(|k| block.output(k)[place]).collect();
+    (0..points.len()).map(at).collect()
 }
 
 /// What is asked of formulas besides their values: any answer will do.
