@@ -40,14 +40,14 @@ fn time(mut frame: impl FnMut(), repetitions: usize) -> f64 {
 
 fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
     let draw = || {
-        black_box(render::<T>(field, &view(), Quantity::VonMises).expect("a stress"));
+        black_box(render::<T>(field, &view(), &Quantity::VonMises).expect("a stress"));
     };
     time(draw, 100)
 }
 
 /// Least milliseconds of mapping a frame to colours, which comes on top.
 fn colors<T: Scalar + Sample>(field: &Field) -> f64 {
-    let raster = render::<T>(field, &view(), Quantity::VonMises).expect("a stress");
+    let raster = render::<T>(field, &view(), &Quantity::VonMises).expect("a stress");
     let style = Style { range: Range::Fixed(0.0, 5.0), ..Style::default() };
     let paint = || {
         black_box(Picture::bare(&raster, &view(), &style).expect("a range"));
@@ -97,7 +97,7 @@ fn main() {
         let field = Field::new(&dataset, 0).expect("a field");
         println!("colours: {:.2} {:.2}", colors::<f64>(&field), colors::<f32>(&field));
         let draw = || {
-            black_box(reference(&field, &view(), Quantity::VonMises).expect("a stress"));
+            black_box(reference(&field, &view(), &Quantity::VonMises).expect("a stress"));
         };
         println!("scalar reference, 1024 patches: {:.0} ms", time(draw, 1));
     });

@@ -1,11 +1,18 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
+use super::adapt::{Demand, Part as _, refined};
 use super::gauss::gauss;
+use super::orders::Active;
 use super::polygon::line_side;
-use super::singular::edge_nodes;
-use super::split::{breaks, component, kinks};
-use super::{Quadrature, TOLERANCE, corners};
+use super::roots::{sign_changes, tame};
+use super::singular::panels;
+use super::split::{breaks, component, divided, kinks, varies};
+use super::stretch::{Path, Stretch};
+use super::{Kink, Level, Quadrature, Singular, TOLERANCE, corners, cutting_line};
 use ppum::vec2::{Rect, Vec2};
+
+/// Values of a level function below this part of its size on a segment are zero.
+const ZERO: f64 = 1e-14;
 
 /// Distances from the line of a segment below this part of its length count as zero.
 const ON_LINE: f64 = 1e-14;
@@ -134,45 +141,78 @@ impl Run<'_> {
         }
     }
 
-    /// Splits at kinks of the partition functions and at cracks.
+    /// Splits at kinks of the partition functions, of functions and materials, and at cracks.
     fn add_constant_set(&mut self, lo: f64, hi: f64, patches: &[u32]) {
-        let mut points = Vec::new();
+        let geometry = &self.quadrature.geometry;
+        let (mut points, mut varying) = (Vec::new(), false);
         for axis in 0..2 {
-            let kinks = kinks(self.quadrature.geometry.partition, patches, axis);
+            let kinks = kinks(geometry.partition, patches, axis);
             points.extend(kinks.into_iter().filter_map(|at| self.line.parameter(axis, at)));
+            varying |= component(self.line.tangent, axis) != 0.0
+                && varies(geometry.partition, patches, axis);
         }
-        points.extend(self.crossings(lo, hi));
-        let singular = self.quadrature.geometry.singular_points(patches);
-        for part in breaks(lo, hi, points, self.tolerance).windows(2) {
+        points.extend(self.crossings(lo, hi, &geometry.active_kinks(patches)));
+        let singular = geometry.singular_points(patches);
+        let mut breaks = breaks(lo, hi, points, self.tolerance);
+        if varying {
+            breaks = divided(breaks, self.quadrature.orders.parts);
+        }
+        for part in breaks.windows(2) {
             self.add_smooth(part[0], part[1], patches, &singular);
         }
     }
 
-    /// Where the lines of crack segments that meet the cell cross the line.
-    fn crossings(&self, lo: f64, hi: f64) -> Vec<f64> {
+    /// Where the line crosses the lines of crack segments that meet the cell, and kinks.
+    fn crossings(&self, lo: f64, hi: f64, kinks: &[&Kink]) -> Vec<f64> {
         let point = |s: f64| self.line.foot + self.line.tangent * s;
         let crossing = |[a, b]: [Vec2; 2]| {
             let (a, b) = (a - self.line.anchor, b - self.line.anchor);
             let (from, to) = (line_side(a, b, point(lo)), line_side(a, b, point(hi)));
             (from != to).then(|| lo + (hi - lo) * (from / (from - to)))
         };
-        self.quadrature.segments_near(self.cell).filter_map(crossing).collect()
+        let straight = kinks.iter().filter_map(|kink| cutting_line(kink, self.cell));
+        let lines = self.quadrature.segments_near(self.cell).chain(straight);
+        let curved = kinks.iter().flat_map(|kink| match kink {
+            Kink::Curve(level) => self.curve_crossings(lo, hi, &**level),
+            _ => Vec::new(),
+        });
+        lines.filter_map(crossing).chain(curved).collect()
     }
 
-    fn add_smooth(&mut self, lo: f64, hi: f64, patches: &[u32], singular: &[Vec2]) {
-        let distance = |p: Vec2| {
-            let (s, d) = self.line.seen_from(p);
+    fn curve_crossings(&self, lo: f64, hi: f64, level: &Level) -> Vec<f64> {
+        let start = self.line.anchor + self.line.foot;
+        let at = |s: f64| tame(level(start + self.line.tangent * s));
+        let size =
+            [lo, 0.5 * (lo + hi), hi].map(at).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let snapped = |s: f64| {
+            let value = at(s);
+            if value.abs() <= ZERO * size { 0.0 } else { value }
+        };
+        sign_changes(&snapped, lo, hi)
+    }
+
+    fn add_smooth(&mut self, lo: f64, hi: f64, patches: &[u32], singular: &[Singular]) {
+        let distance = |at: &Singular| {
+            let (s, d) = self.line.seen_from(at.point);
             (s - s.clamp(lo, hi)).hypot(d)
         };
-        let near: Vec<Vec2> = singular.iter().copied().filter(|&p| distance(p) < hi - lo).collect();
-        let nearest = singular.iter().map(|&p| distance(p)).fold(f64::INFINITY, f64::min);
-        let order = self.quadrature.orders.choose(patches.len(), nearest / (hi - lo));
+        let near: Vec<Singular> =
+            singular.iter().copied().filter(|at| distance(at) < hi - lo).collect();
+        let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
+        let geometry = &self.quadrature.geometry;
+        let order = self.quadrature.orders.choose(&Active {
+            patches: patches.len(),
+            distance: nearest / (hi - lo),
+            kinks: geometry.has_kinks(patches),
+            probes: !geometry.active_probes(patches).is_empty(),
+        });
         match near[..] {
             [] => {
-                let nodes = gauss(order).on(lo, hi);
-                self.push(self.line.anchor, self.line.foot, patches, nodes);
+                let (foot, tangent) = (self.line.foot, self.line.tangent);
+                let stretch = Stretch { path: Path::Straight, foot, tangent, interval: (lo, hi) };
+                self.push(self.line.anchor, patches, order, vec![stretch]);
             }
-            [point] => self.add_graded(lo, hi, patches, point, order),
+            [at] => self.push(at.point, patches, order, self.graded(lo, hi, &at, order)),
             _ => {
                 let mid = 0.5 * (lo + hi);
                 self.add_smooth(lo, mid, patches, &near);
@@ -181,32 +221,44 @@ impl Run<'_> {
         }
     }
 
-    /// Grades toward a singular point: x = d sinh u at distance d, x = ±t² on the line itself.
-    fn add_graded(&mut self, lo: f64, hi: f64, patches: &[u32], point: Vec2, order: usize) {
-        let (s, d) = self.line.seen_from(point);
-        let (lo, hi) = (lo - s, hi - s);
+    /// Graded toward a singular point, and relative to it: x = d sinh u at distance d, a power on
+    /// the line itself.
+    fn graded(&self, lo: f64, hi: f64, at: &Singular, order: usize) -> Vec<Stretch> {
+        let (s, d) = self.line.seen_from(at.point);
+        // an end at the point itself is there exactly: what rounding would leave between them counts
+        let from_point = |x: f64| if (x - s).abs() > ON_LINE * (hi - lo) { x - s } else { 0.0 };
+        let (lo, hi) = (from_point(lo), from_point(hi));
+        let tangent = self.line.tangent;
         if d > ON_LINE * (hi - lo) {
-            let normal = self.line.tangent.left();
-            let foot = normal * normal.dot(self.line.foot - (point - self.line.anchor));
-            self.push(point, foot, patches, edge_nodes(lo, hi, d, order));
-            return;
+            let normal = tangent.left();
+            let foot = normal * normal.dot(self.line.foot - (at.point - self.line.anchor));
+            let beside = |interval| Stretch { path: Path::Beside(d), foot, tangent, interval };
+            return panels(lo, hi, d).map(beside).collect();
         }
-        for (from, to, sign) in [(lo.max(0.0), hi, 1.0), ((-hi).max(0.0), -lo, -1.0)] {
-            if to > from {
-                let roots = gauss(order).on(from.sqrt(), to.sqrt());
-                let nodes = roots.map(|(t, w)| (sign * t * t, 2.0 * t * w));
-                self.push(point, Vec2::ZERO, patches, nodes);
-            }
-        }
+        let grading = at.growth.along_lines(order);
+        let root = |r: f64| r.powf(1.0 / grading.power);
+        [(lo.max(0.0), hi, 1.0), ((-hi).max(0.0), -lo, -1.0)]
+            .into_iter()
+            .filter(|(from, to, _)| to > from)
+            .map(|(from, to, sign)| Stretch {
+                path: Path::Through { sign, grading },
+                foot: Vec2::ZERO,
+                tangent,
+                interval: (root(from), root(to)),
+            })
+            .collect()
     }
 
-    fn push(
-        &mut self,
-        anchor: Vec2,
-        foot: Vec2,
-        patches: &[u32],
-        nodes: impl Iterator<Item = (f64, f64)>,
-    ) {
+    fn push(&mut self, anchor: Vec2, patches: &[u32], order: usize, stretches: Vec<Stretch>) {
+        let Quadrature { geometry, orders, .. } = self.quadrature;
+        let demand = Demand {
+            probes: geometry.probes,
+            active: &geometry.active_probes(patches),
+            anchor,
+            curved: false,
+            size: self.cell.size().length(),
+            points: order.saturating_sub(orders.reserve).max(1),
+        };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
         let at = self.rules.iter().position(same).unwrap_or_else(|| {
             let (patches, normal) = (patches.to_vec(), self.line.normal);
@@ -215,9 +267,11 @@ impl Run<'_> {
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];
-        for (s, w) in nodes {
-            rule.offsets.push(foot + self.line.tangent * s);
-            rule.weights.push(w);
+        for stretch in refined(stretches, &demand) {
+            stretch.nodes(gauss, order, &mut |x, w| {
+                rule.offsets.push(x);
+                rule.weights.push(w);
+            });
         }
     }
 }

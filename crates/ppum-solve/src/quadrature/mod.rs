@@ -6,30 +6,44 @@
 //! 1. rectangles with a constant set of covering patches;
 //! 2. cut at kinks of the partition functions, where these do not cancel;
 //! 3. cut by the lines of the crack segments that meet the rectangle, extended through it (harmless,
-//!    and all pieces are convex and on one side of each segment);
-//! 4. near a tip whose functions are active, triangles with their apex at the tip and a rule for
-//!    r^{k/2} g(θ), k ≥ −2, and bisection of pieces that are closer to it than their diameter.
+//!    and all pieces are convex and on one side of each segment), and by straight kinks of the active
+//!    functions and of the material in the same way;
+//! 4. near a point at which an active function is singular, triangles with their apex there and a
+//!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to it
+//!    than their diameter;
+//! 5. cut along curved kinks, the pieces getting sides that follow the curve;
+//! 6. divided until rules resolve functions that may vary fast ([`Probes`]).
 //!
 //! Points are an anchor plus offsets. Near a singular point the anchor is that point itself, so that
 //! the distance to it carries no rounding of the coordinates. [`Quadrature::edge`] does the same along
 //! segments, [`Quadrature::disc`] for the domain integrals of stress intensity.
 //!
-//! Nothing here knows fields or basis functions.
+//! Nothing here knows fields, formulas or basis functions: [`Geometry`] says where something happens.
 
+mod adapt;
+mod chart;
+mod curve;
 mod edge;
 mod gauss;
+mod geometry;
+mod orders;
+mod piece;
 mod polygon;
+mod roots;
 mod singular;
 mod split;
+mod stretch;
 #[cfg(test)]
 mod tests;
 
 pub use edge::EdgeRule;
 pub use gauss::{GaussRule, MAX_POINTS, gauss};
+pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
+pub use orders::Orders;
 
+use orders::Active;
 use polygon::{Polygon, line_side};
 use ppum::crack::Crack;
-use ppum::dataset::Partition;
 use ppum::vec2::{Rect, Vec2, vec2};
 use singular::Pieces;
 
@@ -41,77 +55,6 @@ const LEAST_AREA: f64 = 1e-24;
 
 /// Singular points nearer than this part of a rectangle's diameter to each other count as one.
 const SAME_POINT: f64 = 1e-9;
-
-/// Rectangles farther from a singular point than this many diameters do not feel it: n Gauss points
-/// then err by about 18^(−2n).
-const FAR: f64 = 4.0;
-
-/// What decides where integrands are smooth.
-#[derive(Clone, Copy, Debug)]
-pub struct Geometry<'a> {
-    /// The partition of unity.
-    pub partition: &'a Partition,
-    /// The cracks: across their segments functions may jump.
-    pub cracks: &'a [Crack],
-    /// Points at which functions are singular: the tips, usually.
-    pub singular: &'a [Vec2],
-    /// Of each patch, the points (indices into `singular`) at which one of its functions is
-    /// singular, be the point inside the patch or not.
-    pub patch_singular: &'a [Vec<u32>],
-}
-
-impl Geometry<'_> {
-    /// The distinct points at which a function of one of these patches is singular.
-    fn singular_points(&self, patches: &[u32]) -> Vec<Vec2> {
-        let mut indices: Vec<u32> =
-            patches.iter().flat_map(|&p| &self.patch_singular[p as usize]).copied().collect();
-        indices.sort_unstable();
-        indices.dedup();
-        indices.iter().map(|&i| self.singular[i as usize]).collect()
-    }
-}
-
-/// Numbers of Gauss points in each direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Orders {
-    /// Where several patches overlap.
-    pub overlap: usize,
-    /// Where one patch is alone, φ = 1, and the integrand a polynomial.
-    pub flat: usize,
-    /// Near points where a function is singular.
-    pub singular: usize,
-}
-
-impl Orders {
-    /// The default for polynomials of degree p: p + 4, p + 1 and max(p + 5, 8), which keep the
-    /// quadrature's share of the energy below 1e-8. A product of two polynomials is exact where one
-    /// patch is alone, cracks or not.
-    #[must_use]
-    pub const fn for_degree(p: usize) -> Self {
-        let singular = if p + 5 > 8 { p + 5 } else { 8 };
-        Self { overlap: p + 4, flat: p + 1, singular }
-    }
-
-    /// The same number everywhere.
-    #[must_use]
-    pub const fn uniform(n: usize) -> Self {
-        Self { overlap: n, flat: n, singular: n }
-    }
-
-    /// The number for a piece covered by `patches` patches, whose distance to the nearest singular
-    /// point is `distance` times its size (infinite if no function is singular).
-    fn choose(self, patches: usize, distance: f64) -> usize {
-        if distance < FAR {
-            self.singular
-        } else if distance < f64::INFINITY {
-            self.overlap.max(self.flat)
-        } else if patches == 1 {
-            self.flat
-        } else {
-            self.overlap
-        }
-    }
-}
 
 /// A rule on a part of a cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,7 +105,7 @@ impl Rules {
 }
 
 /// The rules of a step's cells.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Quadrature<'a> {
     geometry: Geometry<'a>,
     orders: Orders,
@@ -192,7 +135,8 @@ impl<'a> Quadrature<'a> {
         self.rules(cell, coverers, self.orders, None)
     }
 
-    /// The rules on the pieces of a cell that meet a disc, with `order` points in each direction.
+    /// The rules on the pieces of a cell that meet a disc, with `order` points in each direction, or
+    /// more where the weight function needs them.
     ///
     /// The integrand may be singular like r⁻¹ at the disc's `center`, whichever functions are active,
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
@@ -211,7 +155,9 @@ impl<'a> Quadrature<'a> {
         if size.x <= 0.0 || size.y <= 0.0 {
             return Vec::new();
         }
-        self.rules(&part, coverers, Orders::uniform(order), Some(Disc { center, radius }))
+        let overlap = order.max(self.orders.overlap);
+        let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(order) };
+        self.rules(&part, coverers, orders, Some(Disc { center, radius }))
     }
 
     fn rules(
@@ -228,10 +174,11 @@ impl<'a> Quadrature<'a> {
         let mut run = Run { quadrature: self, cell, orders, disc, segments, least, rules };
         let mut sorted = coverers.to_vec();
         sorted.sort_unstable();
-        split::rectangles(self.geometry.partition, cell, &sorted, &mut |rect, patches| {
+        let partition = self.geometry.partition;
+        split::rectangles(partition, orders.parts, cell, &sorted, &mut |rect, patches| {
             run.add(rect, patches);
         });
-        let mut singular = self.geometry.singular.to_vec();
+        let mut singular: Vec<Vec2> = self.geometry.singular.iter().map(|s| s.point).collect();
         singular.extend(disc.map(|d| d.center));
         run.rules.0.iter().for_each(|rule| rule.check(&singular));
         run.rules.0
@@ -276,40 +223,83 @@ impl Run<'_> {
         if self.disc.is_some_and(|d| rect.distance(d.center) >= d.radius) {
             return;
         }
+        let geometry = self.quadrature.geometry;
         let diameter = rect.size().length();
         let mut singular = self.singular_points(rect, patches);
-        let distance = singular.first().map_or(f64::INFINITY, |&p| rect.distance(p)) / diameter;
-        singular.retain(|&p| rect.distance(p) < diameter);
+        let nearest = singular.first().map_or(f64::INFINITY, |s| rect.distance(s.point));
+        singular.retain(|s| rect.distance(s.point) < diameter);
         let elsewhere = self.disc.map_or_else(|| self.cell.center(), |d| d.center);
-        let anchor = singular.first().copied().unwrap_or(elsewhere);
+        let anchor = singular.first().map_or(elsewhere, |s| s.point);
 
-        let order = self.orders.choose(patches.len(), distance);
-        let polygons = self.cut(rect, anchor);
-        let mut pieces = Pieces { rules: &mut self.rules, patches, order, least: self.least };
+        let kinks = geometry.active_kinks(patches);
+        let active = geometry.active_probes(patches);
+        let curves = curves_near(&kinks, rect);
+        let order = self.orders.choose(&Active {
+            patches: patches.len(),
+            distance: nearest / diameter,
+            kinks: geometry.has_kinks(patches) || !curves.is_empty(),
+            probes: !active.is_empty(),
+        });
+        let polygons = self.cut(rect, anchor, &kinks);
+        let mut pieces = Pieces {
+            rules: &mut self.rules,
+            patches,
+            order,
+            reserve: self.orders.reserve,
+            size: self.cell.size().length(),
+            least: self.least,
+            curves: &curves,
+            probes: (geometry.probes, &active),
+        };
         for polygon in polygons {
             pieces.add(anchor, &polygon, &singular);
         }
     }
 
-    /// The rectangle cut by the lines of the crack segments that meet it, relative to the anchor.
-    fn cut(&self, rect: &Rect, anchor: Vec2) -> Vec<Polygon> {
-        let meeting = self.segments.iter().filter(|[a, b]| meets(rect, *a, *b));
-        let segments: Vec<_> = meeting.map(|s| s.map(|p| p - anchor)).collect();
-        Polygon(corners(rect).map(|p| p - anchor).to_vec()).pieces(&segments, self.least)
+    /// The rectangle cut by the lines of the crack segments that meet it and by straight kinks,
+    /// relative to the anchor.
+    fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
+        let meeting = self.segments.iter().filter(|[a, b]| meets(rect, *a, *b)).copied();
+        let straight = kinks.iter().filter_map(|kink| cutting_line(kink, rect));
+        let lines: Vec<_> = meeting.chain(straight).map(|s| s.map(|p| p - anchor)).collect();
+        Polygon(corners(rect).map(|p| p - anchor).to_vec()).pieces(&lines, self.least)
     }
 
     /// The distinct singular points, the nearest first.
-    fn singular_points(&self, rect: &Rect, patches: &[u32]) -> Vec<Vec2> {
+    fn singular_points(&self, rect: &Rect, patches: &[u32]) -> Vec<Singular> {
         let mut points = self.quadrature.geometry.singular_points(patches);
-        points.extend(self.disc.map(|d| d.center));
-        points.sort_by(|&a, &b| rect.distance(a).total_cmp(&rect.distance(b)));
-        let apart = SAME_POINT * rect.size().length();
-        let mut distinct: Vec<Vec2> = Vec::new();
-        for p in points {
-            if distinct.iter().all(|&q| (p - q).length() > apart) {
-                distinct.push(p);
-            }
-        }
-        distinct
+        points.extend(self.disc.map(|d| Singular::tip(d.center)));
+        points.sort_by(|a, b| rect.distance(a.point).total_cmp(&rect.distance(b.point)));
+        distinct(points, SAME_POINT * rect.size().length())
     }
+}
+
+/// Points without those that are not apart from one before them, which takes their growth.
+fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
+    let mut distinct: Vec<Singular> = Vec::new();
+    for p in points {
+        match distinct.iter_mut().find(|q| (p.point - q.point).length() <= apart) {
+            Some(known) => known.growth = known.growth.and(p.growth),
+            None => distinct.push(p),
+        }
+    }
+    distinct
+}
+
+/// Two points on the line along which a straight kink cuts a rectangle, if it does.
+fn cutting_line(kink: &Kink, rect: &Rect) -> Option<[Vec2; 2]> {
+    match *kink {
+        Kink::Line(line) => Some(line),
+        Kink::Segment([a, b]) => meets(rect, a, b).then_some([a, b]),
+        Kink::Curve(_) => None,
+    }
+}
+
+/// The level functions of the curved kinks that may meet a rectangle.
+fn curves_near<'k>(kinks: &[&'k Kink], rect: &Rect) -> Vec<&'k Level> {
+    let levels = kinks.iter().filter_map(|kink| match *kink {
+        Kink::Curve(level) => Some(level.as_ref()),
+        _ => None,
+    });
+    levels.filter(|&level| curve::may_meet(level, rect)).collect()
 }

@@ -72,7 +72,7 @@ impl Polygon {
 
     /// The parts on the left and on the right of the line through `a` and `b`; `None` if the line
     /// leaves the polygon whole.
-    fn cut(&self, a: Vec2, b: Vec2) -> Option<[Self; 2]> {
+    pub(super) fn cut(&self, a: Vec2, b: Vec2) -> Option<[Self; 2]> {
         let side: Vec<f64> = self.0.iter().map(|&v| line_side(a, b, v)).collect();
         if side.iter().all(|&s| s >= 0.0) || side.iter().all(|&s| s <= 0.0) {
             return None;

@@ -4,14 +4,23 @@
 //! than its diameter gets plain Gauss rules; one that touches the point is cut into triangles with
 //! their apex there, and with s = t² along the rays and x = foot + d sinh u along the far edge (at
 //! distance d) the integrand is a polynomial in t and smooth in u; any other piece is bisected.
+//! With other exponents the rays get another power of t and more points ([`Growth`]).
 //! After Duffy, "Quadrature over a pyramid or cube of integrands with a singularity at a vertex", SIAM
 //! J. Numer. Anal. 19 (1982), and Johnston & Elliott, "A sinh transformation for evaluating nearly
 //! singular boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+//!
+//! [`Growth`]: super::Growth
 
+use super::Rules;
+use super::adapt::{Demand, Part as _, refined};
+use super::chart::{Apex, Chart, quadrilaterals};
+use super::curve::{Window, cut_all};
 use super::gauss::gauss;
+use super::geometry::{Level, Probes, Singular};
+use super::piece::Piece;
 use super::polygon::Polygon;
-use super::{Rule, Rules};
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::rc::Rc;
 
 /// Longest panel in u. The integrand's nearest singularities lie at u = ±iπ/2, so that n points
 /// converge like 6.4^(−2n).
@@ -21,28 +30,36 @@ const PANEL: f64 = 1.0;
 const FLAT: f64 = 1e-14;
 
 /// Integrates over pieces of one rectangle.
-pub(super) struct Pieces<'r> {
+pub(super) struct Pieces<'r, 'c> {
     /// Receives the points.
     pub(super) rules: &'r mut Rules,
     /// The patches that cover the rectangle.
     pub(super) patches: &'r [u32],
     /// Gauss points in each direction.
     pub(super) order: usize,
+    /// Those of them that are kept for the polynomials that multiply a probe.
+    pub(super) reserve: usize,
+    /// Size of the cell.
+    pub(super) size: f64,
     /// Pieces smaller than this are dropped.
     pub(super) least: f64,
+    /// Curves across which integrands jump.
+    pub(super) curves: &'r [&'c Level],
+    /// Functions that have to be resolved: all, and the active ones.
+    pub(super) probes: (&'r dyn Probes, &'r [u32]),
 }
 
-impl Pieces<'_> {
+impl Pieces<'_, '_> {
     /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may be
     /// near it.
-    pub(super) fn add(&mut self, anchor: Vec2, polygon: &Polygon, singular: &[Vec2]) {
+    pub(super) fn add(&mut self, anchor: Vec2, polygon: &Polygon, singular: &[Singular]) {
         if polygon.area() <= self.least {
             return;
         }
         match *near(anchor, polygon, singular) {
             [] => self.add_regular(anchor, polygon),
-            [point] if polygon.touches(point - anchor) => {
-                self.add_fan(point, &polygon.seen_from(point - anchor));
+            [at] if polygon.touches(at.point - anchor) => {
+                self.add_fan(&at, &polygon.seen_from(at.point - anchor));
             }
             ref points => {
                 for part in polygon.parts() {
@@ -53,71 +70,75 @@ impl Pieces<'_> {
     }
 
     fn add_regular(&mut self, anchor: Vec2, polygon: &Polygon) {
-        let rule = self.rules.rule(self.patches, anchor);
-        let v = &polygon.0;
-        for k in (1..v.len() - 1).step_by(2) {
-            let last = v[(k + 2).min(v.len() - 1)];
-            add_quadrilateral(rule, [v[0], v[k], v[k + 1], last], self.order);
+        if !self.curves.is_empty() {
+            let windows = quadrilaterals(polygon).map(Window::whole).collect();
+            let (windows, cut) = cut_all(windows, self.curves, anchor);
+            if cut {
+                return self.add_windows(anchor, windows, true);
+            }
         }
+        self.add_parts(anchor, vec![Piece::Polygon(polygon.clone())], false);
     }
 
-    /// Adds triangles with their apex at the anchor, one for each edge of the polygon.
-    fn add_fan(&mut self, anchor: Vec2, polygon: &Polygon) {
+    /// Adds triangles with their apex at the singular point, one for each edge of the polygon.
+    fn add_fan(&mut self, at: &Singular, polygon: &Polygon) {
+        let triangles = polygon.edges().map(|(a, b)| apex_triangle(at, a, b, self.order));
+        let (windows, cut) = cut_all(triangles.flatten().collect(), self.curves, at.point);
+        self.add_windows(at.point, windows, cut);
+    }
+
+    fn add_windows(&mut self, anchor: Vec2, windows: Vec<Window<'_>>, curved: bool) {
+        self.add_parts(anchor, windows.into_iter().map(Piece::Window).collect(), curved);
+    }
+
+    /// Adds the rules of pieces, divided until they resolve what they have to.
+    fn add_parts(&mut self, anchor: Vec2, parts: Vec<Piece<'_>>, curved: bool) {
+        let (probes, active) = self.probes;
+        let points = self.order.saturating_sub(self.reserve).max(1);
+        let demand = Demand { probes, active, anchor, curved, size: self.size, points };
         let rule = self.rules.rule(self.patches, anchor);
-        for (a, b) in polygon.edges() {
-            add_apex_triangle(rule, a, b, self.order);
+        for part in refined(parts, &demand) {
+            part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
         }
     }
 }
 
 /// The singular points closer to the polygon than its diameter.
-fn near(anchor: Vec2, polygon: &Polygon, singular: &[Vec2]) -> Vec<Vec2> {
+fn near(anchor: Vec2, polygon: &Polygon, singular: &[Singular]) -> Vec<Singular> {
     if singular.is_empty() {
         return Vec::new();
     }
     let diameter = polygon.diameter();
-    let is_near = |p: &&Vec2| polygon.distance(**p - anchor) < diameter;
+    let is_near = |s: &&Singular| polygon.distance(s.point - anchor) < diameter;
     singular.iter().filter(is_near).copied().collect()
 }
 
-/// Tensor Gauss rule on the bilinear image of \[0, 1\]²; a triangle is the case of two equal corners.
-/// Exact for polynomials of total degree 2n − 2.
-fn add_quadrilateral(rule: &mut Rule, [a, b, c, d]: [Vec2; 4], n: usize) {
-    for (eta, v) in gauss(n).on(0.0, 1.0) {
-        let (left, right) = (a + (d - a) * eta, b + (c - b) * eta);
-        let along = right - left;
-        for (xi, w) in gauss(n).on(0.0, 1.0) {
-            let across = (d - a) * (1.0 - xi) + (c - b) * xi;
-            rule.push(left + along * xi, v * w * along.cross(across));
-        }
-    }
-}
-
-/// Duffy rule on the triangle (0, a, b) for integrands singular at 0.
-fn add_apex_triangle(rule: &mut Rule, a: Vec2, b: Vec2, n: usize) {
+/// The triangle (0, a, b) in panels along its far edge, for integrands singular at 0.
+fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<Window<'c>> {
     let edge = b - a;
     if a.cross(edge) <= FLAT * edge.dot(edge) {
-        return;
+        return Vec::new();
     }
     let tangent = edge.unit();
     let height = a.cross(tangent);
     let foot = -tangent.left() * height;
-    for (x, w) in edge_nodes(tangent.dot(a), tangent.dot(b), height, n) {
-        let far = foot + tangent * x;
-        for (t, v) in gauss(n).on(0.0, 1.0) {
-            rule.push(far * (t * t), 2.0 * t * t * t * v * w * height);
-        }
-    }
+    let apex = Apex { foot, tangent, height, grading: at.growth.over_areas(n) };
+    let chart = Rc::new(Chart::Apex(apex));
+    let window = |(from, to)| Window {
+        chart: Rc::clone(&chart),
+        range: Rect::new(vec2(from, 0.0), vec2(to, 1.0)),
+    };
+    panels(tangent.dot(a), tangent.dot(b), height).map(window).collect()
 }
 
-/// Gauss nodes in u on \[lo, hi\], where x = d sinh u is the coordinate along a line at distance
-/// d > 0 from a singular point, measured from the foot of the perpendicular.
-pub(super) fn edge_nodes(lo: f64, hi: f64, d: f64, n: usize) -> impl Iterator<Item = (f64, f64)> {
+/// Intervals of u for \[lo, hi\], where x = d sinh u is the coordinate along a line at distance d > 0
+/// from a singular point, measured from the foot of the perpendicular.
+pub(super) fn panels(lo: f64, hi: f64, d: f64) -> impl Iterator<Item = (f64, f64)> {
     let (from, to) = ((lo / d).asinh(), (hi / d).asinh());
     let panels = ((to - from) / PANEL).ceil().max(1.0);
     let step = (to - from) / panels;
-    (0..panels as usize).flat_map(move |k| {
+    (0..panels as usize).map(move |k| {
         let start = from + k as f64 * step;
-        gauss(n).on(start, start + step).map(move |(u, w)| (d * u.sinh(), d * u.cosh() * w))
+        (start, start + step)
     })
 }

@@ -7,20 +7,23 @@ use ppum::vec2::{Rect, Vec2};
 const COINCIDENT: f64 = 1e-12;
 
 /// Splits a cell into rectangles with a constant set of covering patches and no kink of their
-/// partition functions, and hands each rectangle with its patches to `visit`.
+/// partition functions, each of these where several patches meet into `parts` in every direction in
+/// which the functions vary, and hands each rectangle with its patches to `visit`.
 pub(super) fn rectangles(
     partition: &Partition,
+    parts: usize,
     cell: &Rect,
     coverers: &[u32],
     visit: &mut dyn FnMut(&Rect, &[u32]),
 ) {
     let size = cell.size();
-    let splitter = Splitter { partition, tolerance: COINCIDENT * size.x.min(size.y) };
+    let splitter = Splitter { partition, parts, tolerance: COINCIDENT * size.x.min(size.y) };
     splitter.constant_sets(cell, coverers, visit);
 }
 
 struct Splitter<'a> {
     partition: &'a Partition,
+    parts: usize,
     tolerance: f64,
 }
 
@@ -89,7 +92,10 @@ impl Splitter<'_> {
     fn kinks(&self, rect: &Rect, patches: &[u32], visit: &mut dyn FnMut(&Rect, &[u32])) {
         let [xs, ys] = [0, 1].map(|axis| {
             let kinks = kinks(self.partition, patches, axis);
-            breaks(component(rect.min, axis), component(rect.max, axis), kinks, self.tolerance)
+            let ends = (component(rect.min, axis), component(rect.max, axis));
+            let breaks = breaks(ends.0, ends.1, kinks, self.tolerance);
+            let varies = varies(self.partition, patches, axis);
+            if varies { divided(breaks, self.parts) } else { breaks }
         });
         for y in ys.windows(2) {
             for x in xs.windows(2) {
@@ -114,24 +120,38 @@ pub(super) fn component(v: Vec2, axis: usize) -> f64 {
     if axis == 0 { v.x } else { v.y }
 }
 
-/// Coordinates along an axis at which the partition functions of these patches have kinks inside
-/// their supports.
-///
-/// None if the patches agree in centre and half-extent along the axis (a single patch does): the
+/// Centre and half-extent of a patch along an axis.
+fn frame(partition: &Partition, patch: u32, axis: usize) -> (f64, f64) {
+    let i = patch as usize;
+    (component(partition.center[i], axis), component(partition.half[i], axis))
+}
+
+/// False if the patches agree in centre and half-extent along the axis (a single patch does): the
 /// factors w then cancel in W_i / Σ W_l, kinks and all.
-pub(super) fn kinks(partition: &Partition, patches: &[u32], axis: usize) -> Vec<f64> {
-    let frame = |patch: u32| {
-        let i = patch as usize;
-        (component(partition.center[i], axis), component(partition.half[i], axis))
-    };
+pub(super) fn varies(partition: &Partition, patches: &[u32], axis: usize) -> bool {
     let same =
         |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= COINCIDENT * a.1;
-    if patches.windows(2).all(|pair| same(frame(pair[0]), frame(pair[1]))) {
+    let frame = |patch| frame(partition, patch, axis);
+    patches.windows(2).any(|pair| !same(frame(pair[0]), frame(pair[1])))
+}
+
+/// Coordinates along an axis at which the partition functions of these patches have kinks inside
+/// their supports; none if they do not vary along it.
+pub(super) fn kinks(partition: &Partition, patches: &[u32], axis: usize) -> Vec<f64> {
+    if !varies(partition, patches, axis) {
         return Vec::new();
     }
     let at = partition.weight.breakpoints();
     let both = |(c, h)| at.iter().flat_map(move |t| [c - t * h, c + t * h]);
-    patches.iter().flat_map(|&patch| both(frame(patch))).collect()
+    patches.iter().flat_map(|&patch| both(frame(partition, patch, axis))).collect()
+}
+
+/// Each interval between ascending `breaks` divided into equal parts.
+pub(super) fn divided(breaks: Vec<f64>, parts: usize) -> Vec<f64> {
+    let part = |k: usize, ends: &[f64]| ends[0] + (ends[1] - ends[0]) * (k as f64 / parts as f64);
+    let inner = breaks.windows(2).flat_map(|ends| (0..parts).map(move |k| part(k, ends)));
+    let last = breaks.last().copied();
+    inner.chain(last).collect()
 }
 
 /// `lo`, the sorted distinct `points` between, and `hi`.

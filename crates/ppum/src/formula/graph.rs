@@ -4,7 +4,7 @@
 //! Folding never changes a value, NaN included: `0*x` stays, `1*x` does not. Operands always come
 //! before what uses them, so every pass is a loop.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use super::Table;
@@ -383,10 +383,20 @@ impl Graph {
 
     /// Adds extracted operations; gives the node of each.
     pub(super) fn absorb(&mut self, ops: &[Op]) -> Vec<NodeId> {
+        self.absorb_with(ops, &BTreeMap::new())
+    }
+
+    /// [`Graph::absorb`] with nodes in place of some inputs.
+    pub(super) fn absorb_with(
+        &mut self,
+        ops: &[Op],
+        inputs: &BTreeMap<u32, NodeId>,
+    ) -> Vec<NodeId> {
         let mut nodes = Vec::with_capacity(ops.len());
         for op in ops {
-            let node = self.on_operands(*op, |operand| nodes[operand.index()]);
-            nodes.push(node);
+            let given = if let Op::Input(index) = op { inputs.get(index) } else { None };
+            let node = given.copied();
+            nodes.push(node.unwrap_or_else(|| self.on_operands(*op, |old| nodes[old.index()])));
         }
         nodes
     }

@@ -14,7 +14,7 @@ use super::graph::{Graph, NodeId, Op};
 use super::operation::{Binary, Comparison, Unary};
 use super::program::Program;
 use super::roots::Scan;
-use super::{Formula, Table, print};
+use super::{Formula, print};
 
 /// Most kinks of a formula that are looked for, and most operations of all together. What has more
 /// is not drawn by hand, and no quadrature could follow it.
@@ -185,9 +185,9 @@ impl Sets {
             | Op::Compare(Comparison::Less | Comparison::LessEqual, a, b) => self.equal(a, b),
             Op::Table { table, orders, x, y } => {
                 let table = Arc::clone(&self.graph.tables()[table as usize]);
-                self.knots(&table, table.x(), orders[0], x);
+                self.knots(table.x(), orders[0], x);
                 if let Some(y) = y {
-                    self.knots(&table, table.y(), orders[1], y);
+                    self.knots(table.y(), orders[1], y);
                 }
             }
             _ => {}
@@ -215,8 +215,7 @@ impl Sets {
     }
 
     /// The ends of a table's range; all knots if the spline's derivative has kinks there.
-    fn knots(&mut self, table: &Table, knots: &[f64], order: u8, argument: NodeId) {
-        debug_assert!(knots.len() >= 2, "table {} has a range", table.name());
+    fn knots(&mut self, knots: &[f64], order: u8, argument: NodeId) {
         let smooth = order < 2;
         let places = knots.iter().enumerate();
         let bent = places.filter(|&(k, _)| !smooth || k == 0 || k == knots.len() - 1);
@@ -226,14 +225,23 @@ impl Sets {
         }
     }
 
+    fn is_full(&self) -> bool {
+        self.found.len() > MAX_SETS
+    }
+
     fn equal(&mut self, a: NodeId, b: NodeId) {
+        if self.is_full() {
+            return;
+        }
         let difference = self.graph.binary(Binary::Sub, a, b);
         self.zero(difference);
     }
 
     fn whole(&mut self, node: NodeId) {
-        let room = self.found.len() <= MAX_SETS;
-        if room && self.graph.value(node).is_none() && self.known.insert(Set::Whole(node)) {
+        if !self.is_full()
+            && self.graph.value(node).is_none()
+            && self.known.insert(Set::Whole(node))
+        {
             self.found.push(Set::Whole(node));
         }
     }
@@ -289,7 +297,7 @@ impl Sets {
     fn zero(&mut self, node: NodeId) {
         let mut parts = vec![node];
         while let Some(node) = parts.pop() {
-            if self.found.len() > MAX_SETS || !self.known.insert(Set::Zero(node)) {
+            if self.is_full() || !self.known.insert(Set::Zero(node)) {
                 continue;
             }
             if let Some((bent, level)) = self.levelled(node) {

@@ -72,6 +72,29 @@ pub(super) const FUNCTIONS: [(&str, Function); 26] = [
 pub(super) const CONSTANTS: [(&str, f64); 2] =
     [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 
+/// Functions of other languages and what stands for them here.
+const FOREIGN: [(&str, &str); 14] = [
+    ("ln", "log"),
+    ("lg", "log10"),
+    ("pow", "^"),
+    ("power", "^"),
+    ("fabs", "abs"),
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("arctan2", "atan2"),
+    ("sgn", "sign"),
+    ("ceil", "-floor(-…)"),
+    ("where", "if"),
+    ("select", "if"),
+    ("interp", "table"),
+];
+
+/// What stands for a function of another language.
+pub(super) fn foreign(name: &str) -> Option<&'static str> {
+    FOREIGN.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|&(_, here)| here)
+}
+
 /// Words of the language that are neither functions nor constants.
 pub(super) const KEYWORDS: [&str; 4] = ["let", "and", "or", "not"];
 

@@ -34,16 +34,18 @@ impl Mistake {
 
 /// Adds a formula of a scope to a graph; gives the node of its value.
 pub(super) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, Mistake> {
-    let theta = scope.half_angles().and_then(|_| scope.input("theta"));
-    let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
-    let mut lowering = Lowering { graph, scope, theta, nodes, multiples };
-    for expr in &ast.nodes {
-        let node = lowering.expr(expr)?;
-        let multiple = lowering.multiple(expr, node);
-        lowering.nodes.push(node);
-        lowering.multiples.push(multiple);
-    }
-    lowering.number(ast.root)
+    Lowering::new(ast, scope, graph)?.number(ast.root)
+}
+
+/// Adds a condition to a graph; gives the node of 1 where it holds, 0 elsewhere.
+pub(super) fn lower_condition(
+    ast: &Ast,
+    scope: &Scope,
+    graph: &mut Graph,
+) -> Result<NodeId, Mistake> {
+    let condition = Lowering::new(ast, scope, graph)?.condition(ast.root)?;
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    Ok(graph.select(condition, one, zero))
 }
 
 struct Lowering<'a> {
@@ -57,7 +59,20 @@ struct Lowering<'a> {
     multiples: Vec<Multiple>,
 }
 
-impl Lowering<'_> {
+impl<'a> Lowering<'a> {
+    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, Mistake> {
+        let theta = scope.half_angles().and_then(|_| scope.input("theta"));
+        let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
+        let mut lowering = Self { graph, scope, theta, nodes, multiples };
+        for expr in &ast.nodes {
+            let node = lowering.expr(expr)?;
+            let multiple = lowering.multiple(expr, node);
+            lowering.nodes.push(node);
+            lowering.multiples.push(multiple);
+        }
+        Ok(lowering)
+    }
+
     fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(self.graph.constant(*value)),

@@ -170,7 +170,8 @@ impl<'a> Parser<'a> {
         let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
         let given = arguments.len();
         if given != expected {
-            return Err(self.error(name, Problem::ArgumentCount { expected, given }));
+            let suggestion = self.with_arguments(name, given);
+            return Err(self.error(name, Problem::ArgumentCount { expected, given, suggestion }));
         }
         Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
     }
@@ -261,24 +262,40 @@ impl<'a> Parser<'a> {
             None if self.known_names().any(|known| known == name) => Problem::NotAFunction,
             None => {
                 let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
-                Problem::UnknownFunction { suggestion: nearest(name, names) }
+                let foreign = library::foreign(name).map(str::to_owned);
+                Problem::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
             }
         };
         Err(self.error(span, problem))
+    }
+
+    /// The function of a similar name that takes this many arguments.
+    fn with_arguments(&self, name: Span, given: usize) -> Option<&'static str> {
+        let fits = |function: Function| function.arity() == Some(given);
+        let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
+        let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
+        library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
     }
 
     fn unknown_name(&self, name: &str) -> Problem {
         if Function::named(name).is_some() {
             return Problem::MissingArguments;
         }
-        Problem::UnknownName { suggestion: nearest(name, self.known_names()) }
+        if self.peek().kind == TokenKind::Assign {
+            return Problem::MissingLet;
+        }
+        let table =
+            || nearest(name, self.scope.table_names()).map(|name| format!("table({name}, …)"));
+        Problem::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
     }
 
-    /// Everything that stands for a value here.
+    /// Every name that stands for a value here.
     fn known_names(&self) -> impl Iterator<Item = &str> {
         let locals = self.locals.iter().map(|&(name, _)| name);
         let constants = library::CONSTANTS.iter().map(|&(name, _)| name);
-        self.scope.names().chain(locals).chain(constants)
+        // `cos(theta/2)` and `side(0)` are no names
+        let names = self.scope.names().filter(|name| !name.contains('('));
+        names.chain(locals).chain(constants)
     }
 
     fn is_local(&self, name: &str) -> bool {
@@ -331,6 +348,8 @@ impl<'a> Parser<'a> {
     fn expect(&mut self, kind: TokenKind, expected: &'static str) -> Result<Token, FormulaError> {
         let token = self.peek();
         if !self.accept(kind) {
+            let compares = token.kind == TokenKind::Assign && expected.starts_with("an operator");
+            let expected = if compares { "`==` to compare" } else { expected };
             return Err(self.error(token.span, Problem::Unexpected { expected }));
         }
         Ok(token)

@@ -2,9 +2,8 @@
 
 use crate::support::{assert_close, compiled, distance_to_cracks, evaluate, inside};
 use ppum::crack::Side;
-use ppum::function::{Frame, Function, FunctionKind, FunctionTable, Slot};
-use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::function::{FunctionTable, Slot};
+use ppum::vec2::Vec2;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
@@ -25,7 +24,6 @@ fn formulas_agree_with_the_native_kernel() {
         let (a, b) = (native.dataset(), formulas.dataset());
         assert_eq!(a.steps[0].fields, b.steps[0].fields);
         let (a, b) = (compiled(&a), compiled(&b));
-        assert!(b.functions.groups() > a.functions.groups(), "formulas are not the kernel");
         let mut random = Random(seed);
         for tip in native.tips().map(|tip| native.position(tip)) {
             let (mut one, mut other) = (a.at(tip), b.at(tip));
@@ -51,7 +49,7 @@ fn single_functions_agree() {
     let native = Recipe::random(2);
     let formulas = Recipe { tip_functions: OTHER_WORDS.map(str::to_owned), ..native.clone() };
     let tables = [native, formulas].map(|recipe| {
-        (FunctionTable::new(&recipe.functions(), recipe.cracks.len()).unwrap(), recipe)
+        (FunctionTable::new(&recipe.functions(), recipe.cracks.len(), &[]).unwrap(), recipe)
     });
     let [(kernel, recipe), (table, _)] = &tables;
     let mut random = Random(2);
@@ -92,70 +90,4 @@ fn evaluate_at_tips(recipe: &Recipe) -> usize {
         u.iter().any(|u| !u.v.is_finite())
     };
     recipe.tips().filter(|&tip| infinite(tip)).count()
-}
-
-/// A table of one formula.
-fn table(text: &str, frame: Frame, cracks: usize) -> FunctionTable {
-    let kind = FunctionKind::Formula { text: text.into(), frame, parameters: vec![] };
-    let function = Function { name: "formula".into(), kind };
-    FunctionTable::new(&[function], cracks).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The jet of the only function of a table at a point.
-fn jet_of(table: &FunctionTable, recipe: &Recipe, p: Vec2, side: Side) -> Jet<f64> {
-    let mut out = [Jet::constant(0.0)];
-    table.at(&recipe.cracks, p).evaluate::<f64, 2>(0, [0.0; 2], side, &mut out);
-    out[0]
-}
-
-/// `side(k)` is the function of the same name, on the crack too, in any frame.
-#[test]
-fn sides_of_cracks() {
-    let recipe = Recipe::random(1);
-    let n = recipe.cracks.len();
-    let frame = Frame::Fixed { origin: vec2(0.1, 0.2), angle: 0.7 };
-    let mut random = Random(1);
-    for k in 0..n {
-        let formula = table(&format!("side({k})"), frame, n);
-        let kind = FunctionKind::Side { crack: k as u32 };
-        let native = FunctionTable::new(&[Function { name: "side".into(), kind }], n).unwrap();
-        let on_crack = recipe.cracks[k].points[0];
-        for p in (0..100).map(|_| random.point(&recipe.domain)).chain([on_crack]) {
-            for side in [Side::Above, Side::Below] {
-                let (a, b) =
-                    (jet_of(&formula, &recipe, p, side), jet_of(&native, &recipe, p, side));
-                assert_eq!((a.v, a.x, a.yy), (b.v, 0.0, 0.0), "crack {k} at {p:?}");
-            }
-        }
-    }
-    let error = FunctionTable::new(
-        &[Function {
-            name: "jump".into(),
-            kind: FunctionKind::Formula {
-                text: "side(9)".into(),
-                frame: Frame::World,
-                parameters: vec![],
-            },
-        }],
-        n,
-    );
-    assert!(error.expect_err("no such crack").to_string().contains("`9` is no crack"));
-}
-
-/// In a fixed frame θ and the half angles jump on the negative x axis, which is the upper side.
-#[test]
-fn the_cut_of_a_fixed_frame_is_its_upper_side() {
-    let recipe = Recipe::default();
-    let value = |text: &str, p: Vec2| {
-        jet_of(&table(text, Frame::World, recipe.cracks.len()), &recipe, p, Side::Above).v
-    };
-    for y in [0.0, -0.0] {
-        assert_eq!(value("theta", vec2(-4.0, y)), std::f64::consts::PI);
-        assert_eq!(value("sqrt(r)*sin(theta/2)", vec2(-4.0, y)), 2.0);
-        assert_eq!(value("sqrt(r)*sin(theta/2)", vec2(-4.0, y - 1e-300)), -2.0);
-        assert_eq!(value("theta + sin(theta/2)", vec2(4.0, y)), 0.0);
-    }
-    // a small cos(θ/2) near the cut has all its digits
-    let found = value("sqrt(r)*cos(theta/2)", vec2(-4.0, 1e-20));
-    assert!((found / 2.5e-21 - 1.0).abs() < 1e-15, "{found:e}");
 }

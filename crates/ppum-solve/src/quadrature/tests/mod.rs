@@ -1,11 +1,18 @@
 //! Rules on whole covers against closed forms.
 
 mod cells;
+mod curves;
 mod edges;
+mod layers;
+mod lines;
+mod powers;
 mod singular;
+mod together;
+mod weights;
 
 use super::*;
 use ppum::crack::CrackEnd;
+use ppum::dataset::Partition;
 use ppum::weight::WeightFunction;
 
 /// A small linear congruential generator (Knuth's MMIX constants).
@@ -86,7 +93,7 @@ fn crack(points: &[Vec2]) -> Crack {
 struct Case {
     partition: Partition,
     cracks: Vec<Crack>,
-    singular: Vec<Vec2>,
+    singular: Vec<Singular>,
     patch_singular: Vec<Vec<u32>>,
 }
 
@@ -94,25 +101,39 @@ impl Case {
     fn new(partition: Partition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
         let all: Vec<u32> = (0..singular.len() as u32).collect();
         let patch_singular = vec![all; partition.len()];
+        let singular = singular.into_iter().map(Singular::tip).collect();
         Self { partition, cracks, singular, patch_singular }
     }
 
-    fn quadrature(&self, orders: Orders) -> Quadrature<'_> {
-        let geometry = Geometry {
-            partition: &self.partition,
-            cracks: &self.cracks,
+    fn geometry(&self) -> Geometry<'_> {
+        Geometry {
             singular: &self.singular,
             patch_singular: &self.patch_singular,
-        };
-        Quadrature::new(geometry, orders)
+            ..Geometry::new(&self.partition, &self.cracks)
+        }
+    }
+
+    fn quadrature(&self, orders: Orders) -> Quadrature<'_> {
+        Quadrature::new(self.geometry(), orders)
     }
 
     fn rules(&self, orders: Orders) -> Vec<Rule> {
-        let quadrature = self.quadrature(orders);
-        let cell = |c: &Rect| quadrature.cell(c, &coverers(&self.partition, c));
-        self.partition.cell.iter().flat_map(cell).collect()
+        rules(self.geometry(), orders)
     }
 }
+
+/// The rules of all cells.
+fn rules(geometry: Geometry<'_>, orders: Orders) -> Vec<Rule> {
+    let quadrature = Quadrature::new(geometry, orders);
+    let cell = |c: &Rect| quadrature.cell(c, &coverers(geometry.partition, c));
+    geometry.partition.cell.iter().flat_map(cell).collect()
+}
+
+fn n_points(rules: &[Rule]) -> usize {
+    rules.iter().map(|r| r.offsets.len()).sum()
+}
+
+const UNIT: Rect = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
 
 /// One patch that covers a single cell alone.
 fn alone(cell: Rect, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Case {

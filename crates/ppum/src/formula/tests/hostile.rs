@@ -1,6 +1,10 @@
 //! Texts that try to break the parser end in errors or NaN, never in a crash.
 
-use crate::formula::{Formula, FormulaError, FormulaJets, MAX_DEPTH, MAX_LENGTH, Problem, Scope};
+use std::sync::Arc;
+
+use crate::formula::{
+    Formula, FormulaError, FormulaJets, MAX_DEPTH, MAX_LENGTH, Problem, Scope, Table,
+};
 
 use super::{jet_at, jets, same, value};
 
@@ -46,6 +50,50 @@ fn deepest_nesting_works_on_a_small_stack() {
     }
     let text = format!("{}1", open.repeat(MAX_DEPTH));
     assert_eq!(parse_on_small_stack(text).expect_err("unclosed").problem, Problem::TooDeep);
+}
+
+/// The same of tables and sides, whose arguments are read by themselves.
+#[test]
+fn deep_nesting_in_tables_and_sides() {
+    let knots = vec![0.0, 1.0];
+    let table = Table::surface("k", knots.clone(), knots, vec![1.0; 4]).expect("valid");
+    let scope = Scope::cartesian().with_sides(1).with_table(Arc::new(table)).expect("new");
+    for (open, close) in [
+        ("table(k, x, ", ")"),
+        ("table(k, ", ", y)"),
+        ("dtable(k, 1, 1, x, ", ")"),
+        ("side(", ")"),
+        ("dtable(k, ", ", 1, x, y)"),
+    ] {
+        for (n, refused) in [(MAX_DEPTH, false), (MAX_DEPTH + 1, true), (3_000, true)] {
+            let (text, scope) = (format!("{}0{}", open.repeat(n), close.repeat(n)), scope.clone());
+            let problem = std::thread::Builder::new()
+                .stack_size(1 << 19)
+                .spawn(move || Formula::parse(&text, &scope).err().map(|error| error.problem))
+                .expect("a thread")
+                .join()
+                .expect("no crash");
+            let deep = matches!(problem, Some(Problem::TooDeep | Problem::TooLong));
+            assert_eq!(deep, refused, "{open} {n} times: {problem:?}");
+        }
+    }
+}
+
+/// As many different multiples of θ/2 as fit into a text, and tables of tables.
+#[test]
+fn half_angles_and_tables_do_not_blow_up() {
+    let all: Vec<String> = (0..3000).map(|i| format!("tan({}*theta/2)*x", i % 64 + 1)).collect();
+    let f = Formula::parse(&all.join("+"), &Scope::polar()).expect("valid");
+    assert!(jets(&f).n_operations() < 40_000);
+    let knots = vec![0.0, 1.0];
+    let table = Table::surface("k", knots.clone(), knots, vec![1.0; 4]).expect("valid");
+    let scope = Scope::polar().with_table(Arc::new(table)).expect("new");
+    let mut text = "let a0 = cos(theta/2);".to_owned();
+    for i in 0..300 {
+        text += &format!("let a{} = table(k, a{i}*a{i}, sin(a{i}));", i + 1);
+    }
+    let f = Formula::parse(&format!("{text} a300"), &scope).expect("valid");
+    assert!(jets(&f).n_operations() < 30_000);
 }
 
 #[test]

@@ -119,7 +119,8 @@ fn errors_point_at_the_place() {
         ("table(2, x)", 7, "2", Problem::Unexpected { expected: "the name of a table" }),
         ("table + 1", 1, "table", Problem::MissingArguments),
         ("table(k, x < y)", 10, "x < y", Problem::ConditionForNumber),
-        ("tabel(k, x)", 1, "tabel", Problem::UnknownFunction { suggestion: None }),
+        ("tabel(k, x)", 1, "tabel", Problem::UnknownFunction { suggestion: Some("table".into()) }),
+        ("2*K", 3, "K", Problem::UnknownName { suggestion: Some("table(k, …)".into()) }),
         ("table(k, x", 11, "", Problem::Unexpected { expected: "an operator, `,` or `)`" }),
     ] {
         let error = error(text);
