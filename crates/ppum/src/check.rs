@@ -3,6 +3,8 @@
 //! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
 
+mod formulas;
+
 use std::collections::BTreeSet;
 
 use crate::crack::Crack;
@@ -27,26 +29,26 @@ type Checked = Result<(), CheckError>;
 
 impl Dataset {
     /// Checks that the dataset can be evaluated: consistent lengths, indices in range, rising
-    /// offsets, finite numbers, positive extents, cracks without zero-length segments.
+    /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas that
+    /// can be read with the dataset's tables.
     ///
-    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may.
-    /// Formula texts are not parsed here, and whether the supports cover the domain is not asked.
-    /// Linear in the size of the dataset.
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. Whether the
+    /// supports cover the domain is not asked. Linear in the size of the dataset.
     ///
     /// # Errors
     ///
     /// The first violation, with its place.
     pub fn check(&self) -> Checked {
         check_box("domain", &self.domain)?;
+        formulas::check(self)?;
         if let Some((name, problem)) = self.equation.mistake(&self.domain) {
             return fail(&format!("equation.{name}"), problem);
         }
-        check_names("quantities", self.quantities.iter().map(|quantity| &quantity.name))?;
         require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
         for (k, step) in self.steps.iter().enumerate() {
             check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
         }
-        Ok(())
+        formulas::check_quantities(self)
     }
 }
 
@@ -209,8 +211,7 @@ fn check_function(function: &Function, cracks: usize) -> Checked {
     match &function.kind {
         FunctionKind::One => Ok(()),
         FunctionKind::Side { crack } => check_index("crack", *crack as usize, cracks, "cracks"),
-        FunctionKind::Formula { text, frame, parameters, declared } => {
-            require(!text.trim().is_empty(), "formula", || "the formula is empty".into())?;
+        FunctionKind::Formula { frame, parameters, declared, .. } => {
             check_names("parameters", parameters.iter().map(|(name, _)| name))?;
             for (name, value) in parameters {
                 check_number(&format!("parameters `{name}`"), *value)?;
@@ -352,7 +353,7 @@ mod tests {
         }
     }
 
-    fn dataset() -> Dataset {
+    pub(super) fn dataset() -> Dataset {
         let tip = TipId { crack: 0, end: End::Last };
         let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
         let step = Step {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
-use crate::formula::{Formula, FormulaError, Scope, Table};
+use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
@@ -66,6 +66,9 @@ pub enum FieldError {
     /// A function of the step is wrong.
     #[error(transparent)]
     Function(#[from] FunctionError),
+    /// A table has a name that formulas cannot use.
+    #[error("the tables of the dataset: {0}")]
+    Tables(#[from] ScopeError),
     /// A formula of the exact solution is wrong.
     #[error("exact solution of field `{name}`: {source}")]
     Exact {
@@ -108,7 +111,7 @@ impl<'d> Field<'d> {
             data,
             functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::new(&supports),
-            exact: exact(data)?,
+            exact: exact(data, &dataset.tables)?,
         })
     }
 
@@ -153,9 +156,9 @@ impl<'d> Field<'d> {
     }
 }
 
-fn exact(data: &FieldData) -> Result<Vec<Formula>, FieldError> {
-    let parse = |text: &String| Formula::parse(text, &Scope::cartesian());
-    let formulas: Result<_, _> = data.exact.iter().map(parse).collect();
+fn exact(data: &FieldData, tables: &[Arc<Table>]) -> Result<Vec<Formula>, FieldError> {
+    let scope = Scope::cartesian().with_tables(tables)?;
+    let formulas: Result<_, _> = data.exact.iter().map(|t| Formula::parse(t, &scope)).collect();
     formulas.map_err(|error| FieldError::Exact { name: data.name.clone(), source: Box::new(error) })
 }
 

@@ -208,5 +208,6 @@ pub mod quantity;
 #[cfg(test)]
 mod random;
 pub mod real;
+pub mod replace;
 pub mod vec2;
 pub mod weight;

@@ -58,7 +58,20 @@ impl WeightFunction {
     /// # Errors
     /// See [`WeightError`].
     pub fn formula(text: &str, scope: &Scope) -> Result<Self, WeightError> {
-        WeightFormula::parse(text, scope).map(|formula| Self::Formula(Arc::new(formula)))
+        Self::formula_with_breakpoints(text, scope, &[])
+    }
+
+    /// Like [`formula`](Self::formula), with breakpoints beside those that are found by themselves.
+    ///
+    /// # Errors
+    /// See [`WeightError`].
+    pub fn formula_with_breakpoints(
+        text: &str,
+        scope: &Scope,
+        breakpoints: &[f64],
+    ) -> Result<Self, WeightError> {
+        let formula = WeightFormula::parse(text, scope, breakpoints)?;
+        Ok(Self::Formula(Arc::new(formula)))
     }
 
     /// Places t = |ξ| in \[0, 1) where a derivative of w(|ξ|) jumps; quadrature splits there.
@@ -131,6 +144,9 @@ pub enum WeightError {
     /// Its derivatives.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
+    /// A breakpoint outside the support.
+    #[error("the breakpoint {0} of the weight must be in 0 <= t < 1")]
+    Breakpoint(f64),
     /// w(1) ≠ 0: the patch would end in a jump.
     #[error(
         "a weight must vanish where the patch ends, but `{text}` is {value} at t = 1; \
@@ -162,23 +178,32 @@ pub enum WeightError {
 /// Places at which a weight is looked at, between its breakpoints and near the ends.
 const LOOKS: u32 = 4096;
 
+/// Breakpoints nearer to each other than this are one, found twice.
+const ROUNDING: f64 = 1e-12;
+
 /// Largest w(1) in parts of the largest value that counts as rounding.
 const VANISHING: f64 = 1e-12;
 
 impl WeightFormula {
     /// Parses a formula of `t` and checks that it can be a weight: positive where t < 1, zero at
     /// t = 1, with finite slopes. Positivity is looked for at some thousand places.
-    fn parse(text: &str, scope: &Scope) -> Result<Self, WeightError> {
+    fn parse(text: &str, scope: &Scope, declared: &[f64]) -> Result<Self, WeightError> {
         let w = Formula::parse(text, scope)?;
         let slope = w.derivative("t")?;
         let curvature = slope.derivative("t")?;
+        if let Some(&outside) = declared.iter().find(|&t| !(0.0..1.0).contains(t)) {
+            return Err(WeightError::Breakpoint(outside));
+        }
         let mut breakpoints = w.breakpoints(0.0, 1.0);
         breakpoints.retain(|&t| t > 0.0 && t < 1.0);
+        breakpoints.extend_from_slice(declared);
         // w(|ξ|) is smooth at 0 if odd derivatives of w vanish there.
         let odd = [&slope, &curvature.derivative("t")?];
         if odd.iter().any(|derivative| derivative.evaluate(&[0.0]) != 0.0) {
-            breakpoints.insert(0, 0.0);
+            breakpoints.push(0.0);
         }
+        breakpoints.sort_by(f64::total_cmp);
+        breakpoints.dedup_by(|b, a| *b - *a < ROUNDING);
         let formula = Self { derivatives: [w, slope, curvature], breakpoints };
         formula.check()?;
         Ok(formula)
@@ -223,9 +248,11 @@ impl WeightFormula {
         let mut out = [[R::Scalar::default(); 16]; 3];
         for (formula, out) in self.derivatives.iter().zip(&mut out) {
             for (t, out) in lanes.iter().zip(out).take(R::LANES) {
-                // Beyond the support the formula need not have a value.
+                // Beyond the support the formula need not have a value, at its end perhaps a limit.
                 let t = t.to_f64().min(1.0);
-                *out = R::Scalar::from_f64(formula.evaluate_with(&[t], &mut scratch));
+                let value = formula.evaluate_with(&[t], &mut scratch);
+                let possible = t < 1.0 || value.is_finite();
+                *out = R::Scalar::from_f64(if possible { value } else { 0.0 });
             }
         }
         out.map(|values| t.load(&values))
@@ -316,6 +343,35 @@ mod tests {
                 assert!((d - (p - m) / (2.0 * h)).abs() < 1e-8, "{weight:?} {xi}");
                 assert!((dd - (dp - dm) / (2.0 * h)).abs() < 1e-7, "{weight:?} {xi}");
             }
+        }
+    }
+
+    #[test]
+    fn breakpoints_of_formulas_are_found_and_declared() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let breakpoints = |text, declared: &[f64]| {
+            WeightFunction::formula_with_breakpoints(text, &scope, declared)
+                .map(|weight| weight.breakpoints().to_vec())
+        };
+        let roof = "min(1 - t, 0.75 - 0.5*t)";
+        assert_eq!(breakpoints(roof, &[]), Ok(vec![0.0, 0.5]));
+        assert_eq!(breakpoints(roof, &[0.7, 0.0, 0.5 + 1e-15]), Ok(vec![0.0, 0.5, 0.7]));
+        assert_eq!(breakpoints("(1 - t^2)^2", &[0.25]), Ok(vec![0.25]));
+        for outside in [-0.1, 1.0, f64::INFINITY] {
+            let error = breakpoints(roof, &[outside]);
+            assert_eq!(error, Err(WeightError::Breakpoint(outside)));
+        }
+        assert!(breakpoints(roof, &[f64::NAN]).is_err());
+    }
+
+    #[test]
+    fn a_bump_vanishes_with_its_derivatives_at_the_ends() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let bump = WeightFunction::formula("exp(1 - 1/((1 - t)*(1 + t)))", &scope);
+        let bump = bump.expect("a weight");
+        assert_eq!(bump.spline(0.0), [1.0, 0.0, -2.0]);
+        for xi in [-1.0, 1.0, -7.0, 2.0] {
+            assert_eq!(bump.spline(xi), [0.0; 3], "{xi}");
         }
     }
 

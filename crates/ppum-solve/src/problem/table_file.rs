@@ -6,8 +6,10 @@
 
 use std::path::Path;
 
+use ppum::formula::{Table, TableError};
+
 use super::csv::{self, Line, finding};
-use super::error::Finding;
+use super::error::{Finding, ProblemError};
 
 /// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +32,28 @@ pub(super) fn read(path: &Path) -> Result<Data, Vec<Finding>> {
         return Err(vec![csv::of_file(path, message)]);
     }
     Ok(data)
+}
+
+/// Reads a table from a file, as `file` of `[[table]]` in problem files: a line `x,value` for each
+/// knot, or a grid with the knots in x after an empty place on the first line, `,x1,x2,…`, and lines
+/// `y,v1,v2,…`.
+///
+/// # Errors
+/// Every line that is wrong; or data that make no table.
+pub fn read_table(name: &str, path: &Path) -> Result<Table, ProblemError> {
+    let data = read(path).map_err(ProblemError::new)?;
+    data.table(name).map_err(|error| csv::of_file(path, error.to_string()).into())
+}
+
+impl Data {
+    /// The table of the data.
+    pub(super) fn table(self, name: &str) -> Result<Table, TableError> {
+        let Self { x, y, values } = self;
+        match y.as_slice() {
+            [] => Table::curve(name, x, values),
+            _ => Table::surface(name, x, y, values),
+        }
+    }
 }
 
 fn parse(text: &str, file: &str) -> Result<Data, Vec<Finding>> {

@@ -37,11 +37,20 @@
 //! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
+//! A table is flat outside its range; on the ends of the range its derivatives are those of the inside.
+//! `side` has derivative 0.
+//!
+//! Where a formula may not be smooth is known without evaluating it: [`Formula::kinks`] are the zero
+//! sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch on, with
+//! their equations where they are lines; [`Formula::singularities`] those of what stands under
+//! roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval. Angles jump on
+//! their cut ([`Formula::uses_branch`]), sides on their crack.
+//!
 //! # Half angles
 //!
 //! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
 //! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
-//! with a parameter λ = ½, sums of such terms. There is no arc tangent, and no cancellation near
+//! with a parameter λ = ½, `cos(theta/2 + theta)`. There is no arc tangent, and no cancellation near
 //! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
 //! theta take θ itself.
 //!
@@ -78,7 +87,7 @@ use std::sync::Arc;
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
-pub use scope::{Scope, ScopeError};
+pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
 
 use derivative::gradients;
@@ -172,6 +181,21 @@ impl Formula {
         &self.text
     }
 
+    /// The formula as it is computed, as a text that parses to the same operations in the same scope
+    /// (if it is within [`MAX_LENGTH`]): parameters and constants folded, definitions put in their
+    /// places, long and common parts named by `let`.
+    ///
+    /// ```
+    /// use ppum::formula::{Formula, Scope};
+    ///
+    /// let f = Formula::parse("2^3*(x/1 + (y))", &Scope::cartesian()).expect("a formula");
+    /// assert_eq!(f.normal_form(), "8*(x + y)");
+    /// ```
+    #[must_use]
+    pub fn normal_form(&self) -> String {
+        print::print(&self.program, &self.scope)
+    }
+
     /// The variables it may use.
     #[must_use]
     pub fn scope(&self) -> &Scope {
@@ -250,6 +274,18 @@ impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()
     }
+}
+
+/// A formula's text on one line, without comments: for labels.
+///
+/// ```
+/// let text = "let d = x - y;   # distance\n d^2";
+/// assert_eq!(ppum::formula::one_line(text), "let d = x - y; d^2");
+/// ```
+#[must_use]
+pub fn one_line(text: &str) -> String {
+    let code = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    code.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
 }
 
 fn check_inputs(scope: &Scope, inputs: &[f64]) {

@@ -1,5 +1,6 @@
 //! The variables a formula may use.
 
+use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
 use super::Table;
@@ -7,6 +8,10 @@ use super::ast::Ast;
 use super::error::FormulaError;
 use super::graph::{Graph, NodeId};
 use super::{library, lower};
+
+/// The variables of a dataset's formulas. No table may be called like one of them: it could not be
+/// read where the variable is known.
+pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 
 /// The names a formula may use besides functions and constants.
 ///
@@ -213,9 +218,23 @@ impl Scope {
     ///
     /// # Errors
     /// When its name is not one, or is taken.
-    pub fn with_table(mut self, table: Arc<Table>) -> Result<Self, ScopeError> {
-        self.check_name(table.name())?;
-        self.tables = self.tables.iter().cloned().chain([table]).collect();
+    pub fn with_table(self, table: Arc<Table>) -> Result<Self, ScopeError> {
+        self.with_tables(&[table])
+    }
+
+    /// Adds tables.
+    ///
+    /// # Errors
+    /// When the name of one is no name, or is taken.
+    pub fn with_tables(mut self, tables: &[Arc<Table>]) -> Result<Self, ScopeError> {
+        let mut names = BTreeSet::new();
+        for table in tables {
+            self.check_name(table.name())?;
+            if !names.insert(table.name()) {
+                return Err(ScopeError::NameTaken { name: table.name().to_owned() });
+            }
+        }
+        self.tables = self.tables.iter().chain(tables).cloned().collect();
         Ok(self)
     }
 

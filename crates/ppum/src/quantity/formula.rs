@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::equation::Equation;
 use crate::formula::{
-    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table,
+    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
 };
 use crate::library::{Definition, ELASTICITY, POISSON};
 use crate::real::{Real, Scalar};
@@ -114,6 +114,13 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
+    /// The text behind the name of a quantity of the library or of the dataset, with `-` or `_`.
+    #[must_use]
+    pub fn definition(&self, name: &str) -> Option<&'a str> {
+        let name = name.replace('-', "_");
+        self.definitions().find(|(known, _)| *known == name).map(|(_, text)| text)
+    }
+
     /// The quantities of the library and of the dataset: names and texts.
     fn definitions(&self) -> impl Iterator<Item = (String, &'a str)> {
         let library: &[Definition] = match (self.equation, self.components) {
@@ -165,10 +172,17 @@ impl QuantityFormula {
         Self { name: Some(name.to_owned()), unit: unit.to_owned(), ..self }
     }
 
-    /// Its name, or its text if it has none.
+    /// Its name, or its text on one line if it has none.
     #[must_use]
-    pub fn label(&self) -> &str {
-        self.name.as_deref().unwrap_or(self.formula.text())
+    pub fn label(&self) -> String {
+        self.name.clone().unwrap_or_else(|| one_line(self.formula.text()))
+    }
+
+    /// The formula, of components, derivatives and constants: other quantities that its text names
+    /// are put in.
+    #[must_use]
+    pub fn formula(&self) -> &Formula {
+        &self.formula
     }
 
     /// Its unit; may be empty.

@@ -343,6 +343,17 @@ impl Quantity {
         }
     }
 
+    /// The unit of the quantity for labels, if the dataset gives one: that of the field for components
+    /// and magnitude, that of a quantity which the dataset names.
+    #[must_use]
+    pub fn unit<'q>(&'q self, field: &'q Field<'_>) -> &'q str {
+        match self {
+            Q::Component(_) | Q::Magnitude => &field.data.unit,
+            Q::Formula(formula) => formula.unit(),
+            _ => "",
+        }
+    }
+
     /// The symbol of the quantity for labels, with subscripts as `_{…}`: `σ_{yy}`, `∂u_{x}/∂y`.
     #[must_use]
     pub fn symbol(&self, components: &[String]) -> String {
@@ -353,7 +364,7 @@ impl Quantity {
         let pair =
             |letter: &str, a: Axis, b: Axis| format!("{letter}_{{{}{}}}", a.name(), b.name());
         match self {
-            Q::Formula(formula) => formula.label().into(),
+            Q::Formula(formula) => formula.label(),
             Q::Component(c) => component(*c),
             Q::Derivative(c, axis) => format!("∂{}/∂{}", component(*c), axis.name()),
             Q::Strain(a, b) => pair("ε", *a, *b),

@@ -9,6 +9,7 @@ mod jumps;
 mod lanes;
 mod library;
 mod partition;
+mod replace;
 mod reproduction;
 mod sides;
 mod support;

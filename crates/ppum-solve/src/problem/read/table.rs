@@ -86,12 +86,7 @@ fn rows(values: &Value<'_>, length: usize) -> Option<Vec<f64>> {
 }
 
 fn table(section: &Section<'_>, name: &str, data: Data) -> Option<Arc<Table>> {
-    let Data { x, y, values } = data;
-    let made = match y.as_slice() {
-        [] => Table::curve(name, x, values),
-        _ => Table::surface(name, x, y, values),
-    };
-    made.map(Arc::new).map_err(|error| report(section, &error)).ok()
+    data.table(name).map(Arc::new).map_err(|error| report(section, &error)).ok()
 }
 
 /// Reports what is wrong with the data, at the list or the number.
