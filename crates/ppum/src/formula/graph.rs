@@ -394,10 +394,9 @@ impl Graph {
     ) -> Vec<NodeId> {
         let mut nodes = Vec::with_capacity(ops.len());
         for op in ops {
-            let given = if let Op::Input(index) = op { inputs.get(index).copied() } else { None };
-            let made = || self.on_operands(*op, |operand: NodeId| nodes[operand.index()]);
-            let node = given.unwrap_or_else(made);
-            nodes.push(node);
+            let given = if let Op::Input(index) = op { inputs.get(index) } else { None };
+            let node = given.copied();
+            nodes.push(node.unwrap_or_else(|| self.on_operands(*op, |old| nodes[old.index()])));
         }
         nodes
     }
