@@ -80,6 +80,7 @@ mod substitute;
 mod table;
 #[cfg(test)]
 mod tests;
+mod wgsl;
 
 use std::fmt;
 use std::sync::Arc;
@@ -89,6 +90,7 @@ pub use jets::FormulaJets;
 pub use kinks::Kink;
 pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
+pub use wgsl::wgsl_prelude;
 
 use derivative::gradients;
 use graph::{Graph, NodeId};
