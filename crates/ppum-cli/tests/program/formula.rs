@@ -1,3 +1,4 @@
+use ppum_testkit::wgsl::Module;
 use serde_json::{Value, json};
 
 use crate::{CRACKED, LINEAR, Lab, keys, with_formulas};
@@ -274,4 +275,38 @@ fn hostile_formulas() {
             None => assert!(lab.run("formula @f.txt --at x=1,y=1").contains("value"), "{text}"),
         }
     }
+}
+
+/// The printed module is valid WGSL, and its functions give what `--at` prints, in single precision.
+#[test]
+fn wgsl_is_valid_and_the_same_function() {
+    let lab = Lab::new();
+    lab.write("k.csv", "0,1\n1,3\n2,2\n3,7\n");
+    let [x, y] = [-0.5f32, 0.25];
+    let (r, theta) = (x.hypot(y), y.atan2(x));
+    let plane = [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin()];
+    for (formula, options, function, inputs) in [
+        ("westergaard", "--at x=-0.5,y=0.25", "formula_westergaard_3", &plane[..]),
+        ("boundary-layer", "--at x=-0.5,y=0.25 --parameter epsilon=0.5", "formula_boundary_layer", &plane),
+        ("x*table(k, y)^2", "--at x=-0.5,y=0.25 --table k=k.csv", "formula", &plane),
+        ("cubic", "--at t=0.75", "formula_cubic", &[0.75]),
+    ] {
+        let module = lab.run_with(&format!("formula --wgsl {options}"), &[formula]);
+        let found = Module::new(&module).unwrap().call(function, inputs).unwrap();
+        let report = lab.json_with(&format!("formula --wgsl {options}"), &[formula]);
+        let rows = report["formulas"].as_array().unwrap();
+        let row = rows.iter().find(|row| row["wgsl"].as_str().unwrap().contains(function)).unwrap();
+        assert!(module.starts_with(report["wgsl_prelude"].as_str().unwrap()));
+        assert!(module.contains(row["wgsl"].as_str().unwrap()));
+        let exact = values(row);
+        assert_eq!(found.len(), exact.len(), "{formula}");
+        for (found, exact) in found.into_iter().zip(exact) {
+            // some tens of operations, each with a relative error of 2^-24
+            let error = (f64::from(found) - exact).abs();
+            assert!(error <= 1e-5 * (1.0 + exact.abs()), "{formula}: {found} {exact}");
+        }
+    }
+    let quantity = lab.run_with("formula --wgsl", &["sqrt(ux^2 + uy^2)"]);
+    assert!(quantity.contains("-> array<f32, 1>"), "{quantity}");
+    Module::new(&quantity).unwrap();
 }
