@@ -55,6 +55,7 @@ class Extended:
 
 
 def quotient(a, b):
+    """a/b, infinite or not a number where b is 0."""
     return a / b if b else a * math.copysign(math.inf, b)
 
 
@@ -241,7 +242,11 @@ class Table:
 
 
 class Spline:
-    """The cubic spline through values at knots, with the not-a-knot conditions, constant outside."""
+    """The cubic spline through values at knots, with the not-a-knot conditions, constant outside.
+
+    On a cell of width h, with c the slope of its chord and m, m' those of the spline at its ends, it is
+    v + m t + (3c − 2m − m')/h t² + (m + m' − 2c)/h² t³.
+    """
 
     def __init__(self, knots, values, n):
         self.knots, self.values = knots, values
@@ -250,28 +255,26 @@ class Spline:
         self.slopes = self.solve(n)
 
     def solve(self, n):
-        """Slopes at the knots: unknowns m, one a knot."""
-        cells, size = len(self.h), len(self.knots)
+        """The slopes at the knots: one equation a knot."""
+        h, cells = self.h, len(self.h)
+
+        def equation(*terms):
+            """Σ factor (a m_i + b m_{i+1} − c chord_i) = 0 as a row and a right-hand side."""
+            row, right = [n.real(0)] * (cells + 1), n.real(0)
+            for factor, i, a, b, c in terms:
+                row[i] += factor * a
+                row[i + 1] += factor * b
+                right += factor * c * self.chords[i]
+            return row, right
+
+        # the second and the third derivative are the same on both sides of the knot after cell i
+        second = lambda i: equation((1 / h[i], i, 1, 2, 3), (1 / h[i + 1], i + 1, 2, 1, 3))
+        third = lambda i: equation((1 / h[i] ** 2, i, 1, 1, 2), (-1 / h[i + 1] ** 2, i + 1, 1, 1, 2))
+        no_third = lambda i: equation((1, i, 1, 1, 2))
         if cells == 1:
             return self.chords * 2
-        # row of m and right-hand side, of half the second derivative at the ends of a cell, and of a sixth
-        # of the third: (3c − 2m − m')/h, (m + 2m' − 3c)/h, (m + m' − 2c)/h²
-        def term(i, at_start, at_end, chord, power):
-            row, factor = [n.real(0)] * size, self.h[i] ** power
-            row[i], row[i + 1] = at_start / factor, at_end / factor
-            return row, -chord * self.chords[i] / factor
-
-        equal = lambda p, q: ([a - b for a, b in zip(p[0], q[0])], p[1] - q[1])
-        third = lambda i: term(i, n.real(1), n.real(1), -2, 2)
-        equations = [
-            equal(term(i, n.real(1), n.real(2), -3, 1), term(i + 1, n.real(-2), n.real(-1), 3, 1))
-            for i in range(cells - 1)
-        ]
-        if cells == 2:
-            equations += [third(0), third(1)]
-        else:
-            equations += [equal(third(0), third(1)), equal(third(cells - 2), third(cells - 1))]
-        rows, right = zip(*equations)
+        ends = [no_third(0), no_third(1)] if cells == 2 else [third(0), third(cells - 2)]
+        rows, right = zip(*ends, *(second(i) for i in range(cells - 1)))
         return n.solve(list(rows), list(right))
 
     def derivative(self, order, x):
@@ -329,12 +332,11 @@ class Formula:
         self.take("")
 
     def evaluate(self, names):
-        """The jet of the formula. `names` has jets, or numbers for what has no slope; plain numbers of
-        variables get the slope 1 in themselves."""
-        names = {name: Jet.of(value) for name, value in names.items()}
-        for variable in self.variables:
-            if variable in names and not names[variable].slopes:
-                names[variable] = Jet(names[variable].v, {variable: self.n.real(1)})
+        """The jet of the formula. `names` has jets or numbers; variables as numbers get the slope 1 in
+        themselves."""
+        one = lambda name: {name: self.n.real(1)} if name in self.variables else {}
+        jet = lambda name, value: value if isinstance(value, Jet) else Jet(value, one(name))
+        names = {name: jet(name, value) for name, value in names.items()}
         constants = {"pi": Jet(+self.n.pi), "e": Jet(+self.n.e)}
         return self.value(constants | names)
 

@@ -216,27 +216,44 @@ def test_a_file_of_version_1_0_is_read():
 
 def test_the_program_reads_what_h5py_writes():
     """Chunked, compressed, variable-length text, and groups from the future."""
-    original, copy = files()[2], FOLDER / "copy.h5"
-    with h5py.File(original) as source, h5py.File(copy, "w") as target:
-        recreate(source, target)
-        target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
-    status, _, message = fixture("same", original, copy)
-    assert status == 0, message
-    with h5py.File(copy, "a") as target:
-        target["steps/0000/from-the-future"] = np.arange(3.0)
-        target.attrs["format_version"] = np.array([1, 7], dtype="u4")
-        target.attrs["sha256"] = checksum(target)
-    status, _, message = fixture("same", original, copy)
-    assert status == 0, message
-    with h5py.File(copy, "a") as target:
-        target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
-    status, _, message = fixture("same", original, copy)
-    assert status != 0 and "checksum" in message, message
-    with h5py.File(copy, "a") as target:
-        del target.attrs["sha256"]
-        target["steps/0000/partition/half"][3, 1] = math.nan
-    status, _, message = fixture("same", original, copy)
-    assert status != 0 and "partition.half[3]" in message, message
+    for original in files()[1:3]:
+        copy = FOLDER / f"copy-of-{original.name}"
+        with h5py.File(original) as source, h5py.File(copy, "w") as target:
+            recreate(source, target)
+            target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
+        status, _, message = fixture("same", original, copy)
+        assert status == 0, message
+        with h5py.File(copy, "a") as target:
+            target["steps/0000/from-the-future"] = np.arange(3.0)
+            target.attrs["format_version"] = np.array([1, 7], dtype="u4")
+            target.attrs["sha256"] = checksum(target)
+        status, _, message = fixture("same", original, copy)
+        assert status == 0, message
+        with h5py.File(copy, "a") as target:
+            target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
+        status, _, message = fixture("same", original, copy)
+        assert status != 0 and "checksum" in message, message
+        with h5py.File(copy, "a") as target:
+            del target.attrs["sha256"]
+            target["steps/0000/partition/half"][3, 1] = math.nan
+        status, _, message = fixture("same", original, copy)
+        assert status != 0 and "partition.half[3]" in message, message
+
+
+def test_mistakes_in_formulas_are_named():
+    """A copy of a file with one text changed: the program says where, and where in the text."""
+    copy = FOLDER / "mistake.h5"
+    for group, name, place in [
+        ("equation", "young", "equation@young: line 1, column 5: unknown name `z`"),
+        ("tables/0000", "name", "no table `curve`"),
+        ("steps/0000/partition", "weight_formula", "partition@weight_formula: a weight must vanish"),
+    ]:
+        copy.write_bytes(files()[1].read_bytes())
+        with h5py.File(copy, "a") as file:
+            file[group].attrs[name] = {"young": "x + z", "name": "other"}.get(name, "1 + t")
+            file.attrs["sha256"] = checksum(file)
+        status, _, message = fixture("same", copy, copy)
+        assert status != 0 and place in message, message
 
 
 def recreate(source, target):

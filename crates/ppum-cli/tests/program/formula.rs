@@ -287,7 +287,12 @@ fn wgsl_is_valid_and_the_same_function() {
     let plane = [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin()];
     for (formula, options, function, inputs) in [
         ("westergaard", "--at x=-0.5,y=0.25", "formula_westergaard_3", &plane[..]),
-        ("boundary-layer", "--at x=-0.5,y=0.25 --parameter epsilon=0.5", "formula_boundary_layer", &plane),
+        (
+            "boundary-layer",
+            "--at x=-0.5,y=0.25 --parameter epsilon=0.5",
+            "formula_boundary_layer",
+            &plane,
+        ),
         ("x*table(k, y)^2", "--at x=-0.5,y=0.25 --table k=k.csv", "formula", &plane),
         ("cubic", "--at t=0.75", "formula_cubic", &[0.75]),
     ] {

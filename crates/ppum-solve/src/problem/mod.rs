@@ -92,10 +92,26 @@ pub struct Problem {
     pub text: Option<String>,
 }
 
+/// How the system is made and solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Solver {
+    /// The linear solver.
+    pub kind: SolverKind,
+    /// Use native kernels where there are any; false evaluates their formulas, which should give the
+    /// same to rounding.
+    pub kernels: bool,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self { kind: SolverKind::default(), kernels: true }
+    }
+}
+
 /// The linear solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Solver {
+pub enum SolverKind {
     /// What suits the problem.
     #[default]
     Auto,

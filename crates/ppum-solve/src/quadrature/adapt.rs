@@ -6,24 +6,33 @@
 //! layer exp(−d/ε) across pieces of size h takes O(log(h/ε)) of them, because polygons are divided
 //! across the direction in which the gradient changes.
 //!
-//! A layer so thin that no point of the rules sees it is seen by points on the border of the piece.
-//! Functions that vanish on the border and at all points of the rules are not seen.
+//! A layer along a side of a piece may be so thin that no Gauss point sees it. Therefore Gauss rules
+//! are also compared with rules that have points as good as on the border. What vanishes at all
+//! points of these rules is not seen.
 
+use super::gauss::{Rules1d, closed, gauss};
 use super::geometry::Probes;
 use ppum::vec2::Vec2;
 
 /// Differences that are left, relative to the integral over all parts.
 const ACCURACY: f64 = 1e-10;
 
+/// The same for the area of pieces with curved sides.
+const AREA_ACCURACY: f64 = 1e-8;
+
 /// Most parts that one piece is divided into.
 const BUDGET: usize = 400;
 
+/// Number of parts from which on errors must come down whenever it doubles. A layer of 1e-9 of a
+/// piece is found with fewer.
+const FIRST_CHECK: usize = 32;
+
+/// The share they must come down to. Noise does not get less by division, while the value on a border
+/// of a layer that is still too thin to be seen otherwise counts half at each.
+const SHARE: f64 = 0.8;
+
 /// Most divisions one inside the other. Halves of halves are rounding before.
 const DEPTH: usize = 45;
-
-/// A part whose integral is smaller by this factor than a value on its border times its size hides
-/// a layer, and counts as that product. Polynomials that a rule resolves stay below.
-const HIDDEN: f64 = 1e4;
 
 /// Functions below this size are zero: their squares are not numbers any more.
 const NOTHING: f64 = 1e-140;
@@ -31,17 +40,18 @@ const NOTHING: f64 = 1e-140;
 /// Least gap between the variances of the gradient in two directions that makes one of them count.
 const DIRECTED: f64 = 0.5;
 
+/// Gradients that vary across a direction by less than this part of their variance do so along it
+/// alone.
+const RIDGE: f64 = 1e-4;
+
 /// Directions whose angle is smaller than this are one.
 const PARALLEL: f64 = 1e-3;
 
 /// Something with a Gauss rule that can be divided.
-pub(super) trait Part: Sized {
-    /// Calls `push` with the offsets and weights of the rule of `n` points in each direction.
-    fn nodes(&self, n: usize, push: &mut dyn FnMut(Vec2, f64));
-
-    /// Calls `push` with points on the border, and for each what the weight of a rule of one point
-    /// would be there.
-    fn border(&self, push: &mut dyn FnMut(Vec2, f64));
+pub(super) trait Part: Clone {
+    /// Calls `push` with the offsets and weights of a rule that is as exact as `n` Gauss points in
+    /// each direction.
+    fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64));
 
     /// Ways to divide the part in two. `directions` are those in which the gradients of functions
     /// change.
@@ -59,6 +69,8 @@ pub(super) struct Demand<'a> {
     pub(super) anchor: Vec2,
     /// True if parts have curved borders: then the integral of 1 is held, too.
     pub(super) curved: bool,
+    /// Size of the cell.
+    pub(super) size: f64,
     /// Gauss points in each direction of the rules that are compared.
     pub(super) points: usize,
 }
@@ -70,42 +82,78 @@ struct Integral {
     size: f64,
 }
 
-/// A part with its integrals, the errors of its rule, and its halves.
+/// A part with its integrals, the errors of its rule, and the ways to divide it.
 struct Entry<P> {
     part: P,
     depth: usize,
     integrals: Vec<Integral>,
     errors: Vec<f64>,
-    halves: Option<[P; 2]>,
+    divisions: Vec<Division<P>>,
 }
 
-/// The parts divided until their rules resolve the functions that are demanded.
+/// The halves of a part, and how much they change each integral.
+struct Division<P> {
+    halves: [P; 2],
+    changes: Vec<f64>,
+}
+
+/// The parts divided until their rules resolve the functions that are demanded; as they are if
+/// division does not help.
 pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
     if demand.active.is_empty() && !demand.curved {
         return parts;
     }
-    let mut entries: Vec<Entry<P>> = parts.into_iter().map(|p| demand.entry(p, 0)).collect();
+    let mut entries: Vec<Entry<P>> =
+        parts.iter().map(|part| demand.entry(part.clone(), 0)).collect();
+    let mut progress = Progress { check: FIRST_CHECK, before: f64::INFINITY };
     while entries.len() < BUDGET {
-        let Some(worst) = worst(&entries) else { break };
-        let Some(halves) = entries[worst].halves.take() else { break };
-        let depth = entries[worst].depth + 1;
+        let allowed = demand.allowed(&entries);
+        let Some(at) = worst(&entries, &allowed) else { break };
+        if progress.has_stopped(entries.len(), || excess(&entries, &allowed)) {
+            return parts;
+        }
+        let depth = entries[at].depth + 1;
+        let Some(halves) = entries[at].best_halves(&allowed) else { break };
         let [first, second] = halves.map(|part| demand.entry(part, depth));
-        entries[worst] = first;
+        entries[at] = first;
         entries.push(second);
     }
     entries.into_iter().map(|e| e.part).collect()
 }
 
+/// Watches whether errors come down.
+struct Progress {
+    /// Number of parts to look at next.
+    check: usize,
+    /// Error at the last look.
+    before: f64,
+}
+
+impl Progress {
+    fn has_stopped(&mut self, parts: usize, error: impl FnOnce() -> f64) -> bool {
+        if parts < self.check {
+            return false;
+        }
+        let error = error();
+        let stopped = error > SHARE * self.before;
+        *self = Self { check: 2 * parts, before: error };
+        stopped
+    }
+}
+
+/// Largest ratio of the error of an integral over all parts to what is allowed.
+fn excess<P>(entries: &[Entry<P>], allowed: &[f64]) -> f64 {
+    let error = |k: usize| entries.iter().map(|e| e.errors[k]).sum::<f64>();
+    allowed.iter().enumerate().map(|(k, allowed)| error(k) / allowed).fold(0.0, f64::max)
+}
+
 /// The entry with the largest error of those integrals whose errors add up to too much.
-fn worst<P>(entries: &[Entry<P>]) -> Option<usize> {
-    let n = entries.first().map_or(0, |e| e.errors.len());
+fn worst<P>(entries: &[Entry<P>], allowed: &[f64]) -> Option<usize> {
     let mut found: Option<(usize, f64)> = None;
-    for k in 0..n {
-        let size: f64 = entries.iter().map(|e| e.integrals[k].size).sum();
-        let error: f64 = entries.iter().map(|e| e.errors[k]).sum();
-        if error > ACCURACY * size {
+    for (k, allowed) in allowed.iter().enumerate() {
+        if entries.iter().map(|e| e.errors[k]).sum::<f64>() > *allowed {
             for (i, entry) in entries.iter().enumerate() {
-                let part = entry.errors[k] / size;
+                let part = entry.errors[k] / allowed;
                 if found.is_none_or(|(_, most)| part > most) {
                     found = Some((i, part));
                 }
@@ -113,6 +161,43 @@ fn worst<P>(entries: &[Entry<P>]) -> Option<usize> {
         }
     }
     found.map(|(i, _)| i)
+}
+
+impl<P> Entry<P> {
+    /// Takes the halves that change most, in parts of what each integral may err.
+    fn best_halves(&mut self, allowed: &[f64]) -> Option<[P; 2]> {
+        let change = |d: &Division<P>| -> f64 {
+            d.changes.iter().zip(allowed).map(|(c, a)| c / a).fold(0.0, f64::max)
+        };
+        let better = |best: Division<P>, next: Division<P>| {
+            if change(&next) > change(&best) { next } else { best }
+        };
+        self.divisions.drain(..).reduce(better).map(|division| division.halves)
+    }
+}
+
+/// Integrals by two rules.
+struct Sums {
+    gauss: Vec<Integral>,
+    closed: Vec<Integral>,
+}
+
+impl Sums {
+    /// Of each integral the larger one.
+    fn larger(self) -> Vec<Integral> {
+        let larger = |(a, b): (Integral, Integral)| if a.size >= b.size { a } else { b };
+        self.gauss.into_iter().zip(self.closed).map(larger).collect()
+    }
+}
+
+/// Differences of values.
+fn differences(a: &[Integral], b: &[Integral]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| (a.value - b.value).abs()).collect()
+}
+
+/// The larger of each two numbers.
+fn larger(a: Vec<f64>, b: &[f64]) -> Vec<f64> {
+    a.into_iter().zip(b).map(|(a, b)| a.max(*b)).collect()
 }
 
 /// Samples of functions at points with weights.
@@ -125,11 +210,6 @@ struct Samples {
 }
 
 impl Samples {
-    fn add(&mut self, offset: Vec2, weight: f64) {
-        self.offsets.push(offset);
-        self.weights.push(weight);
-    }
-
     fn of(&self, function: usize) -> impl Iterator<Item = (f64, [f64; 3])> + '_ {
         let n = self.offsets.len();
         let values = &self.values[function * n..(function + 1) * n];
@@ -139,90 +219,101 @@ impl Samples {
 
 impl Demand<'_> {
     fn entry<P: Part>(&self, part: P, depth: usize) -> Entry<P> {
-        let samples = self.samples(&part);
-        let whole = self.integrals(&samples);
-        let none = vec![0.0; whole.len()];
-        let mut entry = Entry { part, depth, integrals: whole.clone(), errors: none, halves: None };
-        if depth == DEPTH {
-            return entry;
-        }
-        let mut most = -1.0;
-        for division in entry.part.divisions(&self.directions(&samples)) {
-            let sums = self.sums(&division);
-            let mut change: f64 = 0.0;
-            for ((error, s), w) in entry.errors.iter_mut().zip(&sums).zip(&whole) {
-                let difference = (s.value - w.value).abs();
-                *error = error.max(difference);
-                change = change.max(difference / s.size.max(w.size));
+        let (inside, border) = (self.samples(&part, gauss), self.samples(&part, closed));
+        let whole = Sums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
+        let mut errors = differences(&whole.gauss, &whole.closed);
+        let hidden = errors.iter().zip(&whole.gauss).any(|(e, i)| *e > ACCURACY * i.size);
+        let ways = if depth < DEPTH {
+            part.divisions(&self.directions([&inside, &border]))
+        } else {
+            Vec::new()
+        };
+        let mut divisions = Vec::with_capacity(ways.len());
+        for halves in ways {
+            let mut changes = differences(&self.sums(&halves, gauss), &whole.gauss);
+            errors = larger(errors, &changes);
+            if hidden {
+                changes = larger(changes, &differences(&self.sums(&halves, closed), &whole.closed));
             }
-            if change > most {
-                most = change;
-                (entry.integrals, entry.halves) = (sums, Some(division));
-            }
+            divisions.push(Division { halves, changes });
         }
-        entry
+        if divisions.is_empty() {
+            errors.fill(0.0);
+        }
+        Entry { part, depth, integrals: whole.larger(), errors, divisions }
     }
 
-    /// The functions at the points of the rule of a part, and at those on its border.
-    fn samples<P: Part>(&self, part: &P) -> [Samples; 2] {
-        let mut both = [Samples::default(), Samples::default()];
-        let [inside, border] = &mut both;
-        part.nodes(self.points, &mut |x, w| inside.add(x, w));
-        part.border(&mut |x, w| border.add(x, w));
-        for samples in &mut both {
-            for &function in self.active {
-                let Samples { offsets, values, .. } = samples;
-                self.probes.evaluate(function, self.anchor, offsets, values);
-            }
+    /// The functions at the points of a rule of a part.
+    fn samples<P: Part>(&self, part: &P, rules: Rules1d) -> Samples {
+        let mut samples = Samples::default();
+        part.nodes(rules, self.points, &mut |x, w| {
+            samples.offsets.push(x);
+            samples.weights.push(w);
+        });
+        for &function in self.active {
+            self.probes.evaluate(function, self.anchor, &samples.offsets, &mut samples.values);
         }
-        both
+        samples
     }
 
     /// The integrals of f, f² and |∇f|² of each function, and of 1 if borders are curved.
-    fn integrals(&self, [inside, border]: &[Samples; 2]) -> Vec<Integral> {
+    fn integrals(&self, samples: &Samples) -> Vec<Integral> {
         let mut all = Vec::with_capacity(3 * self.active.len() + 1);
         for k in 0..self.active.len() {
             let mut three = [Integral::default(); 3];
-            inside.of(k).for_each(|(w, q)| add(&mut three, w, q));
-            for (w, q) in border.of(k) {
-                let mut seen = [Integral::default(); 3];
-                add(&mut seen, w, q);
-                for (sum, seen) in three.iter_mut().zip(seen) {
-                    if seen.size > HIDDEN * sum.size {
-                        *sum = seen;
-                    }
-                }
-            }
+            samples.of(k).for_each(|(w, q)| add(&mut three, w, q));
             all.extend(three);
         }
         if self.curved {
-            let area = inside.weights.iter().sum();
+            let area = samples.weights.iter().sum();
             all.push(Integral { value: area, size: area });
         }
         all
     }
 
-    fn sums<P: Part>(&self, [a, b]: &[P; 2]) -> Vec<Integral> {
-        let of = |part: &P| self.integrals(&self.samples(part));
-        let sum = |(a, b): (Integral, Integral)| Integral {
-            value: a.value + b.value,
-            size: a.size + b.size,
-        };
-        of(a).into_iter().zip(of(b)).map(sum).collect()
+    /// The integrals over two parts together.
+    fn sums<P: Part>(&self, parts: &[P; 2], rules: Rules1d) -> Vec<Integral> {
+        let [mut sums, other] =
+            parts.each_ref().map(|part| self.integrals(&self.samples(part, rules)));
+        for (sum, other) in sums.iter_mut().zip(other) {
+            sum.value += other.value;
+            sum.size += other.size;
+        }
+        sums
     }
 
-    /// For each function the direction in which its gradient changes most, if there is one.
-    fn directions(&self, samples: &[Samples; 2]) -> Vec<Vec2> {
-        let mut directions: Vec<Vec2> = Vec::new();
+    /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over
+    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding.
+    fn allowed<P>(&self, entries: &[Entry<P>]) -> Vec<f64> {
+        let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
+        let of_function = |k: usize| {
+            let [value, square, gradient] = [0, 1, 2].map(|i| size(3 * k + i));
+            [value, square, gradient + square / (self.size * self.size)]
+        };
+        let functions = (0..self.active.len()).flat_map(of_function).map(|s| ACCURACY * s);
+        let area = self.curved.then(|| AREA_ACCURACY * size(3 * self.active.len()));
+        functions.chain(area).collect()
+    }
+
+    /// For each function the direction in which its gradient changes most, if there is one; and the
+    /// direction across the first, unless it changes in that one alone.
+    fn directions(&self, samples: [&Samples; 2]) -> Vec<Vec2> {
+        let (mut directions, mut ridges): (Vec<Vec2>, bool) = (Vec::new(), true);
         for k in 0..self.active.len() {
             let gradients = samples.iter().flat_map(|s| s.of(k));
             let gradients = gradients.map(|(_, [_, x, y])| Vec2 { x, y }).filter(|g| g.is_finite());
             let gradients: Vec<Vec2> = gradients.collect();
-            if let Some(e) = principal(&gradients)
-                && directions.iter().all(|d| d.cross(e).abs() > PARALLEL)
-            {
-                directions.push(e);
+            if let Some((e, ridge)) = principal(&gradients) {
+                ridges &= ridge;
+                if directions.iter().all(|d| d.cross(e).abs() > PARALLEL) {
+                    directions.push(e);
+                }
             }
+        }
+        if let Some(&e) = directions.first()
+            && !ridges
+        {
+            directions.insert(1, e.left());
         }
         directions
     }
@@ -241,8 +332,9 @@ fn add(sums: &mut [Integral; 3], weight: f64, [f, x, y]: [f64; 3]) {
     }
 }
 
-/// The direction in which vectors vary most, if they do and much more than across it.
-fn principal(vectors: &[Vec2]) -> Option<Vec2> {
+/// The direction in which vectors vary most, if they do and much more than across it; and whether
+/// they vary in this direction alone.
+fn principal(vectors: &[Vec2]) -> Option<(Vec2, bool)> {
     let scale = vectors.iter().fold(0.0, |s: f64, v| s.max(v.x.abs()).max(v.y.abs()));
     if scale < NOTHING || !scale.is_finite() {
         return None;
@@ -255,10 +347,10 @@ fn principal(vectors: &[Vec2]) -> Option<Vec2> {
         (xx, xy, yy) = (xx + d.x * d.x, xy + d.x * d.y, yy + d.y * d.y);
     }
     let (half, mixed) = (0.5 * (xx - yy), xy);
-    let gap = 2.0 * half.hypot(mixed);
-    if gap <= DIRECTED * (xx + yy) || xx + yy <= f64::EPSILON * n {
+    let (all, gap) = (xx + yy, 2.0 * half.hypot(mixed));
+    if gap <= DIRECTED * all || all <= f64::EPSILON * n {
         return None;
     }
     let angle = 0.5 * mixed.atan2(half);
-    Some(Vec2 { x: angle.cos(), y: angle.sin() })
+    Some((Vec2 { x: angle.cos(), y: angle.sin() }, all - gap < RIDGE * all))
 }

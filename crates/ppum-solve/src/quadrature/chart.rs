@@ -1,6 +1,6 @@
 //! Smooth maps of rectangles onto pieces: what tensor Gauss rules and curves are laid out in.
 
-use super::gauss::{MAX_POINTS, gauss};
+use super::gauss::{MAX_POINTS, Rules1d};
 use super::geometry::{Grading, Level};
 use super::polygon::Polygon;
 use super::roots::{tame, zero};
@@ -75,8 +75,15 @@ impl Chart<'_> {
         }
     }
 
-    /// Calls `push` with the offsets and weights of the tensor Gauss rule on a window.
-    pub(super) fn nodes(&self, window: &Rect, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
+    /// Calls `push` with the offsets and weights of the tensor rule on a window, n points in each
+    /// direction or more.
+    pub(super) fn nodes(
+        &self,
+        window: &Rect,
+        rules: Rules1d,
+        n: usize,
+        push: &mut dyn FnMut(Vec2, f64),
+    ) {
         let slow = match self {
             Self::Quadrilateral(_) => 1,
             Self::Apex(_) => 0,
@@ -84,7 +91,7 @@ impl Chart<'_> {
         };
         let rule = |axis: usize| {
             let (lo, hi) = range(window, axis);
-            gauss(self.points(axis, n)).on(lo, hi)
+            rules(self.points(axis, n)).on(lo, hi)
         };
         for (b, v) in rule(slow) {
             let span = if let Self::Strip(strip) = self { strip.span(b) } else { [0.0; 2] };

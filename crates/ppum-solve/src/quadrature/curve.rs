@@ -37,7 +37,7 @@ const COINCIDENT: f64 = 1e-12;
 
 /// Most divisions in four, one inside the other: where curves cross or have a corner, the part of a
 /// piece that is left undivided is 4⁻¹⁶ ≈ 2e-10.
-const DEPTH: usize = 16;
+const DEPTH: usize = 32;
 
 /// Most windows looked at for one piece and one curve. A circle takes about ten; a function that
 /// touches zero along a line without a change of its sign takes all.
@@ -132,13 +132,12 @@ fn cut<'c>(
     if let Some(height) = grid.height() {
         return strips(window, &level_on, height, grid.size * ZERO);
     }
-    let quarters = window.halves(0).into_iter().flat_map(|half| half.halves(1));
     let mut any = false;
     let mut parts = Vec::new();
-    for quarter in quarters {
-        let found = cut(&quarter, level, anchor, looks, depth - 1);
+    for half in window.halves(grid.uneven()) {
+        let found = cut(&half, level, anchor, looks, depth - 1);
         any |= found.is_some();
-        parts.extend(found.unwrap_or_else(|| vec![quarter]));
+        parts.extend(found.unwrap_or_else(|| vec![half]));
     }
     any.then_some(parts)
 }
@@ -226,6 +225,18 @@ impl Grid {
         };
         let best = usize::from(change(1) > change(0));
         [best, 1 - best].into_iter().find(|&axis| self.is_monotone(axis))
+    }
+
+    /// The axis along which slopes change more.
+    fn uneven(&self) -> usize {
+        let change = |axis: usize| -> f64 {
+            let of_line = |k: usize| {
+                let d: Vec<f64> = self.differences(axis, k).collect();
+                d.windows(2).map(|d| (d[1] - d[0]).abs()).sum::<f64>()
+            };
+            (0..=self.steps).map(of_line).sum()
+        };
+        usize::from(change(1) > change(0))
     }
 
     /// True if along all lines of an axis the function rises, or along all falls, and evenly.

@@ -1,6 +1,7 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
 use super::adapt::{Demand, Part as _, refined};
+use super::gauss::gauss;
 use super::orders::Active;
 use super::polygon::line_side;
 use super::roots::{sign_changes, tame};
@@ -224,7 +225,9 @@ impl Run<'_> {
     /// the line itself.
     fn graded(&self, lo: f64, hi: f64, at: &Singular, order: usize) -> Vec<Stretch> {
         let (s, d) = self.line.seen_from(at.point);
-        let (lo, hi) = (lo - s, hi - s);
+        // an end at the point itself is there exactly: what rounding would leave between them counts
+        let from_point = |x: f64| if (x - s).abs() > ON_LINE * (hi - lo) { x - s } else { 0.0 };
+        let (lo, hi) = (from_point(lo), from_point(hi));
         let tangent = self.line.tangent;
         if d > ON_LINE * (hi - lo) {
             let normal = tangent.left();
@@ -253,6 +256,7 @@ impl Run<'_> {
             active: &geometry.active_probes(patches),
             anchor,
             curved: false,
+            size: self.cell.size().length(),
             points: order.saturating_sub(orders.reserve).max(1),
         };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
@@ -264,7 +268,7 @@ impl Run<'_> {
         });
         let rule = &mut self.rules[at];
         for stretch in refined(stretches, &demand) {
-            stretch.nodes(order, &mut |x, w| {
+            stretch.nodes(gauss, order, &mut |x, w| {
                 rule.offsets.push(x);
                 rule.weights.push(w);
             });

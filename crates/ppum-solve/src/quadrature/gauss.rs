@@ -1,4 +1,4 @@
-//! Gauss–Legendre rules.
+//! Gauss–Legendre rules, and rules with points at the ends to compare them with.
 
 use std::sync::OnceLock;
 
@@ -36,6 +36,9 @@ impl GaussRule {
     }
 }
 
+/// Rules by the number of points of the Gauss rule that is as exact: [`gauss`] or [`closed`].
+pub(super) type Rules1d = fn(usize) -> &'static GaussRule;
+
 /// The i-th largest zero of P_n and its Gauss weight.
 fn zero(n: usize, i: usize) -> (f64, f64) {
     let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
@@ -69,6 +72,51 @@ pub fn gauss(n: usize) -> &'static GaussRule {
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(GaussRule::new).collect())[n - 1]
 }
 
+/// How far from the ends the outermost points of a closed rule lie, as a part of the interval: on
+/// the right side of a jump at the end, whatever rounding does to coordinates.
+const INSET: f64 = 1e-6;
+
+/// A rule with n + 1 points, 1 ≤ n ≤ [`MAX_POINTS`], two of them as good as at the ends, and exact to
+/// 1e-12 where the Gauss rule with n points is exact. It sees what happens there, which Gauss rules
+/// do not.
+///
+/// The Lobatto rule on the interval without its outermost millionths, whose share is given to the
+/// points at their inner ends.
+pub(super) fn closed(n: usize) -> &'static GaussRule {
+    static RULES: OnceLock<Vec<GaussRule>> = OnceLock::new();
+    assert!((1..=MAX_POINTS).contains(&n), "no closed rule for {n} points");
+    &RULES.get_or_init(|| (1..=MAX_POINTS).map(lobatto_inside).collect())[n - 1]
+}
+
+fn lobatto_inside(n: usize) -> GaussRule {
+    let GaussRule { mut nodes, mut weights } = lobatto(n);
+    let part = 1.0 - 2.0 * INSET;
+    nodes.iter_mut().for_each(|x| *x *= part);
+    weights.iter_mut().for_each(|w| *w *= part);
+    weights[0] += 2.0 * INSET;
+    weights[n] += 2.0 * INSET;
+    GaussRule { nodes, weights }
+}
+
+/// The Lobatto rule on \[−1, 1\] with n + 1 points, ±1 and the zeros of P_n′, and the weights
+/// 2 / (n (n + 1) P_n(x)²). Newton iteration from the extrema of the Chebyshev polynomial, with P_n″
+/// from Legendre's equation.
+fn lobatto(n: usize) -> GaussRule {
+    let order = n as f64;
+    let mut nodes: Vec<f64> =
+        (0..=n).map(|i| -(std::f64::consts::PI * i as f64 / order).cos()).collect();
+    for x in &mut nodes[1..n] {
+        for _ in 0..8 {
+            let (value, slope) = legendre(n, *x);
+            let bend = (2.0 * *x * slope - order * (order + 1.0) * value) / (1.0 - *x * *x);
+            *x -= slope / bend;
+        }
+    }
+    let value = |&x: &f64| if x.abs() < 1.0 { legendre(n, x).0 } else { 1.0 };
+    let weights = nodes.iter().map(|x| 2.0 / (order * (order + 1.0) * value(x).powi(2))).collect();
+    GaussRule { nodes, weights }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,6 +129,21 @@ mod tests {
                 let exact = 1.0 / (degree as f64 + 1.0);
                 assert!((sum - exact).abs() < 2e-15, "n = {n}, degree {degree}: {sum} {exact}");
             }
+        }
+    }
+
+    #[test]
+    fn closed_rules_have_the_degree_of_gauss_rules_and_points_at_the_ends() {
+        for n in 1..=MAX_POINTS {
+            let rule = closed(n);
+            for degree in 0..2 * n {
+                let sum: f64 = rule.on(0.0, 1.0).map(|(x, w)| w * x.powi(degree as i32)).sum();
+                let exact = 1.0 / (degree as f64 + 1.0);
+                let tolerance = 2e-15 + INSET * INSET * degree as f64;
+                assert!((sum - exact).abs() < tolerance, "n = {n}, degree {degree}: {sum} {exact}");
+            }
+            assert!(rule.nodes[0] < -1.0 + 3e-6 && rule.nodes[n] > 1.0 - 3e-6);
+            assert!(rule.nodes[0] > -1.0 && rule.nodes[n] < 1.0);
         }
     }
 

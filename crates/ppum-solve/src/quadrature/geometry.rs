@@ -175,11 +175,14 @@ fn powers(lambda: f64, n: usize) -> Grading {
     let lambda = lambda.max(LEAST_EXPONENT);
     let extra = (EXTRA_POINTS / lambda.sqrt()).ceil() as usize;
     let all = (n + extra).min(MAX_POINTS);
-    Grading { power: (all as f64 / lambda).sqrt(), extra: all.saturating_sub(n) }
+    Grading { power: (all as f64 / lambda).sqrt().max(1.0), extra: all.saturating_sub(n) }
 }
 
-/// The zero set of a function, seen from its two sides. Nothing is assumed but that it is a smooth
-/// curve where it does not branch, and that the function changes its sign there.
+/// A level function: negative on one side of its zero set, positive on the other.
+///
+/// It should be smooth but for single points and for kinks that are declared before it, and its size
+/// tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made where
+/// samples show that it changes its sign; values that are no numbers count as positive.
 pub type Level = dyn Fn(Vec2) -> f64 + Send + Sync;
 
 /// A line or curve across which a function or one of its derivatives jumps.

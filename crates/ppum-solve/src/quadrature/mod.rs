@@ -135,7 +135,8 @@ impl<'a> Quadrature<'a> {
         self.rules(cell, coverers, self.orders, None)
     }
 
-    /// The rules on the pieces of a cell that meet a disc, with `order` points in each direction.
+    /// The rules on the pieces of a cell that meet a disc, with `order` points in each direction, or
+    /// more where the weight function needs them.
     ///
     /// The integrand may be singular like r⁻¹ at the disc's `center`, whichever functions are active,
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
@@ -154,7 +155,9 @@ impl<'a> Quadrature<'a> {
         if size.x <= 0.0 || size.y <= 0.0 {
             return Vec::new();
         }
-        self.rules(&part, coverers, Orders::uniform(order), Some(Disc { center, radius }))
+        let overlap = order.max(self.orders.overlap);
+        let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(order) };
+        self.rules(&part, coverers, orders, Some(Disc { center, radius }))
     }
 
     fn rules(
@@ -243,6 +246,7 @@ impl Run<'_> {
             patches,
             order,
             reserve: self.orders.reserve,
+            size: self.cell.size().length(),
             least: self.least,
             curves: &curves,
             probes: (geometry.probes, &active),

@@ -7,10 +7,6 @@ use super::split::breaks;
 /// then err by about 18^(−2n).
 const FAR: f64 = 4.0;
 
-/// Error of the integrals of products of partition functions that is sought for a weight function
-/// of any kind, relative to the largest of them.
-const WEIGHT_ACCURACY: f64 = 1e-9;
-
 /// Rules that are tried for a weight function: points, and parts of an overlap.
 const MOST_POINTS: usize = 24;
 const PARTS: [usize; 6] = [1, 2, 3, 4, 6, 8];
@@ -73,14 +69,15 @@ impl Orders {
     /// derivative jumps; `stretch` is α, the size of a patch relative to its cell. On a line of cells
     /// of two sizes the products φ_i φ_k, φ_i′ φ_k′ and the same times ξ_i^p ξ_k^p are integrated
     /// with more and more points, on more and more parts of each overlap, until the error is below
-    /// 1e-9 of the largest. The returned error is larger only if no rule is good enough, which is
-    /// then the best of those tried. Takes some milliseconds.
+    /// `accuracy` times the largest. The returned error is larger only if no rule is good enough,
+    /// which is then the best of those tried. Takes some milliseconds.
     #[must_use]
     pub fn for_weight(
         p: usize,
         stretch: f64,
         breakpoints: &[f64],
         weight: &dyn Fn(f64) -> [f64; 2],
+        accuracy: f64,
     ) -> (Self, f64) {
         let line = Line::new(stretch, breakpoints, weight);
         let exact = line.products(p, MOST_POINTS, 4 * PARTS[PARTS.len() - 1]);
@@ -95,7 +92,7 @@ impl Orders {
             if error < best.1 || best.1.is_infinite() {
                 best = (Self { overlap: n, parts, ..default }, error);
             }
-            if error <= WEIGHT_ACCURACY {
+            if error <= accuracy {
                 break;
             }
         }

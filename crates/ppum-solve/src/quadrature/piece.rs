@@ -1,8 +1,9 @@
 //! Pieces of a cell as parts that can be integrated and divided.
 
 use super::adapt::Part;
-use super::chart::{UNIT, quadrilaterals, range};
+use super::chart::{UNIT, quadrilaterals};
 use super::curve::Window;
+use super::gauss::Rules1d;
 use super::polygon::Polygon;
 use ppum::vec2::{Vec2, vec2};
 
@@ -10,6 +11,7 @@ use ppum::vec2::{Vec2, vec2};
 const WAYS: usize = 4;
 
 /// A piece on which the integrand is smooth, relative to an anchor.
+#[derive(Clone)]
 pub(super) enum Piece<'c> {
     /// With straight sides, away from singular points.
     Polygon(Polygon),
@@ -18,25 +20,12 @@ pub(super) enum Piece<'c> {
 }
 
 impl Part for Piece<'_> {
-    fn nodes(&self, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
+    fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         match self {
             Self::Polygon(polygon) => {
-                quadrilaterals(polygon).for_each(|chart| chart.nodes(&UNIT, n, push));
+                quadrilaterals(polygon).for_each(|chart| chart.nodes(&UNIT, rules, n, push));
             }
-            Self::Window(window) => window.chart.nodes(&window.range, n, push),
-        }
-    }
-
-    fn border(&self, push: &mut dyn FnMut(Vec2, f64)) {
-        match self {
-            Self::Polygon(polygon) => {
-                let area = polygon.area();
-                for (a, b) in polygon.edges() {
-                    push(a, area);
-                    push((a + b) * 0.5, area);
-                }
-            }
-            Self::Window(window) => border(window, push),
+            Self::Window(window) => window.chart.nodes(&window.range, rules, n, push),
         }
     }
 
@@ -48,31 +37,12 @@ impl Part for Piece<'_> {
     }
 }
 
-/// Corners and middles of the sides of a window.
-fn border(window: &Window<'_>, push: &mut dyn FnMut(Vec2, f64)) {
-    let size = window.range.size();
-    for (i, j) in [(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (0, 2), (1, 2), (2, 2)] {
-        let at = |axis: usize, k: i32| {
-            let (lo, hi) = range(&window.range, axis);
-            [lo, 0.5 * (lo + hi), hi][k as usize]
-        };
-        let (x, jacobian) = window.chart.at([at(0, i), at(1, j)]);
-        push(x, jacobian * size.x * size.y);
-    }
-}
-
-/// The halves of a polygon along each of some directions and across the first; along the axes if
-/// there are none.
+/// The halves of a polygon along each of some directions; along the axes if there are none.
 fn divisions<'c>(polygon: &Polygon, directions: &[Vec2]) -> Vec<[Piece<'c>; 2]> {
-    let first = directions.first().copied().unwrap_or(vec2(1.0, 0.0));
-    let others = directions.iter().skip(1).copied();
-    [first, first.left()]
-        .into_iter()
-        .chain(others)
-        .take(WAYS)
-        .filter_map(|e| halves(polygon, e))
-        .map(|halves| halves.map(Piece::Polygon))
-        .collect()
+    let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)];
+    let ways = if directions.is_empty() { &axes } else { directions };
+    let halves = ways.iter().take(WAYS).filter_map(|&e| halves(polygon, e));
+    halves.map(|halves| halves.map(Piece::Polygon)).collect()
 }
 
 /// The two parts of a polygon that reach equally far in a direction.

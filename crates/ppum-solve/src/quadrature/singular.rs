@@ -15,6 +15,7 @@ use super::Rules;
 use super::adapt::{Demand, Part as _, refined};
 use super::chart::{Apex, Chart, quadrilaterals};
 use super::curve::{Window, cut_all};
+use super::gauss::gauss;
 use super::geometry::{Level, Probes, Singular};
 use super::piece::Piece;
 use super::polygon::Polygon;
@@ -38,6 +39,8 @@ pub(super) struct Pieces<'r, 'c> {
     pub(super) order: usize,
     /// Those of them that are kept for the polynomials that multiply a probe.
     pub(super) reserve: usize,
+    /// Size of the cell.
+    pub(super) size: f64,
     /// Pieces smaller than this are dropped.
     pub(super) least: f64,
     /// Curves across which integrands jump.
@@ -92,10 +95,10 @@ impl Pieces<'_, '_> {
     fn add_parts(&mut self, anchor: Vec2, parts: Vec<Piece<'_>>, curved: bool) {
         let (probes, active) = self.probes;
         let points = self.order.saturating_sub(self.reserve).max(1);
-        let demand = Demand { probes, active, anchor, curved, points };
+        let demand = Demand { probes, active, anchor, curved, size: self.size, points };
         let rule = self.rules.rule(self.patches, anchor);
         for part in refined(parts, &demand) {
-            part.nodes(self.order, &mut |x, w| rule.push(x, w));
+            part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Parts of a segment, graded where it passes a singular point.
 
 use super::adapt::Part;
-use super::gauss::{MAX_POINTS, gauss};
+use super::gauss::{MAX_POINTS, Rules1d};
 use super::geometry::Grading;
 use ppum::vec2::Vec2;
 
@@ -17,6 +17,7 @@ pub(super) enum Path {
 }
 
 /// The points foot + s · tangent, relative to an anchor, for an interval of the parameter.
+#[derive(Clone)]
 pub(super) struct Stretch {
     pub(super) path: Path,
     pub(super) foot: Vec2,
@@ -45,30 +46,17 @@ impl Path {
 }
 
 impl Stretch {
-    fn point(&self, u: f64) -> (Vec2, f64) {
-        let (s, slope) = self.path.at(u);
-        (self.foot + self.tangent * s, slope)
-    }
-
     fn part(&self, lo: f64, hi: f64) -> Self {
         Self { interval: (lo, hi), ..*self }
     }
 }
 
 impl Part for Stretch {
-    fn nodes(&self, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
+    fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let (lo, hi) = self.interval;
-        for (u, w) in gauss(self.path.points(n)).on(lo, hi) {
-            let (x, slope) = self.point(u);
-            push(x, w * slope);
-        }
-    }
-
-    fn border(&self, push: &mut dyn FnMut(Vec2, f64)) {
-        let (lo, hi) = self.interval;
-        for u in [lo, hi] {
-            let (x, slope) = self.point(u);
-            push(x, (hi - lo) * slope);
+        for (u, w) in rules(self.path.points(n)).on(lo, hi) {
+            let (s, slope) = self.path.at(u);
+            push(self.foot + self.tangent * s, w * slope);
         }
     }
 

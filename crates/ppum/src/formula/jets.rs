@@ -21,6 +21,8 @@ use std::sync::Arc;
 use super::derivative::gradients;
 use super::graph::{Graph, NodeId, Op};
 use super::program::Program;
+use super::reciprocal::share_reciprocals;
+use super::tape::Tape;
 use super::{DerivativeError, Formula, Scope, check_inputs};
 
 /// Values and derivatives of formulas of one scope.
@@ -38,6 +40,7 @@ use super::{DerivativeError, Formula, Scope, check_inputs};
 pub struct FormulaJets {
     scope: Arc<Scope>,
     program: Program,
+    tape: Tape,
 }
 
 impl FormulaJets {
@@ -55,8 +58,11 @@ impl FormulaJets {
         let mut graph = Graph::new(scope.tables());
         let roots: Vec<NodeId> =
             formulas.iter().map(|formula| root_in(&mut graph, formula, scope)).collect();
-        let outputs = jets(&mut graph, scope, &roots, order)?;
-        Ok(Self { scope: Arc::clone(scope), program: Program::new(&graph, &outputs) })
+        let mut outputs = jets(&mut graph, scope, &roots, order)?;
+        share_reciprocals(&mut graph, &roots, &mut outputs);
+        let program = Program::new(&graph, &outputs);
+        let tape = Tape::new(&program, scope.n_inputs());
+        Ok(Self { scope: Arc::clone(scope), program, tape })
     }
 
     /// The results at one point, all those of the first formula first. `inputs` has one number for
@@ -78,6 +84,16 @@ impl FormulaJets {
     #[must_use]
     pub fn uses(&self, input: usize) -> bool {
         self.program.ops().contains(&Op::Input(input as u32))
+    }
+
+    /// What every back end starts from.
+    pub(super) fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// What lanes run.
+    pub(super) fn tape(&self) -> &Tape {
+        &self.tape
     }
 
     /// Number of results: of formulas times that of each.

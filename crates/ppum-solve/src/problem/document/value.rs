@@ -92,10 +92,10 @@ impl<'a> Value<'a> {
         value.or_else(wrong)
     }
 
-    /// A point `[x, y]`.
+    /// A point `[x, y]`; each a number, or a formula of numbers in quotes.
     pub(in super::super) fn point(&self) -> Option<Vec2> {
         let [x, y] = self.pair("two numbers [x, y]")?;
-        let (x, y) = (x.number(), y.number());
+        let (x, y) = (x.constant(), y.constant());
         Some(vec2(x?, y?))
     }
 

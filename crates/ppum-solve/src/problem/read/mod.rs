@@ -21,7 +21,7 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::{Problem, Solver, scopes};
+use super::{Problem, Solver, SolverKind, scopes};
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
@@ -303,9 +303,12 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 }
 
 fn solver(root: &Section<'_>) -> Solver {
-    let read = || {
-        let section = root.section("solver")?.only(&["kind"], &[("tolerance", Later(&[]))]);
-        section.get("kind")?.choice(&[("auto", Solver::Auto), ("direct", Solver::Direct)])
-    };
-    read().unwrap_or_default()
+    let kinds = [("auto", SolverKind::Auto), ("direct", SolverKind::Direct)];
+    let later = [("tolerance", Later(&[]))];
+    let section = root.section("solver").map(|s| s.only(&["kind", "kernels"], &later));
+    let get = |key| section.as_ref()?.get(key);
+    Solver {
+        kind: get("kind").and_then(|value| value.choice(&kinds)).unwrap_or_default(),
+        kernels: get("kernels").and_then(|value| value.boolean()).unwrap_or(true),
+    }
 }

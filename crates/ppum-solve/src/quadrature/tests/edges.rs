@@ -3,9 +3,18 @@
 use super::*;
 
 fn edges(case: &Case, orders: Orders, ends: [Vec2; 2], normal: Vec2) -> Vec<EdgeRule> {
-    let quadrature = case.quadrature(orders);
-    let cell = |c: &Rect| quadrature.edge(c, &coverers(&case.partition, c), ends, normal);
-    case.partition.cell.iter().flat_map(cell).collect()
+    edges_of(case.geometry(), orders, ends, normal)
+}
+
+fn edges_of(
+    geometry: Geometry<'_>,
+    orders: Orders,
+    ends: [Vec2; 2],
+    normal: Vec2,
+) -> Vec<EdgeRule> {
+    let quadrature = Quadrature::new(geometry, orders);
+    let cell = |c: &Rect| quadrature.edge(c, &coverers(geometry.partition, c), ends, normal);
+    geometry.partition.cell.iter().flat_map(cell).collect()
 }
 
 fn integrate_edges(rules: &[EdgeRule], f: impl Fn(Vec2, Vec2) -> f64) -> f64 {
@@ -103,4 +112,95 @@ fn a_segment_along_cell_borders_is_counted_once() {
         assert_near(integrate_edges(&rules, |_, _| 1.0), 1.1, 1e-14, "length");
         assert!(rules.iter().all(|r| (r.anchor.y < 0.5) == (normal.y > 0.0)));
     }
+}
+
+const TOP: [Vec2; 2] = [vec2(-1.0, 1.0), vec2(1.0, 1.0)];
+const UP: Vec2 = vec2(0.0, 1.0);
+
+#[test]
+fn kinks_and_curves_cut_edges() {
+    let case = Case::new(graded(&mut Random(2), WeightFunction::Linear), Vec::new(), Vec::new());
+    let (c, r) = (vec2(0.1, 0.8), 0.52);
+    let kinks = [
+        Kink::Line([vec2(-0.321, 0.0), vec2(-0.421, 1.0)]),
+        Kink::Segment([vec2(0.777, 0.9), vec2(0.777, 1.1)]),
+        Kink::Segment([vec2(-0.9, -0.3), vec2(-0.9, 0.3)]),
+        Kink::Curve(std::sync::Arc::new(move |p: Vec2| (p - c).length() - r)),
+    ];
+    let geometry = Geometry { kinks: &kinks, common_kinks: &[0, 1, 2, 3], ..case.geometry() };
+    let rules = edges_of(geometry, Orders::for_degree(1), TOP, UP);
+    let half = (r * r - 0.04_f64).sqrt();
+    for at in [-0.421, 0.777, 0.1 - half, 0.1 + half] {
+        let value = integrate_edges(&rules, |a, x| (a.x + x.x - at).abs());
+        assert_near(value, 1.0 + at * at, 1e-14, &format!("kink at {at}"));
+        let left = integrate_edges(&rules, |a, x| f64::from(u8::from(a.x + x.x < at)));
+        assert_near(left, 1.0 + at, 1e-14, &format!("length left of {at}"));
+    }
+    let count = |rules: &[EdgeRule]| rules.iter().map(|r| r.offsets.len()).sum::<usize>();
+    let plain = edges(&case, Orders::for_degree(1), TOP, UP);
+    let more = (count(&rules) - count(&plain)) as f64 / 5.0;
+    assert!(more <= 4.0, "four more pieces, not {more}");
+}
+
+#[test]
+fn edges_through_singular_points_of_any_exponent() {
+    let (start, tip) = (vec2(-0.875, -0.5), vec2(0.25, 0.5));
+    let length = (tip - start).length();
+    let normal = (tip - start).unit().left();
+    for (lambda, tolerance) in
+        [(0.1, 1e-8), (0.25, 1e-10), (0.5444837, 1e-10), (2.0 / 3.0, 1e-10), (1.7, 1e-10)]
+    {
+        let mut case = Case::new(uniform(2), Vec::new(), vec![tip]);
+        case.singular[0].growth = Growth::Powers { least: lambda };
+        for p in [1, 3] {
+            let rules = edges(&case, Orders::for_degree(p), [start, tip], normal);
+            let powers = [lambda - 1.0, 2.0 * lambda - 1.0, lambda, 2.0 * lambda - 2.0];
+            // gradients squared can be integrated along a line for λ > 1/2 only; to 1e-8 near 1/2,
+            // where 10⁻¹⁶ of the length still holds 3 % of the integral, from 0.6 on
+            for q in powers.into_iter().take(if lambda > 0.6 { 4 } else { 3 }) {
+                let value = integrate_edges(&rules, |a, x| (x + (a - tip)).length().powf(q));
+                let exact = length.powf(q + 1.0) / (q + 1.0);
+                let what = format!("λ = {lambda}, r^{q}, p = {p}");
+                assert_near(value, exact, tolerance * exact, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn edges_resolve_layers() {
+    for eps in [1e-1, 1e-3, 1e-6] {
+        let probes = vec![move |a: Vec2, x: Vec2| {
+            let f = (-(a.x + x.x + 1.0) / eps).exp();
+            [f, -f / eps, 0.0]
+        }];
+        let case = Case::new(uniform(2), Vec::new(), Vec::new());
+        let geometry = Geometry { probes: &probes, common_probes: &[0], ..case.geometry() };
+        let rules = edges_of(geometry, Orders::for_degree(1), TOP, UP);
+        let value = integrate_edges(&rules, |a, x| (-2.0 * (a.x + x.x + 1.0) / eps).exp());
+        let exact = -0.5 * eps * (-4.0 / eps).exp_m1();
+        assert_near(value, exact, 1e-10 * exact, &format!("ε = {eps:e}"));
+        let points: usize = rules.iter().map(|r| r.offsets.len()).sum();
+        assert!((points as f64) < 8.0 * (40.0 + 1.5 * (1.0 / eps).log2()), "{points} points");
+        assert_eq!(rules, edges_of(geometry, Orders::for_degree(1), TOP, UP));
+    }
+}
+
+#[test]
+fn overlaps_along_edges_are_divided() {
+    let case = Case::new(uniform(3), Vec::new(), Vec::new());
+    let count = |parts: usize| {
+        let orders = Orders { parts, ..Orders::for_degree(1) };
+        let rules = edges(&case, orders, TOP, UP);
+        assert_near(integrate_edges(&rules, |_, _| 1.0), 2.0, 1e-14, "length");
+        let overlapping = |r: &&EdgeRule| {
+            let x = |&i: &u32| case.partition.center[i as usize].x;
+            r.patches.iter().any(|i| x(i) != x(&r.patches[0]))
+        };
+        let points = |r: &EdgeRule| r.offsets.len();
+        let overlaps: usize = rules.iter().filter(overlapping).map(points).sum();
+        (overlaps, rules.iter().map(points).sum::<usize>())
+    };
+    let ((one, all), (three, more)) = (count(1), count(3));
+    assert_eq!((three, more), (3 * one, all + 2 * one));
 }

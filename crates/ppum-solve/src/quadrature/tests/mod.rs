@@ -1,8 +1,14 @@
 //! Rules on whole covers against closed forms.
 
 mod cells;
+mod curves;
 mod edges;
+mod layers;
+mod lines;
+mod powers;
 mod singular;
+mod together;
+mod weights;
 
 use super::*;
 use ppum::crack::CrackEnd;
@@ -112,11 +118,22 @@ impl Case {
     }
 
     fn rules(&self, orders: Orders) -> Vec<Rule> {
-        let quadrature = self.quadrature(orders);
-        let cell = |c: &Rect| quadrature.cell(c, &coverers(&self.partition, c));
-        self.partition.cell.iter().flat_map(cell).collect()
+        rules(self.geometry(), orders)
     }
 }
+
+/// The rules of all cells.
+fn rules(geometry: Geometry<'_>, orders: Orders) -> Vec<Rule> {
+    let quadrature = Quadrature::new(geometry, orders);
+    let cell = |c: &Rect| quadrature.cell(c, &coverers(geometry.partition, c));
+    geometry.partition.cell.iter().flat_map(cell).collect()
+}
+
+fn n_points(rules: &[Rule]) -> usize {
+    rules.iter().map(|r| r.offsets.len()).sum()
+}
+
+const UNIT: Rect = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
 
 /// One patch that covers a single cell alone.
 fn alone(cell: Rect, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Case {

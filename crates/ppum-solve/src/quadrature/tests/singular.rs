@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 /// Complex numbers as (re, im), as far as the closed forms need them.
 #[derive(Clone, Copy)]
-struct Complex(f64, f64);
+pub(super) struct Complex(pub(super) f64, pub(super) f64);
 
 impl std::ops::Mul for Complex {
     type Output = Self;
@@ -50,7 +50,7 @@ impl Complex {
 
 /// ∫ z^q dA over a convex polygon on one side of the real axis, q > −2 and no whole number: by Green's theorem it
 /// is (1/2i) ∮ z^q z̄ dz, and z̄ = α + β z along an edge.
-fn power_integral(polygon: &[Vec2], q: f64, upper: bool) -> Complex {
+pub(super) fn power_integral(polygon: &[Vec2], q: f64, upper: bool) -> Complex {
     let mut sum = Complex(0.0, 0.0);
     for (k, a) in polygon.iter().enumerate() {
         let b = polygon[(k + 1) % polygon.len()];
@@ -72,7 +72,7 @@ fn power_integral(polygon: &[Vec2], q: f64, upper: bool) -> Complex {
 }
 
 /// A convex polygon's part with sign · y ≥ 0 (Sutherland and Hodgman's step).
-fn half_plane(polygon: &[Vec2], sign: f64) -> Vec<Vec2> {
+pub(super) fn half_plane(polygon: &[Vec2], sign: f64) -> Vec<Vec2> {
     let mut part = Vec::new();
     for (k, &a) in polygon.iter().enumerate() {
         let b = polygon[(k + 1) % polygon.len()];
@@ -87,7 +87,7 @@ fn half_plane(polygon: &[Vec2], sign: f64) -> Vec<Vec2> {
 }
 
 /// Cells and tips: inside, on edges and corners, outside but near.
-fn tip_positions(random: &mut Random) -> Vec<(Rect, Vec2, f64)> {
+pub(super) fn tip_positions(random: &mut Random) -> Vec<(Rect, Vec2, f64)> {
     let mut cases = Vec::new();
     for _ in 0..12 {
         let min = random.point(1.0);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ppum::formula::{Formula, FormulaError, FormulaJets, MAX_LENGTH, MAX_NODES, Scope};
+use ppum::formula::{Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope};
 
 use crate::corpus::tables;
 use crate::random::Random;
@@ -54,6 +54,9 @@ const POINTS: usize = 4;
 /// Longest program whose derivative is printed and parsed again: more takes long, and is no different.
 const PRINTED: usize = 4_000;
 
+/// Most sets whose places are searched: each costs thousands of evaluations.
+const SEARCHED: usize = 8;
+
 /// Longest message of an error, in bytes: two lines of a terminal for the source and one for the message,
 /// in characters of up to four bytes.
 const MESSAGE: usize = 1_000;
@@ -63,7 +66,7 @@ const PARAMETERS: &str =
     "scale k n a amplitude length lambda mu kappa k1 k2 young poisson ux uy sxx syy sxy";
 
 impl Arena {
-    /// Scopes of the plane, of a tip with sides, and of one variable, all with tables and parameters.
+    /// Scopes of one variable, of the plane, and of a tip with sides, all with tables and parameters.
     ///
     /// # Panics
     /// When the corpus' tables are missing.
@@ -72,7 +75,7 @@ impl Arena {
         let line = Scope::new(&["t"]).expect("a name");
         let plane = Scope::cartesian().with_parameter("t", 0.5).expect("a new name");
         let tip = Scope::polar().with_sides(2).with_parameter("t", 0.5).expect("a new name");
-        let scopes = [plane, tip, line].map(|scope| {
+        let scopes = [line, plane, tip].map(|scope| {
             let parameters = (1..).zip(PARAMETERS.split(' '));
             let scope = parameters.fold(scope, |scope, (k, name)| {
                 scope.with_parameter(name, f64::from(k) / 4.0).expect("a new name")
@@ -122,7 +125,7 @@ fn check_place(text: &str, error: &FormulaError) -> Result<(), String> {
 fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
     let points: Vec<Vec<f64>> = (0..POINTS).map(|_| point(formula.scope(), random)).collect();
     let values: Vec<f64> = points.iter().map(|inputs| formula.evaluate(inputs)).collect();
-    let _ = formula.constant();
+    analyse(formula);
     let Ok(jets) = FormulaJets::new(&[formula], 2) else {
         return Ok(Fate::TooLarge);
     };
@@ -138,6 +141,17 @@ fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
         check_print(formula)?;
     }
     Ok(Fate::Evaluated)
+}
+
+/// What is asked of formulas besides their values: any answer will do.
+fn analyse(formula: &Formula) {
+    let _ = (formula.constant(), formula.singular_at_origin());
+    let kinks = formula.kinks();
+    let _: Vec<_> = kinks.iter().map(Kink::line).collect();
+    let sets = kinks.len() + formula.singularities().len();
+    if formula.scope().inputs().count() == 1 && sets <= SEARCHED {
+        let _ = formula.breakpoints(0.0, 1.0);
+    }
 }
 
 /// The text of a derivative is a formula.
