@@ -254,3 +254,24 @@ fn long_derivatives_are_shortened() {
     assert!(text.contains("more lines") && text.contains("--json has them"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() < 110), "{text}");
 }
+
+/// Texts that are too deep, too long, or too much to differentiate end in an error or a result.
+#[test]
+fn hostile_formulas() {
+    let lab = Lab::new();
+    let doubled: String = (0..60).map(|k| format!("let a{} = a{k} + a{k}*x;\n", k + 1)).collect();
+    for (text, complaint) in [
+        (format!("{}x{}", "(".repeat(10_000), ")".repeat(10_000)), Some("nested deeper")),
+        ("x+".repeat(500_000), Some("longer than 65536 bytes")),
+        ("let a = a; a".into(), Some("used in its own definition")),
+        (format!("let a0 = y;\n{doubled}a60"), None),
+        ("sin(x)^".repeat(150) + "2", None),
+        ("0/0 + 1/0*x + log(-1)".into(), None),
+    ] {
+        lab.write("f.txt", &text);
+        match complaint {
+            Some(hint) => assert!(lab.fail("formula @f.txt").contains(hint), "{hint}"),
+            None => assert!(lab.run("formula @f.txt --at x=1,y=1").contains("value"), "{text}"),
+        }
+    }
+}
