@@ -59,7 +59,7 @@ const POINTS: usize = 4;
 const PRINTED: usize = 4_000;
 
 /// Longest program whose text of WGSL is validated and run.
-const SHADED: usize = 2_000;
+const SHADED: usize = 400;
 
 /// Most sets whose places are searched: each costs thousands of evaluations.
 const SEARCHED: usize = 8;
