@@ -106,6 +106,7 @@ impl FormulaJets {
         self.program.ops().contains(&Op::Input(input as u32))
     }
 
+    #[cfg(test)]
     /// What every back end starts from.
     pub(super) fn program(&self) -> &Program {
         &self.program
