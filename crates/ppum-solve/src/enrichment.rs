@@ -253,7 +253,7 @@ impl<'p> Patch<'p> {
             }
             Patches::Near(Shape::Point(p), radius) => self.holds(*p) || self.is_near(*p, *radius),
             Patches::Near(Shape::Segment([a, b]), radius) => {
-                segment_inside(*a, *b, &self.open) > self.shortest
+                segment_inside(*a, *b, &self.support) > self.shortest
                     || distance([*a, *b], &self.support) < *radius
             }
             Patches::Behind(tip, radius) => {
@@ -266,8 +266,9 @@ impl<'p> Patch<'p> {
         }
     }
 
+    /// True if the point, also one on the border of the domain, lies in the open support.
     fn holds(&self, p: Vec2) -> bool {
-        inside(&self.open, p)
+        inside(&self.support, p)
     }
 
     fn is_near(&self, p: Vec2, radius: f64) -> bool {

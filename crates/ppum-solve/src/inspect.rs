@@ -50,12 +50,21 @@ pub enum InspectError {
         /// Where.
         point: Vec2,
     },
+    /// No patch has it.
+    #[error(
+        "no patch has the enrichment `{name}`; give it a larger `radius`, or a condition in `where` that \
+         holds somewhere"
+    )]
+    Nowhere {
+        /// Name of the function.
+        name: String,
+    },
 }
 
 /// Looks at all functions at some points of their patches.
 ///
 /// # Errors
-/// The first that is not finite.
+/// The first that is not finite, or that no patch has.
 pub(crate) fn inspect(
     step: &Step,
     domain: &Rect,
@@ -71,6 +80,9 @@ pub(crate) fn inspect(
         divergent[index as usize] = divergence(function, step, tables)?;
     }
     let data = &step.fields[0];
+    if let Some((_, function)) = own.iter().find(|(i, _)| !data.block_function.contains(i)) {
+        return Err(InspectError::Nowhere { name: function.name.clone() });
+    }
     for patch in 0..step.partition.len() {
         let part = step.partition.support(patch).intersection(domain);
         let seen = table.at(&step.cracks, part.center());

@@ -16,6 +16,10 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
 use std::sync::Arc;
 
+/// Accuracy of the quadrature of products of partition functions with weights given by formulas, as
+/// [`Orders::for_degree`] has it with splines.
+const WEIGHT_ACCURACY: f64 = 1e-5;
+
 /// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
 /// over the same cells as the system.
 #[derive(Debug)]
@@ -93,7 +97,8 @@ impl<'d> Space<'d> {
             let [value, slope, _] = weight.spline(xi);
             [value, slope]
         };
-        Orders::for_weight(degree, 2.0 * half.x / cell.size().x, weight.breakpoints(), &value).0
+        let stretch = 2.0 * half.x / cell.size().x;
+        Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
     }
 
     /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.

@@ -72,13 +72,13 @@ impl Backend for Scalar {
 }
 
 /// Value and derivatives in one program; of more than two variables the value.
-pub(super) fn jets(case: &Case, f: &Formula) -> FormulaJets {
+pub(crate) fn jets(case: &Case, f: &Formula) -> FormulaJets {
     let order = if case.variables.len() > 2 { 0 } else { case.expected.len() - 1 };
     FormulaJets::new(&[f], order).unwrap_or_else(|error| panic!("{}: {error}", case.place))
 }
 
 /// The outputs of a [`FormulaJets`] order by order.
-pub(super) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
     let n = case.variables.len();
     let counts = [1, n, n * (n + 1) / 2];
     let of_order = |count: usize| {
@@ -90,7 +90,7 @@ pub(super) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// The formula of a case.
-pub(super) fn parse(case: &Case) -> Formula {
+pub(crate) fn parse(case: &Case) -> Formula {
     Formula::parse(&case.formula, &case.scope)
         .unwrap_or_else(|error| panic!("{}: {}\n{error}", case.place, case.formula))
 }

@@ -3,7 +3,7 @@
 //!
 //! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
-mod backend;
+pub(crate) mod backend;
 pub mod hostile;
 mod record;
 mod report;
@@ -17,7 +17,7 @@ use record::{Record, records};
 
 pub use backend::{Backend, Derivatives, Outcome, Scalar};
 pub use report::{Report, check};
-pub use tolerance::{SCALAR, Tolerance};
+pub use tolerance::{SCALAR, SHADER, Tolerance};
 
 /// The themes, one file each.
 pub const THEMES: [&str; 11] = [

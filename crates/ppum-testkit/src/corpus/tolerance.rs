@@ -29,6 +29,16 @@ pub struct Tolerance {
 pub const SCALAR: Tolerance =
     Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 2.0, rounds_inputs: false };
 
+/// One point in single precision by the texts of WGSL, in an interpreter that rounds functions correctly.
+///
+/// c = 2 as in [`SCALAR`]. f = 4: cube root and common logarithm are made of up to four rounded operations.
+pub const SHADER: Tolerance = Tolerance {
+    unit: f32::EPSILON as f64 / 2.0,
+    arithmetic: 2.0,
+    functions: 4.0,
+    rounds_inputs: true,
+};
+
 impl Tolerance {
     /// The largest allowed difference from `expected`, the corpus' number as a double.
     #[must_use]

@@ -23,7 +23,7 @@ use super::graph::{Graph, NodeId, Op};
 use super::program::Program;
 use super::reciprocal::share_reciprocals;
 use super::tape::Tape;
-use super::{DerivativeError, Formula, Scope, check_inputs};
+use super::{DerivativeError, Formula, Scope, check_inputs, wgsl};
 
 /// Values and derivatives of formulas of one scope.
 ///
@@ -77,6 +77,26 @@ impl FormulaJets {
         for (out, node) in out.iter_mut().zip(self.program.outputs()) {
             *out = scratch[node.index()];
         }
+    }
+
+    /// The function of WGSL that computes the results in single precision, to stand in a module together
+    /// with [`wgsl_prelude`](super::wgsl_prelude).
+    ///
+    /// ```wgsl
+    /// fn name(x: f32, y: f32, r: f32, theta: f32, cos_half_theta: f32, sin_half_theta: f32) -> array<f32, 6>
+    /// ```
+    ///
+    /// The parameters are all inputs of the scope in their order, used or not: `side(0)` is called
+    /// `side_0`, and one called `a` by the makers of the scope `in_a`. The results are those of
+    /// [`FormulaJets::evaluate`]. Tables come as functions `table_0_of_name`, …, before it.
+    ///
+    /// `name` has to be a name of WGSL that begins with neither `ppum_` nor `table_`. Numbers are
+    /// rounded to single precision, those beyond it are infinite or 0. Functions are as accurate as
+    /// the device's, infinities and NaN as well kept as the device does. WGSL promises arrays of up to
+    /// 2047 elements, hence tables of that many knots and cells, a quarter of the cells with two arguments.
+    #[must_use]
+    pub fn wgsl(&self, name: &str) -> String {
+        wgsl::function(name, &self.scope, &self.program)
     }
 
     /// True if a result depends on this input, by its index among [`Scope::inputs`]. A dependent

@@ -84,6 +84,7 @@ mod table;
 mod tape;
 #[cfg(test)]
 mod tests;
+mod wgsl;
 
 use std::fmt;
 use std::sync::Arc;
@@ -95,6 +96,7 @@ pub use kinks::Kink;
 pub(crate) use lanes::Interpret;
 pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
+pub use wgsl::wgsl_prelude;
 
 use derivative::gradients;
 use graph::{Graph, NodeId};
