@@ -107,6 +107,7 @@ impl FormulaJets {
     }
 
     /// What every back end starts from.
+    #[cfg(test)]
     pub(super) fn program(&self) -> &Program {
         &self.program
     }
