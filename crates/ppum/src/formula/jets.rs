@@ -108,6 +108,7 @@ impl FormulaJets {
 
     #[cfg(test)]
     /// What every back end starts from.
+    #[cfg(test)]
     pub(super) fn program(&self) -> &Program {
         &self.program
     }
