@@ -1,17 +1,20 @@
 """Reads datasets and evaluates their fields, written from FORMAT.md alone.
 
-The arithmetic is that of a number module: `math` (with `float`) or `mpmath` (with `mpf`), so the
-same code is an evaluator in double and in extended precision. Gradients come from jets.
+    with h5py.File("plate.h5") as file:
+        field = Field(file)
+        field.evaluate(0.3, 0.1)                value and gradient of each component
+        field.quantity("von-mises", 0.3, 0.1)
+
+The arithmetic is that of `Double` or of `Extended` (ppum_formulas.py), so the same code is an evaluator
+in double and in extended precision. Gradients come from jets.
 """
 
-import ast
 import hashlib
 import math
-import operator
-import re
 
 import h5py
 import numpy as np
+from ppum_formulas import Double, Formula, Jet, Table, polar
 
 
 def text(value):
@@ -49,123 +52,100 @@ def checksum(file):
     return digest.hexdigest()
 
 
-class Jet:
-    """A value with its derivatives by x and y."""
+PLANE = ("x", "y")
 
-    def __init__(self, v, x=0, y=0):
-        self.v, self.x, self.y = v, x, y
-
-    @staticmethod
-    def of(a):
-        return a if isinstance(a, Jet) else Jet(a)
-
-    def chain(self, value, slope):
-        return Jet(value, slope * self.x, slope * self.y)
-
-    def __add__(self, b):
-        b = Jet.of(b)
-        return Jet(self.v + b.v, self.x + b.x, self.y + b.y)
-
-    def __mul__(self, b):
-        b = Jet.of(b)
-        return Jet(self.v * b.v, self.x * b.v + self.v * b.x, self.y * b.v + self.v * b.y)
-
-    def __neg__(self):
-        return Jet(-self.v, -self.x, -self.y)
-
-    def __truediv__(self, b):
-        b = Jet.of(b)
-        return self * b.chain(1 / b.v, -1 / (b.v * b.v))
-
-    def __pow__(self, n):
-        return self.chain(self.v**n, n * self.v ** (n - 1) if n else 0)
-
-    def __abs__(self):
-        return self if self.v >= 0 else -self
-
-    def __sub__(self, b):
-        return self + -Jet.of(b)
-
-    __radd__, __rmul__ = __add__, __mul__
-    __rsub__ = lambda self, b: -self + b
-    __rtruediv__ = lambda self, b: Jet.of(b) / self
-
-
-class Formulas:
-    """Formulas over jets: section "Formulas"."""
-
-    def __init__(self, numbers):
-        n = numbers
-        slope = lambda f, df: lambda a: a.chain(f(a.v), df(a.v))
-        safe = lambda a: 1 / a if a else n.inf
-        self.functions = {
-            "sqrt": slope(n.sqrt, lambda v: safe(2 * n.sqrt(v))),
-            "exp": slope(n.exp, n.exp),
-            "log": slope(n.log, lambda v: 1 / v),
-            "sin": slope(n.sin, n.cos),
-            "cos": slope(n.cos, lambda v: -n.sin(v)),
-            "tan": slope(n.tan, lambda v: 1 + n.tan(v) ** 2),
-            "abs": abs,
-            "sign": lambda a: Jet((a.v > 0) - (a.v < 0)),
-            "min": lambda a, b: a if a.v <= b.v else b,
-            "max": lambda a, b: a if a.v >= b.v else b,
-            "where": lambda c, a, b: a if c else b,
-        }
-        self.operators = {
-            ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
-            ast.Div: operator.truediv, ast.Lt: operator.lt, ast.LtE: operator.le,
-            ast.Gt: operator.gt, ast.GtE: operator.ge,
-        }  # fmt: skip
-        self.real = n.mpf if hasattr(n, "mpf") else float
-
-    def parse(self, formula):
-        return ast.parse(re.sub(r"\bif\b", "where", formula).replace("^", "**"), mode="eval").body
-
-    def evaluate(self, node, names):
-        value = lambda a: self.evaluate(a, names)
-        match node:
-            case ast.Constant():
-                return Jet(self.real(node.value))
-            case ast.Name():
-                return Jet.of(names[node.id])
-            case ast.UnaryOp(op=ast.USub()):
-                return -value(node.operand)
-            case ast.BinOp(op=ast.Pow()):
-                return value(node.left) ** self.evaluate(node.right, names).v
-            case ast.BinOp():
-                return self.operators[type(node.op)](value(node.left), value(node.right))
-            case ast.Compare(ops=[op], comparators=[right]):
-                return self.operators[type(op)](value(node.left).v, value(right).v)
-            case ast.Call():
-                return self.functions[node.func.id](*map(value, node.args))
-        raise ValueError(f"not a formula: {ast.dump(node)}")
+# Quantities as formulas: section "Quantities". Each may use those before it.
+ELASTICITY = {
+    "magnitude": "sqrt(ux^2 + uy^2)",
+    "gradient": "sqrt(dux_dx^2 + dux_dy^2 + duy_dx^2 + duy_dy^2)",
+    "divergence": "dux_dx + duy_dy",
+    "curl": "duy_dx - dux_dy",
+    "exx": "dux_dx",
+    "eyy": "duy_dy",
+    "exy": "(dux_dy + duy_dx)/2",
+    "sxx": "2*mu*exx + lambda*(exx + eyy)",
+    "syy": "2*mu*eyy + lambda*(exx + eyy)",
+    "sxy": "2*mu*exy",
+    "szz": "out_of_plane*(sxx + syy)",
+    "von_mises": "sqrt(((sxx - syy)^2 + (syy - szz)^2 + (szz - sxx)^2)/2 + 3*sxy^2)",
+    "s1": "(sxx + syy)/2 + sqrt(((sxx - syy)/2)^2 + sxy^2)",
+    "s2": "(sxx + syy)/2 - sqrt(((sxx - syy)/2)^2 + sxy^2)",
+    "tresca": "max(s1, szz) - min(s2, szz)",
+    "direction": "if(sxy == 0 and sxx >= syy, 0, atan2(2*sxy, sxx - syy)/2)",
+    "hydrostatic": "(sxx + syy + szz)/3",
+    "energy": "(sxx*exx + syy*eyy)/2 + sxy*exy",
+}
+POISSON = {
+    "magnitude": "abs(u)",
+    "gradient": "sqrt(du_dx^2 + du_dy^2)",
+    "energy": "conductivity*(du_dx^2 + du_dy^2)/2",
+}
 
 
 class Field:
-    """One field of one step. `evaluate` gives value and gradient at a point."""
+    """One field of one step. `evaluate` gives value and gradient at a point, `quantity` what is made of
+    them."""
 
-    def __init__(self, file, step=0, field=0, numbers=math):
+    def __init__(self, file, step=0, field=0, numbers=Double):
         assert text(file.attrs["format"]) == "ppum" and file.attrs["format_version"][0] == 1
-        self.n, self.formulas = numbers, Formulas(numbers)
-        self.real = self.formulas.real
-        group = file[f"steps/{step:04}"]
-        self.partition = {k: v[()] for k, v in group["partition"].items()}
-        self.weight = text(group["partition"].attrs["weight"])
-        assert text(group["partition"].attrs["kind"]) == "shepard-box"
+        self.n, self.real = numbers, numbers.real
         self.min, self.max = file["domain"].attrs["min"], file["domain"].attrs["max"]
+        self.tables = self.read_tables(file)
+        self.read_equation(file)
+        group = file[f"steps/{step:04}"]
+        self.read_partition(group["partition"])
         points, offsets = group["cracks/points"][()], group["cracks/offsets"][()]
         self.cracks = [points[a:b] for a, b in zip(offsets, offsets[1:])]
-        plain = lambda d: texts(d) if d.dtype.kind in "SO" else d[()]
-        table = {k: plain(v) for k, v in group["functions"].items()}
-        columns = [k for k in table if not k.startswith("parameter_")]
-        self.table = [dict(zip(columns, row)) for row in zip(*(table[k] for k in columns))]
-        rows = table["parameter_offsets"]
-        for row, a, b in zip(self.table, rows, rows[1:]):
-            row["parameters"] = dict(zip(table["parameter_name"][a:b], table["parameter_value"][a:b]))
-            row["tree"] = self.formulas.parse(row["formula"]) if row["kind"] == "formula" else None
+        self.read_functions(group["functions"])
         data = group[f"fields/{field:04}"]
         self.components = texts(data["components"])
         self.blocks = {k: v[()] for k, v in data.items() if v.dtype.kind in "uf"}
+        self.exact = [self.formula(f, PLANE) for f in texts(data["exact"])] if "exact" in data else []
+        self.read_quantities(file)
+
+    def formula(self, formula, variables):
+        return Formula(formula, variables, self.tables, self.n)
+
+    def read_tables(self, file):
+        tables = file.get("tables", {}).values()
+        data = lambda group, name: group[name][()] if name in group else None
+        return {
+            text(group.attrs["name"]): Table(*(data(group, k) for k in ("x", "y", "values")), self.n)
+            for group in tables
+        }
+
+    def read_equation(self, file):
+        """The constants of the equation, each a number or a formula."""
+        equation = dict(file["equation"].attrs)
+        self.kind, self.state = text(equation.pop("kind")), text(equation.pop("state", ""))
+        repeated = lambda value: repr(float(value)) if isinstance(value, float) else text(value)
+        self.constants = {k: self.formula(repeated(v), PLANE) for k, v in equation.items()}
+
+    def read_partition(self, group):
+        assert text(group.attrs["kind"]) == "shepard-box"
+        self.partition = {k: v[()] for k, v in group.items()}
+        self.weight = text(group.attrs["weight"])
+        if self.weight == "formula":
+            self.weight = self.formula(text(group.attrs["weight_formula"]), ("t",))
+
+    def read_functions(self, group):
+        plain = lambda d: texts(d) if d.dtype.kind in "SO" else d[()]
+        rows = ("parameter_", "kink", "singular")
+        columns = {k: plain(v) for k, v in group.items() if not k.startswith(rows)}
+        self.table = [dict(zip(columns, row)) for row in zip(*columns.values())]
+        names, values = texts(group["parameter_name"]), group["parameter_value"][()]
+        offsets = group["parameter_offsets"][()]
+        for row, a, b in zip(self.table, offsets, offsets[1:]):
+            row["parameters"] = {k: self.real(v) for k, v in zip(names[a:b], values[a:b])}
+            if row["kind"] == "formula":
+                row["formula"] = self.formula(row["formula"], PLANE)
+
+    def read_quantities(self, file):
+        """Formulas of quantities, in the order in which they are defined."""
+        library = {("ux", "uy"): ELASTICITY, ("u",): POISSON}.get(tuple(self.components), {})
+        named = file.get("quantities")
+        own = dict(zip(texts(named["name"]), texts(named["formula"]))) if named else {}
+        self.quantities = {k: self.formula(v, ()) for k, v in (library | own).items()}
 
     def evaluate(self, x, y, side=1):
         """[(value, d/dx, d/dy), …], one a component; `side` is +1 or -1 and decides on a crack."""
@@ -178,20 +158,26 @@ class Field:
         total, values = Jet(0), [Jet(0)] * len(self.components)
         close = np.abs(self.partition["center"] - [float(x), float(y)])
         for i in np.flatnonzero((close <= self.partition["half"] * (1 + 1e-9)).all(axis=1)):
-            xi = self.scaled(p, self.partition["center"][i], self.partition["half"][i])
-            if all(-1 <= c.v < 1 for c in xi):
-                weight = self.spline(xi[0]) * self.spline(xi[1])
+            s = self.scaled(p, self.partition["center"][i], self.partition["half"][i])
+            if all(-1 <= c.v < 1 for c in s):
+                weight = self.spline(s[0]) * self.spline(s[1])
                 total += weight
                 values = [v + weight * local for v, local in zip(values, self.local(p, i))]
-        quotients = [v / total for v in values]
-        return [(q.v, q.x, q.y) for q in quotients]
+        return [((u := v / total).v, u.slopes.get("x", 0), u.slopes.get("y", 0)) for v in values]
 
     def scaled(self, p, origin, scale):
         (ox, oy), (sx, sy) = map(self.real, origin), map(self.real, scale)
-        return Jet((p[0] - ox) / sx, 1 / sx, 0), Jet((p[1] - oy) / sy, 0, 1 / sy)
+        return Jet((p[0] - ox) / sx, {"x": 1 / sx}), Jet((p[1] - oy) / sy, {"y": 1 / sy})
 
-    def spline(self, xi):
-        t = abs(xi)
+    def spline(self, s):
+        """The weight w(|s|)."""
+        t = s if s.v >= 0 else -s
+        if isinstance(self.weight, Formula):
+            w = self.weight.evaluate({"t": t.v})
+            slope = w.slopes.get("t", 0)
+            # at the end of the support a formula may have limits only
+            finite = lambda v: v if t.v < 1 or abs(v) < math.inf else self.real(0)
+            return t.chain(finite(w.v), finite(slope))
         u = 1 - t
         if self.weight == "linear":
             return u
@@ -203,13 +189,16 @@ class Field:
     def local(self, p, i):
         """Σ_b f_b Σ_k c_{b,k} ξ^k of patch i, one jet a component."""
         xi, eta = self.scaled(p, self.partition["origin"][i], self.partition["scale"][i])
+        powers = [(Jet(self.real(1)),) * 2]
         sums = [Jet(0)] * len(self.components)
         for b in range(*self.blocks["patch_blocks"][i : i + 2]):
             f = self.function(p, self.blocks["block_function"][b])
             at = int(self.blocks["block_offset"][b])
             for degree in range(self.blocks["block_degree"][b] + 1):
+                if degree == len(powers):
+                    powers.append((powers[-1][0] * xi, powers[-1][1] * eta))
                 for k in range(degree + 1):
-                    term = f * xi ** (degree - k) * eta**k
+                    term = f * powers[degree - k][0] * powers[k][1]
                     values = self.blocks["coefficients"][:, at]
                     sums = [s + term * self.real(c) for s, c in zip(sums, values)]
                     at += 1
@@ -221,10 +210,13 @@ class Field:
             if row["kind"] == "one":
                 self.cache[b] = Jet(self.real(1))
             elif row["kind"] == "side":
-                self.cache[b] = Jet(self.real(self.sign(self.nearest(p, row["crack"]))))
+                self.cache[b] = Jet(self.side_of(p, row["crack"]))
             else:
-                self.cache[b] = self.formulas.evaluate(row["tree"], self.names(p, row))
+                self.cache[b] = self.in_frame(p, row)
         return self.cache[b]
+
+    def side_of(self, p, crack):
+        return self.real(self.sign(self.nearest(p, crack)))
 
     def sign(self, distance):
         return 1 if distance > 0 or (distance == 0 and self.side > 0) else -1
@@ -235,7 +227,7 @@ class Field:
         last = len(points) - 2
         for k, (a, b) in enumerate(zip(points, points[1:])):
             dx, dy = b[0] - a[0], b[1] - a[1]
-            length = self.n.sqrt(dx * dx + dy * dy)
+            length = self.n.call("sqrt", dx * dx + dy * dy)
             tx, ty = dx / length, dy / length
             px, py = p[0] - a[0], p[1] - a[1]
             along, distance = tx * px + ty * py, (dx * py - dy * px) / length
@@ -249,31 +241,68 @@ class Field:
         limit = min(segments)[0] * (1 + self.real(1e-6))
         return max((d for square, d in segments if square <= limit), key=abs)
 
-    def names(self, p, row):
-        """What a formula may use: x, y, r, theta of its frame, parameters, pi."""
-        shift = sign = 0
-        if row["frame"] == "tip":
-            segments, start = list(self.segments(p, row["crack"])), row["frame_end"] == "start"
-            (tx, ty), along, distance, _, length = segments[0 if start else -1]
-            o = -1 if start else 1
-            x = Jet(along if start else along - length, tx, ty) * o
-            y = Jet(distance, -ty, tx) * o
-            sign = o * self.sign(distance)
-            if self.sign(distance) != self.sign(self.nearest(p, row["crack"])):
-                shift = -2 * self.n.pi * sign
+    def in_frame(self, p, row):
+        """A formula of x, y, r, theta of its frame, with derivatives in the world."""
+        x, y, theta, (c, s) = self.tip(p, row) if row["frame"] == "tip" else self.fixed(p, row)
+        sides = {f"side({crack})": self.side_of(p, crack) for crack in row["formula"].sides}
+        f = row["formula"].evaluate(polar(x, y, theta, self.n) | row["parameters"] | sides)
+        fx, fy = f.slopes.get("x", 0), f.slopes.get("y", 0)
+        return Jet(f.v, {"x": c * fx - s * fy, "y": s * fx + c * fy})
+
+    def fixed(self, p, row):
+        """x, y, theta, and the x axis in the world of the frames `world` and `fixed`."""
+        if row["frame"] == "world":
+            (ox, oy), (c, s) = (0, 0), (self.real(1), self.real(0))
         else:
-            fixed = row["frame"] == "fixed"
             (ox, oy), angle = map(self.real, row["frame_origin"]), self.real(row["frame_angle"])
-            c, s = (self.n.cos(angle), self.n.sin(angle)) if fixed else (1, 0)
-            ox, oy = (ox, oy) if fixed else (0, 0)
-            x = Jet(c * (p[0] - ox) + s * (p[1] - oy), c, s)
-            y = Jet(c * (p[1] - oy) - s * (p[0] - ox), -s, c)
-            sign = 1 if y.v >= 0 else -1
-        r = self.formulas.functions["sqrt"](x * x + y * y)
-        theta = Jet(sign * self.n.atan2(abs(y.v), x.v) + shift)
-        if r.v:
-            square = x.v * x.v + y.v * y.v
-            theta.x, theta.y = ((x.v * b - y.v * a) / square for a, b in ((x.x, y.x), (x.y, y.y)))
-        return {"x": x, "y": y, "r": r, "theta": theta, "pi": +self.n.pi} | {
-            k: self.real(v) for k, v in row["parameters"].items()
-        }
+            c, s = self.n.call("cos", angle), self.n.call("sin", angle)
+        x, y = c * (p[0] - ox) + s * (p[1] - oy), c * (p[1] - oy) - s * (p[0] - ox)
+        return x, y, (1 if y >= 0 else -1) * self.n.call("atan2", abs(y), x), (c, s)
+
+    def tip(self, p, row):
+        segments, start = list(self.segments(p, row["crack"])), row["frame_end"] == "start"
+        (tx, ty), along, distance, _, length = segments[0 if start else -1]
+        o = -1 if start else 1
+        x, y = o * (along if start else along - length), o * distance
+        line = self.sign(distance)
+        theta = o * line * self.n.call("atan2", abs(y), x)
+        if self.sign(self.nearest(p, row["crack"])) != line:
+            theta -= 2 * self.n.pi * o * line
+        return x, y, theta, (o * tx, o * ty)
+
+    def quantity(self, name, x, y, side=1):
+        """A quantity of the library or of the dataset by its name, or a formula of quantities."""
+        jets = self.evaluate(x, y, side)
+        values, slopes = {"x": self.real(x), "y": self.real(y)} | self.material(x, y), {}
+        for component, (value, dx, dy) in zip(self.components, jets):
+            values[component] = value
+            slopes |= {f"d{component}_dx": dx, f"d{component}_dy": dy}
+        values |= slopes
+        of_slopes = set(slopes)
+        for known, formula in (self.quantities | {name: self.quantity_named(name)}).items():
+            value = formula.evaluate(values).v
+            if not formula.names.isdisjoint(of_slopes):
+                of_slopes.add(known.replace("-", "_"))
+                # where there is no gradient, at a tip, it is infinite
+                value = math.inf if any(slope != slope for slope in slopes.values()) else value
+            if known == name:
+                return value
+            values[known.replace("-", "_")] = value
+        raise KeyError(name)
+
+    def quantity_named(self, name):
+        known = {k.replace("_", "-"): formula for k, formula in self.quantities.items()}
+        return self.quantities.get(name) or known.get(name) or self.formula(name, ())
+
+    def material(self, x, y):
+        """The constants of the equation at a point."""
+        at = {"x": self.real(x), "y": self.real(y)}
+        known = {name: formula.evaluate(at).v for name, formula in self.constants.items()}
+        if self.kind == "elasticity":
+            young, poisson = known["young"], known["poisson"]
+            strain = self.state == "plane-strain"
+            mu = young / (2 * (1 + poisson))
+            divisor = (1 + poisson) * (1 - 2 * poisson) if strain else 1 - poisson**2
+            known |= {"mu": mu, "lambda": young * poisson / divisor}
+            known["out_of_plane"] = poisson if strain else self.real(0)
+        return known

@@ -1,4 +1,4 @@
-"""Compares the independent reader with the program and with extended precision.
+"""Compares the independent reader with the program, in double and in extended precision.
 
     pip install -r tests/python/requirements.txt
     python tests/python/test_reader.py          (from the repository's root; or: pytest tests/python)
@@ -17,9 +17,11 @@ import mpmath
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from ppum_formulas import Extended
 from ppum_reader import Field, checksum, text
 
 ROOT = pathlib.Path(__file__).parents[2]
+OLD = ROOT / "crates/ppum-format/tests/data/version-1.0.h5"
 COUNT = 6
 TEMPORARY = tempfile.TemporaryDirectory(prefix="ppum-")
 FOLDER = pathlib.Path(TEMPORARY.name)
@@ -83,22 +85,26 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 0]
+            assert list(file.attrs["format_version"]) == [1, 1]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert checksum(file) == text(file.attrs["sha256"])
 
 
+def program(path, asked, *quantities):
+    """What the program gives at (anchor, offset, side), a list of numbers for each."""
+    lines = [" ".join(map(repr, map(float, [*a, *o, s]))) for a, o, s in asked]
+    status, answer, message = fixture("values", path, *quantities, input="\n".join(lines))
+    assert status == 0, message
+    return [list(map(float, line.split())) for line in answer.splitlines()]
+
+
 def test_the_program_agrees_with_extended_precision():
     worst = 0
-    for path in files():
+    for path in [OLD, *files()]:
         with h5py.File(path) as file:
-            field = Field(file, numbers=mpmath)
+            field = Field(file, numbers=Extended)
             asked = [(*p, side) for p in points(field, [1e-2, 1e-6, 1e-13]) for side in (1, -1)]
-            lines = [" ".join(map(repr, map(float, [*a, *o, s]))) for a, o, s in asked]
-            status, answer, message = fixture("values", path, input="\n".join(lines))
-            assert status == 0, message
-            for (anchor, offset, side), line in zip(asked, answer.splitlines(), strict=True):
-                numbers = list(map(float, line.split()))
+            for (anchor, offset, side), numbers in zip(asked, program(path, asked), strict=True):
                 jets = [numbers[k : k + 3] for k in range(0, len(numbers), 3)]
                 exact = field.evaluate(*exact_sum(anchor, offset), side)
                 worst = max(worst, difference(jets, exact))
@@ -110,7 +116,7 @@ def test_the_reader_in_double_agrees_with_extended_precision():
     worst = 0
     for path in files():
         with h5py.File(path) as file:
-            double, exact = Field(file), Field(file, numbers=mpmath)
+            double, exact = Field(file), Field(file, numbers=Extended)
             for anchor, offset in points(double, [1e-2]):
                 p = anchor + offset
                 worst = max(worst, difference(double.evaluate(*p), exact.evaluate(*p)))
@@ -118,10 +124,50 @@ def test_the_reader_in_double_agrees_with_extended_precision():
     assert worst < 1e-11  # it has no anchors
 
 
+def test_quantities_agree_with_extended_precision():
+    """Those of the library, those of the file, and a formula; relative to the largest of the points."""
+    worst = 0
+    for path in files():
+        with h5py.File(path) as file:
+            field = Field(file, numbers=Extended)
+            formula = f"{field.components[0]}*x - gradient"
+            names = [name.replace("von_m", "von-m") for name in field.quantities] + [formula]
+            asked = [(*p, side) for p in points(field, [1e-2, 1e-6], count=10) for side in (1, -1)]
+            found = program(path, asked, *names, *["error"][: len(field.exact)])
+            exact = [quantities(field, exact_sum(a, o), side, names) for a, o, side in asked]
+            for name, u, v in zip([*names, "error"], zip(*found), zip(*exact)):
+                error = max(float(abs(a - b)) for a, b in zip(u, v, strict=True))
+                size = float(max(map(abs, v)))
+                if name == "direction":
+                    # modulo a half turn, where the principal stresses differ
+                    error = max(float(abs(mpmath.sin(a - b))) for a, b in zip(u, v))
+                assert error <= 1e-11 * size, (path.name, name, error, size)
+                worst = max(worst, error / size if size else 0)
+    print(f"    largest difference {worst:.1e} of the largest value")
+
+
+def quantities(field, point, side, names):
+    values = [field.quantity(name, *point, side) for name in names]
+    at = dict(zip("xy", point))
+    u = [jet[0] for jet in field.evaluate(*point, side)]
+    errors = [a - formula.evaluate(at).v for a, formula in zip(u, field.exact)]
+    return values + ([mpmath.sqrt(sum(e * e for e in errors))] if errors else [])
+
+
+def test_at_a_tip_quantities_of_the_gradient_are_infinite():
+    tip, names = (0.0, 0.0), ["gradient", "u", "if(x > 1, du_dx, 7)", "magnitude"]
+    [found] = program(OLD, [(tip, tip, 1)], *names)
+    with h5py.File(OLD) as file:
+        field = Field(file)
+        own = [field.quantity(name, *tip) for name in names]
+    assert [math.isinf(value) for value in found] == [True, False, True, False]
+    assert [math.isinf(value) for value in own] == [True, False, True, False]
+
+
 def test_gradients_are_those_of_the_values():
     for path in files()[:3]:
         with h5py.File(path) as file:
-            field, h = Field(file, numbers=mpmath), mpmath.mpf(10) ** -18
+            field, h = Field(file, numbers=Extended), mpmath.mpf(10) ** -18
             for anchor, offset in list(points(field, [1e-2, 1e-6]))[::3]:
                 x, y = exact_sum(anchor, offset)
                 here = field.evaluate(x, y)
@@ -137,7 +183,7 @@ def test_both_sides_of_a_crack():
     jumps = 0
     for path in files():
         with h5py.File(path) as file:
-            field = Field(file, numbers=mpmath)
+            field = Field(file, numbers=Extended)
             for k, crack in enumerate(field.cracks):
                 a, b = [tuple(map(mpmath.mpf, map(float, p))) for p in crack[:2]]
                 middle = [(u + v) / 2 for u, v in zip(a, b)]
@@ -158,29 +204,56 @@ def test_outside_the_domain_is_nan():
         assert all(math.isnan(v) for jet in field.evaluate(field.max[0] + 1e-9, 0) for v in jet)
 
 
+def test_a_file_of_version_1_0_is_read():
+    with h5py.File(OLD) as file:
+        assert list(file.attrs["format_version"]) == [1, 0]
+        assert checksum(file) == text(file.attrs["sha256"])
+        u, opening = Field(file).evaluate(0.3, 0.4)[0], math.sqrt(0.5) * math.sin(math.atan2(4, 3) / 2)
+    assert abs(u[0] - (2 + 3 + 5 * opening + 7 * math.sin(-0.6) / 2.15)) < 1e-14
+    status, _, message = fixture("same", OLD, OLD)
+    assert status == 0, message
+
+
 def test_the_program_reads_what_h5py_writes():
     """Chunked, compressed, variable-length text, and groups from the future."""
-    original, copy = files()[2], FOLDER / "copy.h5"
-    with h5py.File(original) as source, h5py.File(copy, "w") as target:
-        recreate(source, target)
-        target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
-    status, _, message = fixture("same", original, copy)
-    assert status == 0, message
-    with h5py.File(copy, "a") as target:
-        target["steps/0000/from-the-future"] = np.arange(3.0)
-        target.attrs["format_version"] = np.array([1, 7], dtype="u4")
-        target.attrs["sha256"] = checksum(target)
-    status, _, message = fixture("same", original, copy)
-    assert status == 0, message
-    with h5py.File(copy, "a") as target:
-        target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
-    status, _, message = fixture("same", original, copy)
-    assert status != 0 and "checksum" in message, message
-    with h5py.File(copy, "a") as target:
-        del target.attrs["sha256"]
-        target["steps/0000/partition/half"][3, 1] = math.nan
-    status, _, message = fixture("same", original, copy)
-    assert status != 0 and "partition.half[3]" in message, message
+    for original in files()[1:3]:
+        copy = FOLDER / f"copy-of-{original.name}"
+        with h5py.File(original) as source, h5py.File(copy, "w") as target:
+            recreate(source, target)
+            target["user/anything"] = np.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
+        status, _, message = fixture("same", original, copy)
+        assert status == 0, message
+        with h5py.File(copy, "a") as target:
+            target["steps/0000/from-the-future"] = np.arange(3.0)
+            target.attrs["format_version"] = np.array([1, 7], dtype="u4")
+            target.attrs["sha256"] = checksum(target)
+        status, _, message = fixture("same", original, copy)
+        assert status == 0, message
+        with h5py.File(copy, "a") as target:
+            target["steps/0000/partition/half"][3, 1] *= 1 + 1e-15
+        status, _, message = fixture("same", original, copy)
+        assert status != 0 and "checksum" in message, message
+        with h5py.File(copy, "a") as target:
+            del target.attrs["sha256"]
+            target["steps/0000/partition/half"][3, 1] = math.nan
+        status, _, message = fixture("same", original, copy)
+        assert status != 0 and "partition.half[3]" in message, message
+
+
+def test_mistakes_in_formulas_are_named():
+    """A copy of a file with one text changed: the program says where, and where in the text."""
+    copy = FOLDER / "mistake.h5"
+    for group, name, place in [
+        ("equation", "young", "equation@young: line 1, column 5: unknown name `z`"),
+        ("tables/0000", "name", "no table `curve`"),
+        ("steps/0000/partition", "weight_formula", "partition@weight_formula: a weight must vanish"),
+    ]:
+        copy.write_bytes(files()[1].read_bytes())
+        with h5py.File(copy, "a") as file:
+            file[group].attrs[name] = {"young": "x + z", "name": "other"}.get(name, "1 + t")
+            file.attrs["sha256"] = checksum(file)
+        status, _, message = fixture("same", copy, copy)
+        assert status != 0 and place in message, message
 
 
 def recreate(source, target):

@@ -33,6 +33,22 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "write a finite number above zero".into())
 }
 
+/// `NAME=TEXT`.
+pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
+    let [name, value] = parts
+        .filter(|(name, value)| !name.is_empty() && !value.is_empty())
+        .map(|(name, value)| [name, value].map(str::to_owned))
+        .ok_or("write a name, = and what it stands for")?;
+    Ok((name, value))
+}
+
+/// `NAME=VALUE`; the value may be infinite.
+pub(crate) fn value(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = assignment(text).map_err(|_| "write NAME=VALUE".to_owned())?;
+    value.parse().map(|value| (name, value)).map_err(|_| format!("`{value}` is not a number"))
+}
+
 #[cfg(test)]
 mod tests {
     use ppum::vec2::vec2;
@@ -48,6 +64,17 @@ mod tests {
         }
         assert_eq!(corners("1,2,-1,0"), Ok(Rect::new(vec2(-1.0, 0.0), vec2(1.0, 2.0))));
         assert!(corners("1,2,3").is_err());
+    }
+
+    #[test]
+    fn names_and_what_they_stand_for() {
+        let pair = |a: &str, b: &str| Ok((a.to_owned(), b.to_owned()));
+        assert_eq!(assignment("westergaard 1 = x == y"), pair("westergaard 1", "x == y"));
+        assert_eq!(value("x=-1e-3"), Ok(("x".to_owned(), -1e-3)));
+        for wrong in ["", "x", "=1", "x=", " = "] {
+            assert!(assignment(wrong).is_err() && value(wrong).is_err(), "{wrong}");
+        }
+        assert!(value("x=y").is_err());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{demo, info, probe, render, sif, solve};
+use crate::commands::{demo, formula, info, probe, render, sif, solve};
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
 /// result exactly at every pixel.
@@ -22,6 +22,7 @@ Examples:
   ppum sif plate.h5                          stress intensity factors of all tips
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
   ppum render plate.h5 -o plate.png --figure
+  ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
 `ppum COMMAND --help` tells more, with examples.";
 
@@ -33,6 +34,7 @@ pub(crate) enum Command {
     Sif(sif::Args),
     Probe(probe::Args),
     Render(render::Args),
+    Formula(formula::Args),
 }
 
 impl Command {
@@ -45,6 +47,7 @@ impl Command {
             Self::Sif(args) => args.run(out),
             Self::Probe(args) => args.run(out),
             Self::Render(args) => args.run(out),
+            Self::Formula(args) => args.run(out),
         }
     }
 }

@@ -5,8 +5,10 @@ use std::path::Path;
 use anyhow::Context as _;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
+use ppum::quantity::Quantity;
 use ppum_format::ReadError;
+
+use crate::given::Given;
 
 /// Reads a dataset; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
@@ -23,9 +25,10 @@ pub(crate) fn field(dataset: &Dataset, step: Option<usize>) -> anyhow::Result<Fi
     Ok(Field::new(dataset, step.unwrap_or(last))?)
 }
 
-/// A quantity by its name, if the field has what it needs.
-pub(crate) fn quantity(field: &Field<'_>, name: &str) -> Result<Quantity, QuantityError> {
-    let quantity = Quantity::from_name(name, field.equation, &field.data.components)?;
+/// A quantity by its name or formula, or by `@` and a file with one, if the field has what it needs.
+pub(crate) fn quantity(field: &Field<'_>, given: &str) -> anyhow::Result<Quantity> {
+    let given = Given::read(given)?;
+    let quantity = given.explain(Quantity::parse(&given.text, field))?;
     quantity.check(field)?;
     Ok(quantity)
 }

@@ -1,11 +1,18 @@
 //! Dataset → content: the layout of FORMAT.md, group by group.
 
-use ppum::crack::{Crack, TipId};
-use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, TipIntensity};
-use ppum::function::{Frame, Function, FunctionKind};
-use ppum::vec2::Rect;
+use std::sync::Arc;
 
-use crate::content::{Array, Content, Element, join};
+use ppum::crack::{Crack, TipId};
+use ppum::dataset::{
+    Dataset, Equation, FieldData, NamedQuantity, Partition, Record, Step, TipIntensity,
+};
+use ppum::formula::Table;
+use ppum::function::{Frame, Function, FunctionKind};
+use ppum::vec2::{Rect, Vec2};
+use ppum::weight::WeightFunction;
+
+use crate::MAX_TABLE_VALUES;
+use crate::content::{Array, Content, Element, Values, join};
 use crate::error::WriteError;
 use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, Words, word};
 
@@ -28,6 +35,8 @@ pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
     domain.attribute("min", Array::vector(<[f64; 2]>::from(dataset.domain.min)));
     domain.attribute("max", Array::vector(<[f64; 2]>::from(dataset.domain.max)));
     equation(&mut root.group("equation"), &dataset.equation)?;
+    tables(&mut root, &dataset.tables)?;
+    quantities(&mut root.group("quantities"), &dataset.quantities);
     for (k, s) in dataset.steps.iter().enumerate() {
         step(&mut root.group(&format!("steps/{k:04}")), s)?;
     }
@@ -77,21 +86,53 @@ impl Group<'_> {
 }
 
 fn equation(group: &mut Group, equation: &Equation) -> Written {
-    let kind = match *equation {
-        Equation::Elasticity(material) => {
-            let state = group.word(STRESS_STATES, material.state, "state")?;
-            group.attribute("young", Array::scalar(material.young));
-            group.attribute("poisson", Array::scalar(material.poisson));
+    for (name, expression) in equation.constants() {
+        match expression.constant() {
+            Some(value) => group.attribute(name, Array::scalar(value)),
+            None => group.attribute(name, Array::scalar(expression.text().to_owned())),
+        }
+    }
+    let kind = match equation {
+        Equation::Elasticity(elasticity) => {
+            let state = group.word(STRESS_STATES, elasticity.state, "state")?;
             group.attribute("state", Array::scalar(state));
             "elasticity"
         }
-        Equation::Poisson { conductivity } => {
-            group.attribute("conductivity", Array::scalar(conductivity));
-            "poisson"
-        }
+        Equation::Poisson { .. } => "poisson",
     };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     Ok(())
+}
+
+fn tables(root: &mut Group, tables: &[Arc<Table>]) -> Written {
+    for (k, table) in tables.iter().enumerate() {
+        let mut group = root.group(&format!("tables/{k:04}"));
+        let (x, y, values) = (table.x(), table.y(), table.values());
+        group.attribute("name", Array::scalar(table.name().to_owned()));
+        group.vector("x", x.iter().copied());
+        if y.is_empty() {
+            group.vector("values", values.iter().copied());
+        } else {
+            group.vector("y", y.iter().copied());
+            let shape = vec![y.len() as u64, x.len() as u64];
+            group.array("values", Array { shape, values: Values::F64(values.to_vec()) });
+        }
+    }
+    let total: usize = tables.iter().map(|table| table.values().len()).sum();
+    if total > MAX_TABLE_VALUES {
+        let problem = format!("have {total} values together; at most {MAX_TABLE_VALUES} may be");
+        return Err(WriteError::object("tables", problem));
+    }
+    Ok(())
+}
+
+/// Nothing where there are none, like everything that came with version 1.1.
+fn quantities(group: &mut Group, quantities: &[NamedQuantity]) {
+    if !quantities.is_empty() {
+        group.vector("name", quantities.iter().map(|q| q.name.clone()));
+        group.vector("formula", quantities.iter().map(|q| q.text.clone()));
+        group.vector("unit", quantities.iter().map(|q| q.unit.clone()));
+    }
 }
 
 fn step(group: &mut Group, step: &Step) -> Written {
@@ -113,9 +154,12 @@ fn step(group: &mut Group, step: &Step) -> Written {
 }
 
 fn partition(group: &mut Group, partition: &Partition) {
-    let weight = partition.weight;
+    let weight = &partition.weight;
     group.attribute("kind", Array::scalar("shepard-box".to_owned()));
     group.attribute("weight", Array::scalar(weight.name().to_owned()));
+    if let WeightFunction::Formula(formula) = weight {
+        group.attribute("weight_formula", Array::scalar(formula.text().to_owned()));
+    }
     group.vector("weight_breakpoints", weight.breakpoints().iter().copied());
     for (name, points) in [
         ("center", &partition.center),
@@ -165,6 +209,8 @@ struct Row<'a> {
     origin: [f64; 2],
     angle: f64,
     parameters: &'a [(String, f64)],
+    kinks: &'a [[Vec2; 2]],
+    singular: &'a [Vec2],
 }
 
 impl<'a> Row<'a> {
@@ -178,6 +224,8 @@ impl<'a> Row<'a> {
             origin: [0.0; 2],
             angle: 0.0,
             parameters: &[],
+            kinks: &[],
+            singular: &[],
         }
     }
 
@@ -187,8 +235,10 @@ impl<'a> Row<'a> {
             FunctionKind::Side { crack } => {
                 Ok(Self { crack: i64::from(*crack), ..Self::new("side") })
             }
-            FunctionKind::Formula { text, frame, parameters } => {
-                let row = Self { formula: text, parameters, ..Self::new("formula") };
+            FunctionKind::Formula { text, frame, parameters, declared } => {
+                let (kinks, singular) = (&declared.kinks, &declared.singular);
+                let row =
+                    Self { formula: text, parameters, kinks, singular, ..Self::new("formula") };
                 row.in_frame(frame, group)
             }
             _ => Err(group.unknown("kind")),
@@ -225,7 +275,21 @@ fn functions(group: &mut Group, functions: &[Function]) -> Written {
     let parameters = || rows.iter().flat_map(|r| r.parameters);
     group.vector("parameter_name", parameters().map(|(name, _)| name.clone()));
     group.vector("parameter_value", parameters().map(|(_, value)| *value));
+    declared(group, &rows);
     Ok(())
+}
+
+fn declared(group: &mut Group, rows: &[Row]) {
+    let kinks: Vec<_> = rows.iter().flat_map(|r| r.kinks).collect();
+    if !kinks.is_empty() {
+        group.array("kink_offsets", offsets(rows.iter().map(|r| r.kinks.len())));
+        group.array("kinks", Array::rows(kinks.iter().map(|[a, b]| [a.x, a.y, b.x, b.y])));
+    }
+    let singular: Vec<_> = rows.iter().flat_map(|r| r.singular).collect();
+    if !singular.is_empty() {
+        group.array("singular_offsets", offsets(rows.iter().map(|r| r.singular.len())));
+        group.array("singular", Array::rows(singular.iter().map(|&&p| <[f64; 2]>::from(p))));
+    }
 }
 
 fn field(group: &mut Group, field: &FieldData) {

@@ -37,6 +37,18 @@ pub enum ReadError {
         /// Minor version of the file.
         minor: u64,
     },
+    /// Written by a newer program, with something that this one does not know.
+    #[error(
+        "{source}; the file has format version {}.{minor}, this program knows {}.{}: a newer ppum \
+         may read it",
+        crate::FORMAT_VERSION.0, crate::FORMAT_VERSION.0, crate::FORMAT_VERSION.1
+    )]
+    Newer {
+        /// Minor version of the file.
+        minor: u32,
+        /// What was not understood.
+        source: Box<ReadError>,
+    },
     /// An object of the file is missing or not what it should be.
     #[error("{object}: {problem}")]
     Object {

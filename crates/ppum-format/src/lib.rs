@@ -22,12 +22,12 @@ mod content;
 mod decode;
 mod encode;
 mod error;
+#[cfg(test)]
+#[path = "../examples/fixture/everything.rs"]
+mod everything;
 mod file;
 mod hdf5;
 mod names;
-#[cfg(test)]
-#[path = "../examples/fixture/synthetic.rs"]
-mod synthetic;
 
 use ppum::dataset::Dataset;
 
@@ -36,7 +36,11 @@ pub use file::{read, write};
 
 /// Version of the format as (major, minor). A reader takes every minor version of its own major
 /// version; what it does not know is optional.
-pub const FORMAT_VERSION: (u32, u32) = (1, 0);
+pub const FORMAT_VERSION: (u32, u32) = (1, 1);
+
+/// Most values that the tables of a file may have together. In memory a value of a table takes 16
+/// numbers more, those of its spline, so a small file could ask for more than there is.
+const MAX_TABLE_VALUES: usize = 1 << 20;
 
 /// The dataset as the bytes of an HDF5 file.
 ///
@@ -58,8 +62,15 @@ pub fn to_bytes(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
     let mut content = hdf5::from_bytes(bytes)?;
-    decode::check_version(&content)?;
+    let minor = decode::check_version(&content)?;
     checksum::verify(&mut content)?;
+    checked(content).map_err(|error| {
+        let source = Box::new(error);
+        if minor > FORMAT_VERSION.1 { ReadError::Newer { minor, source } } else { *source }
+    })
+}
+
+fn checked(content: content::Content) -> Result<Dataset, ReadError> {
     let dataset = decode::dataset(content)?;
     dataset.check()?;
     Ok(dataset)

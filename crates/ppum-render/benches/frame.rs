@@ -40,14 +40,14 @@ fn time(mut frame: impl FnMut(), repetitions: usize) -> f64 {
 
 fn frame<T: Scalar + Sample>(field: &Field) -> f64 {
     let draw = || {
-        black_box(render::<T>(field, &view(), Quantity::VonMises).expect("a stress"));
+        black_box(render::<T>(field, &view(), &Quantity::VonMises).expect("a stress"));
     };
     time(draw, 100)
 }
 
 /// Least milliseconds of mapping a frame to colours, which comes on top.
 fn colors<T: Scalar + Sample>(field: &Field) -> f64 {
-    let raster = render::<T>(field, &view(), Quantity::VonMises).expect("a stress");
+    let raster = render::<T>(field, &view(), &Quantity::VonMises).expect("a stress");
     let style = Style { range: Range::Fixed(0.0, 5.0), ..Style::default() };
     let paint = || {
         black_box(Picture::bare(&raster, &view(), &style).expect("a range"));
@@ -88,6 +88,12 @@ fn main() {
         for (level, tip_level) in [(1, 8), (2, 12), (3, 12), (4, 12)] {
             row("graded", &dataset(&recipe(level, tip_level)));
         }
+        for level in [0, 3, 5] {
+            let recipe = Recipe { formulas: true, ..recipe(level, level) };
+            let [wide, narrow] = row("formulas", &dataset(&recipe));
+            let [native_wide, native_narrow] = uniform[usize::from(level)];
+            println!("  over kernels: {:.2} {:.2}", wide / native_wide, narrow / native_narrow);
+        }
         let ratio = |k: usize| {
             let times = uniform.iter().map(|row| row[k]);
             times.clone().fold(0.0, f64::max) / times.fold(f64::INFINITY, f64::min)
@@ -97,7 +103,7 @@ fn main() {
         let field = Field::new(&dataset, 0).expect("a field");
         println!("colours: {:.2} {:.2}", colors::<f64>(&field), colors::<f32>(&field));
         let draw = || {
-            black_box(reference(&field, &view(), Quantity::VonMises).expect("a stress"));
+            black_box(reference(&field, &view(), &Quantity::VonMises).expect("a stress"));
         };
         println!("scalar reference, 1024 patches: {:.0} ms", time(draw, 1));
     });

@@ -137,6 +137,8 @@ pub fn figure(
 struct Axis {
     ticks: Ticks,
     label: String,
+    /// Bytes of the label that are the name; the rest is a number and units, which stay whole.
+    name: usize,
     widest: f64,
 }
 
@@ -144,7 +146,14 @@ impl Axis {
     fn new(ticks: Ticks, name: &str, unit: &str, scale: f64) -> Self {
         let widths = ticks.major.iter().map(|t| text::width(&t.label, TICK_TEXT * scale));
         let widest = widths.fold(0.0, f64::max);
-        Self { label: axis_label(name, &ticks, unit), widest, ticks }
+        Self { label: axis_label(name, &ticks, unit), name: name.len(), widest, ticks }
+    }
+
+    /// The label, with its name shortened if there is less room \[pixels\].
+    fn fitted(&self, size: f64, room: f64) -> String {
+        let (name, rest) = self.label.split_at(self.name);
+        let name = text::fitted(name, size, (room - text::width(rest, size)).max(0.0));
+        text::fitted(&format!("{name}{rest}"), size, room)
     }
 }
 
@@ -206,7 +215,7 @@ impl<'a> Sheet<'a> {
             self.centred(ink, &tick.label, TICK_TEXT * scale, vec2(at, base));
         }
         let room = self.plot_max[0] - self.plot_min[0];
-        let label = text::fitted(&self.x.label, LABEL_TEXT * scale, room);
+        let label = self.x.fitted(LABEL_TEXT * scale, room);
         let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
         self.centred(ink, &label, LABEL_TEXT * scale, at);
     }
@@ -224,7 +233,7 @@ impl<'a> Sheet<'a> {
             self.at_height(ink, &tick.label, vec2(end - length, at));
         }
         let base = end - self.y.widest - LABEL_GAP * scale;
-        self.upwards(ink, &self.y.label, base);
+        self.upwards(ink, &self.y, base);
     }
 
     /// Left edge, and lower and upper end of the bar's evenly coloured part.
@@ -303,7 +312,7 @@ impl<'a> Sheet<'a> {
         for (tick, height) in self.bar.ticks.major.iter().zip(heights) {
             self.at_height(ink, &tick.label, vec2(start, height));
         }
-        self.upwards(ink, &self.bar.label, self.bar_label_base());
+        self.upwards(ink, &self.bar, self.bar_label_base());
     }
 
     /// Base line of the bar's label.
@@ -333,9 +342,9 @@ impl<'a> Sheet<'a> {
     }
 
     /// An axis' label that reads upwards beside the plot.
-    fn upwards(&self, ink: &mut Mask, label: &str, base: f64) {
+    fn upwards(&self, ink: &mut Mask, axis: &Axis, base: f64) {
         let size = LABEL_TEXT * self.scale;
-        let label = text::fitted(label, size, f64::from(self.size[1]) - 2.0 * GAP);
+        let label = axis.fitted(size, f64::from(self.size[1]) - 2.0 * GAP);
         let half = 0.5 * text::width(&label, size);
         // A label longer than the picture stays on the page.
         let (least, most) = (half + GAP, f64::from(self.size[1]) - half - GAP);
@@ -556,6 +565,18 @@ mod tests {
         assert_eq!(axis_label("u", &ticks(0.0, -4), ""), "u [×10⁻⁴]");
         assert_eq!(axis_label("", &ticks(0.0, 3), "MPa"), "[×10³ MPa]");
         assert_eq!(axis_label("x", &ticks(0.25, 0), ""), "x − 0.25");
+    }
+
+    /// A name that is too long gives way to the power of ten and the unit.
+    #[test]
+    fn shortened_labels_keep_their_units() {
+        let axis =
+            Axis::new(Ticks { exponent: -4, ..Ticks::default() }, &"x + ".repeat(99), "mm", 1.0);
+        let label = axis.fitted(12.0, 200.0);
+        assert!(label.starts_with("x + x") && label.ends_with("… [×10⁻⁴ mm]"), "{label}");
+        assert!(text::width(&label, 12.0) <= 200.0, "{label}");
+        assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
+        assert_eq!(axis.fitted(12.0, 1e6), axis.label);
     }
 
     #[test]

@@ -1,11 +1,25 @@
 //! Values at the pixel centres of a view.
 
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityError};
+use ppum::real::Scalar;
 use rayon::prelude::*;
 
+use crate::view::View;
+
 /// The number types of a raster: f64 and f32.
-pub trait Sample: Copy + Into<f64> + Send + Sync {}
-impl Sample for f64 {}
-impl Sample for f32 {}
+pub trait Sample: Scalar + Into<f64> {
+    /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the renderer's
+    /// kernels are compiled once, here, and not in every crate that draws.
+    ///
+    /// # Errors
+    /// See there.
+    fn render(
+        field: &Field<'_>,
+        view: &View,
+        quantity: &Quantity,
+    ) -> Result<Raster<Self>, QuantityError>;
+}
 
 /// One value a pixel, row by row from the top; NaN where nothing is defined (outside the domain).
 #[derive(Clone, Debug, PartialEq)]

@@ -16,7 +16,7 @@ use crate::view::View;
 pub fn reference(
     field: &Field<'_>,
     view: &View,
-    quantity: Quantity,
+    quantity: &Quantity,
 ) -> Result<Raster<f64>, QuantityError> {
     quantity.check(field)?;
     let row = |j| {

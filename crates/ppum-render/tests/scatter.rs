@@ -84,10 +84,10 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 }
 
 /// Largest difference in f64, 99th percentile and largest in f32.
-fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
+fn compare(field: &Field, view: &View, quantity: &Quantity) -> [f64; 3] {
     let slow = |quantity| reference(field, view, quantity).expect("a quantity");
     let by_gradient = quantity.source() == Source::Gradient;
-    let gradient = by_gradient.then(|| slow(Quantity::GradientNorm));
+    let gradient = by_gradient.then(|| slow(&Quantity::GradientNorm));
     let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
     let scale = Scale { values: slow(quantity), gradient, floor: 0.1 * mean };
     let wide = render::<f64>(field, view, quantity).expect("a quantity");
@@ -100,7 +100,7 @@ fn compare(field: &Field, view: &View, quantity: Quantity) -> [f64; 3] {
 
 fn agree(dataset: &Dataset, view: &View, quantities: &[Quantity]) {
     let field = Field::new(dataset, 0).expect("a field");
-    for &quantity in quantities {
+    for quantity in quantities {
         let [wide, narrow, _] = compare(&field, view, quantity);
         assert!(wide < 1e-12, "{quantity:?}: {wide:e} in f64");
         assert!(narrow < 2e-5, "{quantity:?}: {narrow:e} in f32");
@@ -118,7 +118,7 @@ fn every_quantity() {
     let mut quantities: Vec<_> = names.into_iter().map(|(_, quantity)| quantity).collect();
     quantities.push(Quantity::PartitionFunction(77));
     for quantity in quantities {
-        let [wide, narrow, _] = compare(&field, &whole([131, 97]), quantity);
+        let [wide, narrow, _] = compare(&field, &whole([131, 97]), &quantity);
         // the direction turns fast where the principal stresses meet
         let slack = if quantity == Quantity::PrincipalDirection { 1e3 } else { 1.0 };
         assert!(wide < 1e-12 * slack, "{quantity:?}: {wide:e} in f64");
@@ -176,7 +176,7 @@ fn views_partly_and_wholly_outside() {
     }
     let field = Field::new(&dataset, 0).unwrap();
     let away = View::new(vec2(9.0, 0.0), 1.0, [33, 17]).unwrap();
-    let raster = render::<f32>(&field, &away, Quantity::VonMises).unwrap();
+    let raster = render::<f32>(&field, &away, &Quantity::VonMises).unwrap();
     assert!(raster.values.iter().all(|v| v.is_nan()));
 }
 
@@ -191,7 +191,7 @@ fn deep_views() {
         for zoom in [1.0, 1e3, 1e6, 1e9, 1e12] {
             println!("{place}");
             for quantity in SOME {
-                let [wide, narrow, _] = compare(&field, &view(at, zoom), quantity);
+                let [wide, narrow, _] = compare(&field, &view(at, zoom), &quantity);
                 assert!(wide < 1e-11, "{place} {zoom:e} {quantity:?}: {wide:e} in f64");
                 assert!(narrow < 1e-5, "{place} {zoom:e} {quantity:?}: {narrow:e} in f32");
             }
@@ -206,10 +206,10 @@ fn infinite_at_a_tip() {
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(KINKED[2], 1e-3, [41, 21]).unwrap();
     fn check<T: Scalar + Sample>(field: &Field, view: &View) {
-        let raster = render::<T>(field, view, Quantity::VonMises).unwrap();
+        let raster = render::<T>(field, view, &Quantity::VonMises).unwrap();
         assert_eq!(raster.value(20, 10).into(), f64::INFINITY);
         assert_eq!(raster.statistics().infinite, 1);
-        let finite = render::<T>(field, view, Quantity::Magnitude).unwrap();
+        let finite = render::<T>(field, view, &Quantity::Magnitude).unwrap();
         assert!(finite.values.iter().all(|&v| v.into().is_finite()));
     }
     check::<f64>(&field, &view);
@@ -224,8 +224,8 @@ fn threads_do_not_change_a_bit() {
     let draw = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let wide = render::<f64>(&field, &view, Quantity::VonMises).unwrap();
-            let narrow = render::<f32>(&field, &view, Quantity::VonMises).unwrap();
+            let wide = render::<f64>(&field, &view, &Quantity::VonMises).unwrap();
+            let narrow = render::<f32>(&field, &view, &Quantity::VonMises).unwrap();
             let bits = wide.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
             (bits, narrow.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>())
         })
@@ -240,9 +240,9 @@ fn what_cannot_be_drawn_is_refused() {
     dataset.steps[0].fields[0].exact.clear();
     let field = Field::new(&dataset, 0).unwrap();
     let error = |quantity| render::<f64>(&field, &whole([3, 2]), quantity).unwrap_err();
-    assert!(matches!(error(Quantity::Error), QuantityError::NoExact(_)));
+    assert!(matches!(error(&Quantity::Error), QuantityError::NoExact(_)));
     let beyond = field.step.partition.len() as u32;
-    assert!(matches!(error(Quantity::PartitionFunction(beyond)), QuantityError::Patch { .. }));
+    assert!(matches!(error(&Quantity::PartitionFunction(beyond)), QuantityError::Patch { .. }));
 }
 
 /// Guards the kernels: a function in them that is not inlined leaves the code for wide vectors, which
@@ -262,9 +262,9 @@ fn lanes_are_much_faster_than_scalars() {
     };
     let view = whole([256, 192]);
     for quantity in [Quantity::VonMises, Quantity::GradientNorm, Quantity::Magnitude] {
-        let slow = least(&|| drop(reference(&field, &view, quantity)));
-        let wide = slow / least(&|| drop(render::<f64>(&field, &view, quantity)));
-        let narrow = slow / least(&|| drop(render::<f32>(&field, &view, quantity)));
+        let slow = least(&|| drop(reference(&field, &view, &quantity)));
+        let wide = slow / least(&|| drop(render::<f64>(&field, &view, &quantity)));
+        let narrow = slow / least(&|| drop(render::<f32>(&field, &view, &quantity)));
         println!("{quantity:?}: {wide:.1} times faster in f64, {narrow:.1} in f32");
         assert!(wide > 2.5 && narrow > 2.5, "{quantity:?}: {wide} {narrow}");
     }

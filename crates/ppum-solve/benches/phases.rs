@@ -17,10 +17,7 @@ fn report(level: u32) {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let pull = |t: f64| {
-        vec![
-            Condition::Neumann(Expression::constant(0.0)),
-            Condition::Neumann(Expression::constant(t)),
-        ]
+        vec![Condition::Neumann(Expression::number(0.0)), Condition::Neumann(Expression::number(t))]
     };
     let problem = Problem::elasticity(domain, material, Discretization::new(Cells::Level(level)))
         .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])

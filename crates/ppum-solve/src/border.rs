@@ -34,7 +34,7 @@ pub(crate) struct BorderPiece<'a> {
 /// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
 /// unknowns.
 pub(crate) struct Border<'a> {
-    law: &'a Law,
+    law: &'a Law<'a>,
     /// ∫ N·(σ(N) n): rows N, columns σ(N) n.
     consistency: Mat<f64>,
     /// ∫ (σ(N) n)·(σ(N) n)
@@ -50,7 +50,7 @@ pub(crate) struct Border<'a> {
 }
 
 impl<'a> Border<'a> {
-    pub(crate) fn new(law: &'a Law, unknowns: usize) -> Self {
+    pub(crate) fn new(law: &'a Law<'a>, unknowns: usize) -> Self {
         Self {
             law,
             consistency: square(unknowns),
@@ -89,17 +89,24 @@ impl<'a> Border<'a> {
             shapes.scale(&rule.weights);
             for i in (0..components).filter(|&i| piece.held[i]) {
                 let given: Vec<_> = given.iter().map(|values| values[i]).collect();
-                self.hold(i, rule.normal, &numbers, shapes, &given);
+                self.hold(i, rule, &numbers, shapes, &given);
             }
         }
     }
 
     /// Adds the points of one component whose value is given; shapes and values carry the roots of
     /// the weights.
-    fn hold(&mut self, i: usize, normal: Vec2, numbers: &[usize], shapes: &Shapes, given: &[f64]) {
+    fn hold(
+        &mut self,
+        i: usize,
+        rule: &EdgeRule,
+        numbers: &[usize],
+        shapes: &Shapes,
+        given: &[f64],
+    ) {
         self.held = true;
         let c = self.law.components;
-        let tractions = self.tractions(i, normal, shapes);
+        let tractions = self.tractions(i, rule, shapes);
         let n = shapes.functions;
         let values = shapes.rows(&shapes.value, 0..n);
         let product = |left: faer::MatRef<'_, f64>, right: faer::MatRef<'_, f64>| {
@@ -125,11 +132,12 @@ impl<'a> Border<'a> {
     }
 
     /// Component i of σ(N e_j) n, rows (function, j), columns points.
-    fn tractions(&self, i: usize, normal: Vec2, shapes: &Shapes) -> Mat<f64> {
+    fn tractions(&self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
         let c = self.law.components;
+        let laws: Vec<_> = rule.offsets.iter().map(|&o| self.law.at(rule.anchor + o)).collect();
         Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
             let at = (row / c) * shapes.points + q;
-            self.law.traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), normal)
+            laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normal)
         })
     }
 

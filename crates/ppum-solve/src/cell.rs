@@ -7,7 +7,7 @@
 use crate::basis::{BasisEvaluator, StableBasis};
 use crate::border::{Border, BorderPiece};
 use crate::eigen::EigenError;
-use crate::law::Law;
+use crate::law::{Law, LawAt};
 use crate::quadrature::Rule;
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use crate::shape::Shapes;
@@ -85,7 +85,7 @@ impl CellFunctions {
 pub(crate) struct CellAssembler<'s> {
     space: &'s Space<'s>,
     basis: &'s StableBasis,
-    law: &'s Law,
+    law: &'s Law<'s>,
     motions: RigidMotions,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
@@ -95,7 +95,7 @@ impl<'s> CellAssembler<'s> {
     pub(crate) fn new(
         space: &'s Space<'s>,
         basis: &'s StableBasis,
-        law: &'s Law,
+        law: &'s Law<'s>,
         motions: RigidMotions,
     ) -> Self {
         let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
@@ -124,11 +124,14 @@ impl<'s> CellAssembler<'s> {
             motions: self.motions,
             functions,
         };
-        let mut products = Products { xx: square(n), xy: square(n), yy: square(n) };
+        let products = || Products { xx: square(n), xy: square(n), yy: square(n) };
+        let mut products: Vec<_> = self.law.terms.iter().map(|_| products()).collect();
         for rule in rules {
             self.volume(rule, source, &mut products, &mut system);
         }
-        products.add_to(&mut system.matrix, self.law);
+        for (products, term) in products.iter().zip(&self.law.terms) {
+            products.add_to(&mut system.matrix, term, components);
+        }
         if !border.is_empty() {
             let mut on_border = Border::new(self.law, n * components);
             for piece in border {
@@ -143,7 +146,7 @@ impl<'s> CellAssembler<'s> {
         &mut self,
         rule: &Rule,
         source: Option<Data<'_>>,
-        products: &mut Products,
+        products: &mut [Products],
         system: &mut CellSystem,
     ) {
         let shapes = &mut self.shapes;
@@ -156,8 +159,23 @@ impl<'s> CellAssembler<'s> {
                 system.add_load(&numbers, shapes, q, x, &values[..self.law.components], weight);
             }
         }
-        shapes.scale(&rule.weights);
-        products.add(&numbers, shapes);
+        if self.law.is_uniform() {
+            shapes.scale(&rule.weights);
+            products[0].add(&numbers, shapes, shapes);
+            return;
+        }
+        let points = rule.offsets.iter().map(|&offset| rule.anchor + offset);
+        let coefficients: Vec<_> = points.map(|x| self.law.coefficients(x)).collect();
+        for (m, products) in products.iter_mut().enumerate() {
+            let mut right = shapes.clone();
+            let weights = rule.weights.iter().zip(&coefficients).map(|(w, a)| w * a[m]);
+            let weights: Vec<_> = weights.collect();
+            right.scale(&weights.iter().map(|w| w.abs()).collect::<Vec<_>>());
+            // λ is negative where ν is: the sign goes to one side of the product.
+            let mut left = right.clone();
+            left.multiply(&weights.iter().map(|w| w.signum()).collect::<Vec<_>>());
+            products.add(&numbers, &left, &right);
+        }
     }
 }
 
@@ -200,13 +218,13 @@ struct Products {
 }
 
 impl Products {
-    /// Adds the points of shapes that carry the roots of the weights.
-    fn add(&mut self, numbers: &[usize], shapes: &Shapes) {
-        let all = 0..shapes.functions;
-        let dx = shapes.rows(&shapes.dx, all.clone());
-        let dy = shapes.rows(&shapes.dy, all);
+    /// Adds the points of shapes that carry the roots of the weights, the left ones with their signs.
+    fn add(&mut self, numbers: &[usize], left: &Shapes, right: &Shapes) {
+        let all = 0..left.functions;
+        let (dx, dy) = (left.rows(&left.dx, all.clone()), left.rows(&left.dy, all.clone()));
+        let (ex, ey) = (right.rows(&right.dx, all.clone()), right.rows(&right.dy, all));
         for (sum, left, right) in
-            [(&mut self.xx, dx, dx), (&mut self.xy, dx, dy), (&mut self.yy, dy, dy)]
+            [(&mut self.xx, dx, ex), (&mut self.xy, dx, ey), (&mut self.yy, dy, ey)]
         {
             let mut product = Mat::zeros(numbers.len(), numbers.len());
             matmul(product.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
@@ -215,8 +233,8 @@ impl Products {
     }
 
     /// K = Σ_kl C_ikjl ∫ ∂_k N ∂_l Nᵀ.
-    fn add_to(&self, matrix: &mut Mat<f64>, law: &Law) {
-        let (n, c) = (self.xx.nrows(), law.components);
+    fn add_to(&self, matrix: &mut Mat<f64>, law: &LawAt, c: usize) {
+        let n = self.xx.nrows();
         for b in 0..n {
             for a in 0..n {
                 let parts =

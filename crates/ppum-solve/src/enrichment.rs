@@ -1,5 +1,8 @@
 //! Which functions each patch's local space holds beside its polynomials.
 //!
+//! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
+//! them, the degree of the polynomials that multiply them.
+//!
 //! A crack cuts a patch *through* when it meets the open box of the patch and has no tip inside it;
 //! then the patch gets the side of the crack times its polynomials (a jump). A patch with a tip
 //! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
@@ -7,187 +10,287 @@
 //! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
 //! functions, beside jumps where they are cut.
 
-use crate::problem::{Enrichment, Problem};
-use ppum::crack::{Crack, TipId, tips};
-use ppum::dataset::Partition;
-use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
-use ppum::vec2::{Rect, Vec2};
+use std::ops::Range;
 
-/// Shortest part of a crack inside a patch, in half-sizes of the patch, that counts as a cut.
+use crate::clip::{distance, inside, length_inside, segment_inside};
+use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
+use ppum::crack::{Crack, End, TipId, tips};
+use ppum::dataset::Partition;
+use ppum::expression::Expression;
+use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
+/// cut.
 const LEAST_CUT: f64 = 1e-9;
 
 /// A block to be: function index and polynomial degree.
 pub(crate) type Block = (u32, u8);
 
-/// The function table of a problem: 1, the sides of the cracks, four functions a tip.
-pub(crate) struct Functions {
+/// The function table of a problem, and which patches have which functions.
+pub(crate) struct Enrichments<'p> {
     pub(crate) table: Vec<Function>,
-    tips: Vec<TipId>,
-    n_cracks: usize,
+    problem: &'p Problem,
+    instances: Vec<Instance<'p>>,
 }
 
-impl Functions {
-    pub(crate) fn new(cracks: &[Crack]) -> Self {
+/// Functions that go together.
+struct Instance<'p> {
+    functions: Range<u32>,
+    patches: Patches<'p>,
+    degree: Degree,
+}
+
+/// The patches that have an instance.
+enum Patches<'p> {
+    All,
+    /// Those that a crack cuts through.
+    Cut(&'p Crack),
+    /// Those that hold the shape or are cut by it, and those nearer to it than a length.
+    Near(Shape, f64),
+    /// Of those that the tip's crack meets and that are not within the length of the tip, the ones
+    /// that have no other tip of the crack nearer.
+    Behind(TipId, f64),
+    /// Those where the expression is positive.
+    Where(Expression),
+}
+
+/// What patches can be near to.
+#[derive(Clone, Copy)]
+enum Shape {
+    Point(Vec2),
+    Segment([Vec2; 2]),
+}
+
+/// Degree of the polynomials of an instance.
+#[derive(Clone, Copy)]
+enum Degree {
+    /// That of the patch's smooth polynomials.
+    OfPatch,
+    Fixed(u8),
+    /// This degree on patches that hold the point, else 0.
+    Holding(Vec2, u8),
+}
+
+/// Where the functions of an enrichment stand, once or several times.
+struct Place {
+    frame: Frame,
+    /// What patches are near to; none in the world's frame.
+    shape: Option<Shape>,
+    /// How near they are by default.
+    radius: f64,
+    degree: Degree,
+    /// Added to the functions' names.
+    name: String,
+}
+
+impl<'p> Enrichments<'p> {
+    pub(crate) fn new(problem: &'p Problem) -> Self {
         let one = Function { name: "one".into(), kind: FunctionKind::One };
-        let side = |crack: u32| Function {
-            name: format!("side of crack {crack}"),
-            kind: FunctionKind::Side { crack },
+        let mut all = Self { table: vec![one], problem, instances: Vec::new() };
+        let mode = problem.discretization.enrichment;
+        if mode.has_jumps() {
+            problem.cracks.iter().enumerate().for_each(|(k, crack)| all.add_jump(k, crack));
+        }
+        if let Some(at_tips) = westergaard(mode) {
+            all.add(&at_tips);
+        }
+        if mode == Enrichment::AdditiveOnly {
+            all.extend_along_cracks();
+        }
+        problem.enrichments.iter().for_each(|own| all.add(own));
+        all
+    }
+
+    fn add_jump(&mut self, index: usize, crack: &'p Crack) {
+        let kind = FunctionKind::Side { crack: index as u32 };
+        let side = Function { name: format!("side of crack {index}"), kind };
+        self.push(vec![side], Patches::Cut(crack), Degree::OfPatch);
+    }
+
+    fn add(&mut self, new: &LocalEnrichment) {
+        for place in places(self.problem, new.site) {
+            let patches = match (&new.region, place.shape) {
+                (Region::Where(condition), _) => Patches::Where(condition.clone()),
+                (Region::Near(radius), Some(shape)) => Patches::Near(shape, *radius),
+                (_, Some(shape)) => Patches::Near(shape, place.radius),
+                (_, None) => Patches::All,
+            };
+            let degree = new.degree.map_or(place.degree, |degree| Degree::Fixed(degree as u8));
+            self.push(functions(new, &place), patches, degree);
+        }
+    }
+
+    fn push(&mut self, functions: Vec<Function>, patches: Patches<'p>, degree: Degree) {
+        let first = self.table.len() as u32;
+        self.table.extend(functions);
+        let functions = first..self.table.len() as u32;
+        self.instances.push(Instance { functions, patches, degree });
+    }
+
+    /// Gives the functions of each tip, so far the only instances, to the patches along its part of
+    /// the crack too.
+    fn extend_along_cracks(&mut self) {
+        let at_tips = self.instances.iter().zip(tips(&self.problem.cracks));
+        let behind = |(instance, tip): (&Instance<'p>, TipId)| Instance {
+            functions: instance.functions.clone(),
+            patches: Patches::Behind(tip, self.problem.enrichment_radius(tip)),
+            degree: instance.degree,
         };
-        let tips: Vec<_> = tips(cracks).collect();
-        let westergaard = tips.iter().flat_map(|&tip| {
-            WESTERGAARD.iter().enumerate().map(move |(k, text)| Function {
-                name: format!("westergaard {} of crack {} {}", k + 1, tip.crack, tip.end.name()),
-                kind: FunctionKind::Formula {
-                    text: (*text).into(),
-                    frame: Frame::Tip(tip),
-                    parameters: Vec::new(),
-                },
-            })
-        });
-        let sides = (0..cracks.len() as u32).map(side);
-        let table = std::iter::once(one).chain(sides).chain(westergaard).collect();
-        Self { table, tips, n_cracks: cracks.len() }
+        let behind: Vec<_> = at_tips.map(behind).collect();
+        self.instances.extend(behind);
     }
 
-    fn side(&self, crack: usize) -> u32 {
-        1 + crack as u32
-    }
-
-    /// The four functions of the tip with this position in the order of [`tips`].
-    fn westergaard(&self, tip: usize) -> impl Iterator<Item = u32> {
-        let first = (1 + self.n_cracks + 4 * tip) as u32;
-        first..first + 4
-    }
-}
-
-/// Decides the blocks of every patch.
-pub(crate) struct Enricher<'a> {
-    problem: &'a Problem,
-    functions: &'a Functions,
-    tip_points: Vec<Vec2>,
-    radii: Vec<f64>,
-}
-
-impl<'a> Enricher<'a> {
-    pub(crate) fn new(problem: &'a Problem, functions: &'a Functions) -> Self {
-        let point = |tip: &TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
-        Self {
-            problem,
-            functions,
-            tip_points: functions.tips.iter().map(point).collect(),
-            radii: functions.tips.iter().map(|&tip| problem.enrichment_radius(tip)).collect(),
-        }
-    }
-
-    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then jumps,
-    /// then tip functions.
+    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then the
+    /// enrichments.
     pub(crate) fn blocks(&self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
-        let support = partition.support(patch);
-        let open = support.intersection(&self.problem.domain);
-        let mode = self.problem.discretization.enrichment;
+        let patch = Patch::new(partition, patch, self.problem);
         let mut blocks = vec![(0, degree)];
-        if mode == Enrichment::None {
-            return blocks;
-        }
-        let shortest = LEAST_CUT * partition.half[patch].x.min(partition.half[patch].y);
-        let cut: Vec<_> =
-            self.problem.cracks.iter().map(|c| length_inside(c, &open) > shortest).collect();
-        let holds: Vec<_> = self.tip_points.iter().map(|&tip| inside(&open, tip)).collect();
-        if mode != Enrichment::AdditiveOnly {
-            let jumps = (0..cut.len()).filter(|&crack| cut[crack] && !self.any_tip(crack, &holds));
-            blocks.extend(jumps.map(|crack| (self.functions.side(crack), degree)));
-        }
-        for tip in 0..holds.len() {
-            if let Some(degree) = self.tip_degree(mode, tip, &support, &cut, &holds) {
-                blocks.extend(self.functions.westergaard(tip).map(|f| (f, degree)));
-            }
+        for instance in self.instances.iter().filter(|new| patch.is_of(&new.patches)) {
+            let degree = match instance.degree {
+                Degree::OfPatch => degree,
+                Degree::Fixed(degree) => degree,
+                Degree::Holding(p, inside) => {
+                    if patch.holds(p) {
+                        inside
+                    } else {
+                        0
+                    }
+                }
+            };
+            blocks.extend(instance.functions.clone().map(|function| (function, degree)));
         }
         blocks
     }
+}
 
-    /// Degree of the polynomials that multiply the functions of a tip, if the patch has them.
-    fn tip_degree(
-        &self,
-        mode: Enrichment,
-        tip: usize,
-        support: &Rect,
-        cut: &[bool],
-        holds: &[bool],
-    ) -> Option<u8> {
-        let zone = support.distance(self.tip_points[tip]) < self.radii[tip];
-        let crack = self.functions.tips[tip].crack as usize;
-        match mode {
-            Enrichment::None => None,
-            Enrichment::AdditiveOnly => {
-                let nearest = cut[crack] && self.nearest_tip(crack, support.center()) == Some(tip);
-                (holds[tip] || zone || nearest).then_some(0)
-            }
-            _ if holds[tip] => Some(self.problem.discretization.tip_degree as u8),
-            Enrichment::Zone if zone => Some(0),
-            _ => None,
+/// The built-in enrichment of tips.
+fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
+    let new = LocalEnrichment::new(&WESTERGAARD, Site::Tips);
+    let new = LocalEnrichment { name: "westergaard".into(), ..new };
+    match mode {
+        Enrichment::None | Enrichment::Jumps => None,
+        Enrichment::TipPatch => Some(LocalEnrichment { region: Region::Near(0.0), ..new }),
+        Enrichment::Zone => Some(new),
+        Enrichment::AdditiveOnly => Some(LocalEnrichment { degree: Some(0), ..new }),
+    }
+}
+
+fn places(problem: &Problem, site: Site) -> Vec<Place> {
+    let place =
+        |frame, shape, name| Place { frame, shape, radius: 0.0, degree: Degree::Fixed(0), name };
+    match site {
+        Site::World => vec![place(Frame::World, None, String::new())],
+        Site::Point { at, angle } => {
+            let name = format!(" at [{}, {}]", at.x, at.y);
+            let frame = Frame::Fixed { origin: at, angle };
+            vec![place(frame, Some(Shape::Point(at)), name)]
+        }
+        Site::Along([a, b]) => {
+            let name = format!(" along [{}, {}] to [{}, {}]", a.x, a.y, b.x, b.y);
+            let frame = Frame::Fixed { origin: a, angle: (b.y - a.y).atan2(b.x - a.x) };
+            vec![place(frame, Some(Shape::Segment([a, b])), name)]
+        }
+        Site::Tips => tips(&problem.cracks).map(|tip| at_tip(problem, tip)).collect(),
+    }
+}
+
+fn at_tip(problem: &Problem, tip: TipId) -> Place {
+    let point = problem.cracks[tip.crack as usize].end_point(tip.end);
+    Place {
+        frame: Frame::Tip(tip),
+        shape: Some(Shape::Point(point)),
+        radius: problem.enrichment_radius(tip),
+        degree: Degree::Holding(point, problem.discretization.tip_degree as u8),
+        name: format!(" of crack {} {}", tip.crack, tip.end.name()),
+    }
+}
+
+fn functions(new: &LocalEnrichment, place: &Place) -> Vec<Function> {
+    let name = |k: usize, text: &str| match (new.name.as_str(), new.functions.len()) {
+        ("", _) => format!("{text}{}", place.name),
+        (name, 1) => format!("{name}{}", place.name),
+        (name, _) => format!("{name} {}{}", k + 1, place.name),
+    };
+    let function = |(k, text): (usize, &String)| Function {
+        name: name(k, text),
+        kind: FunctionKind::Formula {
+            text: text.clone(),
+            frame: place.frame,
+            parameters: new.parameters.clone(),
+            declared: new.declared.clone(),
+        },
+    };
+    new.functions.iter().enumerate().map(function).collect()
+}
+
+/// A patch as the rules see it.
+struct Patch<'p> {
+    cracks: &'p [Crack],
+    support: Rect,
+    /// The support inside the domain, as an open box.
+    open: Rect,
+    /// What counts as a cut.
+    shortest: f64,
+}
+
+impl<'p> Patch<'p> {
+    fn new(partition: &Partition, patch: usize, problem: &'p Problem) -> Self {
+        let (support, half) = (partition.support(patch), partition.half[patch]);
+        Self {
+            cracks: &problem.cracks,
+            support,
+            open: support.intersection(&problem.domain),
+            shortest: LEAST_CUT * half.x.min(half.y),
         }
     }
 
-    fn any_tip(&self, crack: usize, holds: &[bool]) -> bool {
-        self.tips_of(crack).any(|tip| holds[tip])
-    }
-
-    fn nearest_tip(&self, crack: usize, from: Vec2) -> Option<usize> {
-        let distance = |tip: usize| (self.tip_points[tip] - from).length();
-        self.tips_of(crack).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-    }
-
-    fn tips_of(&self, crack: usize) -> impl Iterator<Item = usize> + '_ {
-        let of_crack = move |&tip: &usize| self.functions.tips[tip].crack as usize == crack;
-        (0..self.functions.tips.len()).filter(of_crack)
-    }
-}
-
-/// True if `p` lies in the open box.
-fn inside(open: &Rect, p: Vec2) -> bool {
-    p.x > open.min.x && p.x < open.max.x && p.y > open.min.y && p.y < open.max.y
-}
-
-/// Length of a crack inside an open box; a segment along the box's border does not count.
-pub(crate) fn length_inside(crack: &Crack, open: &Rect) -> f64 {
-    crack.points.windows(2).map(|s| segment_inside(s[0], s[1], open)).sum()
-}
-
-/// Length of a segment inside an open box, by clipping its parameter range (Liang & Barsky 1984).
-fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
-    let d = b - a;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (start, step, lo, hi) in
-        [(a.x, d.x, open.min.x, open.max.x), (a.y, d.y, open.min.y, open.max.y)]
-    {
-        if step == 0.0 {
-            if start <= lo || start >= hi {
-                return 0.0;
+    fn is_of(&self, patches: &Patches<'_>) -> bool {
+        match patches {
+            Patches::All => true,
+            Patches::Cut(crack) => {
+                self.is_cut(crack) && !crack.tips().any(|end| self.holds(crack.end_point(end)))
             }
-        } else {
-            let (s, t) = ((lo - start) / step, (hi - start) / step);
-            (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
+            Patches::Near(Shape::Point(p), radius) => self.holds(*p) || self.is_near(*p, *radius),
+            Patches::Near(Shape::Segment([a, b]), radius) => {
+                segment_inside(*a, *b, &self.support) > self.shortest
+                    || distance([*a, *b], &self.support) < *radius
+            }
+            Patches::Behind(tip, radius) => {
+                let crack = &self.cracks[tip.crack as usize];
+                !self.is_near(crack.end_point(tip.end), *radius)
+                    && self.is_cut(crack)
+                    && self.nearest_tip(crack) == Some(tip.end)
+            }
+            Patches::Where(expression) => self.looks().any(|p| expression.value(p) > 0.0),
         }
     }
-    (to - from).max(0.0) * d.length()
+
+    /// True if the point, also one on the border of the domain, lies in the open support.
+    fn holds(&self, p: Vec2) -> bool {
+        inside(&self.support, p)
+    }
+
+    fn is_near(&self, p: Vec2, radius: f64) -> bool {
+        self.support.distance(p) < radius
+    }
+
+    fn is_cut(&self, crack: &Crack) -> bool {
+        length_inside(crack, &self.open) > self.shortest
+    }
+
+    fn nearest_tip(&self, crack: &Crack) -> Option<End> {
+        let distance = |&end: &End| (crack.end_point(end) - self.support.center()).length();
+        crack.tips().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Centre, corners and middles of the edges, as far as the domain reaches.
+    fn looks(&self) -> impl Iterator<Item = Vec2> {
+        let (min, half) = (self.open.min, self.open.size() * 0.5);
+        let at = move |k: u8| min + vec2(half.x * f64::from(k % 3), half.y * f64::from(k / 3));
+        (0..9).map(at)
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use ppum::vec2::vec2;
-
-    #[test]
-    fn clipped_lengths() {
-        let open = Rect::new(vec2(0.0, 0.0), vec2(2.0, 1.0));
-        for (a, b, expected) in [
-            (vec2(-1.0, 0.5), vec2(3.0, 0.5), 2.0),
-            (vec2(0.5, 0.5), vec2(0.5, 0.75), 0.25),
-            (vec2(0.0, 0.0), vec2(2.0, 0.0), 0.0),
-            (vec2(-1.0, -1.0), vec2(3.0, 3.0), 2f64.sqrt()),
-            (vec2(-1.0, 0.5), vec2(1.0, 3.0), 0.0),
-        ] {
-            assert!((segment_inside(a, b, &open) - expected).abs() < 1e-15, "{a:?} {b:?}");
-        }
-    }
-}
+mod tests;

@@ -8,10 +8,12 @@
 //! M = ∫ (σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σ_ik εᵃ_ik δ_1j) q_,j − b_i uᵃ_i,1 q dA      K = E′/2 M
 //! ```
 //!
-//! The crack must be straight inside the disc, its faces free, and nothing else may lie in it.
+//! The crack must be straight inside the disc, its faces free, and nothing else may lie in it, no
+//! interface of two materials either. The material is taken to be uniform in the disc: where it varies
+//! smoothly the values at the radii differ, and tend to the factors with the radius.
 
-use crate::law::Law;
-use crate::quadrature::Rule;
+use crate::law::{Law, LawAt};
+use crate::quadrature::{Kink, Rule};
 use crate::space::Space;
 use ppum::crack::{Crack, LocalTip, Side, TipId, tips};
 use ppum::dataset::{Dataset, Material, Ring, TipIntensity};
@@ -20,6 +22,7 @@ use ppum::function::westergaard;
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// Exponent of the cut-off q = (1 − r²/R²)^m. It is smooth enough for plain Gauss rules across r = R:
 /// with m = 4 their error is seen at 1e-7, with more at 1e-10.
@@ -35,11 +38,18 @@ const SMALL: f64 = 0.2;
 /// preferred, its integral averages most.
 const RADII: [f64; 3] = [0.5, 0.7, 0.9];
 
+/// Part of the free radius below which a tip lies on an interface.
+const LEAST_RADIUS: f64 = 1e-6;
+
+/// Rays around a tip and steps along each on which curved interfaces are looked for.
+const RAYS: u32 = 64;
+const STEPS: u32 = 64;
+
 /// A body force b at a point.
 pub type BodyForce<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
 /// The stress intensity factors of all tips of a step, each at three radii; none unless the field is
-/// a displacement.
+/// a displacement, and none of tips on an interface of two materials.
 ///
 /// # Panics
 /// If the field is not of the dataset and step of `space`.
@@ -50,18 +60,25 @@ pub fn intensities(
     space: &Space<'_>,
     force: Option<BodyForce<'_>>,
 ) -> Vec<TipIntensity> {
-    let Some(material) = dataset.equation.material() else { return Vec::new() };
+    let Some(elasticity) = dataset.equation.elastic() else { return Vec::new() };
     if field.components() != dataset.equation.components() {
         return Vec::new();
     }
     let law = Law::new(&dataset.equation);
     tips(&field.step.cracks)
-        .map(|tip| {
-            let largest = free_radius(&field.step.cracks, &dataset.domain, tip);
-            let integral = Interaction { field, space, law: &law, material, tip, force };
-            let rings = integral.rings(RADII.map(|part| part * largest));
-            let Ring { k1, k2, .. } = rings[RADII.len() - 1];
-            TipIntensity { tip, k1, k2, rings: rings.to_vec() }
+        .filter_map(|tip| {
+            let radius = free_radius(&field.step.cracks, &dataset.domain, tip);
+            // The auxiliary field is that of the material at the tip.
+            let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+            let apart = space.interfaces().map(|kink| interface_distance(kink, at, radius));
+            let largest = apart.fold(radius, f64::min);
+            let (material, law) = (elasticity.at(at), law.at(at));
+            let integral = Interaction { field, space, law, material, tip, force };
+            (largest > LEAST_RADIUS * radius).then(|| {
+                let rings = integral.rings(RADII.map(|part| part * largest));
+                let Ring { k1, k2, .. } = rings[RADII.len() - 1];
+                TipIntensity { tip, k1, k2, rings: rings.to_vec() }
+            })
         })
         .collect()
 }
@@ -79,6 +96,26 @@ pub fn free_radius(cracks: &[Crack], domain: &Rect, tip: TipId) -> f64 {
     vertices.chain(others).fold(border.x.min(border.y), f64::min)
 }
 
+/// Distance of a point to an interface, as far as it is below `reach`; of a curve a lower bound, by the
+/// sides of points on rays.
+fn interface_distance(kink: &Kink, p: Vec2, reach: f64) -> f64 {
+    match kink {
+        Kink::Line([a, b]) => ((*b - *a).unit().cross(p - *a)).abs(),
+        Kink::Segment(ends) => segment_distance(ends, p),
+        Kink::Curve(level) => {
+            let own = level(p);
+            let crosses = |step: &u32| {
+                let radius = reach * f64::from(*step) / f64::from(STEPS);
+                let ray = |k: u32| TAU * f64::from(k) / f64::from(RAYS);
+                let point = |k: u32| p + vec2(ray(k).cos(), ray(k).sin()) * radius;
+                (0..RAYS).any(|k| level(point(k)) * own <= 0.0)
+            };
+            let first = (1..=STEPS).find(crosses).unwrap_or(STEPS + 1);
+            reach * f64::from(first - 1) / f64::from(STEPS)
+        }
+    }
+}
+
 fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
     let (d, e) = (s[1] - s[0], p - s[0]);
     let t = (e.dot(d) / d.dot(d)).clamp(0.0, 1.0);
@@ -88,7 +125,7 @@ fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
 struct Interaction<'a> {
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    law: &'a Law,
+    law: LawAt,
     material: Material,
     tip: TipId,
     force: Option<BodyForce<'a>>,
@@ -187,4 +224,24 @@ fn auxiliary(material: &Material, f: &[Jet<f64>; 4]) -> [[Vec2; 2]; 2] {
     let [f1, f2, f3, f4] = f.map(|jet| vec2(jet.x, jet.y) * scale);
     let (less, more) = (kappa - 1.0, kappa + 1.0);
     [[f1 * less + f3, f2 * more - f4], [f2 * more + f4, f3 - f1 * less]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    #[test]
+    fn interfaces_end_the_disc() {
+        let p = vec2(0.1, 0.2);
+        let line = Kink::Line([vec2(0.0, 0.5), vec2(1.0, 0.5)]);
+        assert!((interface_distance(&line, p, 1.0) - 0.3).abs() < 1e-15);
+        let segment = Kink::Segment([vec2(0.5, 0.5), vec2(1.0, 0.5)]);
+        assert!((interface_distance(&segment, p, 1.0) - 0.5).abs() < 1e-15);
+        let circle = Kink::Curve(Arc::new(|x: Vec2| x.dot(x) - 0.25));
+        let found = interface_distance(&circle, p, 1.0);
+        let exact = 0.5 - p.length();
+        assert!(found <= exact && found > exact - 0.02, "{found} instead of {exact}");
+        assert_eq!(interface_distance(&circle, vec2(3.0, 0.0), 1.0), 1.0);
+    }
 }

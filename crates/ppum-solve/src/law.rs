@@ -1,38 +1,105 @@
-//! The constitutive law as one tensor: elasticity and Poisson share every line of the assembly.
+//! The constitutive law as tensors: elasticity and Poisson share every line of the assembly.
 
-use ppum::dataset::{Equation, Material};
+use ppum::dataset::Equation;
+use ppum::equation::Moduli;
 use ppum::vec2::Vec2;
 
-/// The flux of ∇u: σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] ∂u_j/∂x_l.
+/// C\[i\]\[k\]\[j\]\[l\]
+type Tensor = [[[[f64; 2]; 2]; 2]; 2];
+
+/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] ∂u_j/∂x_l with C = Σ_m a_m(x) T_m,
+/// constant tensors T_m times coefficients a_m of position.
 ///
-/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl.
-#[derive(Clone, Copy, Debug)]
-pub struct Law {
+/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where the
+/// constants are the same everywhere there is one term with coefficient 1.
+#[derive(Clone, Debug)]
+pub struct Law<'e> {
     /// Components of u.
     pub components: usize,
-    tensor: [[[[f64; 2]; 2]; 2]; 2],
+    equation: &'e Equation,
+    /// The terms' tensors.
+    pub(crate) terms: Vec<LawAt>,
+    uniform: bool,
 }
 
-impl Law {
+/// Largest number of terms.
+pub(crate) const TERMS: usize = 2;
+
+impl<'e> Law<'e> {
     /// The law of an equation.
     #[must_use]
-    pub fn new(equation: &Equation) -> Self {
-        let entry = |i: usize, k: usize, j: usize, l: usize| match equation {
-            Equation::Elasticity(material) => elastic(material, i, k, j, l),
-            Equation::Poisson { conductivity } => {
-                if i == 0 && j == 0 && k == l {
-                    *conductivity
-                } else {
-                    0.0
-                }
-            }
-        };
+    pub fn new(equation: &'e Equation) -> Self {
+        let components = equation.components();
+        let mut law = Self { components, equation, terms: units(components), uniform: false };
+        if equation.is_uniform() {
+            (law.terms, law.uniform) = (vec![law.at(Vec2::ZERO)], true);
+        }
+        law
+    }
+
+    /// The law at a point.
+    #[must_use]
+    pub fn at(&self, x: Vec2) -> LawAt {
+        let coefficients = self.coefficients(x);
+        let mut tensor = Tensor::default();
+        for (term, a) in self.terms.iter().zip(coefficients) {
+            let entries = tensor.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+            let parts = term.tensor.as_flattened().as_flattened().as_flattened();
+            entries.iter_mut().zip(parts).for_each(|(entry, part)| *entry += a * part);
+        }
+        LawAt { components: self.components, tensor }
+    }
+
+    /// The coefficients a_m at a point, one a term.
+    pub(crate) fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
+        if self.uniform {
+            return [1.0, 0.0];
+        }
+        let Moduli { lambda, mu, conductivity, .. } = self.equation.moduli(x, [0.0, 0.0]);
+        match self.equation {
+            Equation::Elasticity(_) => [lambda, mu],
+            Equation::Poisson { .. } => [conductivity, 0.0],
+        }
+    }
+
+    /// True if the law is the same everywhere.
+    pub(crate) fn is_uniform(&self) -> bool {
+        self.uniform
+    }
+}
+
+/// The tensors of the coefficients λ and μ, or κ.
+fn units(components: usize) -> Vec<LawAt> {
+    let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
+    let term = |entry: &dyn Fn(usize, usize, usize, usize) -> f64| {
         let tensor = std::array::from_fn(|i| {
             std::array::from_fn(|k| {
                 std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l)))
             })
         });
-        Self { components: equation.components(), tensor }
+        LawAt { components, tensor }
+    };
+    if components == 1 {
+        return vec![term(&|i, k, j, l| delta(i, 0) * delta(j, 0) * delta(k, l))];
+    }
+    vec![
+        term(&|i, k, j, l| delta(i, k) * delta(j, l)),
+        term(&|i, k, j, l| delta(i, j) * delta(k, l) + delta(i, l) * delta(j, k)),
+    ]
+}
+
+/// The law at a point, as one tensor.
+#[derive(Clone, Copy, Debug)]
+pub struct LawAt {
+    components: usize,
+    tensor: Tensor,
+}
+
+impl LawAt {
+    /// Components of u.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.components
     }
 
     /// Σ_kl C\[i\]\[k\]\[j\]\[l\] parts\[k\]\[l\].
@@ -59,10 +126,4 @@ impl Law {
         };
         std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k)))
     }
-}
-
-fn elastic(material: &Material, i: usize, k: usize, j: usize, l: usize) -> f64 {
-    let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
-    material.lambda() * delta(i, k) * delta(j, l)
-        + material.mu() * (delta(i, j) * delta(k, l) + delta(i, l) * delta(j, k))
 }

@@ -1,6 +1,6 @@
 //! Norms of a field and of its error, integrated with the solver's own cells.
 
-use crate::law::Law;
+use crate::law::{Law, LawAt};
 use crate::space::Space;
 use ppum::crack::Side;
 use ppum::field::Field;
@@ -37,7 +37,7 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
-    let law = Law::new(&field.equation);
+    let law = Law::new(field.equation);
     let quadrature = space.quadrature(EXTRA);
     let cells = &space.partition.cell;
     let parts: Vec<_> = (0..cells.len())
@@ -48,6 +48,7 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
                 let local = field.at(rule.anchor);
                 for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
                     let mut u = [Jet::constant(0.0); 2];
+                    let law = law.at(rule.anchor + offset);
                     let place = [offset.x, offset.y];
                     local.over_patches::<f64, 1>(place, Side::Above, &rule.patches, &mut u);
                     let e = exact(rule.anchor, offset);
@@ -66,10 +67,10 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
 }
 
 impl Norms {
-    fn add(&mut self, law: &Law, u: &[Jet<f64>; 2], weight: f64) {
+    fn add(&mut self, law: &LawAt, u: &[Jet<f64>; 2], weight: f64) {
         let g = u.map(|jet| vec2(jet.x, jet.y));
         let s = law.flux(&g);
-        for i in 0..law.components {
+        for i in 0..law.components() {
             self.energy += weight * (s[i][0] * g[i].x + s[i][1] * g[i].y);
             self.l2 += weight * u[i].v * u[i].v;
         }

@@ -42,10 +42,14 @@ impl Shapes {
     /// Multiplies the columns by the square roots of quadrature weights, so that products of rows
     /// are integrals of products.
     pub fn scale(&mut self, weights: &[f64]) {
-        let roots: Vec<_> = weights.iter().map(|w| w.sqrt()).collect();
+        self.multiply(&weights.iter().map(|w| w.sqrt()).collect::<Vec<_>>());
+    }
+
+    /// Multiplies the columns by factors.
+    pub(crate) fn multiply(&mut self, factors: &[f64]) {
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {
-            for row in array.chunks_exact_mut(roots.len()) {
-                row.iter_mut().zip(&roots).for_each(|(v, root)| *v *= root);
+            for row in array.chunks_exact_mut(factors.len()) {
+                row.iter_mut().zip(factors).for_each(|(v, factor)| *v *= factor);
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::space::{Space, SpaceError, discretise};
 use crate::system::{assemble, source_at};
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
 use ppum::field::{Field, FieldError};
-use ppum::function::FunctionError;
+use ppum::function::{FunctionError, FunctionTable};
 use ppum::vec2::Vec2;
 use std::time::Instant;
 
@@ -110,13 +110,15 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
         program: concat!("ppum ", env!("CARGO_PKG_VERSION")).into(),
         problem: problem.text.clone(),
         domain: problem.domain,
-        equation: problem.equation,
+        equation: problem.equation.clone(),
+        quantities: problem.quantities.clone(),
+        tables: problem.tables.clone(),
         steps: vec![step],
     }
 }
 
 fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
-    let space = Space::new(&dataset.steps[0])?;
+    let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)?;
     let force = |x: Vec2| source_at(problem, x);
     Ok(intensities(dataset, &Field::new(dataset, 0)?, &space, Some(&force)))
 }
@@ -164,7 +166,12 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Solution, SolveError> {
         let components = self.problem.components();
-        let space = Space::new(self.step)?;
+        let Problem { equation, tables, .. } = self.problem;
+        let mut space = Space::new(self.step, equation, tables)?;
+        if !self.problem.solver.kernels {
+            let cracks = self.step.cracks.len();
+            space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
+        }
         let law = Law::new(&self.problem.equation);
         let motions = RigidMotions::new(&self.problem.domain, components);
         let total = space.partition.len();

@@ -1,14 +1,24 @@
 //! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
 //! to walk over it.
 
-use crate::enrichment::{Block, Enricher, Functions};
+use crate::enrichment::{Block, Enrichments};
+use crate::inspect::{InspectError, inspect};
+use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
-use crate::quadrature::{Geometry, Orders, Quadrature, Singular};
+use crate::quadrature::{Kink, Orders, Quadrature};
 use crate::refine::{RefineError, cover};
+use crate::smoothness::Smoothness;
 use ppum::box_tree::BoxTree;
-use ppum::crack::{LocalCrack, Side, TipId, tips};
-use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
-use ppum::function::{Frame, Function, FunctionError, FunctionKind, FunctionTable};
+use ppum::crack::{LocalCrack, Side};
+use ppum::dataset::{Attribute, Equation, FieldData, Partition, Step, monomials};
+use ppum::formula::Table;
+use ppum::function::{FunctionError, FunctionKind, FunctionTable};
+use ppum::weight::WeightFunction;
+use std::sync::Arc;
+
+/// Accuracy of the quadrature of products of partition functions with weights given by formulas, as
+/// [`Orders::for_degree`] has it with splines.
+const WEIGHT_ACCURACY: f64 = 1e-5;
 
 /// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
 /// over the same cells as the system.
@@ -32,8 +42,7 @@ pub struct Space<'d> {
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub shifts: Vec<f64>,
-    singular: Vec<Singular>,
-    patch_singular: Vec<Vec<u32>>,
+    smoothness: Smoothness,
 }
 
 impl<'d> Space<'d> {
@@ -44,7 +53,11 @@ impl<'d> Space<'d> {
     ///
     /// # Panics
     /// If the step has no field.
-    pub fn new(step: &'d Step) -> Result<Self, FunctionError> {
+    pub fn new(
+        step: &'d Step,
+        equation: &Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
         let (partition, data) = (&step.partition, &step.fields[0]);
         let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
         let tree = BoxTree::new(&supports);
@@ -54,18 +67,15 @@ impl<'d> Space<'d> {
             found
         });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let end_point = |tip: TipId| step.cracks[tip.crack as usize].end_point(tip.end);
-        let singular = tips(&step.cracks).map(|tip| Singular::tip(end_point(tip)));
         Ok(Self {
             partition,
             step,
             data,
-            functions: FunctionTable::new(&step.functions)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),
-            singular: singular.collect(),
-            patch_singular: (0..partition.len()).map(|i| singular_of(step, data, i)).collect(),
+            smoothness: Smoothness::new(step, data, equation, tables)?,
         })
     }
 
@@ -73,19 +83,33 @@ impl<'d> Space<'d> {
     /// default, for errors.
     #[must_use]
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
-        let orders = Orders::for_degree(self.degree() + extra);
-        let geometry = Geometry {
-            singular: &self.singular,
-            patch_singular: &self.patch_singular,
-            ..Geometry::new(self.partition, &self.step.cracks)
-        };
-        Quadrature::new(geometry, orders)
+        let geometry = self.smoothness.geometry(self.partition, &self.step.cracks);
+        Quadrature::new(geometry, self.orders(self.degree() + extra))
     }
 
-    /// Largest polynomial degree of a block.
+    fn orders(&self, degree: usize) -> Orders {
+        let weight = &self.partition.weight;
+        if !matches!(weight, WeightFunction::Formula(_)) {
+            return Orders::for_degree(degree);
+        }
+        let (half, cell) = (self.partition.half[0], &self.partition.cell[0]);
+        let value = |xi: f64| {
+            let [value, slope, _] = weight.spline(xi);
+            [value, slope]
+        };
+        let stretch = 2.0 * half.x / cell.size().x;
+        Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
+    }
+
+    /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
     #[must_use]
     pub fn degree(&self) -> usize {
-        self.data.block_degree.iter().copied().max().unwrap_or(0) as usize
+        self.smoothness.degree()
+    }
+
+    /// Where coefficients of the equation may jump.
+    pub(crate) fn interfaces(&self) -> impl Iterator<Item = &Kink> {
+        self.smoothness.interfaces()
     }
 
     /// Number of polynomials of a patch: the functions of its first block.
@@ -114,21 +138,6 @@ fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
     patches.flat_map(|patch| data.blocks(patch).map(move |b| shift(patch, b))).collect()
 }
 
-/// The tips (in the order of [`tips`]) at which a function of the patch is singular.
-fn singular_of(step: &Step, data: &FieldData, patch: usize) -> Vec<u32> {
-    let order: Vec<_> = tips(&step.cracks).collect();
-    let tip_of = |function: &Function| match &function.kind {
-        FunctionKind::Formula { frame: Frame::Tip(tip), .. } => {
-            order.iter().position(|known| known == tip)
-        }
-        _ => None,
-    };
-    let functions = data.blocks(patch).map(|b| &step.functions[data.block_function[b] as usize]);
-    let mut found: Vec<_> = functions.filter_map(tip_of).map(|tip| tip as u32).collect();
-    found.dedup();
-    found
-}
-
 /// The space of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -139,33 +148,38 @@ pub enum SpaceError {
     /// The order formula.
     #[error(transparent)]
     Order(#[from] OrderError),
+    /// A function that cannot be used.
+    #[error(transparent)]
+    Function(#[from] InspectError),
 }
 
 /// The step of a problem with all coefficients zero.
 ///
 /// # Errors
-/// A cover that cannot be built or refined, an order formula that gives no order.
+/// A cover that cannot be built or refined, an order formula that gives no order, a function that is
+/// not finite on its patches.
 pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
-        cover(problem)?.partition(set.overlap, set.weight).map_err(RefineError::from)?;
-    let functions = Functions::new(&problem.cracks);
-    let enricher = Enricher::new(problem, &functions);
+        cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
+    let enrichments = Enrichments::new(problem);
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
         let degree = set.order.at(partition.center[patch])? as u8;
-        blocks.push(enricher.blocks(&partition, patch, degree));
+        blocks.push(enrichments.blocks(&partition, patch, degree));
     }
-    Ok(Step {
+    let step = Step {
         load: 1.0,
         cracks: problem.cracks.clone(),
         attributes: attributes(&blocks),
         fields: vec![field(problem, &blocks)],
-        functions: functions.table,
+        functions: enrichments.table,
         partition,
         intensities: Vec::new(),
         history: Vec::new(),
-    })
+    };
+    inspect(&step, &problem.domain, &problem.tables)?;
+    Ok(step)
 }
 
 /// Order of the polynomials, number of blocks with a jump and with a tip function, of each patch.
@@ -182,9 +196,7 @@ fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
 }
 
 fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
-    let n = problem.components();
-    let (name, components): (_, &[&str]) =
-        if n == 1 { ("potential", &["u"]) } else { ("displacement", &["ux", "uy"]) };
+    let (name, components) = field_names(&problem.equation);
     let mut data = FieldData {
         name: name.into(),
         unit: String::new(),
@@ -206,6 +218,6 @@ fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
         }
         data.patch_blocks.push(data.block_function.len() as u32);
     }
-    data.coefficients = vec![vec![0.0; offset as usize]; n];
+    data.coefficients = vec![vec![0.0; offset as usize]; components.len()];
     data
 }

@@ -34,7 +34,7 @@ pub(crate) fn assemble(
     problem: &Problem,
     space: &Space<'_>,
     basis: &StableBasis,
-    law: &Law,
+    law: &Law<'_>,
     motions: RigidMotions,
     progress: &mut dyn FnMut(usize),
 ) -> Result<System, EigenError> {

@@ -3,12 +3,13 @@
 //! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
 
+mod formulas;
+
 use std::collections::BTreeSet;
 
 use crate::crack::Crack;
 use crate::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Material, Partition, Step, StressState, TipIntensity,
-    monomials,
+    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Step, TipIntensity, monomials,
 };
 use crate::function::{Frame, Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
@@ -28,23 +29,26 @@ type Checked = Result<(), CheckError>;
 
 impl Dataset {
     /// Checks that the dataset can be evaluated: consistent lengths, indices in range, rising
-    /// offsets, finite numbers, positive extents, cracks without zero-length segments.
+    /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas that
+    /// can be read with the dataset's tables.
     ///
-    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may.
-    /// Formula texts are not parsed here, and whether the supports cover the domain is not asked.
-    /// Linear in the size of the dataset.
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. Whether the
+    /// supports cover the domain is not asked. Linear in the size of the dataset.
     ///
     /// # Errors
     ///
     /// The first violation, with its place.
     pub fn check(&self) -> Checked {
         check_box("domain", &self.domain)?;
-        check_equation(&self.equation)?;
+        formulas::check(self)?;
+        if let Some((name, problem)) = self.equation.mistake(&self.domain) {
+            return fail(&format!("equation.{name}"), problem);
+        }
         require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
         for (k, step) in self.steps.iter().enumerate() {
             check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
         }
-        Ok(())
+        formulas::check_quantities(self)
     }
 }
 
@@ -132,29 +136,6 @@ fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Chec
     Ok(())
 }
 
-fn check_equation(equation: &Equation) -> Checked {
-    match *equation {
-        Equation::Elasticity(material) => check_material(&material),
-        Equation::Poisson { conductivity } => {
-            require(conductivity.is_finite() && conductivity > 0.0, "equation.conductivity", || {
-                format!("{conductivity} must be finite and positive")
-            })
-        }
-    }
-}
-
-fn check_material(material: &Material) -> Checked {
-    let (young, nu) = (material.young, material.poisson);
-    require(young.is_finite() && young > 0.0, "equation.young", || {
-        format!("{young} must be finite and positive")
-    })?;
-    let (possible, range) = match material.state {
-        StressState::PlaneStrain => (nu > -1.0 && nu < 0.5, "-1 < ν < 1/2 in plane strain"),
-        StressState::PlaneStress => (nu > -1.0 && nu <= 0.5, "-1 < ν ≤ 1/2 in plane stress"),
-    };
-    require(possible, "equation.poisson", || format!("{nu} is outside {range}"))
-}
-
 fn check_step(step: &Step, equation: &Equation) -> Checked {
     check_number("load", step.load)?;
     check_partition(&step.partition).map_err(|e| e.inside("partition"))?;
@@ -230,12 +211,13 @@ fn check_function(function: &Function, cracks: usize) -> Checked {
     match &function.kind {
         FunctionKind::One => Ok(()),
         FunctionKind::Side { crack } => check_index("crack", *crack as usize, cracks, "cracks"),
-        FunctionKind::Formula { text, frame, parameters } => {
-            require(!text.trim().is_empty(), "formula", || "the formula is empty".into())?;
+        FunctionKind::Formula { frame, parameters, declared, .. } => {
             check_names("parameters", parameters.iter().map(|(name, _)| name))?;
             for (name, value) in parameters {
                 check_number(&format!("parameters `{name}`"), *value)?;
             }
+            check_points("declared.kinks", declared.kinks.as_flattened())?;
+            check_points("declared.singular", &declared.singular)?;
             check_frame(frame, cracks)
         }
     }
@@ -338,6 +320,7 @@ mod tests {
     use super::*;
     use crate::crack::{CrackEnd, End, TipId};
     use crate::dataset::{Attribute, Ring};
+    use crate::equation::{Material, StressState};
     use crate::vec2::vec2;
     use crate::weight::WeightFunction;
 
@@ -370,7 +353,7 @@ mod tests {
         }
     }
 
-    fn dataset() -> Dataset {
+    pub(super) fn dataset() -> Dataset {
         let tip = TipId { crack: 0, end: End::Last };
         let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
         let step = Step {
@@ -394,11 +377,13 @@ mod tests {
             program: "test".into(),
             problem: None,
             domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)),
-            equation: Equation::Elasticity(Material {
+            equation: Equation::elasticity(Material {
                 young: 1.0,
                 poisson: 0.3,
                 state: StressState::PlaneStrain,
             }),
+            quantities: Vec::new(),
+            tables: Vec::new(),
             steps: vec![step],
         }
     }
@@ -419,11 +404,11 @@ mod tests {
     fn domain_material_and_steps() {
         assert_eq!(place_after(|d| d.domain.max.x = 0.0), "domain");
         assert_eq!(place_after(|d| d.domain.max.x = f64::INFINITY), "domain");
-        assert_eq!(place_after(|d| d.equation = Equation::Poisson { conductivity: 0.0 }), {
+        assert_eq!(place_after(|d| d.equation = Equation::poisson(0.0)), {
             "equation.conductivity"
         });
         let material = |young, poisson| {
-            Equation::Elasticity(Material { young, poisson, state: StressState::PlaneStrain })
+            Equation::elasticity(Material { young, poisson, state: StressState::PlaneStrain })
         };
         assert_eq!(place_after(|d| d.equation = material(-1.0, 0.3)), "equation.young");
         assert_eq!(place_after(|d| d.equation = material(1.0, 0.5)), "equation.poisson");
@@ -460,11 +445,8 @@ mod tests {
             place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Side { crack: 1 }),
             "steps[0].functions[1].crack"
         );
-        let tip_formula = FunctionKind::Formula {
-            text: "sqrt(r)".into(),
-            frame: Frame::Tip(TipId { crack: 7, end: End::Start }),
-            parameters: vec![],
-        };
+        let frame = Frame::Tip(TipId { crack: 7, end: End::Start });
+        let tip_formula = FunctionKind::formula("sqrt(r)", frame);
         assert_eq!(
             place_after(|d| d.steps[0].functions[1].kind = tip_formula),
             "steps[0].functions[1].frame.crack"

@@ -11,8 +11,13 @@
 //! the function their [blocks](FieldData) name. `ppum-format` stores this structure, `ppum-solve`
 //! makes it, [`Field`](crate::field::Field) evaluates it.
 
+use std::sync::Arc;
+
 use crate::crack::{Crack, TipId};
+pub use crate::equation::{Elasticity, Equation, Material, StressState};
+use crate::formula::Table;
 use crate::function::Function;
+pub use crate::quantity::NamedQuantity;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 
@@ -29,106 +34,12 @@ pub struct Dataset {
     pub domain: Rect,
     /// What was solved; decides which quantities have a meaning.
     pub equation: Equation,
+    /// Quantities the dataset names, beside the built-in ones.
+    pub quantities: Vec<NamedQuantity>,
+    /// Tables its formulas may read.
+    pub tables: Vec<Arc<Table>>,
     /// Quasi-static series, at least one.
     pub steps: Vec<Step>,
-}
-
-/// The differential equation behind a field.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Equation {
-    /// Linear elasticity, two displacement components.
-    Elasticity(Material),
-    /// −∇·(κ ∇u) = f, one component.
-    Poisson {
-        /// κ > 0.
-        conductivity: f64,
-    },
-}
-
-impl Equation {
-    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson.
-    #[must_use]
-    pub fn components(&self) -> usize {
-        match self {
-            Self::Elasticity(_) => 2,
-            Self::Poisson { .. } => 1,
-        }
-    }
-
-    /// The material, if the equation has stresses.
-    #[must_use]
-    pub fn material(&self) -> Option<Material> {
-        match self {
-            Self::Elasticity(material) => Some(*material),
-            Self::Poisson { .. } => None,
-        }
-    }
-}
-
-/// Isotropic linear elastic material in the plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Young's modulus E > 0, a stress.
-    pub young: f64,
-    /// Poisson's ratio, −1 < ν < 1/2 (plane stress: −1 < ν ≤ 1/2).
-    pub poisson: f64,
-    /// Plane strain or plane stress.
-    pub state: StressState,
-}
-
-/// What is assumed of the third direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StressState {
-    /// ε_zz = 0.
-    PlaneStrain,
-    /// σ_zz = 0.
-    PlaneStress,
-}
-
-impl Material {
-    /// Shear modulus μ = E / (2 (1 + ν)).
-    #[must_use]
-    pub fn mu(&self) -> f64 {
-        self.young / (2.0 * (1.0 + self.poisson))
-    }
-
-    /// Lamé's λ of the plane law σ = 2μ ε + λ tr(ε) I over the in-plane components:
-    /// Eν / ((1+ν)(1−2ν)) in plane strain, Eν / (1−ν²) in plane stress.
-    #[must_use]
-    pub fn lambda(&self) -> f64 {
-        let (e, nu) = (self.young, self.poisson);
-        match self.state {
-            StressState::PlaneStrain => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-            StressState::PlaneStress => e * nu / (1.0 - nu * nu),
-        }
-    }
-
-    /// Kolosov's constant κ: 3 − 4ν in plane strain, (3 − ν)/(1 + ν) in plane stress.
-    #[must_use]
-    pub fn kolosov(&self) -> f64 {
-        match self.state {
-            StressState::PlaneStrain => 3.0 - 4.0 * self.poisson,
-            StressState::PlaneStress => (3.0 - self.poisson) / (1.0 + self.poisson),
-        }
-    }
-
-    /// E′ of G = K²/E′: E/(1 − ν²) in plane strain, E in plane stress.
-    #[must_use]
-    pub fn effective_young(&self) -> f64 {
-        match self.state {
-            StressState::PlaneStrain => self.young / (1.0 - self.poisson * self.poisson),
-            StressState::PlaneStress => self.young,
-        }
-    }
-
-    /// σ_zz / (σ_xx + σ_yy): ν in plane strain, 0 in plane stress.
-    #[must_use]
-    pub fn out_of_plane(&self) -> f64 {
-        match self.state {
-            StressState::PlaneStrain => self.poisson,
-            StressState::PlaneStress => 0.0,
-        }
-    }
 }
 
 /// One state of a quasi-static series.

@@ -8,13 +8,16 @@
 //! S = Σ W_i     U = Σ W_i v_i     u = U / S     ∇u = (∇U − u ∇S) / S
 //! ```
 
+use std::sync::Arc;
+
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
-use crate::dataset::{Dataset, Equation, FieldData, Step};
-use crate::formula::{Formula, FormulaError, Scope};
+use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
+use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
 use crate::vec2::{Rect, Vec2};
 
@@ -24,7 +27,11 @@ pub struct Field<'d> {
     /// The domain; outside nothing is defined.
     pub domain: Rect,
     /// The equation the field solves.
-    pub equation: Equation,
+    pub equation: &'d Equation,
+    /// Quantities the dataset names.
+    pub quantities: &'d [NamedQuantity],
+    /// Tables that formulas may read.
+    pub tables: &'d [Arc<Table>],
     /// The step.
     pub step: &'d Step,
     /// Blocks and coefficients.
@@ -59,6 +66,9 @@ pub enum FieldError {
     /// A function of the step is wrong.
     #[error(transparent)]
     Function(#[from] FunctionError),
+    /// A table has a name that formulas cannot use.
+    #[error("the tables of the dataset: {0}")]
+    Tables(#[from] ScopeError),
     /// A formula of the exact solution is wrong.
     #[error("exact solution of field `{name}`: {source}")]
     Exact {
@@ -94,12 +104,14 @@ impl<'d> Field<'d> {
             (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
         Ok(Self {
             domain: dataset.domain,
-            equation: dataset.equation,
+            equation: &dataset.equation,
+            quantities: &dataset.quantities,
+            tables: &dataset.tables,
             step,
             data,
-            functions: FunctionTable::new(&step.functions)?,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::new(&supports),
-            exact: exact(data)?,
+            exact: exact(data, &dataset.tables)?,
         })
     }
 
@@ -107,6 +119,17 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn components(&self) -> usize {
         self.data.coefficients.len()
+    }
+
+    /// What formulas of quantities may name.
+    #[must_use]
+    pub fn vocabulary(&self) -> Vocabulary<'d> {
+        Vocabulary {
+            equation: self.equation,
+            components: &self.data.components,
+            tables: self.tables,
+            named: self.quantities,
+        }
     }
 
     /// True if the exact solution is known.
@@ -133,9 +156,9 @@ impl<'d> Field<'d> {
     }
 }
 
-fn exact(data: &FieldData) -> Result<Vec<Formula>, FieldError> {
-    let parse = |text: &String| Formula::parse(text, &Scope::cartesian());
-    let formulas: Result<_, _> = data.exact.iter().map(parse).collect();
+fn exact(data: &FieldData, tables: &[Arc<Table>]) -> Result<Vec<Formula>, FieldError> {
+    let scope = Scope::cartesian().with_tables(tables)?;
+    let formulas: Result<_, _> = data.exact.iter().map(|t| Formula::parse(t, &scope)).collect();
     formulas.map_err(|error| FieldError::Exact { name: data.name.clone(), source: Box::new(error) })
 }
 

@@ -54,12 +54,14 @@
 //!     program: "by hand".into(),
 //!     problem: None,
 //!     domain,
-//!     equation: Equation::Poisson { conductivity: 1.0 },
+//!     equation: Equation::poisson(1.0),
+//!     quantities: Vec::new(),
+//!     tables: Vec::new(),
 //!     steps: vec![step],
 //! };
 //! dataset.check()?;
 //! let field = Field::new(&dataset, 0)?;
-//! let slope = Quantity::from_name("du_dx", dataset.equation, &field.data.components)?;
+//! let slope = Quantity::parse("du_dx", &field)?;
 //! let mut local = field.at(vec2(0.5, 0.0));
 //! assert_eq!(slope.at(&mut local, Vec2::ZERO, Side::Above), 2.0 / 1.25);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -105,11 +107,7 @@
 //! let tip = TipId { crack: 0, end: End::Last };
 //! let opening = Function {
 //!     name: "opening".into(),
-//!     kind: FunctionKind::Formula {
-//!         text: WESTERGAARD[1].into(), // sqrt(r)*sin(theta/2)
-//!         frame: Frame::Tip(tip),
-//!         parameters: vec![],
-//!     },
+//!     kind: FunctionKind::formula(WESTERGAARD[1], Frame::Tip(tip)), // sqrt(r)*sin(theta/2)
 //! };
 //! // One block a patch: function 0 times a polynomial of degree 0, that is one coefficient.
 //! let displacement = FieldData {
@@ -129,7 +127,9 @@
 //!     program: "tour".into(),
 //!     problem: None,
 //!     domain,
-//!     equation: Equation::Elasticity(material),
+//!     equation: Equation::elasticity(material),
+//!     quantities: Vec::new(),
+//!     tables: Vec::new(),
 //!     steps: vec![Step {
 //!         load: 1.0,
 //!         partition,
@@ -162,7 +162,7 @@
 //!
 //! // Ahead of the tip ε_yy = 1/(2√r) is the only strain, and von Mises' stress is 2μ ε_yy.
 //! use ppum::quantity::Quantity;
-//! let mises = Quantity::from_name("von-mises", dataset.equation, &field.data.components)?;
+//! let mises = Quantity::parse("von-mises", &field)?;
 //! let value = mises.at(&mut local, vec2(0.25, 0.0), Side::Above);
 //! assert!((value - 1.0 / 1.3).abs() < 1e-14);
 //! // The same a trillion times closer.
@@ -195,15 +195,19 @@ pub mod check;
 pub mod cover;
 pub mod crack;
 pub mod dataset;
+pub mod equation;
+pub mod expression;
 pub mod field;
 pub mod formula;
 pub mod function;
 pub mod jet;
+pub mod library;
 mod morton;
 pub mod polynomial;
 pub mod quantity;
 #[cfg(test)]
 mod random;
 pub mod real;
+pub mod replace;
 pub mod vec2;
 pub mod weight;

@@ -1,11 +1,15 @@
 //! Weight functions w(t), t = |ξ|: the generators of the partition of unity.
 
-use crate::jet::Jet;
-use crate::real::Real;
+use std::sync::Arc;
 
-/// A one-dimensional even B-spline with support \[−1, 1\], scaled so that w(0) = 1 (the scale does not
-/// matter: φ_i = W_i / Σ W does not see it).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
+use crate::jet::Jet;
+use crate::library;
+use crate::real::{Real, Scalar};
+
+/// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
+/// does not see it. The B-splines have w(0) = 1.
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum WeightFunction {
     /// Degree 1: w = 1 − t.
@@ -15,35 +19,69 @@ pub enum WeightFunction {
     Quadratic,
     /// Degree 3, knots at 0, ±1/2, ±1: w = 1 − 6t² + 6t³ for t ≤ 1/2, else 2 (1 − t)³.
     Cubic,
+    /// A formula of t for 0 ≤ t < 1.
+    Formula(Arc<WeightFormula>),
 }
 
 impl WeightFunction {
-    /// All weight functions.
+    /// The B-splines.
     pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Cubic];
 
-    /// Name in problem files and datasets.
+    /// Name in problem files and datasets; `formula` of a formula.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Quadratic => "quadratic",
             Self::Cubic => "cubic",
+            Self::Formula(_) => "formula",
         }
     }
 
-    /// The weight function of a name.
+    /// The B-spline of a name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|w| w.name() == name)
     }
 
+    /// The weight function of the [library](crate::library::WEIGHTS) with this name.
+    #[must_use]
+    pub fn from_library(name: &str) -> Option<Self> {
+        let scope = Scope::new(&["t"]).expect("t is a name");
+        let formula =
+            |text| Self::formula(text, &scope).expect("the library's weights are weights");
+        Self::from_name(name).or_else(|| library::weight(name).map(|w| formula(w.texts[0])))
+    }
+
+    /// The weight function of a formula of t in a scope with the one input `t`.
+    ///
+    /// # Errors
+    /// See [`WeightError`].
+    pub fn formula(text: &str, scope: &Scope) -> Result<Self, WeightError> {
+        Self::formula_with_breakpoints(text, scope, &[])
+    }
+
+    /// Like [`formula`](Self::formula), with breakpoints beside those that are found by themselves.
+    ///
+    /// # Errors
+    /// See [`WeightError`].
+    pub fn formula_with_breakpoints(
+        text: &str,
+        scope: &Scope,
+        breakpoints: &[f64],
+    ) -> Result<Self, WeightError> {
+        let formula = WeightFormula::parse(text, scope, breakpoints)?;
+        Ok(Self::Formula(Arc::new(formula)))
+    }
+
     /// Places t = |ξ| in \[0, 1) where a derivative of w(|ξ|) jumps; quadrature splits there.
     #[must_use]
-    pub fn breakpoints(self) -> &'static [f64] {
+    pub fn breakpoints(&self) -> &[f64] {
         match self {
             Self::Linear => &[0.0],
             Self::Quadratic => &[1.0 / 3.0],
             Self::Cubic => &[0.0, 0.5],
+            Self::Formula(formula) => &formula.breakpoints,
         }
     }
 
@@ -52,7 +90,7 @@ impl WeightFunction {
     /// Where a derivative jumps, the one from the right is taken, so that a border belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
-    pub fn spline<R: Real>(self, xi: R) -> [R; 3] {
+    pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
         let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
         let t = xi.abs();
         let s = R::sign(xi.ge(zero), one);
@@ -60,13 +98,17 @@ impl WeightFunction {
             Self::Linear => [one - t, -one, zero],
             Self::Quadratic => quadratic(xi, t),
             Self::Cubic => cubic(t),
+            Self::Formula(formula) => {
+                let [w, slope, curvature] = formula.evaluate(t);
+                [inside(xi, w), slope, curvature]
+            }
         };
         [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
     }
 
     /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
     #[inline(always)]
-    pub fn tensor<R: Real, const D: usize>(self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
+    pub fn tensor<R: Real, const D: usize>(&self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
         let [a, ax, axx] = self.spline(xi[0]);
         let [b, by, byy] = self.spline(xi[1]);
         let (ix, iy) = (a.lit(inverse[0]), a.lit(inverse[1]));
@@ -81,6 +123,149 @@ impl WeightFunction {
             w.yy = a * (byy * (iy * iy));
         }
         w
+    }
+}
+
+/// A weight function given by a formula of t = |ξ| on 0 ≤ t < 1; it is 0 beyond.
+#[derive(Clone, Debug)]
+pub struct WeightFormula {
+    formula: Formula,
+    /// w, dw/dt, d²w/dt²
+    jets: FormulaJets,
+    breakpoints: Vec<f64>,
+}
+
+/// Weights are equal when their formulas are.
+impl PartialEq for WeightFormula {
+    fn eq(&self, other: &Self) -> bool {
+        self.formula == other.formula
+    }
+}
+
+/// A formula that is no weight function.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WeightError {
+    /// The text.
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
+    /// Its derivatives.
+    #[error(transparent)]
+    Derivative(#[from] DerivativeError),
+    /// A breakpoint outside the support.
+    #[error("the breakpoint {0} of the weight must be in 0 <= t < 1")]
+    Breakpoint(f64),
+    /// w(1) ≠ 0: the patch would end in a jump.
+    #[error(
+        "a weight must vanish where the patch ends, but `{text}` is {value} at t = 1; \
+         multiply it by e.g. (1 - t)"
+    )]
+    Support {
+        /// The formula.
+        text: String,
+        /// Its value at 1.
+        value: f64,
+    },
+    /// A value that no weight has.
+    #[error(
+        "a weight must be positive for 0 <= t < 1 and finite, with a finite slope, \
+         but `{text}` is {value} with slope {slope} at t = {t}"
+    )]
+    Sign {
+        /// The formula.
+        text: String,
+        /// Where.
+        t: f64,
+        /// The value there.
+        value: f64,
+        /// The slope there.
+        slope: f64,
+    },
+}
+
+/// Places at which a weight is looked at, between its breakpoints and near the ends.
+const LOOKS: u32 = 4096;
+
+/// Breakpoints nearer to each other than this are one, found twice.
+const ROUNDING: f64 = 1e-12;
+
+/// Largest w(1) in parts of the largest value that counts as rounding.
+const VANISHING: f64 = 1e-12;
+
+impl WeightFormula {
+    /// Parses a formula of `t` and checks that it can be a weight: positive where t < 1, zero at
+    /// t = 1, with finite slopes. Positivity is looked for at some thousand places.
+    fn parse(text: &str, scope: &Scope, declared: &[f64]) -> Result<Self, WeightError> {
+        let w = Formula::parse(text, scope)?;
+        let slope = w.derivative("t")?;
+        let curvature = slope.derivative("t")?;
+        if let Some(&outside) = declared.iter().find(|&t| !(0.0..1.0).contains(t)) {
+            return Err(WeightError::Breakpoint(outside));
+        }
+        let mut breakpoints = w.breakpoints(0.0, 1.0);
+        breakpoints.retain(|&t| t > 0.0 && t < 1.0);
+        breakpoints.extend_from_slice(declared);
+        // w(|ξ|) is smooth at 0 if odd derivatives of w vanish there.
+        let odd = [&slope, &curvature.derivative("t")?];
+        if odd.iter().any(|derivative| derivative.evaluate(&[0.0]) != 0.0) {
+            breakpoints.push(0.0);
+        }
+        breakpoints.sort_by(f64::total_cmp);
+        breakpoints.dedup_by(|b, a| *b - *a < ROUNDING);
+        let jets = FormulaJets::new(&[&w], 2)?;
+        let formula = Self { formula: w, jets, breakpoints };
+        formula.check()?;
+        Ok(formula)
+    }
+
+    fn check(&self) -> Result<(), WeightError> {
+        let text = || self.text().to_owned();
+        let mut largest = 0.0f64;
+        for k in 0..LOOKS {
+            let t = f64::from(k) / f64::from(LOOKS);
+            let [value, slope, _] = self.evaluate(t);
+            // Far out a smooth weight underflows.
+            let possible = value > 0.0 || (value == 0.0 && t > 0.9);
+            if !(possible && value.is_finite() && slope.is_finite()) {
+                return Err(WeightError::Sign { text: text(), t, value, slope });
+            }
+            largest = largest.max(value);
+        }
+        let value = self.formula.evaluate(&[1.0]);
+        // A bump has no value at 1, but a limit.
+        let before = self.formula.evaluate(&[1.0 - f64::EPSILON]);
+        let end = if value.is_nan() { before } else { value };
+        if end.abs() <= VANISHING * largest {
+            Ok(())
+        } else {
+            Err(WeightError::Support { text: text(), value: end })
+        }
+    }
+
+    /// The formula of w.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.formula.text()
+    }
+
+    /// w, dw/dt, d²w/dt² at t, lane by lane.
+    fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
+        // 16 lanes are the widest vector there is.
+        let mut lanes = [R::Scalar::default(); 16];
+        t.store(&mut lanes);
+        let mut scratch = Vec::new();
+        let mut out = [[R::Scalar::default(); 16]; 3];
+        for (lane, t) in lanes.iter().enumerate().take(R::LANES) {
+            // Beyond the support the formula need not have a value, at its end perhaps a limit.
+            let t = t.to_f64().min(1.0);
+            let mut jet = [0.0; 3];
+            self.jets.evaluate(&[t], &mut scratch, &mut jet);
+            for (out, value) in out.iter_mut().zip(jet) {
+                let possible = t < 1.0 || value.is_finite();
+                out[lane] = R::Scalar::from_f64(if possible { value } else { 0.0 });
+            }
+        }
+        out.map(|values| t.load(&values))
     }
 }
 
@@ -136,11 +321,11 @@ mod tests {
         left + right
     }
 
-    fn knots(weight: WeightFunction) -> Vec<f64> {
+    fn knots(weight: &WeightFunction) -> Vec<f64> {
         let n = match weight {
             WeightFunction::Linear => 2,
             WeightFunction::Quadratic => 3,
-            WeightFunction::Cubic => 4,
+            _ => 4,
         };
         (0..=n).map(|k| -1.0 + 2.0 * f64::from(k) / f64::from(n)).collect()
     }
@@ -148,7 +333,7 @@ mod tests {
     #[test]
     fn proportional_to_the_b_spline() {
         for weight in WeightFunction::ALL {
-            let knots = knots(weight);
+            let knots = knots(&weight);
             let scale = b_spline(&knots, 0.0);
             for k in -120..=120 {
                 let xi = f64::from(k) / 100.0;
@@ -168,6 +353,35 @@ mod tests {
                 assert!((d - (p - m) / (2.0 * h)).abs() < 1e-8, "{weight:?} {xi}");
                 assert!((dd - (dp - dm) / (2.0 * h)).abs() < 1e-7, "{weight:?} {xi}");
             }
+        }
+    }
+
+    #[test]
+    fn breakpoints_of_formulas_are_found_and_declared() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let breakpoints = |text, declared: &[f64]| {
+            WeightFunction::formula_with_breakpoints(text, &scope, declared)
+                .map(|weight| weight.breakpoints().to_vec())
+        };
+        let roof = "min(1 - t, 0.75 - 0.5*t)";
+        assert_eq!(breakpoints(roof, &[]), Ok(vec![0.0, 0.5]));
+        assert_eq!(breakpoints(roof, &[0.7, 0.0, 0.5 + 1e-15]), Ok(vec![0.0, 0.5, 0.7]));
+        assert_eq!(breakpoints("(1 - t^2)^2", &[0.25]), Ok(vec![0.25]));
+        for outside in [-0.1, 1.0, f64::INFINITY] {
+            let error = breakpoints(roof, &[outside]);
+            assert_eq!(error, Err(WeightError::Breakpoint(outside)));
+        }
+        assert!(breakpoints(roof, &[f64::NAN]).is_err());
+    }
+
+    #[test]
+    fn a_bump_vanishes_with_its_derivatives_at_the_ends() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let bump = WeightFunction::formula("exp(1 - 1/((1 - t)*(1 + t)))", &scope);
+        let bump = bump.expect("a weight");
+        assert_eq!(bump.spline(0.0), [1.0, 0.0, -2.0]);
+        for xi in [-1.0, 1.0, -7.0, 2.0] {
+            assert_eq!(bump.spline(xi), [0.0; 3], "{xi}");
         }
     }
 

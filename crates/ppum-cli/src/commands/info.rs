@@ -1,5 +1,6 @@
 //! `ppum info`: what is inside a dataset.
 
+mod formulas;
 mod report;
 mod text;
 

@@ -1,6 +1,7 @@
 //! One command each: its arguments and what it prints.
 
 pub(crate) mod demo;
+pub(crate) mod formula;
 pub(crate) mod info;
 pub(crate) mod probe;
 pub(crate) mod render;

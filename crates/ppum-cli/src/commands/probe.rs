@@ -12,7 +12,9 @@ use serde::ser::Serializer;
 
 use crate::arguments::point;
 use crate::dataset::{field, open, quantity};
+use crate::given::parts;
 use crate::number::{Number, json};
+use crate::replacements::Replacements;
 use crate::sides::on_crack;
 
 /// Print exact values at points
@@ -30,9 +32,12 @@ pub(crate) struct Args {
     /// Added to every point, without rounding: points as near a tip as you like
     #[arg(long, value_name = "DX,DY", allow_hyphen_values = true, value_parser = point)]
     offset: Option<Vec2>,
-    /// Quantities, see `ppum info` [default: the components; for elasticity also the stresses]
-    #[arg(short, long, value_name = "Q,…", value_delimiter = ',')]
+    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: the components; for
+    /// elasticity also the stresses]
+    #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
+    #[command(flatten)]
+    replacements: Replacements,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
@@ -46,10 +51,15 @@ Examples:
   ppum probe plate.h5 --at 0.25,-0.1
   ppum probe plate.h5 --at -0.5,0 --at 0.5,0 -q ux,uy,von-mises
   ppum probe plate.h5 --at 0,0                         on the crack: both sides
+  ppum probe plate.h5 --at 0.2,0.1 -q 'sxx + syy,max(s1, 0)'
   ppum probe plate.h5 --at 0.5,0 --offset 1e-12,1e-13  near a tip";
 
 /// Stresses that are printed if nothing is asked for.
 const STRESSES: [&str; 4] = ["sxx", "syy", "sxy", "von-mises"];
+
+/// Least and largest width of the column of names; longer ones push their values aside.
+const NAME: usize = 12;
+const LONG_NAME: usize = 40;
 
 #[derive(Debug, Serialize)]
 struct Report {
@@ -80,7 +90,8 @@ impl Serialize for Values {
 
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let dataset = open(&self.file)?;
+        let mut dataset = open(&self.file)?;
+        self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
         let quantities = self.quantities(&field)?;
         let rows = self.at.iter().flat_map(|&at| self.rows(&field, &quantities, at));
@@ -94,11 +105,11 @@ impl Args {
     }
 
     fn quantities(&self, field: &Field<'_>) -> anyhow::Result<Vec<(String, Quantity)>> {
-        let stresses = field.equation.material().is_some().then_some(STRESSES);
+        let stresses = field.equation.elastic().is_some().then_some(STRESSES);
         let stresses = stresses.into_iter().flatten().map(str::to_owned);
-        let names = match self.quantity.as_slice() {
+        let names: Vec<_> = match self.quantity.as_slice() {
             [] => field.data.components.iter().cloned().chain(stresses).collect(),
-            given => given.to_vec(),
+            given => given.iter().flat_map(|list| parts(list)).map(str::to_owned).collect(),
         };
         names.into_iter().map(|name| Ok((name.clone(), quantity(field, &name)?))).collect()
     }
@@ -151,9 +162,11 @@ impl Row {
             return writeln!(out, ": outside the domain");
         }
         writeln!(out)?;
+        let longest = self.values.0.iter().map(|(name, _)| name.chars().count()).max();
+        let width = longest.unwrap_or(0).clamp(NAME, LONG_NAME);
         for (name, value) in &self.values.0 {
             let sign = if value.0.is_sign_negative() { "" } else { " " };
-            writeln!(out, "  {name:12} {sign}{:?}", value.0)?;
+            writeln!(out, "  {name:width$} {sign}{:?}", value.0)?;
         }
         Ok(())
     }

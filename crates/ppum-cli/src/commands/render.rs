@@ -10,6 +10,7 @@ use anyhow::{Context as _, bail, ensure};
 use clap::ValueEnum;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::figure::{Labels, figure, plot_area};
@@ -25,6 +26,7 @@ use ppum_render::view::View;
 use crate::arguments::size;
 use crate::dataset::{field, open, quantity};
 use crate::number::trimmed;
+use crate::replacements::Replacements;
 use crate::threads;
 use window::{Frame, Window};
 
@@ -41,9 +43,12 @@ pub(crate) struct Args {
     /// Picture to write
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
-    /// Quantity, see `ppum info` [default: von-mises; for Poisson problems u]
-    #[arg(short, long, value_name = "Q")]
+    /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one [default: von-mises;
+    /// for Poisson problems u]
+    #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
+    #[command(flatten)]
+    replacements: Replacements,
     /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
     /// shape]
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -82,6 +87,8 @@ const EXAMPLES: &str = "\
 Examples:
   ppum render plate.h5 -o plate.png --figure
   ppum render plate.h5 -o uy.png -q uy --colormap coolwarm --size 1920x1080
+  ppum render plate.h5 -o mean.png -q '(sxx + syy)/2' --figure
+  ppum render plate.h5 -o what-if.png --function 'westergaard 1=r' --weight bump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
@@ -119,17 +126,20 @@ const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         self.check()?;
-        let dataset = open(&self.file)?;
+        let mut dataset = open(&self.file)?;
+        self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
-        let name = self.quantity.as_deref().unwrap_or(default_quantity(&field));
-        let quantity = quantity(&field, name)?;
+        let given = self.quantity.as_deref().unwrap_or(default_quantity(&field));
+        let quantity = quantity(&field, given)?;
+        let name = name(&quantity, given);
         let view = self.view(&field)?;
         let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
         let mut picture =
-            threads::with(self.threads, || self.picture(&field, &view, quantity, &style))??;
-        let image = self.image(&mut picture, &field, &labels(&dataset, &field, quantity))?;
+            threads::with(self.threads, || self.picture(&field, &view, &quantity, &style))??;
+        let image = self.image(&mut picture, &field, &labels(&dataset, &field, &quantity))?;
         let file = self.file.file_name().unwrap_or_default().to_string_lossy();
-        let texts = picture.description(&dataset.title, &file, name);
+        let mut texts = picture.description(&dataset.title, &file, &name);
+        texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
         png::write(&self.output, &image, &texts)?;
         let [columns, rows] = image.size;
         let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
@@ -165,7 +175,7 @@ impl Args {
         &self,
         field: &Field<'_>,
         view: &View,
-        quantity: Quantity,
+        quantity: &Quantity,
         style: &Style,
     ) -> anyhow::Result<Picture> {
         ensure!(
@@ -201,7 +211,7 @@ impl Args {
 }
 
 fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
-    match field.equation.material() {
+    match field.equation.elastic() {
         Some(_) => "von-mises",
         None => &field.data.components[0],
     }
@@ -217,15 +227,25 @@ fn style(name: &str) -> anyhow::Result<Style> {
     Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
 }
 
-fn labels(dataset: &Dataset, field: &Field<'_>, quantity: Quantity) -> Labels {
-    let unit = match quantity {
-        Quantity::Component(_) | Quantity::Magnitude => field.data.unit.clone(),
-        _ => String::new(),
-    };
+/// What messages and the picture's description call the quantity.
+fn name(quantity: &Quantity, given: &str) -> String {
+    match quantity {
+        Quantity::Formula(formula) => formula.label(),
+        _ => given.to_owned(),
+    }
+}
+
+/// The formula of a quantity, as a note in the picture.
+fn notes(quantity: &Quantity) -> Option<(String, String)> {
+    let Quantity::Formula(formula) = quantity else { return None };
+    Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
+}
+
+fn labels(dataset: &Dataset, field: &Field<'_>, quantity: &Quantity) -> Labels {
     Labels {
         title: dataset.title.clone(),
         quantity: quantity.symbol(&field.data.components),
-        unit,
+        unit: quantity.unit(field).to_owned(),
         length_unit: String::new(),
     }
 }

@@ -46,7 +46,7 @@ impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let dataset = open(&self.file)?;
         let file = self.file.display().to_string();
-        if dataset.equation.material().is_none() {
+        if dataset.equation.elastic().is_none() {
             bail!(
                 "{file}: a Poisson problem has no stress intensity factors; solve one of elasticity"
             );
@@ -94,7 +94,8 @@ fn computed(
     force: &[Expression],
 ) -> anyhow::Result<Vec<TipIntensity>> {
     let field = Field::new(dataset, step)?;
-    let space = Space::new(field.step).context("functions of the field")?;
+    let space =
+        Space::new(field.step, field.equation, field.tables).context("functions of the field")?;
     let at = |x: Vec2| {
         let mut values = [0.0; 2];
         values.iter_mut().zip(force).for_each(|(value, f)| *value = f.value(x));

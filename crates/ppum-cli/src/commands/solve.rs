@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{bail, ensure};
 use ppum::dataset::{Dataset, Record, Step};
+use ppum::formula::one_line;
+use ppum::weight::WeightFunction;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 
+use crate::families::{Family, blocks, families};
 use crate::number::trimmed;
 use crate::progress::Bar;
 use crate::threads;
@@ -80,12 +83,28 @@ impl Args {
 fn summary(out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
     writeln!(out, "{}", dataset.title)?;
     for (index, step) in dataset.steps.iter().enumerate() {
+        functions(out, step)?;
         history(out, step)?;
         let tips: Vec<_> = step.intensities.iter().map(|t| Tip::new(index, step, t)).collect();
         if !tips.is_empty() {
             table(out, &tips)?;
             warn(&tips);
         }
+    }
+    Ok(())
+}
+
+/// The functions beside 1 that multiply polynomials, and the weight if it is a formula.
+fn functions(out: &mut dyn Write, step: &Step) -> anyhow::Result<()> {
+    let Some(field) = step.fields.first() else { return Ok(()) };
+    let families = families(&step.functions, &blocks(&step.functions, field));
+    let enriched = families.iter().filter(|family| family.blocks > 0 && family.name != "one");
+    let titles: Vec<_> = enriched.map(Family::title).collect();
+    if !titles.is_empty() {
+        writeln!(out, "functions {}", titles.join(", "))?;
+    }
+    if let WeightFunction::Formula(weight) = &step.partition.weight {
+        writeln!(out, "weight {}", one_line(weight.text()))?;
     }
     Ok(())
 }

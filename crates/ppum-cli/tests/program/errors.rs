@@ -75,6 +75,27 @@ fn arguments_that_are_not_what_they_should_be() {
     assert_eq!(lab.files(), ["plate.h5", "plate.toml"], "nothing half done is left");
 }
 
+/// The error points at the place in the formula, line by line.
+#[test]
+fn formulas_that_are_wrong() {
+    let lab = Lab::solved(CRACKED);
+    lab.write("slip.txt", "# of the faces\n  sqrt(ux^2 + uz^2)\n");
+    for command in ["probe plate.h5 --at 0,0", "render plate.h5 -o a.png"] {
+        assert_eq!(
+            lab.fail_with(command, &["-q", "sqrt(ux^2 + uz^2)"]),
+            "error: line 1, column 13: unknown name `uz`; did you mean `ux`?\n\
+             error:   sqrt(ux^2 + uz^2)\n\
+             error:               ^^\n"
+        );
+        let from_file = lab.fail_with(command, &["-q", "@slip.txt"]);
+        assert!(
+            from_file.starts_with("error: slip.txt: line 2, column 15: unknown"),
+            "{from_file}"
+        );
+        assert!(lab.fail_with(command, &["-q", "@slop.txt"]).contains("cannot read slop.txt"));
+    }
+}
+
 /// A reader that goes away is no reason to panic.
 #[test]
 fn closed_pipes() {
@@ -99,7 +120,7 @@ fn results_that_cannot_be_printed_are_a_failure() {
 #[test]
 fn help_goes_to_standard_output() {
     let lab = Lab::new();
-    for command in ["", "demo", "solve", "info", "sif", "probe", "render"] {
+    for command in ["", "demo", "solve", "info", "sif", "probe", "render", "formula"] {
         let text = lab.run(&format!("{command} --help"));
         assert!(text.contains("Examples:"), "{command}: {text}");
     }

@@ -1,6 +1,6 @@
 use serde_json::json;
 
-use crate::{CRACKED, LINEAR, Lab, keys};
+use crate::{CRACKED, LINEAR, Lab, keys, with_formulas};
 
 #[test]
 fn tells_what_is_inside() {
@@ -14,14 +14,18 @@ fn tells_what_is_inside() {
 fn json_has_the_documented_shape() {
     let lab = Lab::solved(CRACKED);
     let info = lab.json("info plate.h5");
-    assert_eq!(keys(&info), ["domain", "equation", "file", "program", "steps", "title"]);
+    assert_eq!(
+        keys(&info),
+        ["domain", "equation", "file", "program", "quantities", "steps", "tables", "title"]
+    );
     assert_eq!(info["domain"], json!({ "min": [-1.0, -1.0], "max": [1.0, 1.0] }));
     let elasticity =
         json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
     assert_eq!(info["equation"], elasticity);
     let step = &info["steps"][0];
     let expected = "attributes cells cracks fields functions history intensities levels load \
-                    orders patches points quantities step tips unknowns weight";
+                    orders patches points quantities step tips unknowns weight weight_breakpoints \
+                    weight_formula";
     assert_eq!(keys(step).join(" "), expected);
     let crack = json!([{ "points": [[-0.5, 0.0], [0.5, 0.0]], "ends": ["tip", "tip"] }]);
     assert_eq!(step["cracks"], crack);
@@ -30,6 +34,9 @@ fn json_has_the_documented_shape() {
     assert_eq!(cells.sum::<u64>(), step["patches"].as_u64().unwrap());
     assert_eq!(step["functions"].as_array().unwrap().len(), 10, "1, side, 2 × 4 at the tips");
     assert_eq!(keys(&step["functions"][0]), ["blocks", "kind", "name"]);
+    assert_eq!(keys(&step["functions"][1]), ["blocks", "crack", "kind", "name"]);
+    assert_eq!((&step["weight"], &step["weight_formula"]), (&json!("linear"), &json!("1 - t")));
+    assert_eq!(step["weight_breakpoints"], json!([0.0]));
     assert_eq!(step["functions"][0]["blocks"], step["patches"]);
     assert_eq!(step["fields"][0]["components"], json!(["ux", "uy"]));
     let quantities = step["quantities"].as_array().unwrap();
@@ -39,6 +46,45 @@ fn json_has_the_documented_shape() {
     assert_eq!(unknowns["value"].as_f64(), step["unknowns"].as_f64());
     let solver = &step["intensities"];
     assert_eq!(solver, &lab.json("sif plate.h5")["tips"], "stored and computed are the same");
+}
+
+#[test]
+fn formulas_are_told() {
+    let lab = Lab::solved(&with_formulas());
+    let info = lab.json("info plate.h5");
+    assert_eq!(info["equation"]["young"], "table(modulus, x)");
+    let stretch =
+        json!([{ "name": "stretch", "formula": "hypot(ux, uy)*2  # twice", "unit": "mm" }]);
+    assert_eq!(info["quantities"], stretch);
+    let table = json!({ "name": "modulus", "x": [-2.0, 2.0], "y": [], "values": [1.0, 3.0] });
+    assert_eq!(info["tables"], json!([table]));
+    let step = &info["steps"][0];
+    assert_eq!((&step["weight"], &step["weight_breakpoints"]), (&json!("formula"), &json!([0.0])));
+    assert_eq!(step["weight_formula"], "(1 - t)^2*(1 + 2*t)");
+    assert!(step["quantities"].as_array().unwrap().contains(&json!("stretch")));
+    let functions = step["functions"].as_array().unwrap();
+    let corner = functions.iter().find(|f| f["name"] == "corner 2 at [0.5, 0.75]").unwrap();
+    let expected = "blocks declared formula frame kind name parameters";
+    assert_eq!(keys(corner).join(" "), expected);
+    assert_eq!(corner["formula"], "r^lambda*sin(lambda*theta)");
+    assert_eq!(corner["frame"], json!({ "kind": "fixed", "origin": [0.5, 0.75], "angle": 0.0 }));
+    assert_eq!(corner["parameters"], json!([{ "name": "lambda", "value": 0.6 }]));
+    assert_eq!(corner["declared"], json!({ "kinks": [], "singular": [[0.0, 0.0]] }));
+    let tip = functions.iter().find(|f| f["name"] == "westergaard 1 of crack 0 end").unwrap();
+    assert_eq!(tip["frame"], json!({ "kind": "tip", "crack": 0, "end": "end" }));
+    let text = lab.run("info plate.h5");
+    for part in [
+        "E table(modulus, x)",
+        "modulus(x): 2 knots from -2 to 2",
+        "stretch [mm] = hypot(ux, uy)*2\n",
+        "(1 - t)^2*(1 + 2*t), breakpoints 0",
+        "2–9    westergaard 1–4 at 2 tips in ",
+        "10–11  corner 1–2 at [0.5, 0.75] in ",
+        "r^lambda*cos(lambda*theta), lambda = 0.6",
+        "12     kink along [-1, -0.5] to [1, -0.5] in ",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 #[test]

@@ -3,10 +3,12 @@
 
 mod demo;
 mod errors;
+mod formula;
 mod info;
 mod probe;
 mod readme;
 mod render;
+mod replacements;
 mod sif;
 mod solve;
 
@@ -50,19 +52,34 @@ impl Lab {
 
     /// What a successful command prints; nothing may appear on standard error.
     fn run(&self, arguments: &str) -> String {
-        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        self.run_with(arguments, &[])
+    }
+
+    /// The same with more arguments, which may have blanks.
+    fn run_with(&self, arguments: &str, more: &[&str]) -> String {
+        let output = self.command(arguments).args(more).output().unwrap();
+        let Output { status, stdout, stderr } = output;
         let complaint = String::from_utf8(stderr).unwrap();
-        assert!(status.success() && complaint.is_empty(), "ppum {arguments}: {complaint}");
+        assert!(status.success() && complaint.is_empty(), "ppum {arguments} {more:?}: {complaint}");
         String::from_utf8(stdout).unwrap()
     }
 
     fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.run(&format!("{arguments} --json"))).unwrap()
+        self.json_with(arguments, &[])
+    }
+
+    fn json_with(&self, arguments: &str, more: &[&str]) -> Value {
+        serde_json::from_str(&self.run_with(&format!("{arguments} --json"), more)).unwrap()
     }
 
     /// What a command complains about that must fail, print no result and not panic.
     fn fail(&self, arguments: &str) -> String {
-        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        self.fail_with(arguments, &[])
+    }
+
+    fn fail_with(&self, arguments: &str, more: &[&str]) -> String {
+        let output = self.command(arguments).args(more).output().unwrap();
+        let Output { status, stdout, stderr } = output;
         let complaint = String::from_utf8(stderr).unwrap();
         // 1: could not do it, 2: not understood; a panic is 101
         assert!(matches!(status.code(), Some(1 | 2)), "ppum {arguments}: {status} {complaint}");
@@ -154,6 +171,31 @@ fn sound() -> String {
     let sound = CRACKED.replace(crack, "").replace("level = 3", "level = 1");
     assert!(!sound.contains("crack"));
     sound
+}
+
+/// The cracked plate with a weight, functions, quantities and a table of its own.
+fn with_formulas() -> String {
+    let text = CRACKED.replace("order = 1", "order = 1\nweight = \"(1 - t)^2*(1 + 2*t)\"");
+    text.replace("young = 1.0", "young = \"table(modulus, x)\"")
+        + r#"
+[[table]]
+name = "modulus"
+x = [-2.0, 2.0]
+values = [1.0, 3.0]
+[[enrichment]]
+name = "corner"
+functions = ["r^lambda*cos(lambda*theta)", "r^lambda*sin(lambda*theta)"]
+parameters = { lambda = 0.6 }
+at = [0.5, 0.75]
+singular = [[0.0, 0.0]]
+[[enrichment]]
+function = "kink"
+along = [[-1.0, -0.5], [1.0, -0.5]]
+[[quantity]]
+name = "stretch"
+formula = "hypot(ux, uy)*2  # twice"
+unit = "mm"
+"#
 }
 
 /// A Poisson problem whose solution is u = x + 2y.

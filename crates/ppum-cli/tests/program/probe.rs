@@ -1,6 +1,6 @@
 use serde_json::{Value, json};
 
-use crate::{CRACKED, LINEAR, Lab, keys, sound};
+use crate::{CRACKED, LINEAR, Lab, keys, sound, with_formulas};
 
 fn value(point: &Value, name: &str) -> f64 {
     point["values"][name].as_f64().unwrap_or_else(|| panic!("{name} in {point}"))
@@ -84,6 +84,30 @@ fn offsets_are_not_rounded() {
     assert_eq!(report["points"][1]["side"], "below");
     let report = lab.json("probe plate.h5 --at 0.5,0 --offset -1e-20,1e-25 -q uy");
     assert_eq!(report["points"][0]["side"], Value::Null);
+}
+
+/// Formulas under the names they were given, commas inside of them and files included.
+#[test]
+fn formulas() {
+    let lab = Lab::solved(&with_formulas());
+    lab.write("slip.txt", "sqrt(ux^2 + uy^2) # of both faces\n");
+    let list = "max(sxx, syy), hypot(ux, uy),@slip.txt";
+    let report =
+        lab.json_with("probe plate.h5 --at 0.3,0.2 -q sxx,syy,magnitude,stretch", &["-q", list]);
+    let point = &report["points"][0];
+    let expected = "@slip.txt hypot(ux, uy) magnitude max(sxx, syy) stretch sxx syy";
+    assert_eq!(keys(&point["values"]).join(" "), expected);
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b.abs();
+    assert_eq!(value(point, "max(sxx, syy)"), value(point, "sxx").max(value(point, "syy")));
+    let magnitude = value(point, "magnitude");
+    for (name, factor) in [("hypot(ux, uy)", 1.0), ("@slip.txt", 1.0), ("stretch", 2.0)] {
+        assert!(near(value(point, name), factor * magnitude), "{name} {point}");
+    }
+    // at a tip there are values, but no slopes
+    let report = lab.json_with("probe plate.h5 --at 0.5,0", &["-q", "2*sxx,ux^2"]);
+    let values = &report["points"][0]["values"];
+    assert_eq!(values["2*sxx"], "inf");
+    assert!(values["ux^2"].is_f64());
 }
 
 #[test]

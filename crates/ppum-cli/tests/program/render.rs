@@ -1,6 +1,6 @@
 use ppum_render::colormap::Colormap;
 
-use crate::{CRACKED, LINEAR, Lab, Png, sound};
+use crate::{CRACKED, LINEAR, Lab, Png, sound, with_formulas};
 
 /// Every pixel of u = x + 2y has the colour of its centre's value, the upper row being the upper one.
 #[test]
@@ -32,6 +32,38 @@ fn texts_tell_what_is_seen() {
     assert_eq!(png.text("ppum:view"), "center 0.5,-0.25 width 1e-9 pixels 40x30");
     assert_eq!(png.text("ppum:scale"), "log");
     assert_eq!(png.text("ppum:colormap"), "viridis");
+}
+
+/// A formula of a quantity draws what the quantity draws, and the picture tells the formula.
+#[test]
+fn formulas_are_drawn() {
+    let lab = Lab::solved(&with_formulas());
+    let draw = |quantity: &str| {
+        let arguments = "render plate.h5 -o a.png --size 60x60 --range=0,4";
+        let told = lab.run_with(arguments, &["-q", quantity]);
+        (Png::read(&lab.path("a.png")), told)
+    };
+    let (magnitude, _) = draw("magnitude");
+    assert!(magnitude.texts.iter().all(|(key, _)| key != "ppum:formula"));
+    lab.write("slip.txt", "# of both faces\nlet a = ux^2;\nsqrt(a + uy^2)\n");
+    for (quantity, line) in [
+        ("sqrt(ux^2+uy^2)", "sqrt(ux^2+uy^2)"),
+        ("@slip.txt", "let a = ux^2; sqrt(a + uy^2)"),
+        ("hypot(ux, uy)", "hypot(ux, uy)"),
+    ] {
+        let (picture, told) = draw(quantity);
+        let near = |(a, b): (&u8, &u8)| a.abs_diff(*b) <= 1;
+        assert!(picture.rgba.iter().zip(&magnitude.rgba).all(near), "{quantity}");
+        assert_eq!(picture.text("ppum:quantity"), line);
+        assert_eq!(picture.text("ppum:formula"), line);
+        assert!(picture.text("Description").starts_with(line) && told.contains(line), "{told}");
+    }
+    let (stretch, _) = draw("stretch");
+    assert_eq!(stretch.text("ppum:quantity"), "stretch");
+    assert_eq!(stretch.text("ppum:formula"), "hypot(ux, uy)*2");
+    let long = format!("{}ux", "ux + ".repeat(200));
+    lab.run_with("render plate.h5 -o a.png --figure", &["-q", &long]);
+    assert_eq!(Png::read(&lab.path("a.png")).text("ppum:formula"), long);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use crate::{CRACKED, LINEAR, Lab, sound};
+use crate::{CRACKED, LINEAR, Lab, sound, with_formulas};
 
 #[test]
 fn tells_unknowns_times_and_intensities() {
@@ -11,6 +11,20 @@ fn tells_unknowns_times_and_intensities() {
     assert_eq!(lab.files(), ["plate.h5", "plate.toml"]);
     lab.run("solve plate.toml -o other.h5");
     assert_eq!(lab.files(), ["other.h5", "plate.h5", "plate.toml"]);
+}
+
+#[test]
+fn tells_functions_and_weights() {
+    let lab = Lab::new();
+    lab.write("plate.toml", &with_formulas());
+    let told = lab.run("solve plate.toml");
+    let functions = "functions side of 1 crack, westergaard 1–4 at 2 tips, \
+                     corner 1–2 at [0.5, 0.75], kink along [-1, -0.5] to [1, -0.5]\n";
+    assert!(told.contains(functions), "{told}");
+    assert!(told.contains("weight (1 - t)^2*(1 + 2*t)\n"), "{told}");
+    lab.write("plain.toml", LINEAR);
+    let told = lab.run("solve plain.toml");
+    assert!(!told.contains("functions") && !told.contains("weight"), "{told}");
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! From the sums of a tile to the values of a quantity.
 
 use ppum::jet::Jet;
-use ppum::quantity::{Quantity, Source};
+use ppum::quantity::{Quantity, Sample, Source};
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, ROWS, known};
+use super::collapse::{ANY, ROWS, known, splat};
 use super::plan::COLUMNS;
 use super::spread::size;
 use super::tile::{Scratch, Tile, load_jet};
@@ -21,7 +21,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     ) {
         match (self.scene.quantity, scratch.shift.len()) {
             (Quantity::VonMises, 2) => {
-                self.finish_as::<R, 2>(Quantity::VonMises, scratch, out, zero);
+                self.finish_as::<R, 2>(&Quantity::VonMises, scratch, out, zero);
             }
             (quantity, 2) => self.finish_as::<R, 2>(quantity, scratch, out, zero),
             (quantity, _) => self.finish_as::<R, ANY>(quantity, scratch, out, zero),
@@ -32,7 +32,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn finish_as<R: Real<Scalar = T>, const C: usize>(
         &self,
-        quantity: Quantity,
+        quantity: &Quantity,
         scratch: &mut Scratch<T>,
         out: &mut [T],
         zero: R,
@@ -48,7 +48,10 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             many.as_mut_slice()
         };
         let mut exact = Vec::new();
-        let equation = self.scene.equation;
+        let (equation, anchor) = (self.scene.field.equation, self.scene.view.center);
+        let uniform = equation.is_uniform();
+        let mut moduli = equation.moduli(anchor, [zero; 2]);
+        let source = quantity.source();
         let stride = size::<R, D>() * (1 + components);
         let width = self.scene.view.pixels[0] as usize;
         let [mut column, first_row] = self.corner();
@@ -57,22 +60,28 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         while column < end {
             for (row, line) in out.chunks_exact_mut(width).enumerate() {
                 let cell = &mut scratch.sums[start + row * stride..][..stride];
-                if quantity.source() == Source::Exact {
+                if source == Source::Exact {
                     exact.resize(components, zero);
                     let pixel = [column, first_row + row];
                     self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
                 }
                 let weight = divide::<R, D>(cell, jets, zero);
-                let value = match quantity.source() {
-                    Source::Partition if components == 0 => weight,
-                    Source::Partition => jets[0].v + zero.lit(scratch.shift[0]),
-                    Source::Values => {
-                        for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
-                            jet.v = jet.v + zero.lit(shift);
-                        }
-                        quantity.of_field(&equation, jets, &exact)
+                if source != Source::Exact {
+                    for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
+                        jet.v = jet.v + zero.lit(shift);
                     }
-                    Source::Gradient | Source::Exact => quantity.of_field(&equation, jets, &exact),
+                }
+                let value = match source {
+                    Source::Partition if components == 0 => weight,
+                    Source::Partition => jets[0].v,
+                    _ => {
+                        let x = zero.load(&self.scene.xs[column..]);
+                        let offset = [x, splat(zero, self.scene.ys[first_row + row])];
+                        if !uniform {
+                            moduli = equation.moduli(anchor, offset);
+                        }
+                        quantity.of_field(&Sample { anchor, offset, moduli, jets, exact: &exact })
+                    }
                 };
                 clear(cell, zero);
                 store(value, &mut line[column..]);

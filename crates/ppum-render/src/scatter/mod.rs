@@ -27,7 +27,6 @@ mod plan;
 mod spread;
 mod tile;
 
-use ppum::dataset::Equation;
 use ppum::field::Field;
 use ppum::function::LocalFunctions;
 use ppum::quantity::{Quantity, QuantityError, Source};
@@ -50,23 +49,40 @@ use tile::{Band, Scratch};
 /// # Errors
 /// [`QuantityError::Patch`] for the partition function of a patch that does not exist;
 /// [`QuantityError::NoExact`] for the error of a field whose exact solution is not known.
-pub fn render<T: Scalar + Sample>(
-    field: &Field,
+pub fn render<T: Sample>(
+    field: &Field<'_>,
     view: &View,
-    quantity: Quantity,
+    quantity: &Quantity,
 ) -> Result<Raster<T>, QuantityError> {
-    quantity.check(field)?;
-    if !resolves::<T>(view.pixel_size()) {
-        let raster = render::<f64>(field, view, quantity)?;
-        let values = raster.values.into_iter().map(T::from_f64).collect();
-        return Ok(Raster::new(view.pixels, values));
-    }
-    let scene = Scene::new(field, view, quantity);
-    Ok(match quantity.source() {
-        Source::Gradient => scene.draw::<1>(),
-        _ => scene.draw::<0>(),
-    })
+    T::render(field, view, quantity)
 }
+
+macro_rules! sample {
+    ($t:ty) => {
+        impl Sample for $t {
+            fn render(
+                field: &Field<'_>,
+                view: &View,
+                quantity: &Quantity,
+            ) -> Result<Raster<Self>, QuantityError> {
+                quantity.check(field)?;
+                if !resolves::<$t>(view.pixel_size()) {
+                    let raster = f64::render(field, view, quantity)?;
+                    let values = raster.values.into_iter().map(<$t>::from_f64).collect();
+                    return Ok(Raster::new(view.pixels, values));
+                }
+                let scene = Scene::<$t>::new(field, view, quantity);
+                Ok(match quantity.source() {
+                    Source::Gradient => scene.draw::<1>(),
+                    _ => scene.draw::<0>(),
+                })
+            }
+        }
+    };
+}
+
+sample!(f64);
+sample!(f32);
 
 /// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
 /// tip neither underflow nor overflow.
@@ -78,9 +94,8 @@ fn resolves<T: Scalar>(length: f64) -> bool {
 /// A view of a field, ready to be drawn.
 struct Scene<'f, T> {
     view: View,
-    quantity: Quantity,
-    equation: Equation,
-    weight: WeightFunction,
+    quantity: &'f Quantity,
+    weight: &'f WeightFunction,
     functions: LocalFunctions<'f>,
     plan: Plan<'f>,
     /// Offsets of the columns from the view's centre, up to full tiles.
@@ -90,16 +105,15 @@ struct Scene<'f, T> {
     field: &'f Field<'f>,
 }
 
-impl<'f, T: Scalar + Sample> Scene<'f, T> {
-    fn new(field: &'f Field<'f>, view: &View, quantity: Quantity) -> Self {
+impl<'f, T: Sample> Scene<'f, T> {
+    fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
         let plan = Plan::new(field, view, quantity, ROWS);
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
         let rows = view.pixels[1].next_multiple_of(ROWS as u32);
         Self {
             view: *view,
             quantity,
-            equation: field.equation,
-            weight: field.step.partition.weight,
+            weight: &field.step.partition.weight,
             functions: field.functions.at(&field.step.cracks, view.center),
             plan,
             xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),

@@ -72,7 +72,7 @@ pub(super) struct Plan<'f> {
 
 impl<'f> Plan<'f> {
     /// The plan for tiles of `rows` rows.
-    pub(super) fn new(field: &'f Field, view: &View, quantity: Quantity, rows: usize) -> Self {
+    pub(super) fn new(field: &'f Field, view: &View, quantity: &Quantity, rows: usize) -> Self {
         let pixels = Pixels::new(view);
         let mut visible = Vec::new();
         field.tree.query_box(&pixels.window(), &mut visible);
@@ -123,10 +123,10 @@ impl<'f> Plan<'f> {
     }
 
     /// Adds the blocks of a patch, one of function 1 first.
-    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: Quantity) -> Range<u32> {
+    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: &Quantity) -> Range<u32> {
         let start = self.blocks.len();
         if let Quantity::PartitionFunction(of) = quantity {
-            self.blocks.push(Block { zero: of as usize != patch, ..Block::NOTHING });
+            self.blocks.push(Block { zero: *of as usize != patch, ..Block::NOTHING });
         } else if !self.coefficients.is_empty() {
             let data = field.data;
             self.blocks.extend(data.blocks(patch).map(|block| Block {
@@ -146,7 +146,7 @@ impl<'f> Plan<'f> {
 }
 
 /// What is summed: the field's components, the constant 1 of one patch, or nothing.
-fn coefficients(data: &FieldData, quantity: Quantity) -> Vec<&[f64]> {
+fn coefficients<'f>(data: &'f FieldData, quantity: &Quantity) -> Vec<&'f [f64]> {
     match quantity {
         Quantity::PartitionFunction(_) => vec![&[1.0]],
         Quantity::WeightSum | Quantity::Overlap => Vec::new(),

@@ -96,7 +96,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn factor<R: Real<Scalar = T>>(&self, offset: R, support: Affine) -> Factor<R> {
         let xi = place(offset, support);
-        if self.scene.quantity == Quantity::Overlap {
+        if *self.scene.quantity == Quantity::Overlap {
             let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
             let inside = R::select(xi.ge(-one), R::select(one.gt(xi), one, zero), zero);
             return Factor { value: inside, slope: zero };

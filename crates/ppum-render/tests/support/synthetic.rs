@@ -83,11 +83,10 @@ fn functions(wrap: bool) -> Vec<Function> {
     for tip in TIPS {
         all.extend(WESTERGAARD.map(|text| Function {
             name: text.into(),
-            kind: FunctionKind::Formula {
-                text: if wrap { format!("({text})") } else { text.into() },
-                frame: Frame::Tip(tip),
-                parameters: Vec::new(),
-            },
+            kind: FunctionKind::formula(
+                &if wrap { format!("({text})") } else { text.into() },
+                Frame::Tip(tip),
+            ),
         }));
     }
     all
@@ -123,7 +122,7 @@ struct Maker<'a> {
 pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
     let crack = Crack { points: recipe.crack.to_vec(), ends: [CrackEnd::Tip; 2] };
     let (cracks, functions) = (vec![crack], functions(recipe.formulas));
-    let table = FunctionTable::new(&self::functions(false)).expect("built-in functions");
+    let table = FunctionTable::new(&self::functions(false), 1, &[]).expect("built-in functions");
     let partition = partition(recipe);
     let mut maker = Maker { recipe, cracks, table, partition, data: empty(recipe.components) };
     for patch in 0..maker.partition.len() {
@@ -132,8 +131,8 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
     let Maker { cracks, partition, data, .. } = maker;
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let equation = match recipe.components {
-        1 => Equation::Poisson { conductivity: 1.0 },
-        _ => Equation::Elasticity(material),
+        1 => Equation::poisson(1.0),
+        _ => Equation::elasticity(material),
     };
     Dataset {
         title: "synthetic".into(),
@@ -141,6 +140,8 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
         problem: None,
         domain: domain(),
         equation,
+        quantities: Vec::new(),
+        tables: Vec::new(),
         steps: vec![Step {
             load: 1.0,
             partition,
@@ -175,7 +176,7 @@ fn partition(recipe: &Recipe) -> Partition {
     let near = |cell: Rect| tips.iter().any(|&tip| cell.contains(tip));
     while cover.refine(|cell, level| level < recipe.tip_level && near(cell)).expect("a level") > 0 {
     }
-    let mut partition = cover.partition(1.3, recipe.weight).expect("a cover");
+    let mut partition = cover.partition(1.3, recipe.weight.clone()).expect("a cover");
     if recipe.own_frames {
         for (k, origin) in partition.origin.iter_mut().enumerate() {
             let half = partition.half[k];

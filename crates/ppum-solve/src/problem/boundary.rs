@@ -2,7 +2,7 @@
 
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::expression::Expression;
+use ppum::expression::Expression;
 
 /// An edge of the box Ω.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,17 @@
 //! What the values of a problem must obey, whether it was read from a file or built in code.
 
-use ppum::dataset::{Equation, MAX_DEGREE, Material, StressState};
+use ppum::dataset::{Equation, MAX_DEGREE};
 use ppum::vec2::Rect;
 
 use super::cracks::check_cracks;
+use super::enrichment::check_enrichments;
 use super::key::Key;
-use super::{BoundaryCondition, Cells, Condition, Discretization, Enrichment, Order, Problem};
+use super::quantities::check_quantities;
+use super::scopes;
+use super::{
+    BoundaryCondition, Cells, Condition, Discretization, Enrichment, LocalEnrichment, Order,
+    Problem,
+};
 
 /// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
 pub(super) const MAX_LEVEL: u32 = 10;
@@ -36,34 +42,43 @@ impl Violation {
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
 pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
-    let mut found = check_equation(&problem.equation);
+    let mut found = check_equation(&problem.equation, &problem.domain);
     found.extend(check_components(problem));
-    found.extend(check_discretization(&problem.discretization));
+    found.extend(check_discretization(problem));
+    found.extend(check_tables(problem));
+    found.extend(check_quantities(problem));
     let domain = check_domain(&problem.domain);
     if domain.is_empty() {
         found.extend(check_points(&problem.discretization.cells, &problem.domain));
         found.extend(check_order(&problem.discretization.order, &problem.domain));
         found.extend(check_cracks(&problem.cracks, &problem.domain));
         found.extend(check_zone(problem));
+        found.extend(check_enrichments(problem));
         found.extend(check_boundary(&problem.boundary, &problem.domain));
     }
     found.extend(domain);
     found
 }
 
-/// The functions of a tip jump on the whole straight extension of its segment, also beyond the other
-/// end of the crack: no zone may reach that far.
+/// No zone of the built-in functions of tips may reach too far.
 fn check_zone(problem: &Problem) -> Option<Violation> {
     let radius = problem.discretization.enrichment_radius?;
+    let message = too_wide(problem, radius)?;
+    let key = Key::new("discretization").name("enrichment_radius");
+    Some(Violation::new(key, format!("`enrichment_radius` {message}")))
+}
+
+/// What is wrong with the radius of a zone around all tips, if it is too large: the functions of a tip
+/// jump on the whole straight extension of its segment, also beyond the other end of the crack.
+pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
     let two_tips = problem.cracks.iter().filter(|crack| crack.tips().count() == 2);
-    let apart = two_tips.map(|c| (c.points[c.points.len() - 1] - c.points[0]).length());
+    let apart = two_tips.filter_map(|c| Some((*c.points.last()? - *c.points.first()?).length()));
     let nearest = apart.fold(f64::INFINITY, f64::min);
     (radius >= nearest).then(|| {
-        let message = format!(
-            "`enrichment_radius` is {radius}, but the tips of a crack are only {nearest} apart; give \
-             less than half of that"
-        );
-        Violation::new(Key::new("discretization").name("enrichment_radius"), message)
+        format!(
+            "is {radius}, but the tips of a crack are only {nearest} apart; give less than half of \
+             that"
+        )
     })
 }
 
@@ -90,33 +105,20 @@ fn check_domain(domain: &Rect) -> Vec<Violation> {
     wrong.map(message).collect()
 }
 
-fn check_equation(equation: &Equation) -> Vec<Violation> {
-    match equation {
-        Equation::Elasticity(material) => check_material(material),
-        Equation::Poisson { conductivity } => positive("conductivity", *conductivity),
-    }
+/// Names that all formulas may use; files cannot break this, code can.
+fn check_tables(problem: &Problem) -> Option<Violation> {
+    let broken =
+        |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
+    let count = (1..=problem.tables.len()).find(broken)?;
+    let error = scopes::check(&problem.tables[..count], &problem.equation).err()?;
+    Some(Violation::new(Key::new("table").index(count - 1).name("name"), error.to_string()))
 }
 
-fn positive(name: &'static str, value: f64) -> Vec<Violation> {
-    if value > 0.0 && value.is_finite() {
-        return Vec::new();
-    }
-    let message = format!("`{name}` is {value}, but must be positive and finite");
-    vec![Violation::new(Key::new("material").name(name), message)]
-}
-
-fn check_material(material: &Material) -> Vec<Violation> {
-    let mut found = positive("young", material.young);
-    let nu = material.poisson;
-    let (possible, rule) = match material.state {
-        StressState::PlaneStrain => (-1.0 < nu && nu < 0.5, "-1 < ν < 0.5 in plane strain"),
-        StressState::PlaneStress => (-1.0 < nu && nu <= 0.5, "-1 < ν ≤ 0.5 in plane stress"),
-    };
-    if !possible {
-        let message = format!("`poisson` is {nu}, but {rule}");
-        found.push(Violation::new(Key::new("material").name("poisson"), message));
-    }
-    found
+fn check_equation(equation: &Equation, domain: &Rect) -> Vec<Violation> {
+    let mistake = equation.mistake(domain).map(|(name, message)| {
+        Violation::new(Key::new("material").name(name), format!("`{name}` {message}"))
+    });
+    mistake.into_iter().collect()
 }
 
 /// One value a component everywhere; files cannot break this, code can.
@@ -138,7 +140,8 @@ fn check_components(problem: &Problem) -> Vec<Violation> {
         .collect()
 }
 
-fn check_discretization(discretization: &Discretization) -> Vec<Violation> {
+fn check_discretization(problem: &Problem) -> Vec<Violation> {
+    let discretization = &problem.discretization;
     let Discretization { overlap, enrichment, enrichment_radius, tip_degree, .. } = *discretization;
     let mut found: Vec<_> = check_cells(&discretization.cells).into_iter().collect();
     let mut rule = |holds: bool, name, message: String| {
@@ -163,7 +166,8 @@ fn check_discretization(discretization: &Discretization) -> Vec<Violation> {
             format!("`enrichment_radius` is {radius}, but must be positive and finite"),
         );
         rule(
-            matches!(enrichment, Enrichment::Zone | Enrichment::AdditiveOnly),
+            matches!(enrichment, Enrichment::Zone | Enrichment::AdditiveOnly)
+                || problem.enrichments.iter().any(LocalEnrichment::has_default_zone),
             "enrichment_radius",
             format!(
                 "`enrichment_radius` has no meaning with enrichment = \"{}\"; remove it, or write \

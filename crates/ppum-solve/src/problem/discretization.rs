@@ -4,7 +4,7 @@ use ppum::dataset::MAX_DEGREE;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
 
-use super::expression::Expression;
+use ppum::expression::Expression;
 
 /// Cover, local spaces and enrichment.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,9 @@ pub enum Order {
 pub enum Enrichment {
     /// None: the crack is not seen.
     None,
+    /// Jumps on patches cut through, nothing at tips: leaves them to
+    /// [`LocalEnrichment`](super::LocalEnrichment).
+    Jumps,
     /// Jumps on patches cut through, tip functions on patches that contain a tip.
     TipPatch,
     /// Jumps on patches cut through, tip functions on all patches that meet the disc of the
@@ -113,16 +116,24 @@ impl Order {
 
 impl Enrichment {
     /// All choices.
-    pub const ALL: [Self; 4] = [Self::None, Self::TipPatch, Self::Zone, Self::AdditiveOnly];
+    pub const ALL: [Self; 5] =
+        [Self::None, Self::Jumps, Self::TipPatch, Self::Zone, Self::AdditiveOnly];
 
     /// Name in problem files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::Jumps => "jumps",
             Self::TipPatch => "tip-patch",
             Self::Zone => "zone",
             Self::AdditiveOnly => "additive-only",
         }
+    }
+
+    /// True if patches that a crack cuts through hold its side.
+    #[must_use]
+    pub fn has_jumps(self) -> bool {
+        matches!(self, Self::Jumps | Self::TipPatch | Self::Zone)
     }
 }

@@ -30,27 +30,36 @@
 mod boundary;
 mod check;
 mod cracks;
+mod csv;
 mod discretization;
 mod document;
+mod enrichment;
 mod error;
 mod expression;
 mod key;
 mod points;
+pub(crate) mod quantities;
 mod read;
+mod scopes;
+mod table_file;
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId, tips};
-use ppum::dataset::{Equation, Material};
+use ppum::dataset::{Equation, Material, NamedQuantity};
+use ppum::formula::Table;
 use ppum::vec2::{Rect, Vec2};
 
 pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
+pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
-pub use expression::Expression;
+pub use ppum::expression::Expression;
+pub use table_file::read_table;
 
 /// What is to be solved, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +78,12 @@ pub struct Problem {
     pub source: Vec<Expression>,
     /// The exact solution, one expression a component; empty if unknown.
     pub exact: Vec<Expression>,
+    /// Quantities the problem names, beside the built-in ones.
+    pub quantities: Vec<NamedQuantity>,
+    /// Tables its formulas may read.
+    pub tables: Vec<Arc<Table>>,
+    /// Functions of the local spaces beside the built-in ones.
+    pub enrichments: Vec<LocalEnrichment>,
     /// Cover, local spaces and enrichment.
     pub discretization: Discretization,
     /// The linear solver.
@@ -77,10 +92,26 @@ pub struct Problem {
     pub text: Option<String>,
 }
 
+/// How the system is made and solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Solver {
+    /// The linear solver.
+    pub kind: SolverKind,
+    /// Use native kernels where there are any; false evaluates their formulas, which should give the
+    /// same to rounding.
+    pub kernels: bool,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self { kind: SolverKind::default(), kernels: true }
+    }
+}
+
 /// The linear solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Solver {
+pub enum SolverKind {
     /// What suits the problem.
     #[default]
     Auto,
@@ -117,25 +148,28 @@ impl Problem {
     /// A problem of elasticity on a box, as yet without cracks, loads and supports.
     #[must_use]
     pub fn elasticity(domain: Rect, material: Material, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::Elasticity(material), discretization)
+        Self::new(domain, Equation::elasticity(material), discretization)
     }
 
     /// A Poisson problem with conductivity κ on a box, as yet without cracks, sources and
     /// conditions.
     #[must_use]
     pub fn poisson(domain: Rect, conductivity: f64, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::Poisson { conductivity }, discretization)
+        Self::new(domain, Equation::poisson(conductivity), discretization)
     }
 
     fn new(domain: Rect, equation: Equation, discretization: Discretization) -> Self {
         Self {
             title: String::new(),
             domain,
-            source: vec![Expression::constant(0.0); equation.components()],
+            source: vec![Expression::number(0.0); equation.components()],
             equation,
             cracks: Vec::new(),
             boundary: Vec::new(),
             exact: Vec::new(),
+            quantities: Vec::new(),
+            tables: Vec::new(),
+            enrichments: Vec::new(),
             discretization,
             solver: Solver::default(),
             text: None,

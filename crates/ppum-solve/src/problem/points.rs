@@ -4,34 +4,29 @@ use std::path::Path;
 
 use ppum::vec2::Vec2;
 
-use super::error::{Finding, Place};
+use super::csv::{self, Line, finding};
+use super::error::Finding;
 
 /// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
 ///
 /// # Errors
 /// One finding a line that is not a finite `x,y`, or equals an earlier one; or one for the file.
 pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Finding>> {
-    let file = path.display().to_string();
-    let whole = |message: String| vec![Finding { place: Place::File(file.clone()), message }];
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| whole(format!("cannot read the points: {error}")))?;
-    let points = parse(&text, &file)?;
+    let text = csv::read(path, "points").map_err(|finding| vec![finding])?;
+    let points = parse(&text, &path.display().to_string())?;
     if points.is_empty() {
-        return Err(whole("there are no points; write one `x,y` a line".to_owned()));
+        let message = "there are no points; write one `x,y` a line".to_owned();
+        return Err(vec![csv::of_file(path, message)]);
     }
     Ok(points)
 }
 
 fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Finding>> {
     let (mut points, mut findings) = (Vec::new(), Vec::new());
-    for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-        let content = line.split('#').next().unwrap_or_default();
-        if content.trim().is_empty() {
-            continue;
-        }
-        match point(content) {
-            Ok(point) => points.push((number, point)),
-            Err((column, message)) => findings.push(finding(file, number, column, message)),
+    for line in csv::lines(text) {
+        match point(&line) {
+            Ok(point) => points.push((line.number, point)),
+            Err((column, message)) => findings.push(finding(file, line.number, column, message)),
         }
     }
     findings.extend(duplicates(&points, file));
@@ -43,15 +38,12 @@ fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Finding>> {
 }
 
 /// The point of a line, or the column and the message of what is wrong.
-fn point(content: &str) -> Result<Vec2, (usize, String)> {
-    let (mut column, mut values) = (1, Vec::new());
-    for word in content.split(',') {
-        let start = column + word.chars().take_while(|c| c.is_whitespace()).count();
-        let value = word.trim().parse().ok().filter(|value: &f64| value.is_finite());
-        let wrong = || (start, format!("`{}` is not a finite number; write `x,y`", word.trim()));
+fn point(line: &Line<'_>) -> Result<Vec2, (usize, String)> {
+    let mut values = Vec::new();
+    for word in &line.words {
+        let message = || format!("`{}` is not a finite number; write `x,y`", word.text);
         // −0 becomes 0: equal points sort next to each other
-        values.push(value.ok_or_else(wrong)? + 0.0);
-        column += word.chars().count() + 1;
+        values.push(word.number().ok_or_else(|| (word.column, message()))? + 0.0);
     }
     let count = values.len();
     let two = <[f64; 2]>::try_from(values);
@@ -67,10 +59,6 @@ fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Finding> {
     lines.sort_unstable();
     let message = |first| format!("the same point as on line {first}; remove one of them");
     lines.into_iter().map(|(second, first)| finding(file, second, 1, message(first))).collect()
-}
-
-fn finding(file: &str, line: usize, column: usize, message: String) -> Finding {
-    Finding { place: Place::Text { file: file.to_owned(), line, column }, message }
 }
 
 #[cfg(test)]

@@ -28,9 +28,9 @@ fn patch_test() {
 /// Uniaxial tension on two rollers: u = (−ν′ x, y)/E′ up to the roller's offset.
 #[test]
 fn rollers() {
-    let free = || Condition::Neumann(Expression::constant(0.0));
-    let zero = || Condition::Dirichlet(Expression::constant(0.0));
-    let pull = || Condition::Neumann(Expression::constant(1.0));
+    let free = || Condition::Neumann(Expression::number(0.0));
+    let zero = || Condition::Dirichlet(Expression::number(0.0));
+    let pull = || Condition::Neumann(Expression::number(1.0));
     let problem = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
         .with_boundary(Edge::Left, vec![zero(), free()])
         .with_boundary(Edge::Bottom, vec![free(), zero()])

@@ -165,7 +165,7 @@ pub(crate) fn end_shear() -> Plate {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(7.0, 16.0));
     let material = Material { young: 3e7, poisson: 0.25, state: StressState::PlaneStrain };
     let cells = [7, 16];
-    let clamp = || Condition::Dirichlet(Expression::constant(0.0));
+    let clamp = || Condition::Dirichlet(Expression::number(0.0));
     let set = Discretization::new(Cells::Grid(cells));
     Plate {
         name: "end shear".into(),

@@ -145,7 +145,7 @@ impl<'d> Extended<'d> {
         let partition = &self.step.partition;
         let s = scaled(p, partition.center[patch], partition.half[patch]);
         let covers = s.iter().all(|s| s.v >= -1.0 && s.v < 1.0);
-        covers.then(|| spline(partition.weight, s[0]) * spline(partition.weight, s[1]))
+        covers.then(|| spline(&partition.weight, s[0]) * spline(&partition.weight, s[1]))
     }
 
     fn local_field(&self, patch: usize, component: usize, p: Point) -> Dual {
@@ -208,7 +208,7 @@ fn minus(p: Point, q: Vec2) -> Point {
 }
 
 /// w(|s|); the derivative of |s| at 0 is +1.
-fn spline(weight: WeightFunction, s: Dual) -> Dual {
+fn spline(weight: &WeightFunction, s: Dual) -> Dual {
     let t = if s.v >= 0.0 { s } else { -s };
     let one = Dual::constant(1.0);
     let rest = one - t;

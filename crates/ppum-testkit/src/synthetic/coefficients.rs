@@ -68,7 +68,8 @@ pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Functio
         coefficients: vec![Vec::new(); recipe.components],
         exact: Vec::new(),
     };
-    let table = FunctionTable::new(functions).expect("functions of a recipe");
+    let table =
+        FunctionTable::new(functions, recipe.cracks.len(), &[]).expect("functions of a recipe");
     let random = Random(recipe.seed ^ 0xc0ef);
     let mut maker = Maker { recipe, partition, table, data, random };
     for patch in 0..partition.len() {

@@ -13,7 +13,7 @@ use ppum::crack::{Crack, CrackEnd, TipId, tips};
 use ppum::dataset::{
     Dataset, Equation, FieldData, MAX_DEGREE, Material, Partition, Step, StressState,
 };
-use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
@@ -112,6 +112,7 @@ impl Recipe {
             text: text.to_owned(),
             frame,
             parameters: vec![("a".to_owned(), 1.5)],
+            declared: Declared::default(),
         };
         let frame = Frame::Fixed { origin: vec2(0.9, 0.1), angle: random.between(-3.0, 3.0) };
         Self {
@@ -120,7 +121,7 @@ impl Recipe {
             random_rounds: 1 + random.below(3) as u32,
             tip_level: 4 + random.below(2) as u8,
             overlap: random.between(1.05, 1.7),
-            weight: WeightFunction::ALL[random.below(3)],
+            weight: WeightFunction::ALL[random.below(3)].clone(),
             own_frames: random.below(2) == 0,
             cracks: random_cracks(&mut random),
             degrees: (0..=MAX_DEGREE as u8).collect(),
@@ -140,8 +141,8 @@ impl Recipe {
     pub fn dataset(&self) -> Dataset {
         let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
         let equation = match self.components {
-            1 => Equation::Poisson { conductivity: 1.0 },
-            _ => Equation::Elasticity(material),
+            1 => Equation::poisson(1.0),
+            _ => Equation::elasticity(material),
         };
         Dataset {
             title: "synthetic".into(),
@@ -149,6 +150,8 @@ impl Recipe {
             problem: None,
             domain: self.domain,
             equation,
+            quantities: Vec::new(),
+            tables: Vec::new(),
             steps: vec![self.step()],
         }
     }
@@ -186,7 +189,7 @@ impl Recipe {
         while cover.refine(|cell, level| level < self.tip_level && near(cell)).expect("a cover") > 0
         {
         }
-        let mut partition = cover.partition(self.overlap, self.weight).expect("an overlap");
+        let mut partition = cover.partition(self.overlap, self.weight.clone()).expect("an overlap");
         if self.own_frames {
             for (k, origin) in partition.origin.iter_mut().enumerate() {
                 let half = partition.half[k];
@@ -221,7 +224,7 @@ impl Recipe {
             for text in &self.tip_functions {
                 let (text, frame) = (text.clone(), Frame::Tip(tip));
                 let name = format!("{text} of crack {} {}", tip.crack, tip.end.name());
-                let kind = FunctionKind::Formula { text, frame, parameters: Vec::new() };
+                let kind = FunctionKind::formula(&text, frame);
                 all.push(Function { name, kind });
             }
         }
@@ -290,7 +293,8 @@ mod tests {
         let recipe = Recipe { level, tip_level: level + 2, zone: 0.15, ..Recipe::default() };
         let dataset = recipe.dataset();
         let field = Field::new(&dataset, 0).expect("a field");
-        let table = FunctionTable::new(&recipe.functions()).expect("functions");
+        let table =
+            FunctionTable::new(&recipe.functions(), recipe.cracks.len(), &[]).expect("functions");
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(1));
         let apart = |_| {
             let p = random.point(&recipe.domain);

@@ -211,6 +211,49 @@ impl LocalTip {
     }
 }
 
+impl<R: Real> TipPoint<R> {
+    /// r = √(x² + y²), without overflow or underflow.
+    #[inline(always)]
+    pub fn radius(&self) -> R {
+        let (x, y, zero, one) = (self.x.abs(), self.y.abs(), self.x.lit(0.0), self.x.lit(1.0));
+        let large = x.max(y);
+        let slope = x.min(y) / large;
+        R::select(large.gt(zero), large * slope.mul_add(slope, one).sqrt(), large)
+    }
+
+    /// √r cos(θ/2) and √r sin(θ/2), the parts of √z, for `r` = |z|: no trigonometry.
+    ///
+    /// The larger of the two magnitudes is a root, the smaller follows by division, so nothing cancels
+    /// near θ = ±π. Both are zero at r = 0.
+    #[inline(always)]
+    pub fn half_root(&self, r: R) -> [R; 2] {
+        let (zero, half) = (r.lit(0.0), r.lit(0.5));
+        let large = ((r + self.x.abs()) * half).sqrt();
+        let small = R::select(r.gt(zero), half * self.y.abs() / large, zero);
+        let ahead = self.x.ge(zero);
+        [
+            self.branch * R::select(ahead, large, small),
+            self.branch * self.sign * R::select(ahead, small, large),
+        ]
+    }
+
+    /// cos(θ/2) and sin(θ/2), from [`TipPoint::half_root`]; those of θ = 0 on the branch at `r` = 0.
+    #[inline(always)]
+    pub fn half_angle(&self, r: R) -> [R; 2] {
+        let [c, s] = self.half_root(r);
+        let (apart, root) = (r.gt(r.lit(0.0)), r.sqrt());
+        [R::select(apart, c / root, self.branch), R::select(apart, s / root, s)]
+    }
+
+    /// θ on the branch that jumps on the crack itself, from its [half angle](TipPoint::half_angle):
+    /// 4 arctan(tan(θ/4)). Slow: lanes have no arc tangent.
+    #[inline(always)]
+    pub fn theta([cos_half, sin_half]: [R; 2]) -> R {
+        let one = cos_half.lit(1.0);
+        (sin_half / (one + cos_half)).map(f64::atan) * one.lit(4.0)
+    }
+}
+
 impl TipPoint<f64> {
     /// Distance to the tip and polar angle on the branch that jumps on the crack itself.
     #[must_use]

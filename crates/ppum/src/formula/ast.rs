@@ -46,6 +46,8 @@ pub(super) enum ExprKind {
     Infix(Infix, ExprId, ExprId),
     /// A function of its arguments; their number is right.
     Call(Function, Vec<ExprId>),
+    /// A derivative of a table: its index in the scope, the orders, the arguments.
+    Table { table: u32, orders: [u8; 2], x: ExprId, y: Option<ExprId> },
 }
 
 /// Operators before their operand.

@@ -4,28 +4,26 @@
 //! point, and if that is undecided, of the piece above it (for further variables likewise): u = 0
 //! counts as positive if u grows with x, or does not change with x and grows with y.
 
-use super::MAX_NODES;
+use super::ast::Ast;
 use super::graph::{Graph, NodeId, Op};
 use super::lower::lower;
 use super::operation::{Binary, Comparison, Unary};
 use super::scope::Scope;
-
-/// A formula has grown beyond [`MAX_NODES`] operations.
-#[derive(Debug)]
-pub(super) struct TooLarge;
+use super::{DerivativeError, MAX_NODES};
 
 /// For each root its partial derivatives with respect to the independent variables, in order.
 pub(super) fn gradients(
     graph: &mut Graph,
     scope: &Scope,
     roots: &[NodeId],
-) -> Result<Vec<Vec<NodeId>>, TooLarge> {
+) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
     let needed = graph.needed(roots);
     let zero = graph.constant(0.0);
-    let mut pass = Pass { graph, scope, zero, partials: vec![Vec::new(); needed.len()] };
+    let defined = scope.definitions(graph);
+    let mut pass = Pass { graph, scope, zero, defined, partials: vec![Vec::new(); needed.len()] };
     for node in (0u32..).zip(needed).filter(|&(_, needed)| needed).map(|(id, _)| NodeId(id)) {
         if pass.graph.len() > MAX_NODES {
-            return Err(TooLarge);
+            return Err(DerivativeError::TooLarge);
         }
         if !pass.graph.op(node).is_condition() {
             pass.partials[node.index()] =
@@ -40,12 +38,17 @@ struct Pass<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope,
     zero: NodeId,
+    /// Functions with derivative rules of their own.
+    defined: Vec<NodeId>,
     /// Derivatives of the nodes so far, one a variable.
     partials: Vec<Vec<NodeId>>,
 }
 
 impl Pass<'_> {
     fn partial(&mut self, node: NodeId, v: usize) -> NodeId {
+        if let Some(defined) = self.defined.iter().position(|&defined| defined == node) {
+            return self.rule(&self.scope.defined_rules(defined)[v]);
+        }
         match self.graph.op(node) {
             Op::Input(input) => self.input(input as usize, v),
             Op::Unary(op, a) => self.unary(op, node, a, v),
@@ -56,6 +59,18 @@ impl Pass<'_> {
                 self.times(slope, self.d(a, v))
             }
             Op::Binary(op, a, b) => self.binary(op, node, a, b, v),
+            Op::Table { table, orders: [m, n], x, y } => {
+                let mut raised = |orders| self.graph.table(table, orders, x, y);
+                let (in_x, in_y) = (raised([m + 1, n]), y.map(|_| raised([m, n + 1])));
+                let along_x = self.times(in_x, self.d(x, v));
+                match (in_y, y) {
+                    (Some(in_y), Some(y)) => {
+                        let along_y = self.times(in_y, self.d(y, v));
+                        self.plus(along_x, along_y)
+                    }
+                    _ => along_x,
+                }
+            }
             Op::Select(c, a, b) => self.graph.select(c, self.d(a, v), self.d(b, v)),
             Op::Constant(_)
             | Op::Truth(_)
@@ -73,10 +88,14 @@ impl Pass<'_> {
 
     fn input(&mut self, input: usize, v: usize) -> NodeId {
         match self.scope.rules(input) {
-            Some(rules) => lower(&rules[v], self.graph).expect("rules were checked by the scope"),
+            Some(rules) => self.rule(&rules[v]),
             None if input == v => self.graph.constant(1.0),
             None => self.zero,
         }
+    }
+
+    fn rule(&mut self, rule: &Ast) -> NodeId {
+        lower(rule, self.scope, self.graph).expect("rules were checked by the scope")
     }
 
     /// `node` = op(a).
@@ -305,6 +324,8 @@ impl Pass<'_> {
     /// The parts of a selection with a branch that is the constant zero.
     fn vanishing_branch(&self, node: NodeId) -> Option<(NodeId, NodeId, NodeId)> {
         match self.graph.op(node) {
+            // the derivatives of sin θ do not exist where it has its own branch
+            _ if self.defined.contains(&node) => None,
             Op::Select(c, a, b) if self.is_zero(a) || self.is_zero(b) => Some((c, a, b)),
             _ => None,
         }

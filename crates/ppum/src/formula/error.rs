@@ -57,7 +57,11 @@ pub enum Problem {
         expected: usize,
         /// How many there are.
         given: usize,
+        /// The function of a similar name that takes so many.
+        suggestion: Option<&'static str>,
     },
+    /// A name is defined without `let`.
+    MissingLet,
     /// A `let` would give a second meaning to a name.
     NameTaken,
     /// A `let` uses the name it defines.
@@ -76,6 +80,31 @@ pub enum Problem {
     TooLong,
     /// `table(…)` where no tables are known.
     NoTables,
+    /// No table has this name.
+    UnknownTable {
+        /// The nearest table, if one is near.
+        suggestion: Option<Box<str>>,
+        /// All tables.
+        known: Box<str>,
+    },
+    /// The name of a table stands for a value.
+    TableForNumber,
+    /// A table has too few or too many arguments.
+    TableArguments {
+        /// The right form.
+        form: Box<str>,
+        /// How many arguments there are, the table's name included.
+        given: usize,
+    },
+    /// `side(…)` where there are no cracks.
+    NoCracks,
+    /// The argument of `side` is not the number of a crack.
+    UnknownCrack {
+        /// Number of cracks.
+        cracks: usize,
+    },
+    /// The order of a table's derivative is not a whole number written out.
+    InvalidOrder,
 }
 
 impl Problem {
@@ -92,10 +121,12 @@ impl Problem {
             }
             Self::NotAFunction => format!("{quoted} is not a function; a product needs `*`"),
             Self::MissingArguments => format!("{quoted} is a function; write `{found}(…)`"),
-            Self::ArgumentCount { expected, given } => {
+            Self::ArgumentCount { expected, given, suggestion } => {
                 let plural = if *expected == 1 { "" } else { "s" };
-                format!("{quoted} takes {expected} argument{plural}, not {given}")
+                let instead = did_you_mean(*suggestion);
+                format!("{quoted} takes {expected} argument{plural}, not {given}{instead}")
             }
+            Self::MissingLet => format!("to define {quoted}, write `let {found} = …;`"),
             Self::NameTaken => format!("{quoted} already has a meaning; choose another name"),
             Self::SelfReference => {
                 format!(
@@ -116,7 +147,26 @@ impl Problem {
                 format!("nested deeper than {MAX_DEPTH} levels; name parts with `let`")
             }
             Self::TooLong => format!("longer than {MAX_LENGTH} bytes; formulas are short texts"),
-            Self::NoTables => "tables are not available here; use a closed expression".to_owned(),
+            Self::NoTables => "there are no tables here; use a closed expression".to_owned(),
+            Self::UnknownTable { suggestion, known } => match suggestion {
+                Some(name) => format!("no table {quoted}; did you mean `{name}`?"),
+                None => format!("no table {quoted}; tables are {known}"),
+            },
+            Self::TableForNumber => format!("{quoted} is a table; write `table({found}, …)`"),
+            Self::TableArguments { form, given } => {
+                format!("wrong number of arguments, {given}; write `{form}`")
+            }
+            Self::NoCracks => format!("{quoted} needs a crack, but there is none here"),
+            Self::UnknownCrack { cracks: 1 } => {
+                format!("{quoted} is no crack; there is one, write `side(0)`")
+            }
+            Self::UnknownCrack { cracks } => format!(
+                "{quoted} is no crack; there are {cracks}, from `side(0)` to `side({})`",
+                cracks - 1
+            ),
+            Self::InvalidOrder => format!(
+                "{quoted} is not the order of a derivative; write 0, 1, 2 or 3, as in `dtable(name, 1, x)`"
+            ),
         }
     }
 }
@@ -220,19 +270,22 @@ pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// Levenshtein's distance of two ASCII names.
+/// Changes that lead from one ASCII name to another: characters inserted, left out, replaced, or
+/// exchanged with their neighbour.
 fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.bytes().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.bytes().enumerate() {
-            let replaced = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let changed = replaced.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
+            let crossed = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            row.push(if crossed { changed.min(rows[i - 2][j - 2] + 1) } else { changed });
         }
+        rows.push(row);
     }
-    row[b.len()]
+    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -241,9 +294,16 @@ mod tests {
 
     #[test]
     fn edit_distances() {
-        for (a, b, d) in
-            [("", "abc", 3), ("thet", "theta", 1), ("kitten", "sitting", 3), ("a", "a", 0)]
-        {
+        for (a, b, d) in [
+            ("", "abc", 3),
+            ("thet", "theta", 1),
+            ("kitten", "sitting", 3),
+            ("a", "a", 0),
+            ("tabel", "table", 1),
+            ("ab", "ba", 1),
+            ("sitn", "sin", 1),
+            ("abcd", "badc", 2),
+        ] {
             assert_eq!(edit_distance(a, b), d);
             assert_eq!(edit_distance(b, a), d);
         }

@@ -4,8 +4,10 @@
 //! Folding never changes a value, NaN included: `0*x` stays, `1*x` does not. Operands always come
 //! before what uses them, so every pass is a loop.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
+use super::Table;
 use super::operation::{Binary, Comparison, Unary, power};
 
 /// Index of a node; an operand's is smaller than that of its user.
@@ -32,6 +34,8 @@ pub(super) enum Op {
     Power(NodeId, i32),
     /// A function of two numbers.
     Binary(Binary, NodeId, NodeId),
+    /// A derivative of a table: its index in the scope, the orders in x and y, its arguments.
+    Table { table: u32, orders: [u8; 2], x: NodeId, y: Option<NodeId> },
     /// `Select(c, a, b)`: a where c holds, else b.
     Select(NodeId, NodeId, NodeId),
     /// A condition that is known.
@@ -71,6 +75,7 @@ impl Op {
             Self::Binary(_, a, b) | Self::Compare(_, a, b) | Self::And(a, b) | Self::Or(a, b) => {
                 [Some(a), Some(b), None]
             }
+            Self::Table { x, y, .. } => [Some(x), y, None],
             Self::Select(c, a, b) => [Some(c), Some(a), Some(b)],
         };
         array.into_iter().flatten()
@@ -87,6 +92,9 @@ impl Op {
             Self::Compare(op, a, b) => Self::Compare(op, new(a), new(b)),
             Self::And(a, b) => Self::And(new(a), new(b)),
             Self::Or(a, b) => Self::Or(new(a), new(b)),
+            Self::Table { table, orders, x, y } => {
+                Self::Table { table, orders, x: new(x), y: y.map(new) }
+            }
             Self::Select(c, a, b) => Self::Select(new(c), new(a), new(b)),
         }
     }
@@ -99,11 +107,22 @@ const MAX_INTEGER_POWER: f64 = 16.0;
 /// A growing set of distinct nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Graph {
+    tables: Arc<[Arc<Table>]>,
     ops: Vec<Op>,
     known: HashMap<Op, NodeId>,
 }
 
 impl Graph {
+    /// No nodes; the tables that later ones may use.
+    pub(super) fn new(tables: Arc<[Arc<Table>]>) -> Self {
+        Self { tables, ops: Vec::new(), known: HashMap::new() }
+    }
+
+    /// The tables, in the order of the scope.
+    pub(super) fn tables(&self) -> &Arc<[Arc<Table>]> {
+        &self.tables
+    }
+
     /// Number of nodes.
     pub(super) fn len(&self) -> usize {
         self.ops.len()
@@ -238,6 +257,25 @@ impl Graph {
         }
     }
 
+    /// A derivative of a table; `y` if it has two arguments.
+    pub(super) fn table(
+        &mut self,
+        table: u32,
+        orders: [u8; 2],
+        x: NodeId,
+        y: Option<NodeId>,
+    ) -> NodeId {
+        // cubics: beyond the third derivative there is nothing
+        if orders[0] > 3 || orders[1] > 3 {
+            return self.constant(0.0);
+        }
+        if let (Some(x), Some(y)) = (self.value(x), y.map_or(Some(0.0), |y| self.value(y))) {
+            let value = self.tables[table as usize].derivative(orders, x, y);
+            return self.constant(value);
+        }
+        self.node(Op::Table { table, orders, x, y })
+    }
+
     /// The node whose negative `a` is, if it is made so.
     fn negated(&self, a: NodeId) -> Option<NodeId> {
         match self.op(a) {
@@ -343,15 +381,51 @@ impl Graph {
         (ops, roots.iter().map(|root| number[root.index()]).collect())
     }
 
+    /// Adds extracted operations; gives the node of each.
+    pub(super) fn absorb(&mut self, ops: &[Op]) -> Vec<NodeId> {
+        self.absorb_with(ops, &BTreeMap::new())
+    }
+
+    /// [`Graph::absorb`] with nodes in place of some inputs.
+    pub(super) fn absorb_with(
+        &mut self,
+        ops: &[Op],
+        inputs: &BTreeMap<u32, NodeId>,
+    ) -> Vec<NodeId> {
+        let mut nodes = Vec::with_capacity(ops.len());
+        for op in ops {
+            let given = if let Op::Input(index) = op { inputs.get(index) } else { None };
+            let node = given.copied();
+            nodes.push(node.unwrap_or_else(|| self.on_operands(*op, |old| nodes[old.index()])));
+        }
+        nodes
+    }
+
+    /// The node of an operation on other operands, folded and with these in order.
+    pub(super) fn on_operands(&mut self, op: Op, new: impl Fn(NodeId) -> NodeId) -> NodeId {
+        match op.renumbered(new) {
+            op @ (Op::Constant(_) | Op::Input(_) | Op::Truth(_)) => self.node(op),
+            Op::Unary(op, a) => self.unary(op, a),
+            Op::Power(a, n) => self.power(a, n),
+            Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Table { table, orders, x, y } => self.table(table, orders, x, y),
+            Op::Select(c, a, b) => self.select(c, a, b),
+            Op::Compare(op, a, b) => self.compare(op, a, b),
+            Op::Not(c) => self.not(c),
+            Op::And(a, b) => self.and(a, b),
+            Op::Or(a, b) => self.or(a, b),
+        }
+    }
+
     /// The graph of extracted operations, with the same numbers.
-    pub(super) fn from_ops(ops: &[Op]) -> Self {
+    pub(super) fn from_ops(ops: &[Op], tables: Arc<[Arc<Table>]>) -> Self {
         let known = (0..).zip(ops).map(|(id, &op)| (op, NodeId(id))).collect();
-        Self { ops: ops.to_vec(), known }
+        Self { tables, ops: ops.to_vec(), known }
     }
 }
 
 /// 1/b if multiplying with it is the same as dividing by b: for powers of two.
-fn exact_reciprocal(b: f64) -> Option<f64> {
+pub(super) fn exact_reciprocal(b: f64) -> Option<f64> {
     const MANTISSA: u64 = (1 << 52) - 1;
     let reciprocal = 1.0 / b;
     let is_power_of_two = b.is_normal() && reciprocal.is_normal() && b.to_bits() & MANTISSA == 0;
@@ -402,7 +476,7 @@ mod tests {
         let (ops, roots) = g.extract(&[root]);
         assert_eq!(ops, [Op::Input(0), Op::Unary(Unary::Sin, NodeId(0))]);
         assert_eq!(roots, [NodeId(1)]);
-        let again = Graph::from_ops(&ops);
+        let again = Graph::from_ops(&ops, Arc::default());
         assert_eq!(again.extract(&roots), (ops, roots));
     }
 }

@@ -65,7 +65,7 @@ const SIGNS: [(&str, TokenKind); 18] = [
 ];
 
 /// Signs of other languages and what to write instead; longer ones first.
-const FOREIGN: [(&str, &str); 9] = [
+const FOREIGN: [(&str, &str); 18] = [
     ("**", "`^`"),
     ("&&", "`and`"),
     ("||", "`or`"),
@@ -73,6 +73,15 @@ const FOREIGN: [(&str, &str); 9] = [
     ("|", "`or`, or `abs(…)`"),
     ("!", "`not`"),
     ("[", "`(`"),
+    ("{", "`(`"),
+    ("?", "`if(condition, a, b)`"),
+    ("%", "`a - b*floor(a/b)`"),
+    ("√", "`sqrt(…)`"),
+    ("×", "`*`"),
+    ("²", "`^2`"),
+    ("³", "`^3`"),
+    ("≤", "`<=`"),
+    ("≥", "`>=`"),
     ("π", "`pi`"),
     ("θ", "`theta`"),
 ];

@@ -13,8 +13,12 @@ pub(super) enum Function {
     If,
     /// `clamp(x, low, high)` = min(max(x, low), high).
     Clamp,
-    /// `table(name, x)`.
+    /// `table(name, x)` or `table(name, x, y)`.
     Table,
+    /// `dtable(name, m, x)` or `dtable(name, m, n, x, y)`: a derivative of a table.
+    TableDerivative,
+    /// `side(k)`: +1 on the left of crack k, −1 on its right.
+    Side,
 }
 
 impl Function {
@@ -23,18 +27,19 @@ impl Function {
         FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
     }
 
-    /// Number of arguments.
-    pub(super) fn arity(self) -> usize {
+    /// Number of arguments; `None` of functions with arguments that are no values.
+    pub(super) fn arity(self) -> Option<usize> {
         match self {
-            Self::Unary(_) => 1,
-            Self::Binary(_) | Self::Table => 2,
-            Self::If | Self::Clamp => 3,
+            Self::Unary(_) => Some(1),
+            Self::Binary(_) => Some(2),
+            Self::If | Self::Clamp => Some(3),
+            Self::Table | Self::TableDerivative | Self::Side => None,
         }
     }
 }
 
 /// All functions.
-pub(super) const FUNCTIONS: [(&str, Function); 24] = [
+pub(super) const FUNCTIONS: [(&str, Function); 26] = [
     ("sqrt", Function::Unary(Unary::Sqrt)),
     ("cbrt", Function::Unary(Unary::Cbrt)),
     ("exp", Function::Unary(Unary::Exp)),
@@ -59,11 +64,36 @@ pub(super) const FUNCTIONS: [(&str, Function); 24] = [
     ("if", Function::If),
     ("clamp", Function::Clamp),
     ("table", Function::Table),
+    ("dtable", Function::TableDerivative),
+    ("side", Function::Side),
 ];
 
 /// All constants.
 pub(super) const CONSTANTS: [(&str, f64); 2] =
     [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+
+/// Functions of other languages and what stands for them here.
+const FOREIGN: [(&str, &str); 14] = [
+    ("ln", "log"),
+    ("lg", "log10"),
+    ("pow", "^"),
+    ("power", "^"),
+    ("fabs", "abs"),
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("arctan2", "atan2"),
+    ("sgn", "sign"),
+    ("ceil", "-floor(-…)"),
+    ("where", "if"),
+    ("select", "if"),
+    ("interp", "table"),
+];
+
+/// What stands for a function of another language.
+pub(super) fn foreign(name: &str) -> Option<&'static str> {
+    FOREIGN.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|&(_, here)| here)
+}
 
 /// Words of the language that are neither functions nor constants.
 pub(super) const KEYWORDS: [&str; 4] = ["let", "and", "or", "not"];

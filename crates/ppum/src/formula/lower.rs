@@ -3,6 +3,7 @@
 use super::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
 use super::error::{FormulaError, Problem};
 use super::graph::{Graph, NodeId};
+use super::half_angle::{self, Multiple};
 use super::library::Function;
 use super::operation::{Binary, Comparison};
 use super::parser::parse;
@@ -11,7 +12,7 @@ use super::scope::Scope;
 /// Parses a formula and makes sure that it is a number.
 pub(super) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     let ast = parse(source, scope)?;
-    match lower(&ast, &mut Graph::default()) {
+    match lower(&ast, scope, &mut Graph::new(scope.tables())) {
         Ok(_) => Ok(ast),
         Err(mistake) => Err(mistake.locate(source, &ast)),
     }
@@ -31,23 +32,47 @@ impl Mistake {
     }
 }
 
-/// Adds a formula to a graph; gives the node of its value.
-pub(super) fn lower(ast: &Ast, graph: &mut Graph) -> Result<NodeId, Mistake> {
-    let mut lowering = Lowering { graph, nodes: Vec::with_capacity(ast.nodes.len()) };
-    for expr in &ast.nodes {
-        let node = lowering.expr(expr)?;
-        lowering.nodes.push(node);
-    }
-    lowering.number(ast.root)
+/// Adds a formula of a scope to a graph; gives the node of its value.
+pub(super) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, Mistake> {
+    Lowering::new(ast, scope, graph)?.number(ast.root)
+}
+
+/// Adds a condition to a graph; gives the node of 1 where it holds, 0 elsewhere.
+pub(super) fn lower_condition(
+    ast: &Ast,
+    scope: &Scope,
+    graph: &mut Graph,
+) -> Result<NodeId, Mistake> {
+    let condition = Lowering::new(ast, scope, graph)?.condition(ast.root)?;
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    Ok(graph.select(condition, one, zero))
 }
 
 struct Lowering<'a> {
     graph: &'a mut Graph,
+    scope: &'a Scope,
+    /// The input θ, if there are half angles.
+    theta: Option<u32>,
     /// The graph's node of each node of the tree so far.
     nodes: Vec<NodeId>,
+    /// What each is as a multiple of θ.
+    multiples: Vec<Multiple>,
 }
 
-impl Lowering<'_> {
+impl<'a> Lowering<'a> {
+    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, Mistake> {
+        let theta = scope.half_angles().and_then(|_| scope.input("theta"));
+        let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
+        let mut lowering = Self { graph, scope, theta, nodes, multiples };
+        for expr in &ast.nodes {
+            let node = lowering.expr(expr)?;
+            let multiple = lowering.multiple(expr, node);
+            lowering.nodes.push(node);
+            lowering.multiples.push(multiple);
+        }
+        Ok(lowering)
+    }
+
     fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(self.graph.constant(*value)),
@@ -55,6 +80,18 @@ impl Lowering<'_> {
             ExprKind::Prefix(prefix, a) => self.prefix(*prefix, *a),
             ExprKind::Infix(infix, a, b) => self.infix(*infix, *a, *b),
             ExprKind::Call(function, arguments) => self.call(*function, arguments),
+            ExprKind::Table { table, orders, x, y } => {
+                let y = y.map(|y| self.number(y)).transpose()?;
+                let x = self.number(*x)?;
+                Ok(self.graph.table(*table, *orders, x, y))
+            }
+        }
+    }
+
+    fn multiple(&self, expr: &Expr, node: NodeId) -> Multiple {
+        match self.graph.value(node) {
+            Some(value) => Multiple::Constant(value),
+            None => half_angle::multiple(&expr.kind, self.theta, |of| self.multiples[of.index()]),
         }
     }
 
@@ -112,9 +149,11 @@ impl Lowering<'_> {
 
     fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, Mistake> {
         match (function, arguments) {
-            (Function::Unary(op), &[a]) => {
-                let a = self.number(a)?;
-                Ok(self.graph.unary(op, a))
+            (Function::Unary(op), &[argument]) => {
+                let a = self.number(argument)?;
+                let of = self.multiples[argument.index()];
+                let products = half_angle::expand(op, of, self.scope, self.graph);
+                Ok(products.unwrap_or_else(|| self.graph.unary(op, a)))
             }
             (Function::Binary(op), &[a, b]) => {
                 let (a, b) = (self.number(a)?, self.number(b)?);
@@ -129,7 +168,7 @@ impl Lowering<'_> {
                 let raised = self.graph.binary(Binary::Max, x, low);
                 Ok(self.graph.binary(Binary::Min, raised, high))
             }
-            _ => unreachable!("the parser counts arguments and refuses tables"),
+            _ => unreachable!("the parser counts arguments and knows tables"),
         }
     }
 }

@@ -10,9 +10,15 @@
 //! operators   or,  and,  not,  < <= > >= == !=,  + -,  * /,  unary -,  ^        weakest to tightest
 //! functions   sqrt cbrt exp log log10 sin cos tan asin acos atan atan2 sinh cosh tanh
 //!             abs sign min max floor hypot clamp(x, low, high) if(condition, a, b)
+//! cracks      side(k): +1 on the left of crack k, -1 on its right
+//! tables      table(name, x)  table(name, x, y)             see [`Table`]
+//!             dtable(name, m, x)  dtable(name, m, n, x, y)  derivatives of orders m, n (whole numbers)
 //! constants   pi e
 //! comments    # to the end of the line
 //! ```
+//!
+//! What names there are besides is the matter of a [`Scope`]: x and y, polar coordinates r and theta,
+//! parameters, tables, the sides of cracks.
 //!
 //! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
 //! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the left,
@@ -31,6 +37,23 @@
 //! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
+//! A table is flat outside its range; on the ends of the range its derivatives are those of the inside.
+//! `side` has derivative 0.
+//!
+//! Where a formula may not be smooth is known without evaluating it: [`Formula::kinks`] are the zero
+//! sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch on, with
+//! their equations where they are lines; [`Formula::singularities`] those of what stands under
+//! roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval. Angles jump on
+//! their cut ([`Formula::uses_branch`]), sides on their crack.
+//!
+//! # Half angles
+//!
+//! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
+//! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
+//! with a parameter λ = ½, `cos(theta/2 + theta)`. There is no arc tangent, and no cancellation near
+//! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
+//! theta take θ itself.
+//!
 //! # Limits
 //!
 //! Texts up to [`MAX_LENGTH`] bytes, nested up to [`MAX_DEPTH`] levels, with derivatives up to
@@ -38,9 +61,14 @@
 //! without bound.
 
 mod ast;
+mod block;
 mod derivative;
 mod error;
 mod graph;
+mod half_angle;
+mod jets;
+mod kinks;
+mod lanes;
 mod lexer;
 mod library;
 mod lower;
@@ -48,15 +76,27 @@ mod operation;
 mod parser;
 mod print;
 mod program;
+mod reciprocal;
+mod roots;
 mod scope;
+mod substitute;
+mod table;
+mod tape;
 #[cfg(test)]
 mod tests;
+mod wgsl;
 
 use std::fmt;
 use std::sync::Arc;
 
+pub use block::{Block, Scratch};
 pub use error::{FormulaError, Problem};
-pub use scope::{Scope, ScopeError};
+pub use jets::FormulaJets;
+pub use kinks::Kink;
+pub(crate) use lanes::Interpret;
+pub use scope::{Scope, ScopeError, VARIABLES};
+pub use table::{Table, TableError};
+pub use wgsl::wgsl_prelude;
 
 use derivative::gradients;
 use graph::{Graph, NodeId};
@@ -102,9 +142,15 @@ pub enum DerivativeError {
         /// The independent variables.
         known: String,
     },
-    /// The derivative has more than [`MAX_NODES`] operations.
-    #[error("the derivative has more than {MAX_NODES} operations; simplify the formula")]
+    /// The derivatives have more than [`MAX_NODES`] operations.
+    #[error("the derivatives have more than {MAX_NODES} operations; simplify the formula")]
     TooLarge,
+    /// [`FormulaJets`] know derivatives with respect to one or two variables.
+    #[error("derivatives of functions of one or two variables only; here are {variables}")]
+    Variables {
+        /// Number of independent variables.
+        variables: usize,
+    },
 }
 
 impl Formula {
@@ -114,17 +160,48 @@ impl Formula {
     /// When the text is no formula of the scope; the error points at the place.
     pub fn parse(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
-        let mut graph = Graph::default();
-        let root = lower::lower(&ast, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
+        let mut graph = Graph::new(scope.tables());
+        let root =
+            lower::lower(&ast, scope, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }
 
-    /// The text: as it was parsed, or, of a derivative, as it can be parsed again in the same scope
-    /// (if it is within [`MAX_LENGTH`]).
+    /// Parses a condition, e.g. `x > 0 and y > 0`, as the formula that is 1 where it holds and 0
+    /// elsewhere.
+    ///
+    /// # Errors
+    /// When the text is no condition of the scope; the error points at the place.
+    pub fn parse_condition(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
+        let ast = parser::parse(text, scope)?;
+        let mut graph = Graph::new(scope.tables());
+        let root = lower::lower_condition(&ast, scope, &mut graph);
+        let root = root.map_err(|mistake| mistake.locate(text, &ast))?;
+        let program = Program::new(&graph, &[root]);
+        let text = print::print(&program, scope);
+        Ok(Self { text, scope: Arc::new(scope.clone()), program })
+    }
+
+    /// The text: as it was parsed, or, of a derivative or a condition, as it can be parsed again in
+    /// the same scope (if it is within [`MAX_LENGTH`]).
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The formula as it is computed, as a text that parses to the same operations in the same scope
+    /// (if it is within [`MAX_LENGTH`]): parameters and constants folded, definitions put in their
+    /// places, long and common parts named by `let`.
+    ///
+    /// ```
+    /// use ppum::formula::{Formula, Scope};
+    ///
+    /// let f = Formula::parse("2^3*(x/1 + (y))", &Scope::cartesian()).expect("a formula");
+    /// assert_eq!(f.normal_form(), "8*(x + y)");
+    /// ```
+    #[must_use]
+    pub fn normal_form(&self) -> String {
+        print::print(&self.program, &self.scope)
     }
 
     /// The variables it may use.
@@ -174,38 +251,15 @@ impl Formula {
     /// When there is no such variable, or the derivative is too large.
     pub fn derivative(&self, variable: &str) -> Result<Self, DerivativeError> {
         let v = self.independent(variable)?;
-        let mut graph = Graph::from_ops(self.program.ops());
-        let gradient = self.gradients(&mut graph, &[self.root()])?;
+        let mut graph = self.program.graph();
+        let gradient = gradients(&mut graph, &self.scope, &[self.root()])?;
         let program = Program::new(&graph, &[gradient[0][v]]);
         let text = print::print(&program, &self.scope);
         Ok(Self { text, scope: Arc::clone(&self.scope), program })
     }
 
-    /// Value, gradient and Hessian with respect to `x` and `y` in one.
-    ///
-    /// # Errors
-    /// When `x` and `y` are not independent variables of the scope, or the derivatives are too large.
-    pub fn jet(&self) -> Result<FormulaJet, DerivativeError> {
-        let (x, y) = (self.independent("x")?, self.independent("y")?);
-        let mut graph = Graph::from_ops(self.program.ops());
-        let first = self.gradients(&mut graph, &[self.root()])?;
-        let (dx, dy) = (first[0][x], first[0][y]);
-        let second = self.gradients(&mut graph, &[dx, dy])?;
-        let outputs = [self.root(), dx, dy, second[0][x], second[0][y], second[1][y]];
-        Ok(FormulaJet { scope: Arc::clone(&self.scope), program: Program::new(&graph, &outputs) })
-    }
-
     fn root(&self) -> NodeId {
         self.program.outputs()[0]
-    }
-
-    fn gradients(
-        &self,
-        graph: &mut Graph,
-        roots: &[NodeId],
-    ) -> Result<Vec<Vec<NodeId>>, DerivativeError> {
-        gradients(graph, &self.scope, roots)
-            .map_err(|derivative::TooLarge| DerivativeError::TooLarge)
     }
 
     /// Index of an independent variable.
@@ -217,36 +271,29 @@ impl Formula {
     }
 }
 
+/// Formulas are equal when their texts and scopes are.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text && self.scope == other.scope
+    }
+}
+
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()
     }
 }
 
-/// Value, gradient and Hessian of a [`Formula`], computed together: common parts once.
-#[derive(Clone, Debug)]
-pub struct FormulaJet {
-    scope: Arc<Scope>,
-    program: Program,
-}
-
-impl FormulaJet {
-    /// v, ∂v/∂x, ∂v/∂y, ∂²v/∂x², ∂²v/∂x∂y, ∂²v/∂y² at one point. `inputs` has one number for each
-    /// of [`Scope::inputs`]; `scratch` is working space, best reused from call to call.
-    ///
-    /// # Panics
-    /// When `inputs` has the wrong length.
-    pub fn evaluate(&self, inputs: &[f64], scratch: &mut Vec<f64>) -> [f64; 6] {
-        check_inputs(&self.scope, inputs);
-        self.program.run(inputs, scratch);
-        std::array::from_fn(|k| scratch[self.program.outputs()[k].index()])
-    }
-
-    /// Number of operations of one evaluation, constants and inputs included.
-    #[must_use]
-    pub fn n_operations(&self) -> usize {
-        self.program.ops().len()
-    }
+/// A formula's text on one line, without comments: for labels.
+///
+/// ```
+/// let text = "let d = x - y;   # distance\n d^2";
+/// assert_eq!(ppum::formula::one_line(text), "let d = x - y; d^2");
+/// ```
+#[must_use]
+pub fn one_line(text: &str) -> String {
+    let code = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    code.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
 }
 
 fn check_inputs(scope: &Scope, inputs: &[f64]) {

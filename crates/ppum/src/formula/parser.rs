@@ -145,6 +145,7 @@ impl<'a> Parser<'a> {
         }
         let kind = match (self.scope.meaning(name), library::constant(name)) {
             (Some(Meaning::Input(index)), _) => ExprKind::Input(index),
+            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Problem::TableForNumber)),
             (Some(Meaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
             (None, None) => return Err(self.error(span, self.unknown_name(name))),
         };
@@ -155,47 +156,146 @@ impl<'a> Parser<'a> {
     fn call(&mut self, name: Span) -> Parsed {
         let function = self.function(name)?;
         self.expect(TokenKind::Open, "`(`")?;
+        let Some(expected) = function.arity() else {
+            return match function {
+                Function::Side => self.side(name),
+                _ => self.table(name, function == Function::TableDerivative),
+            };
+        };
         let mut arguments = Vec::new();
         if self.peek().kind != TokenKind::Close {
             arguments.push(self.nested(Self::block)?);
-            while self.accept(TokenKind::Comma) {
-                arguments.push(self.nested(Self::block)?);
-            }
+            arguments.extend(self.further_arguments()?);
         }
         let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
-        let (expected, given) = (function.arity(), arguments.len());
+        let given = arguments.len();
         if given != expected {
-            return Err(self.error(name, Problem::ArgumentCount { expected, given }));
+            let suggestion = self.with_arguments(name, given);
+            return Err(self.error(name, Problem::ArgumentCount { expected, given, suggestion }));
         }
         Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
+    }
+
+    /// Arguments, each after a comma.
+    fn further_arguments(&mut self) -> Result<Vec<ExprId>, FormulaError> {
+        let mut arguments = Vec::new();
+        while self.accept(TokenKind::Comma) {
+            arguments.push(self.nested(Self::block)?);
+        }
+        Ok(arguments)
+    }
+
+    /// `name, x)`, `name, x, y)` or, of a derivative, `name, m, x)`, `name, m, n, x, y)` after the
+    /// parenthesis of `table(`; its name stands at `function`.
+    fn table(&mut self, function: Span, derivative: bool) -> Parsed {
+        let name = self.expect(TokenKind::Name, "the name of a table")?.span;
+        let table = self.table_named(name)?;
+        let n = self.scope.tables()[table as usize].n_arguments();
+        let arguments = self.further_arguments()?;
+        let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
+        let expected = if derivative { 2 * n } else { n };
+        if arguments.len() != expected {
+            let given = arguments.len() + 1;
+            let form = table_form(self.text(name), n, derivative).into();
+            return Err(self.error(function, Problem::TableArguments { form, given }));
+        }
+        let mut orders = [0; 2];
+        for (order, &argument) in orders.iter_mut().zip(&arguments[..expected - n]) {
+            *order = self.order(argument)?;
+        }
+        let (x, y) = (arguments[expected - n], arguments.get(expected - n + 1).copied());
+        Ok(self.push(ExprKind::Table { table, orders, x, y }, function.to(close.span)))
+    }
+
+    /// `k)` after the parenthesis of `side(`; its name stands at `function`.
+    fn side(&mut self, function: Span) -> Parsed {
+        let cracks = self.scope.n_sides();
+        if cracks == 0 {
+            return Err(self.error(function, Problem::NoCracks));
+        }
+        if self.peek().kind == TokenKind::Close {
+            let expected = "the number of a crack";
+            return Err(self.error(self.peek().span, Problem::Unexpected { expected }));
+        }
+        let argument = self.nested(Self::block)?;
+        let close = self.expect(TokenKind::Close, "an operator or `)`")?;
+        let input = match self.nodes[argument.index()].kind {
+            ExprKind::Number(k) => self.scope.input(&format!("side({k})")),
+            _ => None,
+        };
+        match input {
+            Some(input) => Ok(self.push(ExprKind::Input(input), function.to(close.span))),
+            None => Err(self.error(self.span(argument), Problem::UnknownCrack { cracks })),
+        }
+    }
+
+    fn table_named(&self, span: Span) -> Result<u32, FormulaError> {
+        let name = self.text(span);
+        if let Some(Meaning::Table(table)) = self.scope.meaning(name) {
+            return Ok(table);
+        }
+        let names: Vec<&str> = self.scope.table_names().collect();
+        let problem = if names.is_empty() {
+            Problem::NoTables
+        } else {
+            let suggestion = nearest(name, names.iter().copied()).map(String::into_boxed_str);
+            Problem::UnknownTable { suggestion, known: names.join(", ").into() }
+        };
+        Err(self.error(span, problem))
+    }
+
+    /// The order of a derivative; beyond the third they are 0, but may be asked for.
+    fn order(&self, argument: ExprId) -> Result<u8, FormulaError> {
+        match self.nodes[argument.index()].kind {
+            ExprKind::Number(order) if (0.0..=9.0).contains(&order) && order.fract() == 0.0 => {
+                Ok(order as u8)
+            }
+            _ => Err(self.error(self.span(argument), Problem::InvalidOrder)),
+        }
     }
 
     fn function(&self, span: Span) -> Result<Function, FormulaError> {
         let name = self.text(span);
         let problem = match Function::named(name) {
-            Some(Function::Table) => Problem::NoTables,
             Some(function) => return Ok(function),
+            None if self.scope.table_names().any(|known| known == name) => Problem::TableForNumber,
             None if self.known_names().any(|known| known == name) => Problem::NotAFunction,
             None => {
                 let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
-                Problem::UnknownFunction { suggestion: nearest(name, names) }
+                let foreign = library::foreign(name).map(str::to_owned);
+                Problem::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
             }
         };
         Err(self.error(span, problem))
+    }
+
+    /// The function of a similar name that takes this many arguments.
+    fn with_arguments(&self, name: Span, given: usize) -> Option<&'static str> {
+        let fits = |function: Function| function.arity() == Some(given);
+        let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
+        let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
+        library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
     }
 
     fn unknown_name(&self, name: &str) -> Problem {
         if Function::named(name).is_some() {
             return Problem::MissingArguments;
         }
-        Problem::UnknownName { suggestion: nearest(name, self.known_names()) }
+        if self.peek().kind == TokenKind::Assign {
+            return Problem::MissingLet;
+        }
+        let table =
+            || nearest(name, self.scope.table_names()).map(|name| format!("table({name}, …)"));
+        Problem::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
     }
 
-    /// Everything that stands for a value here.
+    /// Every name that stands for a value here.
     fn known_names(&self) -> impl Iterator<Item = &str> {
         let locals = self.locals.iter().map(|&(name, _)| name);
         let constants = library::CONSTANTS.iter().map(|&(name, _)| name);
-        self.scope.names().chain(locals).chain(constants)
+        // `cos(theta/2)` and `side(0)` are no names
+        let names = self.scope.names().filter(|name| !name.contains('('));
+        names.chain(locals).chain(constants)
     }
 
     fn is_local(&self, name: &str) -> bool {
@@ -248,6 +348,8 @@ impl<'a> Parser<'a> {
     fn expect(&mut self, kind: TokenKind, expected: &'static str) -> Result<Token, FormulaError> {
         let token = self.peek();
         if !self.accept(kind) {
+            let compares = token.kind == TokenKind::Assign && expected.starts_with("an operator");
+            let expected = if compares { "`==` to compare" } else { expected };
             return Err(self.error(token.span, Problem::Unexpected { expected }));
         }
         Ok(token)
@@ -255,6 +357,16 @@ impl<'a> Parser<'a> {
 
     fn error(&self, span: Span, problem: Problem) -> FormulaError {
         FormulaError::new(self.source, span, problem)
+    }
+}
+
+/// How a table of `n` arguments is written.
+fn table_form(name: &str, n: usize, derivative: bool) -> String {
+    let arguments = if n == 1 { "x" } else { "x, y" };
+    match (derivative, n) {
+        (false, _) => format!("table({name}, {arguments})"),
+        (true, 1) => format!("dtable({name}, m, {arguments})"),
+        (true, _) => format!("dtable({name}, m, n, {arguments})"),
     }
 }
 

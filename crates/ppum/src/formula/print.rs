@@ -19,11 +19,14 @@ pub(super) fn print(program: &Program, scope: &Scope) -> String {
     let root = program.outputs()[0];
     let mut printer = Printer::new(program, scope);
     for (index, &op) in program.ops().iter().enumerate() {
-        let piece = printer.piece(op);
-        let shared = printer.uses[index] > 1 && !is_leaf(op);
+        let piece = match printer.defined[index] {
+            Some(name) => atom(name.to_owned(), 1),
+            None => printer.piece(op),
+        };
         let large = piece.text.len() > MAX_PIECE || piece.depth > MAX_PIECE_DEPTH;
-        let piece =
-            if index != root.index() && (shared || large) { printer.name(&piece) } else { piece };
+        let shared = printer.uses[index] > 1 && !printer.is_leaf(index, op);
+        let part = index != root.index() && printer.uses[index] > 0;
+        let piece = if part && (shared || large) { printer.name(&piece) } else { piece };
         printer.pieces.push(piece);
     }
     let value = &printer.pieces[root.index()].text;
@@ -41,8 +44,13 @@ struct Piece {
 
 struct Printer<'a> {
     inputs: Vec<&'a str>,
+    tables: Vec<&'a str>,
     taken: HashSet<&'a str>,
-    /// How often each operation is an operand.
+    /// How the scope writes each operation, if it is a function that the scope defines.
+    defined: Vec<Option<&'static str>>,
+    /// Which operations are numbers.
+    numbers: Vec<bool>,
+    /// How often the text of each operation is part of another.
     uses: Vec<u32>,
     pieces: Vec<Piece>,
     bindings: String,
@@ -51,18 +59,24 @@ struct Printer<'a> {
 
 impl<'a> Printer<'a> {
     fn new(program: &Program, scope: &'a Scope) -> Self {
-        let mut uses = vec![0; program.ops().len()];
-        for operand in program.ops().iter().flat_map(Op::operands) {
-            uses[operand.index()] += 1;
-        }
+        let defined = defined(program, scope);
+        let uses = uses(program, &defined);
         Self {
             inputs: scope.inputs().collect(),
-            taken: scope.names().collect(),
+            tables: scope.table_names().collect(),
+            taken: scope.names().chain(scope.table_names()).collect(),
+            defined,
+            numbers: program.ops().iter().map(|op| op.value().is_some()).collect(),
             uses,
             pieces: Vec::new(),
             bindings: String::new(),
             n_names: 0,
         }
+    }
+
+    /// True if the text is as short as a name.
+    fn is_leaf(&self, index: usize, op: Op) -> bool {
+        matches!(op, Op::Constant(_) | Op::Input(_)) || self.defined[index].is_some()
     }
 
     /// Binds a piece to a new name.
@@ -91,6 +105,7 @@ impl<'a> Printer<'a> {
                 self.before(a, precedence::ATOM, &format!("^{n}"), precedence::POWER)
             }
             Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
             Op::Select(c, a, b) => self.call(Function::If, &[c, a, b]),
             Op::Truth(holds) => Piece {
                 text: if holds { "0 == 0" } else { "0 == 1" }.to_owned(),
@@ -108,6 +123,8 @@ impl<'a> Printer<'a> {
         match op {
             Binary::Add => self.infix(a, " + ", b, precedence::SUM),
             Binary::Sub => self.infix(a, " - ", b, precedence::SUM),
+            // a number goes first; the graph keeps the factors in any order
+            Binary::Mul if self.numbers[b.index()] => self.infix(b, "*", a, precedence::PRODUCT),
             Binary::Mul => self.infix(a, "*", b, precedence::PRODUCT),
             Binary::Div => self.infix(a, "/", b, precedence::PRODUCT),
             Binary::Pow => {
@@ -146,6 +163,22 @@ impl<'a> Printer<'a> {
         atom(format!("{}({})", name_of(function), texts.join(", ")), depth + 1)
     }
 
+    /// `table(name, x, y)` or `dtable(name, m, n, x, y)`.
+    fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> Piece {
+        let given = 1 + usize::from(y.is_some());
+        let mut parts = vec![self.tables[table].to_owned()];
+        let derived = orders != [0, 0];
+        if derived {
+            parts.extend(orders[..given].iter().map(u8::to_string));
+        }
+        let pieces: Vec<Piece> =
+            [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
+        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
+        parts.extend(pieces.into_iter().map(|piece| piece.text));
+        let function = if derived { Function::TableDerivative } else { Function::Table };
+        atom(format!("{}({})", name_of(function), parts.join(", ")), depth + 1)
+    }
+
     /// The text of an operand, in parentheses if it binds less tightly than `weakest`.
     fn operand(&self, id: NodeId, weakest: u8) -> Piece {
         let piece = self.pieces[id.index()].clone();
@@ -156,8 +189,29 @@ impl<'a> Printer<'a> {
     }
 }
 
-fn is_leaf(op: Op) -> bool {
-    matches!(op, Op::Constant(_) | Op::Input(_))
+/// The names of the operations that are functions which the scope defines.
+fn defined(program: &Program, scope: &Scope) -> Vec<Option<&'static str>> {
+    let mut names = vec![None; program.ops().len()];
+    let definitions = scope.definitions(&mut program.graph());
+    for (index, node) in definitions.into_iter().enumerate() {
+        // a node beyond the program is not part of it
+        if let Some(name) = names.get_mut(node.index()) {
+            *name = Some(scope.defined_name(index));
+        }
+    }
+    names
+}
+
+/// How often each operation is an operand of one whose text is needed and shows its operands.
+fn uses(program: &Program, defined: &[Option<&str>]) -> Vec<u32> {
+    let mut uses = vec![0; program.ops().len()];
+    let root = program.outputs()[0].index();
+    for (index, op) in program.ops().iter().enumerate().rev() {
+        if (index == root || uses[index] > 0) && defined[index].is_none() {
+            op.operands().for_each(|operand| uses[operand.index()] += 1);
+        }
+    }
+    uses
 }
 
 fn atom(text: String, depth: usize) -> Piece {

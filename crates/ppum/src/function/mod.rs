@@ -1,11 +1,15 @@
 //! The function table: the f_b of function × polynomial.
 
+mod formulas;
 mod table;
 mod westergaard;
 
 use crate::crack::TipId;
+pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
-pub use table::{CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
+pub use table::{
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope,
+};
 pub use westergaard::westergaard;
 
 /// One entry of a step's function table.
@@ -36,7 +40,28 @@ pub enum FunctionKind {
         frame: Frame,
         /// Named constants the formula may use.
         parameters: Vec<(String, f64)>,
+        /// Where it is not smooth, beside what the formula itself shows.
+        declared: Declared,
     },
+}
+
+impl FunctionKind {
+    /// A formula without parameters and declarations.
+    #[must_use]
+    pub fn formula(text: &str, frame: Frame) -> Self {
+        let (text, parameters, declared) = (text.to_owned(), Vec::new(), Declared::default());
+        Self::Formula { text, frame, parameters, declared }
+    }
+}
+
+/// Places where a function is not smooth, as its author declares them; in the coordinates of its
+/// frame. Quadrature honours them, evaluation does not need them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Declared {
+    /// Segments across which the function or a derivative jumps.
+    pub kinks: Vec<[Vec2; 2]>,
+    /// Points at which the function or a derivative is infinite.
+    pub singular: Vec<Vec2>,
 }
 
 /// The coordinates of a formula. In each of them r = √(x² + y²) and θ ∈ \[−π, π\] is the polar angle.
@@ -56,11 +81,3 @@ pub enum Frame {
     /// kinks included.
     Tip(TipId),
 }
-
-/// The four Westergaard functions in the order of equation (6) of Üffinger et al. 2011.
-pub const WESTERGAARD: [&str; 4] = [
-    "sqrt(r)*cos(theta/2)",
-    "sqrt(r)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*cos(theta/2)",
-];

@@ -1,14 +1,18 @@
 //! A step's functions, ready to be evaluated.
 //!
 //! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack,
-//! the four Westergaard functions of a tip, one formula.
+//! the four Westergaard functions of a tip, formulas in one frame that follow each other.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::formulas::{Formulas, LocalFormulas};
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
-use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJet, Scope, ScopeError};
+use crate::formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
 use crate::jet::Jet;
-use crate::real::{Real, Scalar};
-use crate::vec2::{Vec2, vec2};
+use crate::real::Real;
+use crate::vec2::Vec2;
 
 /// Where the value of a function is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,13 +42,7 @@ pub const GROUP: usize = 4;
 enum Group {
     Side(u32),
     Westergaard(TipId),
-    Formula(Box<Compiled>),
-}
-
-#[derive(Clone, Debug)]
-struct Compiled {
-    jet: FormulaJet,
-    frame: Frame,
+    Formulas(Formulas),
 }
 
 /// A function's formula is wrong.
@@ -73,50 +71,29 @@ pub enum CompileError {
 }
 
 impl FunctionTable {
-    /// Compiles a table.
+    /// Compiles a table for a step with this number of cracks, whose formulas may read `tables`.
     ///
     /// # Errors
     /// A formula that does not parse.
-    pub fn new(functions: &[Function]) -> Result<Self, FunctionError> {
-        let mut table = Self { slots: Vec::new(), groups: Vec::new() };
-        for (index, function) in functions.iter().enumerate() {
-            let slot = table.slot(&function.kind).map_err(|source| FunctionError {
-                index,
-                name: function.name.clone(),
-                source: Box::new(source),
-            })?;
-            table.slots.push(slot);
-        }
-        Ok(table)
+    pub fn new(
+        functions: &[Function],
+        cracks: usize,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        Compiler { kernels: true, ..Compiler::new(cracks, tables) }.compile(functions)
     }
 
-    fn slot(&mut self, kind: &FunctionKind) -> Result<Slot, CompileError> {
-        Ok(match kind {
-            FunctionKind::One => Slot::One,
-            FunctionKind::Side { crack } => self.group(Group::Side(*crack), 0),
-            FunctionKind::Formula { text, frame, parameters } => match native(text, *frame) {
-                Some((tip, k)) => self.group(Group::Westergaard(tip), k),
-                None => {
-                    let jet = Formula::parse(text, &scope(parameters)?)?.jet()?;
-                    let compiled = Box::new(Compiled { jet, frame: *frame });
-                    self.group(Group::Formula(compiled), 0)
-                }
-            },
-        })
-    }
-
-    /// The slot of an entry of a group, which is made if there is none like it yet.
-    fn group(&mut self, group: Group, entry: usize) -> Slot {
-        let known = self.groups.iter().position(|known| match (known, &group) {
-            (Group::Side(a), Group::Side(b)) => a == b,
-            (Group::Westergaard(a), Group::Westergaard(b)) => a == b,
-            _ => false,
-        });
-        let index = known.unwrap_or_else(|| {
-            self.groups.push(group);
-            self.groups.len() - 1
-        });
-        Slot::Jet { group: index as u32, entry: entry as u32 }
+    /// Like [`FunctionTable::new`], but formulas are evaluated as such where there is a native kernel
+    /// for them too.
+    ///
+    /// # Errors
+    /// A formula that does not parse.
+    pub fn of_formulas(
+        functions: &[Function],
+        cracks: usize,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        Compiler::new(cracks, tables).compile(functions)
     }
 
     /// Where function `function` of the step is found.
@@ -134,9 +111,10 @@ impl FunctionTable {
     /// Number of functions in a group, at most [`GROUP`].
     #[must_use]
     pub fn group_len(&self, group: usize) -> usize {
-        match self.groups[group] {
+        match &self.groups[group] {
             Group::Westergaard(_) => 4,
-            Group::Side(_) | Group::Formula(_) => 1,
+            Group::Side(_) => 1,
+            Group::Formulas(formulas) => formulas.len(),
         }
     }
 
@@ -147,28 +125,140 @@ impl FunctionTable {
             &Group::Side(crack) => {
                 LocalGroup::Side(LocalCrack::new(&cracks[crack as usize], anchor))
             }
-            &Group::Westergaard(tip) => LocalGroup::Westergaard(local_tip(cracks, tip, anchor)),
-            Group::Formula(compiled) => {
-                LocalGroup::Formula(&compiled.jet, LocalFrame::new(cracks, compiled.frame, anchor))
+            &Group::Westergaard(tip) => {
+                LocalGroup::Westergaard(LocalTip::new(&cracks[tip.crack as usize], tip.end, anchor))
             }
+            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.at(cracks, anchor)),
         };
         LocalFunctions { table: self, groups: self.groups.iter().map(seen).collect() }
     }
 }
 
+/// Makes a table.
+struct Compiler<'a> {
+    cracks: usize,
+    tables: &'a [Arc<Table>],
+    /// Use native kernels where there are.
+    kernels: bool,
+    sides: BTreeMap<u32, u32>,
+    tips: BTreeMap<TipId, u32>,
+    groups: Vec<Draft>,
+}
+
+/// A group to be.
+enum Draft {
+    Side(u32),
+    Westergaard(TipId),
+    /// Formulas, and the function that is the first of them.
+    Formulas(usize, Frame, Vec<Formula>),
+}
+
+impl<'a> Compiler<'a> {
+    fn new(cracks: usize, tables: &'a [Arc<Table>]) -> Self {
+        let (sides, tips) = (BTreeMap::new(), BTreeMap::new());
+        Self { cracks, tables, kernels: false, sides, tips, groups: Vec::new() }
+    }
+
+    fn compile(mut self, functions: &[Function]) -> Result<FunctionTable, FunctionError> {
+        let error = |index: usize, source| {
+            let name = functions[index].name.clone();
+            FunctionError { index, name, source: Box::new(source) }
+        };
+        let mut slots = Vec::with_capacity(functions.len());
+        for (index, function) in functions.iter().enumerate() {
+            slots.push(self.slot(index, &function.kind).map_err(|e| error(index, e))?);
+        }
+        let mut groups: Vec<Group> = Vec::with_capacity(self.groups.len());
+        for draft in self.groups {
+            groups.push(match draft {
+                Draft::Side(crack) => Group::Side(crack),
+                Draft::Westergaard(tip) => Group::Westergaard(tip),
+                Draft::Formulas(first, frame, formulas) => {
+                    let like = groups.iter().find_map(|group| match group {
+                        Group::Formulas(known) => known.with_frame(&formulas, frame),
+                        _ => None,
+                    });
+                    Group::Formulas(match like {
+                        Some(known) => known,
+                        None => {
+                            Formulas::new(formulas, frame).map_err(|e| error(first, e.into()))?
+                        }
+                    })
+                }
+            });
+        }
+        Ok(FunctionTable { slots, groups })
+    }
+
+    fn slot(&mut self, index: usize, kind: &FunctionKind) -> Result<Slot, CompileError> {
+        let new = self.groups.len() as u32;
+        Ok(match kind {
+            FunctionKind::One => Slot::One,
+            FunctionKind::Side { crack } => {
+                let group = *self.sides.entry(*crack).or_insert(new);
+                self.slot_of(group, 0, || Draft::Side(*crack))
+            }
+            FunctionKind::Formula { text, frame, parameters, .. } => {
+                match native(text, *frame).filter(|_| self.kernels) {
+                    Some((tip, entry)) => {
+                        let group = *self.tips.entry(tip).or_insert(new);
+                        self.slot_of(group, entry, || Draft::Westergaard(tip))
+                    }
+                    None => {
+                        let scope = function_scope(parameters, self.cracks, self.tables)?;
+                        self.formula(index, *frame, Formula::parse(text, &scope)?)
+                    }
+                }
+            }
+        })
+    }
+
+    /// The slot of an entry of a group, which is made if it is new.
+    fn slot_of(&mut self, group: u32, entry: u32, draft: impl FnOnce() -> Draft) -> Slot {
+        if group as usize == self.groups.len() {
+            self.groups.push(draft());
+        }
+        Slot::Jet { group, entry }
+    }
+
+    /// The slot of a formula: in the last group if that is of its kind and has room.
+    fn formula(&mut self, index: usize, frame: Frame, formula: Formula) -> Slot {
+        if let Some(Draft::Formulas(_, of, formulas)) = self.groups.last_mut()
+            && *of == frame
+            && formulas.len() < GROUP
+            && formulas[0].scope() == formula.scope()
+        {
+            let entry = formulas.len() as u32;
+            formulas.push(formula);
+            return Slot::Jet { group: self.groups.len() as u32 - 1, entry };
+        }
+        let group = self.groups.len() as u32;
+        self.slot_of(group, 0, || Draft::Formulas(index, frame, vec![formula]))
+    }
+}
+
 /// The tip and index if a formula is one of the Westergaard functions in a tip's frame.
-fn native(text: &str, frame: Frame) -> Option<(TipId, usize)> {
+fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
     let Frame::Tip(tip) = frame else { return None };
-    WESTERGAARD.iter().position(|&known| known == text).map(|k| (tip, k))
+    (0..).zip(WESTERGAARD).find(|(_, known)| *known == text).map(|(k, _)| (tip, k))
 }
 
-fn scope(parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
+/// What the formula of a function may name: x, y, r, theta of its frame, its parameters, the sides of
+/// the step's cracks, the tables.
+///
+/// # Errors
+/// Parameters or tables whose names are none or clash.
+pub fn function_scope(
+    parameters: &[(String, f64)],
+    cracks: usize,
+    tables: &[Arc<Table>],
+) -> Result<Scope, ScopeError> {
+    let mut tables = tables.iter();
+    let scope = tables.try_fold(Scope::polar().with_sides(cracks), |scope, table| {
+        scope.with_table(Arc::clone(table))
+    })?;
     let mut parameters = parameters.iter();
-    parameters.try_fold(Scope::polar(), |scope, (name, value)| scope.with_parameter(name, *value))
-}
-
-fn local_tip(cracks: &[Crack], tip: TipId, anchor: Vec2) -> LocalTip {
-    LocalTip::new(&cracks[tip.crack as usize], tip.end, anchor)
+    parameters.try_fold(scope, |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 /// The functions of a step seen from an anchor.
@@ -182,7 +272,7 @@ pub struct LocalFunctions<'t> {
 enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
-    Formula(&'t FormulaJet, LocalFrame),
+    Formulas(LocalFormulas<'t>),
 }
 
 impl<'t> LocalFunctions<'t> {
@@ -212,70 +302,34 @@ impl<'t> LocalFunctions<'t> {
                 out[2] = c.turned::<D>(x, y);
                 out[3] = d.turned::<D>(x, y);
             }
-            LocalGroup::Formula(formula, frame) => {
-                out[0] = frame.jet::<R, D>(formula, offset, side);
-            }
-        }
-    }
-}
-
-/// A formula's frame seen from an anchor.
-#[derive(Clone, Debug)]
-enum LocalFrame {
-    Fixed { from_origin: Vec2, axis: Vec2 },
-    Tip(LocalTip),
-}
-
-impl LocalFrame {
-    fn new(cracks: &[Crack], frame: Frame, anchor: Vec2) -> Self {
-        match frame {
-            Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },
-            Frame::Fixed { origin, angle } => {
-                Self::Fixed { from_origin: anchor - origin, axis: vec2(angle.cos(), angle.sin()) }
-            }
-            Frame::Tip(tip) => Self::Tip(local_tip(cracks, tip, anchor)),
+            LocalGroup::Formulas(formulas) => formulas.evaluate::<R, D>(offset, side, out),
         }
     }
 
-    /// x, y, r, θ of a point, and the frame's x axis.
-    fn coordinates(&self, offset: Vec2, side: Side) -> ([f64; 4], Vec2) {
-        match self {
-            Self::Fixed { from_origin, axis } => {
-                let d = *from_origin + offset;
-                let (x, y) = (axis.dot(d), axis.cross(d));
-                ([x, y, x.hypot(y), y.atan2(x)], *axis)
-            }
-            Self::Tip(tip) => {
-                let p = tip.point([offset.x, offset.y], side);
-                let (r, theta) = p.polar();
-                ([p.x, p.y, r, theta], tip.axis)
-            }
-        }
-    }
-
-    /// The formula at the lanes of `offset`, one lane after the other.
-    fn jet<R: Real, const D: usize>(
+    /// Fills the jets of one group at many vectors of points: faster than one by one for formulas.
+    #[inline(always)]
+    pub fn fill<R: Real, const D: usize>(
         &self,
-        formula: &FormulaJet,
-        offset: [R; 2],
+        group: usize,
+        offsets: &[[R; 2]],
         side: Side,
-    ) -> Jet<R> {
-        let [mut xs, mut ys] = [[R::Scalar::default(); 16]; 2];
-        offset[0].store(&mut xs);
-        offset[1].store(&mut ys);
-        let mut lanes = [[R::Scalar::default(); 16]; 6];
-        let mut scratch = Vec::new();
-        for k in 0..R::LANES {
-            let point = vec2(xs[k].to_f64(), ys[k].to_f64());
-            let (inputs, axis) = self.coordinates(point, side);
-            let [v, x, y, xx, xy, yy] = formula.evaluate(&inputs, &mut scratch);
-            let world = Jet { v, x, y, xx, xy, yy }.turned::<D>(axis.x, axis.y);
-            let world = [world.v, world.x, world.y, world.xx, world.xy, world.yy];
-            for (lane, value) in lanes.iter_mut().zip(world) {
-                lane[k] = R::Scalar::from_f64(value);
-            }
+        scratch: &mut Scratch<R::Scalar>,
+        out: &mut [[Jet<R>; GROUP]],
+    ) {
+        if let LocalGroup::Formulas(formulas) = &self.groups[group] {
+            formulas.fill::<R, D>(offsets, side, scratch, out);
+            return;
         }
-        let [v, x, y, xx, xy, yy] = lanes.map(|lane| offset[0].load(&lane));
-        Jet { v, x, y, xx, xy, yy }
+        let mut k = 0;
+        while k < offsets.len() {
+            self.evaluate::<R, D>(group, offsets[k], side, &mut out[k]);
+            k += 1;
+        }
+    }
+
+    /// True if a group is evaluated by a kernel, not by formulas.
+    #[must_use]
+    pub fn is_native(&self, group: usize) -> bool {
+        !matches!(self.groups[group], LocalGroup::Formulas(_))
     }
 }

@@ -7,19 +7,13 @@ use crate::real::Real;
 /// The four functions of [`WESTERGAARD`](super::WESTERGAARD) with derivatives in the tip's frame.
 ///
 /// Half-angle algebra on z^½ = √r e^{iθ/2}: two square roots and two divisions, no trigonometry.
-/// The larger of √r cos(θ/2), √r |sin(θ/2)| is a root, the smaller follows by division, so nothing
-/// cancels near θ = ±π. At r = 0 the values are zero and the derivatives NaN: they do not exist.
+/// Nothing cancels near θ = ±π, see [`TipPoint::half_root`]. At r = 0 the values are zero and the derivatives NaN: they do not exist.
 #[inline(always)]
 pub fn westergaard<R: Real, const D: usize>(p: &TipPoint<R>) -> [Jet<R>; 4] {
-    let (zero, half) = (p.x.lit(0.0), p.x.lit(0.5));
     let r = p.x.mul_add(p.x, p.y * p.y).sqrt();
     let inverse = p.x.lit(1.0) / r;
-    let apart = r.gt(zero);
-    let large = ((r + p.x.abs()) * half).sqrt();
-    let small = R::select(apart, half * p.y.abs() / large, zero);
-    let ahead = p.x.ge(zero);
-    let cosine = p.branch * R::select(ahead, large, small);
-    let sine = p.branch * p.sign * R::select(ahead, small, large);
+    let apart = r.gt(p.x.lit(0.0));
+    let [cosine, sine] = p.half_root(r);
     let (c, s) = root_jets::<R, D>(cosine, sine, p.x, p.y, inverse);
     let (ct, st) = (p.x * inverse, p.y * inverse);
     let angle = sine_jet::<R, D>(ct, st, inverse, apart);

@@ -58,7 +58,7 @@ fn places(dataset: &Dataset) -> Vec<(Vec2, Vec2)> {
 #[test]
 fn the_limit_from_the_right_and_from_above() {
     for weight in WeightFunction::ALL {
-        let dataset = dataset(weight);
+        let dataset = dataset(weight.clone());
         let field = compiled(&dataset);
         let mut local = field.at(Vec2::ZERO);
         let (places, mut differ) = (places(&dataset), 0);

@@ -52,7 +52,7 @@ fn smooth_place(field: &Field<'_>, random: &mut Random) -> (Vec2, f64) {
 #[test]
 fn gradients_and_hessians_against_differences() {
     for (seed, weight) in (0..4).flat_map(|s| WeightFunction::ALL.map(|w| (s, w))) {
-        let dataset = Recipe { weight, ..Recipe::random(seed) }.dataset();
+        let dataset = Recipe { weight: weight.clone(), ..Recipe::random(seed) }.dataset();
         let field = compiled(&dataset);
         let mut random = Random(seed);
         for _ in 0..60 {

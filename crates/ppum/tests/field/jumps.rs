@@ -61,7 +61,7 @@ fn steps(field: &Field<'_>, random: &mut Random) -> Vec<(Vec2, Vec2)> {
 #[test]
 fn continuous_off_the_cracks() {
     for seed in 0..9 {
-        let weight = WeightFunction::ALL[seed as usize % 3];
+        let weight = WeightFunction::ALL[seed as usize % 3].clone();
         let smoothness = [1, 3, 6][seed as usize % 3];
         let dataset = Recipe { weight, overlap: 1.4, ..Recipe::random(seed) }.dataset();
         let field = compiled(&dataset);

@@ -71,7 +71,7 @@ fn lanes_along_lines_through_tips() {
 fn functions_of_other_patches_do_no_harm() {
     use ppum::function::{Frame, FunctionKind};
     let text = "1/max(0, 0.9 - x)".to_owned();
-    let extra = vec![FunctionKind::Formula { text, frame: Frame::World, parameters: Vec::new() }];
+    let extra = vec![FunctionKind::formula(&text, Frame::World)];
     let mut dataset = Recipe { extra, ..Recipe::default() }.dataset();
     // take the function from the patches that reach beyond x = 0.85
     let step = &mut dataset.steps[0];
@@ -96,7 +96,7 @@ fn outside_there_is_nothing() {
     let field = compiled(&dataset);
     let mut local = field.at(Vec2::ZERO);
     let (min, max) = (dataset.domain.min, dataset.domain.max);
-    let mises = Quantity::from_name("von-mises", dataset.equation, &field.data.components).unwrap();
+    let mises = Quantity::parse("von-mises", &field).unwrap();
     let up = |x: f64| x + x.abs() * f64::EPSILON;
     for (p, inside) in [
         (min, true),

@@ -14,7 +14,7 @@ use ppum_testkit::synthetic::Recipe;
 /// Every weight on several covers.
 fn datasets() -> impl Iterator<Item = Dataset> {
     WeightFunction::ALL.into_iter().flat_map(|weight| {
-        (0..8).map(move |seed| Recipe { weight, ..Recipe::random(seed) }.dataset())
+        (0..8).map(move |seed| Recipe { weight: weight.clone(), ..Recipe::random(seed) }.dataset())
     })
 }
 
@@ -82,9 +82,7 @@ fn quantities_of_the_partition() {
     for dataset in datasets() {
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(dataset.domain.min), Random(9));
-        let named = |name: &str| {
-            Quantity::from_name(name, dataset.equation, &field.data.components).unwrap()
-        };
+        let named = |name: &str| Quantity::parse(name, &field).unwrap();
         for _ in 0..50 {
             let p = random.point(&dataset.domain);
             let offset = p - dataset.domain.min;

@@ -82,8 +82,7 @@ fn rigid_motions_have_no_strain_and_no_stress() {
                 ("divergence", 0.0),
                 ("curl", 0.8),
             ] {
-                let components = &field.data.components;
-                let q = Quantity::from_name(name, dataset.equation, components).unwrap();
+                let q = Quantity::parse(name, &field).unwrap();
                 let value = q.at(&mut local, p, Side::Above);
                 assert!((value - expected).abs() < 4.0 * tolerance, "{name} {value:e} at {p:?}");
             }

@@ -1,15 +1,18 @@
 //! What `ppum info` tells, in the shape of its JSON.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use ppum::crack::{Crack, CrackEnd, tips};
 use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, StressState};
+use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
-use ppum::function::{Function, FunctionKind};
-use ppum::quantity::names;
+use ppum::quantity::{Quantity, names};
 use ppum::vec2::Vec2;
 use serde::Serialize;
 
+use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
+use crate::families::{Family, blocks, families};
 use crate::number::Number;
 use crate::tips::Tip;
 
@@ -20,6 +23,8 @@ pub(super) struct Report {
     pub(super) program: String,
     pub(super) domain: Domain,
     pub(super) equation: EquationRow,
+    pub(super) quantities: Vec<QuantityRow>,
+    pub(super) tables: Vec<TableRow>,
     pub(super) steps: Vec<StepReport>,
 }
 
@@ -32,8 +37,34 @@ pub(super) struct Domain {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum EquationRow {
-    Elasticity { young: f64, poisson: f64, state: &'static str },
-    Poisson { conductivity: f64 },
+    Elasticity { young: Constant, poisson: Constant, state: &'static str },
+    Poisson { conductivity: Constant },
+}
+
+/// A constant of the material: a number, or the text of a formula.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Constant {
+    Number(f64),
+    Formula(String),
+}
+
+impl From<&Expression> for Constant {
+    fn from(expression: &Expression) -> Self {
+        match expression.constant() {
+            Some(value) => Self::Number(value),
+            None => Self::Formula(expression.text().to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Constant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(value) => write!(f, "{value}"),
+            Self::Formula(text) => f.write_str(text),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -44,11 +75,16 @@ pub(super) struct StepReport {
     pub(super) cells: usize,
     pub(super) points: usize,
     pub(super) weight: &'static str,
+    pub(super) weight_formula: String,
+    pub(super) weight_breakpoints: Vec<f64>,
     pub(super) levels: Vec<Level>,
     pub(super) orders: Vec<Order>,
     pub(super) cracks: Vec<CrackRow>,
     pub(super) tips: Vec<TipRow>,
     pub(super) functions: Vec<FunctionRow>,
+    /// The functions for people.
+    #[serde(skip)]
+    pub(super) families: Vec<Family>,
     pub(super) fields: Vec<FieldRow>,
     pub(super) quantities: Vec<String>,
     pub(super) attributes: Vec<String>,
@@ -85,14 +121,6 @@ pub(super) struct TipRow {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct FunctionRow {
-    pub(super) name: String,
-    pub(super) kind: &'static str,
-    /// Blocks of the first field that use it.
-    pub(super) blocks: usize,
-}
-
-#[derive(Debug, Serialize)]
 pub(super) struct FieldRow {
     pub(super) name: String,
     pub(super) unit: String,
@@ -116,6 +144,8 @@ impl Report {
             program: dataset.program.clone(),
             domain: Domain { min: dataset.domain.min.into(), max: dataset.domain.max.into() },
             equation: equation(&dataset.equation),
+            quantities: formulas::quantities(dataset),
+            tables: formulas::tables(dataset),
             steps: steps.collect::<Result<_, _>>()?,
         })
     }
@@ -124,7 +154,9 @@ impl Report {
 impl StepReport {
     fn new(dataset: &Dataset, index: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, index)?;
-        let Step { load, partition, cracks, attributes, history, intensities, .. } = field.step;
+        let Step { load, partition, cracks, functions, attributes, history, intensities, .. } =
+            field.step;
+        let blocks = blocks(functions, field.data);
         let attribute = |a: &ppum::dataset::Attribute| a.name.clone();
         Ok(Self {
             step: index,
@@ -133,11 +165,14 @@ impl StepReport {
             cells: partition.cell.len(),
             points: partition.points.len(),
             weight: partition.weight.name(),
+            weight_formula: formulas::weight(partition),
+            weight_breakpoints: partition.weight.breakpoints().to_vec(),
             levels: levels(partition),
             orders: orders(field.data),
             cracks: cracks.iter().map(crack).collect(),
             tips: tip_rows(cracks),
-            functions: functions(&field.step.functions, field.data),
+            functions: formulas::functions(functions, &blocks),
+            families: families(functions, &blocks),
             fields: field.step.fields.iter().map(field_row).collect(),
             quantities: quantities(&field),
             attributes: attributes.iter().map(attribute).collect(),
@@ -149,16 +184,18 @@ impl StepReport {
 }
 
 fn equation(equation: &Equation) -> EquationRow {
-    match *equation {
+    match equation {
         Equation::Elasticity(m) => EquationRow::Elasticity {
-            young: m.young,
-            poisson: m.poisson,
+            young: (&m.young).into(),
+            poisson: (&m.poisson).into(),
             state: match m.state {
                 StressState::PlaneStrain => "plane-strain",
                 StressState::PlaneStress => "plane-stress",
             },
         },
-        Equation::Poisson { conductivity } => EquationRow::Poisson { conductivity },
+        Equation::Poisson { conductivity } => {
+            EquationRow::Poisson { conductivity: conductivity.into() }
+        }
     }
 }
 
@@ -200,26 +237,6 @@ fn tip_rows(cracks: &[Crack]) -> Vec<TipRow> {
     tips(cracks).map(row).collect()
 }
 
-fn functions(table: &[Function], data: &FieldData) -> Vec<FunctionRow> {
-    let mut blocks = vec![0; table.len()];
-    data.block_function.iter().for_each(|&function| blocks[function as usize] += 1);
-    let rows = table.iter().zip(blocks).map(|(function, blocks)| FunctionRow {
-        name: function.name.clone(),
-        kind: kind(&function.kind),
-        blocks,
-    });
-    rows.collect()
-}
-
-fn kind(kind: &FunctionKind) -> &'static str {
-    match kind {
-        FunctionKind::One => "one",
-        FunctionKind::Side { .. } => "side",
-        FunctionKind::Formula { .. } => "formula",
-        _ => "other",
-    }
-}
-
 fn field_row(data: &FieldData) -> FieldRow {
     FieldRow {
         name: data.name.clone(),
@@ -233,7 +250,9 @@ fn field_row(data: &FieldData) -> FieldRow {
 fn quantities(field: &Field<'_>) -> Vec<String> {
     let all = names(field.equation, &field.data.components);
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
-    usable.map(|(name, _)| name).chain(["phi:N".into()]).collect()
+    let named = field.quantities.iter().map(|quantity| quantity.name.clone());
+    let named = named.filter(|name| Quantity::parse(name, field).is_ok());
+    usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
 }
 
 fn history_row(record: &Record) -> HistoryRow {

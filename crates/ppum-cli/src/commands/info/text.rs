@@ -2,7 +2,11 @@
 
 use std::io::{self, Write};
 
-use super::report::{CrackRow, EquationRow, FieldRow, FunctionRow, HistoryRow, Report, StepReport};
+use ppum::formula::one_line;
+
+use super::formulas::{QuantityRow, TableRow};
+use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, Report, StepReport};
+use crate::families::Family;
 use crate::number::{count, point, trimmed};
 use crate::tips::table;
 
@@ -16,6 +20,8 @@ pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     page.line("equation", &equation(&report.equation))?;
     let [min, max] = [report.domain.min, report.domain.max].map(point);
     page.line("domain", &format!("{min} to {max}"))?;
+    page.lines("tables", report.tables.iter().map(table_row))?;
+    page.lines("defined", report.quantities.iter().map(quantity))?;
     for step in &report.steps {
         page.step(step, report.steps.len())?;
     }
@@ -43,12 +49,13 @@ impl Page<'_> {
             self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
         }
         self.line("patches", &cover(step))?;
+        self.lines("weight", weight(step).into_iter())?;
         let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
         self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
         self.lines("cracks", step.cracks.iter().map(crack))?;
-        self.lines("functions", functions(&step.functions).into_iter())?;
+        self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &step.unknowns.to_string())?;
         self.lines("history", step.history.iter().map(history))?;
@@ -61,16 +68,40 @@ impl Page<'_> {
     }
 }
 
-/// The functions by kind; JSON has them one by one.
-fn functions(rows: &[FunctionRow]) -> Vec<String> {
-    let kinds = ["one", "side", "formula", "other"];
-    let line = |kind| {
-        let of_kind = rows.iter().filter(|row| row.kind == kind);
-        let (n, blocks) = of_kind.fold((0, 0), |(n, blocks), row| (n + 1, blocks + row.blocks));
-        let functions = count(n, "function", "functions");
-        (n > 0).then(|| format!("{kind}: {functions} in {}", count(blocks, "block", "blocks")))
+/// The functions in families, with their numbers in front.
+fn functions(families: &[Family]) -> Vec<String> {
+    let numbers: Vec<_> = families.iter().map(Family::numbers).collect();
+    let width = numbers.iter().map(|text| text.chars().count()).max().unwrap_or(0);
+    let lines = families.iter().zip(numbers).flat_map(|(family, numbers)| {
+        let blocks = count(family.blocks, "block", "blocks");
+        let title = format!("{numbers:width$}  {} in {blocks}", family.title());
+        let formula = |text: &String| format!("{:width$}    {}", "", one_line(text));
+        [title].into_iter().chain(family.formulas.iter().map(formula)).collect::<Vec<_>>()
+    });
+    lines.collect()
+}
+
+fn quantity(row: &QuantityRow) -> String {
+    let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
+    format!("{}{unit} = {}", row.name, one_line(&row.formula))
+}
+
+fn table_row(row: &TableRow) -> String {
+    let range = |knots: &[f64]| {
+        let [first, last] = [knots[0], knots[knots.len() - 1]].map(trimmed);
+        format!("{} from {first} to {last}", count(knots.len(), "knot", "knots"))
     };
-    kinds.into_iter().filter_map(line).collect()
+    match row.y.as_slice() {
+        [] => format!("{}(x): {}", row.name, range(&row.x)),
+        y => format!("{}(x, y): {}, {}", row.name, range(&row.x), range(y)),
+    }
+}
+
+fn weight(step: &StepReport) -> Option<String> {
+    let places = step.weight_breakpoints.iter().map(|&t| trimmed(t));
+    let places = joined(places);
+    let at = if places.is_empty() { String::new() } else { format!(", breakpoints {places}") };
+    (step.weight == "formula").then(|| format!("{}{at}", one_line(&step.weight_formula)))
 }
 
 fn joined(parts: impl Iterator<Item = String>) -> String {

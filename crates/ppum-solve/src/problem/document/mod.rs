@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Finding, Place};
-use nearest::nearest;
+pub(super) use nearest::nearest;
 pub(super) use value::Value;
 
 /// Collects findings; shared by all sections and values of a document.
@@ -129,6 +129,14 @@ impl<'a> Section<'a> {
             self.error(format!("`{key}` is missing in {}; add e.g. `{example}`", self.name));
         }
         value
+    }
+
+    /// All keys with their values.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&'a str, Value<'a>)> {
+        self.table.iter().map(|(key, item)| {
+            let key = key.get_ref().as_ref();
+            (key, Value { report: self.report, name: format!("`{key}` in {}", self.name), item })
+        })
     }
 
     /// A table `[key]` that may be absent.

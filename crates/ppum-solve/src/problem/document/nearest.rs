@@ -2,7 +2,7 @@
 
 /// The known word that differs least, if it differs in no more than a third of its letters (rounded
 /// up, so that two exchanged letters of `young` are still seen).
-pub(super) fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
+pub(in super::super) fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
     let (distance, near) = known.iter().map(|near| (edits(word, near), *near)).min()?;
     (distance <= near.len().div_ceil(3)).then_some(near)
 }

@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use ppum::formula::FormulaError;
+use ppum::formula::{Formula, FormulaError, Scope};
 use ppum::vec2::{Vec2, vec2};
 use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeValue};
 
 use super::super::error::Finding;
-use super::super::expression::{self, Expression};
+use super::super::expression;
 use super::{Report, Section, nearest};
+use ppum::expression::Expression;
 
 /// A value of the document. The readers of its type report and return `None` where it has another.
 #[derive(Clone)]
@@ -25,6 +26,11 @@ impl<'a> Value<'a> {
     pub(in super::super) fn error<T>(&self, message: &str) -> Option<T> {
         self.report.at(self.offset(), format!("{} {message}", self.name));
         None
+    }
+
+    /// Reports a message as it is.
+    pub(in super::super) fn report(&self, message: &str) {
+        self.report.at(self.offset(), message);
     }
 
     /// Reports a finding in a file that the value names.
@@ -86,10 +92,10 @@ impl<'a> Value<'a> {
         value.or_else(wrong)
     }
 
-    /// A point `[x, y]`.
+    /// A point `[x, y]`; each a number, or a formula of numbers in quotes.
     pub(in super::super) fn point(&self) -> Option<Vec2> {
         let [x, y] = self.pair("two numbers [x, y]")?;
-        let (x, y) = (x.number(), y.number());
+        let (x, y) = (x.constant(), y.constant());
         Some(vec2(x?, y?))
     }
 
@@ -104,6 +110,12 @@ impl<'a> Value<'a> {
     pub(in super::super) fn list(&self, what: &str) -> Option<Vec<Value<'a>>> {
         let array = self.item.get_ref().as_array().or_else(|| self.expected(what))?;
         Some(self.elements(array))
+    }
+
+    /// One element of an array.
+    pub(in super::super) fn element(&self, index: usize) -> Option<Value<'a>> {
+        let item = self.item.get_ref().as_array()?.get(index)?;
+        Some(Value { report: self.report, name: self.name.clone(), item })
     }
 
     fn elements(&self, array: &'a DeArray<'a>) -> Vec<Value<'a>> {
@@ -124,14 +136,21 @@ impl<'a> Value<'a> {
         })
     }
 
+    /// The value as a table, called `name` in messages; `example` shows one.
+    pub(in super::super) fn table(&self, name: &str, example: &str) -> Option<Section<'a>> {
+        let section = self.as_section(name);
+        section.or_else(|| self.expected(&format!("a table such as {example}")))
+    }
+
     /// One of several words, each standing for something.
-    pub(in super::super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+    pub(in super::super) fn choice<T: Clone>(&self, choices: &[(&str, T)]) -> Option<T> {
         let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
         let text = match self.as_text() {
             Some(text) => text,
             None => return self.expected(&alternatives(&words)),
         };
-        let chosen = choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| *choice);
+        let chosen =
+            choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| choice.clone());
         chosen.or_else(|| {
             let hint = nearest(text, &words)
                 .map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
@@ -140,31 +159,68 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// A number, or a formula of x and y in quotes.
-    pub(in super::super) fn expression(&self) -> Option<Expression> {
+    /// A number, or a formula of the scope in quotes.
+    pub(in super::super) fn expression(&self, scope: &Scope) -> Option<Expression> {
         match self.item.get_ref() {
-            DeValue::String(text) => self.formula(text),
-            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::constant),
+            DeValue::String(text) => {
+                let expression = self.inside(text, Expression::parse_in(text, scope))?;
+                let value = expression.constant().unwrap_or(0.0);
+                if value.is_finite() { Some(expression) } else { self.not_finite(value) }
+            }
+            DeValue::Integer(_) | DeValue::Float(_) => self.number().map(Expression::number),
             _ => self.expected("a number or a formula in quotes"),
         }
     }
 
-    fn formula(&self, text: &str) -> Option<Expression> {
+    /// A number, or a formula of numbers in quotes.
+    pub(in super::super) fn constant(&self) -> Option<f64> {
+        let Some(text) = self.as_text() else { return self.number() };
+        let scope = Scope::new(&[]).expect("a scope without names");
+        let value = self.inside(text, Formula::parse(text, &scope))?.evaluate(&[]);
+        if value.is_finite() { Some(value) } else { self.not_finite(value) }
+    }
+
+    fn not_finite<T>(&self, value: f64) -> Option<T> {
+        self.error(&format!("is {value}, but must be finite"))
+    }
+
+    /// What was made of the value's text, or a report of what is wrong at its place inside the text.
+    pub(in super::super) fn inside<T>(
+        &self,
+        text: &str,
+        result: Result<T, FormulaError>,
+    ) -> Option<T> {
         let report = |error: FormulaError| {
             let offset = self.offset_in_text(text, error.line, error.column);
             self.report.at(offset, format!("{}: {}", self.name, expression::message(&error)));
         };
-        Expression::parse(text).map_err(report).ok()
+        result.map_err(report).ok()
     }
 
-    /// The byte of a place in the value's text. Texts of several lines or with escapes differ from
-    /// what the file holds: for them where the value begins.
+    /// The byte of a place in the value's text. Texts with escapes differ from what the file holds: for
+    /// them where the value begins.
     fn offset_in_text(&self, text: &str, line: usize, column: usize) -> usize {
         let Range { start, end } = self.item.span();
-        let plain = line == 1 && end - start == text.len() + 2;
-        let inside = text.char_indices().nth(column - 1).map_or(text.len(), |(byte, _)| byte);
-        if plain { start + 1 + inside } else { start }
+        let raw = self.report.text.get(start..end).unwrap_or_default();
+        let Some(quotes) =
+            quotes(raw).filter(|&quotes| raw.get(quotes..quotes + text.len()) == Some(text))
+        else {
+            return start;
+        };
+        let before: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+        let rest = &text[before..];
+        let inside = rest.char_indices().nth(column - 1).map_or(rest.len(), |(byte, _)| byte);
+        start + quotes + before + inside
     }
+}
+
+/// Length of what opens a text: quotes, and the line break that follows three of them.
+fn quotes(raw: &str) -> Option<usize> {
+    if let Some(rest) = raw.strip_prefix("\"\"\"").or_else(|| raw.strip_prefix("'''")) {
+        let breaks = ["\r\n", "\n"].iter().find(|text| rest.starts_with(**text));
+        return Some(3 + breaks.map_or(0, |text| text.len()));
+    }
+    raw.starts_with(['"', '\'']).then_some(1)
 }
 
 fn to_i64(integer: &DeInteger<'_>) -> Option<i64> {

@@ -1,12 +1,16 @@
 //! The table `[discretization]`.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use ppum::weight::WeightFunction;
+use ppum::formula::{Scope, Table};
+use ppum::library;
+use ppum::weight::{WeightError, WeightFunction};
 
 use super::super::discretization::{Cells, Discretization, Enrichment, Order};
-use super::super::document::{Section, Value};
-use super::super::points;
+use super::super::document::{Section, Value, nearest};
+use super::super::{points, scopes};
+use super::enrichment::is_word;
 
 const KEYS: [&str; 10] = [
     "level",
@@ -22,22 +26,26 @@ const KEYS: [&str; 10] = [
 ];
 
 /// What is optional and wrong is reported, and left at its default.
-pub(super) fn discretization(root: &Section<'_>, base_dir: &Path) -> Option<Discretization> {
+pub(super) fn discretization(
+    root: &Section<'_>,
+    base_dir: &Path,
+    tables: &[Arc<Table>],
+) -> Option<Discretization> {
     if !root.mentions("discretization") {
         root.error("the table [discretization] is missing; add it with e.g. `level = 5`");
     }
     let section = root.section("discretization")?.only(&KEYS, &[]);
     let cells = cells(&section, base_dir);
     let mut new = Discretization::new(Cells::Level(0));
-    let weights = WeightFunction::ALL.map(|weight| (weight.name(), weight));
+    let scope = scopes::position(tables).ok()?;
     let enrichments = Enrichment::ALL.map(|enrichment| (enrichment.name(), enrichment));
     let get = |key| section.get(key);
     let number = |key| get(key).and_then(|value| value.number());
     let whole = |key| get(key).and_then(|value| value.whole());
     replace(&mut new.refine, get("refine").and_then(|value| value.boolean()));
-    replace(&mut new.order, get("order").and_then(|value| order(&value)));
+    replace(&mut new.order, get("order").and_then(|value| order(&value, &scope)));
     replace(&mut new.overlap, number("overlap"));
-    replace(&mut new.weight, get("weight").and_then(|value| value.choice(&weights)));
+    replace(&mut new.weight, get("weight").and_then(|value| weight(&value, tables)));
     replace(&mut new.enrichment, get("enrichment").and_then(|value| value.choice(&enrichments)));
     new.enrichment_radius = number("enrichment_radius");
     replace(&mut new.tip_degree, whole("tip_degree").map(|degree| degree as usize));
@@ -50,10 +58,34 @@ fn replace<T>(place: &mut T, value: Option<T>) {
     }
 }
 
-fn order(value: &Value<'_>) -> Option<Order> {
+fn order(value: &Value<'_>, scope: &Scope) -> Option<Order> {
     match value.as_text() {
-        Some(_) => value.expression().map(Order::Formula),
+        Some(_) => value.expression(scope).map(Order::Formula),
         None => value.whole().map(|order| Order::Uniform(order as usize)),
+    }
+}
+
+/// A B-spline, another weight of the library, or a formula of t.
+fn weight(value: &Value<'_>, tables: &[Arc<Table>]) -> Option<WeightFunction> {
+    let text = value.text()?;
+    if let Some(spline) = WeightFunction::from_name(text) {
+        return Some(spline);
+    }
+    let words = library::WEIGHTS.map(|entry| entry.name);
+    let formula = match library::weight(text) {
+        Some(entry) => entry.texts[0],
+        None if is_word(text) && text != "t" => {
+            let near = nearest(text, &words).map(|near| format!("; did you mean \"{near}\"?"));
+            let (words, near) = (words.join(", "), near.unwrap_or_default());
+            return value
+                .error(&format!("cannot be \"{text}\", only {words}, or a formula of t{near}"));
+        }
+        None => text,
+    };
+    match WeightFunction::formula(formula, &scopes::weight(tables).ok()?) {
+        Ok(weight) => Some(weight),
+        Err(WeightError::Formula(error)) => value.inside(text, Err(error)),
+        Err(error) => value.error(&format!("cannot be used: {error}")),
     }
 }
 

@@ -5,10 +5,14 @@
 
 mod boundary;
 mod discretization;
+mod enrichment;
+mod quantity;
+mod table;
 
 use std::path::Path;
 
-use ppum::dataset::{Equation, Material, StressState};
+use ppum::dataset::{Elasticity, Equation, Material, StressState};
+use ppum::formula::Scope;
 use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
 
@@ -17,10 +21,13 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::expression::Expression;
-use super::{Problem, Solver};
+use super::{Problem, Solver, SolverKind, scopes};
 use boundary::boundary;
 use discretization::discretization;
+use enrichment::enrichments;
+use ppum::expression::Expression;
+use quantity::quantities;
+use table::tables;
 
 pub(super) fn read(text: &str, file: &str, base_dir: &Path) -> Result<Problem, ProblemError> {
     let report = Report::new(file, text);
@@ -97,6 +104,15 @@ impl Kind {
         Words { source, unknown, neumann, components }
     }
 
+    /// An equation of this kind.
+    fn example(self) -> Equation {
+        let state = StressState::PlaneStress;
+        match self {
+            Self::Elasticity => Equation::elasticity(Material { young: 1.0, poisson: 0.0, state }),
+            Self::Poisson => Equation::poisson(1.0),
+        }
+    }
+
     /// Keys of the other equation, and what to write instead.
     fn foreign(self) -> &'static [(&'static str, Remedy)] {
         match self {
@@ -120,17 +136,23 @@ impl Kind {
 
 fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let kind = kind(&root);
-    let root = &tables(root, kind);
+    let root = &sections(root, kind);
     let title = root.get("title").and_then(|value| value.text()).unwrap_or_default();
     let domain = domain(root);
-    let discretization = discretization(root, base_dir);
+    let tables = tables(root, base_dir, &kind.unwrap_or(Kind::Elasticity).example());
+    let scope = scopes::position(&tables).ok()?;
+    let discretization = discretization(root, base_dir, &tables);
     let solver = solver(root);
     let cracks = cracks(root);
+    let names = enrichment::Names { cracks: cracks.len(), tables: &tables };
+    let enrichments = enrichments(root, &names);
     let kind = kind?;
-    let exact = exact(root, kind);
-    let source = source(root, kind);
-    let equation = equation(root, kind);
-    let boundary = boundary(root, kind, domain, exact.as_deref());
+    let exact = exact(root, kind, &scope);
+    let source = source(root, kind, &scope);
+    let equation = equation(root, kind, &scope);
+    let quantities = quantities(root, &equation, &tables);
+    let given = boundary::Data { scope: &scope, exact: exact.as_deref() };
+    let boundary = boundary(root, kind, domain, &given);
     let domain = domain?;
     Some(Problem {
         title: title.to_owned(),
@@ -140,6 +162,9 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
         boundary,
         source,
         exact: exact.unwrap_or_default(),
+        quantities,
+        tables,
+        enrichments,
         discretization: discretization?,
         solver,
         text: None,
@@ -147,9 +172,9 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
 }
 
 /// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
-fn tables(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
+fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
     let mut known = vec!["title", "domain", "equation", "material", "crack", "boundary"];
-    known.extend(["exact", "discretization", "solver"]);
+    known.extend(["exact", "discretization", "solver", "table", "enrichment", "quantity"]);
     let mut remedies = ["hole", "adaptivity", "growth"].map(|key| (key, Later(&[]))).to_vec();
     match kind {
         Some(kind) => {
@@ -196,31 +221,31 @@ fn kind(root: &Section<'_>) -> Option<Kind> {
     section.require("kind", "kind = \"elasticity\"")?.choice(&choices)
 }
 
-fn equation(root: &Section<'_>, kind: Kind) -> Equation {
+fn equation(root: &Section<'_>, kind: Kind, scope: &Scope) -> Equation {
     match kind {
-        Kind::Elasticity => Equation::Elasticity(material(root)),
+        Kind::Elasticity => Equation::Elasticity(material(root, scope)),
         Kind::Poisson => {
             let read = || {
                 let section = root.section("material")?.only(&["conductivity"], kind.foreign());
-                section.get("conductivity")?.number()
+                section.get("conductivity")?.expression(scope)
             };
-            Equation::Poisson { conductivity: read().unwrap_or(1.0) }
+            Equation::Poisson { conductivity: read().unwrap_or(1.0.into()) }
         }
     }
 }
 
 /// What is missing or wrong is reported, and replaced by a possible value.
-fn material(root: &Section<'_>) -> Material {
+fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
     let states =
         [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
     let keys = ["young", "poisson", "state"];
     let section = required(root, "material", &keys, Kind::Elasticity.foreign());
     let value = |key, example| section.as_ref()?.require(key, example);
-    let number = |key, example| value(key, example)?.number();
+    let constant = |key, example| value(key, example)?.expression(scope);
     let state = || value("state", "state = \"plane-strain\"")?.choice(&states);
-    Material {
-        young: number("young", "young = 1.0").unwrap_or(1.0),
-        poisson: number("poisson", "poisson = 0.3").unwrap_or(0.0),
+    Elasticity {
+        young: constant("young", "young = 1.0").unwrap_or(1.0.into()),
+        poisson: constant("poisson", "poisson = 0.3").unwrap_or(0.0.into()),
         state: state().unwrap_or(StressState::PlaneStress),
     }
 }
@@ -236,25 +261,26 @@ fn cracks(root: &Section<'_>) -> Vec<Vec<Vec2>> {
     all(root.sections("crack").into_iter().map(polyline)).unwrap_or_default()
 }
 
-fn source(root: &Section<'_>, kind: Kind) -> Vec<Expression> {
+fn source(root: &Section<'_>, kind: Kind, scope: &Scope) -> Vec<Expression> {
     let words = kind.words();
     let read = || {
         let section = root.section(words.source)?.only(&["value"], &[]);
         let example = if kind == Kind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
-        expressions(&section.require("value", example)?, kind)
+        expressions(&section.require("value", example)?, kind, scope)
     };
-    read().unwrap_or_else(|| vec![Expression::constant(0.0); words.components])
+    read().unwrap_or_else(|| vec![Expression::number(0.0); words.components])
 }
 
 /// The exact solution: empty if there is none, `None` if it cannot be read.
-fn exact(root: &Section<'_>, kind: Kind) -> Option<Vec<Expression>> {
+fn exact(root: &Section<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression>> {
     if !root.mentions("exact") {
         return Some(Vec::new());
     }
     let unknown = kind.words().unknown;
     let section = root.section("exact")?.only(&[unknown], kind.foreign());
     let formulas = if kind == Kind::Poisson { "\"x*y\"" } else { "[\"x*y\", \"x + y\"]" };
-    expressions(&section.require(unknown, &format!("{unknown} = {formulas}"))?, kind)
+    let value = section.require(unknown, &format!("{unknown} = {formulas}"))?;
+    expressions(&value, kind, scope)
 }
 
 /// One value a component: those of an array, or the value itself if there is but one.
@@ -265,8 +291,8 @@ fn components<'a>(value: &Value<'a>, kind: Kind) -> Option<Vec<Value<'a>>> {
     }
 }
 
-fn expressions(value: &Value<'_>, kind: Kind) -> Option<Vec<Expression>> {
-    all(components(value, kind)?.iter().map(Value::expression))
+fn expressions(value: &Value<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression>> {
+    all(components(value, kind)?.iter().map(|value| value.expression(scope)))
 }
 
 /// Everything, or nothing if one is missing; unlike `collect` it asks all of them, so that each can
@@ -277,9 +303,12 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 }
 
 fn solver(root: &Section<'_>) -> Solver {
-    let read = || {
-        let section = root.section("solver")?.only(&["kind"], &[("tolerance", Later(&[]))]);
-        section.get("kind")?.choice(&[("auto", Solver::Auto), ("direct", Solver::Direct)])
-    };
-    read().unwrap_or_default()
+    let kinds = [("auto", SolverKind::Auto), ("direct", SolverKind::Direct)];
+    let later = [("tolerance", Later(&[]))];
+    let section = root.section("solver").map(|s| s.only(&["kind", "kernels"], &later));
+    let get = |key| section.as_ref()?.get(key);
+    Solver {
+        kind: get("kind").and_then(|value| value.choice(&kinds)).unwrap_or_default(),
+        kernels: get("kernels").and_then(|value| value.boolean()).unwrap_or(true),
+    }
 }

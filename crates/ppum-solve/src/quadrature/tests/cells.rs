@@ -12,7 +12,7 @@ fn square_moment(i: i32, j: i32) -> f64 {
 fn moments_are_exact_on_graded_covers_with_cracks() {
     let mut random = Random(7);
     for trial in 0..30 {
-        let weight = WeightFunction::ALL[trial % 3];
+        let weight = WeightFunction::ALL[trial % 3].clone();
         let cover = graded(&mut random, weight);
         let points: Vec<Vec2> = (0..2 + trial % 3).map(|_| random.point(0.9)).collect();
         let cracks = vec![crack(&points), crack(&[random.point(0.9), random.point(0.9)])];
@@ -48,7 +48,7 @@ fn patches_are_those_whose_supports_hold_the_points() {
 #[test]
 fn partition_functions_are_smooth_on_pieces() {
     for weight in WeightFunction::ALL {
-        let case = Case::new(graded(&mut Random(11), weight), Vec::new(), Vec::new());
+        let case = Case::new(graded(&mut Random(11), weight.clone()), Vec::new(), Vec::new());
         let energy = |n: usize| -> f64 {
             let of_rule = |r: &Rule| {
                 let square =

@@ -2,12 +2,18 @@
 
 mod derivatives;
 mod errors;
+mod half_angle;
 mod hostile;
+mod jets;
+mod kinks;
+mod lanes;
 mod language;
 mod random;
+mod sides;
+mod tables;
 mod westergaard;
 
-use super::{Formula, Scope};
+use super::{Formula, FormulaJets, Scope};
 
 /// The value of a formula of x and y.
 fn value(text: &str, x: f64, y: f64) -> f64 {
@@ -19,9 +25,26 @@ fn parse(text: &str) -> Formula {
     Formula::parse(text, &Scope::cartesian()).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
+/// A formula with its gradient and Hessian.
+fn jets(formula: &Formula) -> FormulaJets {
+    FormulaJets::new(&[formula], 2).expect("small, of two variables")
+}
+
+/// v, x, y, xx, xy, yy of a formula at a point.
+fn jet_at(jets: &FormulaJets, inputs: &[f64]) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    jets.evaluate(inputs, &mut Vec::new(), &mut out);
+    out
+}
+
 /// The inputs of the polar scope at a point.
-fn polar(x: f64, y: f64) -> [f64; 4] {
-    [x, y, x.hypot(y), y.atan2(x)]
+fn polar(x: f64, y: f64) -> [f64; 6] {
+    at_angle([x, y], x.hypot(y), y.atan2(x))
+}
+
+/// The inputs of the polar scope where they do not follow from the point.
+fn at_angle([x, y]: [f64; 2], r: f64, theta: f64) -> [f64; 6] {
+    [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin()]
 }
 
 /// Asserts |a − b| ≤ tolerance · scale.

@@ -1,28 +1,32 @@
 //! Random formulas against an independent evaluation, and random texts against the parser.
 
-use super::{Formula, Scope, polar, same};
+use std::sync::Arc;
+
+use crate::formula::Table;
+
+use super::{Formula, Scope, jet_at, jets, polar, same};
 
 /// A small generator of random numbers (xorshift64*, Vigna 2016): the same sequence everywhere.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub(super) fn next(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         (self.next() >> 33) as usize % n
     }
 
     /// In [a, b).
-    fn between(&mut self, a: f64, b: f64) -> f64 {
+    pub(super) fn between(&mut self, a: f64, b: f64) -> f64 {
         a + (b - a) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+    pub(super) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }
 }
@@ -30,7 +34,7 @@ impl Random {
 /// Value, gradient and Hessian carried along numerically (order v, x, y, xx, xy, yy): an evaluation
 /// that shares nothing with the graph.
 #[derive(Clone, Copy)]
-struct Jet([f64; 6]);
+pub(super) struct Jet([f64; 6]);
 
 impl Jet {
     fn constant(v: f64) -> Self {
@@ -76,6 +80,12 @@ impl Jet {
             "-" => (-u, -1.0, 0.0),
             "reciprocal" => (1.0 / u, -1.0 / (u * u), 2.0 / (u * u * u)),
             "square" => (u * u, 2.0 * u, 2.0),
+            "table" => {
+                // the cubic of the scope's table, constant outside
+                let (v, inside) =
+                    (u.clamp(-2.0, 3.0), f64::from(u8::from((-2.0..=3.0).contains(&u))));
+                (v * v * v - 2.0 * v, inside * (3.0 * v * v - 2.0), inside * 6.0 * v)
+            }
             other => panic!("no function {other}"),
         };
         self.chain(g, g1, g2)
@@ -83,14 +93,14 @@ impl Jet {
 }
 
 /// A random formula: its text and its jet at a point.
-struct Sample {
-    text: String,
+pub(super) struct Sample {
+    pub(super) text: String,
     jet: Jet,
     /// Largest number met on the way: bounds the rounding errors.
-    largest: f64,
+    pub(super) largest: f64,
 }
 
-fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sample {
+pub(super) fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sample {
     if depth == 0 || random.below(8) == 0 {
         return leaf(random, point);
     }
@@ -110,23 +120,30 @@ fn node(text: String, jet: Jet, parts: &[f64]) -> Sample {
 }
 
 fn leaf(random: &mut Random, point: &[Jet; 4]) -> Sample {
-    let index = random.below(6);
+    let index = random.below(7);
     if let Some(jet) = point.get(index) {
         return node(["x", "y", "r", "theta"][index].to_owned(), *jet, &[]);
+    }
+    if index == 4 {
+        let multiple = random.pick(&[0.5, -0.5, 1.5, 2.0, -3.0, 3.5]);
+        let jet = Jet::constant(0.0).plus(point[3], multiple);
+        return node(format!("(theta*{multiple})"), jet, &[]);
     }
     let value = random.pick(&[0.5, 2.0, 3.0, 0.1, 1.0, 0.0, 7.25]);
     node(format!("{value}"), Jet::constant(value), &[])
 }
 
 fn call(random: &mut Random, a: Sample) -> Sample {
-    let name =
-        random.pick(&["sin", "cos", "atan", "tanh", "exp", "sqrt", "log", "abs", "-", "square"]);
+    let name = random
+        .pick(&["sin", "cos", "atan", "tanh", "exp", "sqrt", "log", "abs", "-", "square", "table"]);
     let text = match name {
         "-" => format!("-({})", a.text),
         "square" => format!("({})^2", a.text),
+        "table" => format!("table(k, {})", a.text),
         _ => format!("{name}({})", a.text),
     };
-    let at_kink = name == "abs" && a.jet.0[0].abs() < TIE;
+    let near = |kink: f64| (a.jet.0[0] - kink).abs() < TIE;
+    let at_kink = name == "abs" && near(0.0) || name == "table" && (near(-2.0) || near(3.0));
     node(text, a.jet.function(name), &[a.largest, excluded(at_kink)])
 }
 
@@ -177,8 +194,8 @@ fn join(random: &mut Random, a: Sample, b: Sample) -> Sample {
     node(text, jet, &[a.largest, b.largest, excluded(tied)])
 }
 
-fn point(x: f64, y: f64) -> [Jet; 4] {
-    let [_, _, r, theta] = polar(x, y);
+pub(super) fn point(x: f64, y: f64) -> [Jet; 4] {
+    let [_, _, r, theta, ..] = polar(x, y);
     let (c, s) = (x / r, y / r);
     [
         Jet([x, 1.0, 0.0, 0.0, 0.0, 0.0]),
@@ -195,17 +212,26 @@ fn point(x: f64, y: f64) -> [Jet; 4] {
     ]
 }
 
+/// Polar coordinates and k(x) = x³ − 2x on [−2, 3].
+pub(super) fn scope() -> Scope {
+    let knots = [-2.0, -0.5, 1.0, 2.0, 3.0];
+    let values = knots.iter().map(|x: &f64| x.powi(3) - 2.0 * x).collect();
+    let table = Table::curve("k", knots.to_vec(), values).expect("valid");
+    Scope::polar().with_table(Arc::new(table)).expect("a new name")
+}
+
 #[test]
 fn random_formulas_agree_with_numerical_jets() {
+    let scope = scope();
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
-    let (mut compared, mut scratch) = (0, Vec::new());
+    let mut compared = 0;
     for _ in 0..20_000 {
         let (x, y) = (random.between(-2.0, 2.0), random.between(-2.0, 2.0));
         let sample = sample(&mut random, &point(x, y), 5);
         let text = &sample.text;
-        let f = Formula::parse(text, &Scope::polar()).unwrap_or_else(|e| panic!("{text}: {e}"));
-        let jet = f.jet().expect("small");
-        let found = jet.evaluate(&polar(x, y), &mut scratch);
+        let f = Formula::parse(text, &scope).unwrap_or_else(|e| panic!("{text}: {e}"));
+        let jet = jets(&f);
+        let found = jet_at(&jet, &polar(x, y));
         assert!(same(found[0], f.evaluate(&polar(x, y))), "{text}");
         if sample.largest > 1e4 {
             continue;
@@ -221,15 +247,16 @@ fn random_formulas_agree_with_numerical_jets() {
 
 #[test]
 fn random_derivatives_print_and_parse_again() {
+    let scope = scope();
     let mut random = Random(0xD1B5_4A32_D192_ED03);
     for _ in 0..2_000 {
         let (x, y) = (random.between(-2.0, 2.0), random.between(-2.0, 2.0));
         let text = sample(&mut random, &point(x, y), 4).text;
-        let f = Formula::parse(&text, &Scope::polar()).expect("valid");
+        let f = Formula::parse(&text, &scope).expect("valid");
         for derivative in [f.derivative("x"), f.derivative("y").and_then(|d| d.derivative("x"))] {
             let derivative = derivative.expect("small");
             let printed = derivative.text();
-            let again = Formula::parse(printed, &Scope::polar())
+            let again = Formula::parse(printed, &scope)
                 .unwrap_or_else(|error| panic!("{text}\n{printed}\n{error}"));
             let (a, b) = (derivative.evaluate(&polar(x, y)), again.evaluate(&polar(x, y)));
             assert!(same(a, b), "{text}\n{printed}\n{a} or {b}");
@@ -237,26 +264,78 @@ fn random_derivatives_print_and_parse_again() {
     }
 }
 
-const PIECES: [&str; 48] = [
-    "x", "y", "r", "theta", "pi", "e", "a", "1", "2.5", "1e-3", "0", ".5", "+", "-", "*", "/", "^",
-    "(", ")", "(", ")", ",", ";", "=", "==", "!=", "<", "<=", ">", ">=", "and", "or", "not", "let",
-    "if", "sin", "sqrt", "atan2", "max", "abs", "clamp", "table", "#", "\n", "é", "$", "1e", "..",
+const PIECES: [&str; 54] = [
+    "x",
+    "y",
+    "r",
+    "theta",
+    "pi",
+    "e",
+    "a",
+    "1",
+    "2.5",
+    "1e-3",
+    "0",
+    ".5",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "(",
+    ")",
+    "(",
+    ")",
+    ",",
+    ";",
+    "=",
+    "==",
+    "!=",
+    "<",
+    "<=",
+    ">",
+    ">=",
+    "and",
+    "or",
+    "not",
+    "let",
+    "if",
+    "sin",
+    "sqrt",
+    "atan2",
+    "max",
+    "abs",
+    "clamp",
+    "table",
+    "#",
+    "table(k,",
+    "dtable(k,1,",
+    "side(0)",
+    "cos(theta/2)",
+    "theta/2",
+    "k",
+    "\n",
+    "é",
+    "$",
+    "1e",
+    "..",
 ];
 
 /// Whatever the text: an error with a place in it, or a formula that evaluates and differentiates.
 #[test]
 fn random_texts_do_not_crash() {
+    let scope = scope();
     let mut random = Random(0x2545_F491_4F6C_DD1D);
     let mut valid = 0;
     for _ in 0..200_000 {
         let n = random.below(12);
         let blank = random.pick(&["", " "]);
         let text: String = (0..n).map(|_| random.pick(&PIECES).to_owned() + blank).collect();
-        match Formula::parse(&text, &Scope::polar()) {
+        match Formula::parse(&text, &scope) {
             Ok(f) => {
                 valid += 1;
-                let jet = f.jet().expect("small");
-                let _ = jet.evaluate(&polar(0.3, -0.4), &mut Vec::new());
+                let jet = jets(&f);
+                let _ = jet_at(&jet, &polar(0.3, -0.4));
             }
             Err(error) => {
                 let lines = text.split('\n').collect::<Vec<_>>();

@@ -1,5 +1,7 @@
 //! Problem files: good ones mean what they say, bad ones are reported where they are wrong.
 
+mod formulas;
+
 use std::path::Path;
 
 use ppum::crack::{CrackEnd, End, TipId};
@@ -79,15 +81,18 @@ type Bad = (&'static str, &'static str, usize, usize, &'static str);
 
 /// Each edit must give one finding, no more, at the place and with the message expected.
 fn check_all(text: &str, cases: &[Bad]) {
-    for &(old, new, line, column, part) in cases {
+    let wrong = |&(old, new, line, column, part): &Bad| {
         let found = findings(&edited(text, old, new));
         let place = format!("dir/plate.toml:{line}:{column}: ");
-        assert!(
-            found.len() == 1 && found[0].starts_with(&place) && found[0].contains(part),
-            "`{old}` → `{new}`: expected {place}… {part} …, found\n{}",
-            found.join("\n")
-        );
-    }
+        let good = found.len() == 1 && found[0].starts_with(&place) && found[0].contains(part);
+        let message = || {
+            let found = found.join("\n");
+            format!("`{old}` → `{new}`: expected\n{place}… {part} …, found\n{found}\n\n")
+        };
+        (!good).then(message)
+    };
+    let wrong: String = cases.iter().filter_map(wrong).collect();
+    assert!(wrong.is_empty(), "{wrong}");
 }
 
 #[test]
@@ -113,7 +118,7 @@ fn plate() {
 fn membrane() {
     let problem = good(MEMBRANE);
     assert_eq!(problem.title, "plate", "the title is the file's name if none is given");
-    assert_eq!(problem.equation, Equation::Poisson { conductivity: 2.0 });
+    assert_eq!(problem.equation, Equation::poisson(2.0));
     assert_eq!(problem.source[0].value(vec2(3.0, 4.0)), 12.0);
     assert_eq!(problem.exact[0].text(), "x + y");
     assert_eq!(problem.discretization.cells, Cells::Grid([8, 4]));
@@ -236,10 +241,17 @@ fn bad_types_and_words() {
     check_all(
         PLATE,
         &[
-            ("2.5", "\"2.5\"", 6, 9, "must be a number, found a text; remove the quotes"),
+            (
+                "level = 4",
+                "level = 4\noverlap = \"1.3\"",
+                19,
+                11,
+                "must be a number, found a text; remove the quotes",
+            ),
             ("2.5", "inf", 6, 9, "must be finite"),
             ("2.5", "1e999", 6, 9, "must be finite"),
-            ("2.5", "true", 6, 9, "must be a number, found true or false"),
+            ("2.5", "true", 6, 9, "must be a number or a formula in quotes, found true or false"),
+            ("2.5", "\"1/0\"", 6, 9, "`young` in [material] is inf, but must be finite"),
             ("\"Centre crack\"", "7", 1, 9, "`title` in the problem file must be a text in quotes"),
             (
                 "max = [1.0, 1.0]",
@@ -257,10 +269,11 @@ fn bad_types_and_words() {
             ("\"top\"", "3", 15, 6, "found a number"),
             (
                 "level = 4",
-                "level = 4\nweight = \"1 - t\"",
+                "level = 4\nweight = \"cubik\"",
                 19,
                 10,
-                "only \"linear\", \"quadratic\", \"cubic\"",
+                "cannot be \"cubik\", only linear, quadratic, cubic, bump, cosine, wendland, or a \
+                 formula of t; did you mean \"cubic\"?",
             ),
             ("level = 4", "level = 4\nenrichment = \"zones\"", 19, 14, "did you mean \"zone\"?"),
             (
@@ -316,7 +329,12 @@ fn bad_formulas() {
                 9,
                 "the order is -9.375 at [-0.9375, -0.9375]",
             ),
-            ("\"1 + x^2\"", "'''\n1 + z'''", 16, 18, "unknown name `z`"),
+            ("\"1 + x^2\"", "'''\n1 + z'''", 17, 5, "unknown name `z`"),
+            ("\"1 + x^2\"", "\"\"\"1 +\n  x*z\"\"\"", 17, 5, "unknown name `z`"),
+            ("\"1 + x^2\"", "'1 + z'", 16, 23, "unknown name `z`"),
+            ("\"1 + x^2\"", "\"\\u0031 + z\"", 16, 18, "unknown name `z`"),
+            ("\"1 + x^2\"", "\"\"", 16, 19, "unexpected the end"),
+            ("2.5", "\"1 + s\"", 6, 14, "unknown name `s`"),
         ],
     );
 }
@@ -328,6 +346,14 @@ fn bad_values() {
         &[
             ("max = [1.0, 1.0]", "max = [1.0, -1.0]", 4, 7, "`max` must exceed `min` in y"),
             ("2.5", "0", 6, 9, "`young` is 0, but must be positive"),
+            (
+                "2.5",
+                "\"if(y > 0, 10, x)\"",
+                6,
+                9,
+                "`young` is -1, but must be positive and finite at [-1, -1]",
+            ),
+            ("0.3", "\"0.3 + y/2\"", 7, 11, "in plane strain at [-1, 0.40625]"),
             ("0.3", "0.5", 7, 11, "-1 < ν < 0.5 in plane strain"),
             ("0.3", "-1", 7, 11, "`poisson` is -1"),
             ("level = 4", "level = 11", 18, 9, "must be 0 to 10"),
@@ -572,7 +598,7 @@ fn default_enrichment_radius() {
 
 #[test]
 fn the_example_of_the_documentation() {
-    let page = include_str!("../../../../docs/problem-file.md");
+    let page = include_str!("../../../../../docs/problem-file.md");
     let mut blocks = page.split("```");
     let example = blocks.nth(1).and_then(|block| block.strip_prefix("toml\n"));
     let problem = good(example.expect("the page's first block is the example"));
@@ -618,7 +644,7 @@ fn nothing_is_refused_without_a_reason() {
 
 #[test]
 fn the_mistakes_of_the_documentation() {
-    let page = include_str!("../../../../docs/problem-file.md");
+    let page = include_str!("../../../../../docs/problem-file.md");
     let blocks: Vec<_> = page.split("```").collect();
     let text = edited(blocks[1].trim_start_matches("toml\n"), "young", "yong");
     let text = edited(&text, "[0.5, 0.0]", "[5.0, 0.0]");

@@ -1,0 +1,259 @@
+//! The functions of a step in few words: `westergaard 1–4 at 6 tips` for 24 of them.
+
+use ppum::dataset::FieldData;
+use ppum::function::{Declared, Frame, Function, FunctionKind};
+
+use crate::number::{count, trimmed};
+
+/// Functions that differ in their places and numbers only.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Family {
+    /// Numbers of the functions, rising.
+    pub(crate) numbers: Vec<usize>,
+    /// Name without the place, e.g. `westergaard 1–4`.
+    pub(crate) name: String,
+    /// Where they are, e.g. `at 6 tips`; empty if everywhere.
+    pub(crate) place: String,
+    /// Formulas with their parameters, those that are no names already.
+    pub(crate) formulas: Vec<String>,
+    /// Blocks that use them.
+    pub(crate) blocks: usize,
+}
+
+/// How many blocks of a field use each function.
+pub(crate) fn blocks(functions: &[Function], field: &FieldData) -> Vec<usize> {
+    let mut blocks = vec![0; functions.len()];
+    field.block_function.iter().for_each(|&function| blocks[function as usize] += 1);
+    blocks
+}
+
+/// The families of some functions, in the order of their first ones.
+pub(crate) fn families(functions: &[Function], blocks: &[usize]) -> Vec<Family> {
+    let mut groups: Vec<Vec<Group<'_>>> = Vec::new();
+    for group in groups_of(functions, blocks) {
+        match groups.last_mut().filter(|family| group.continues(&family[family.len() - 1])) {
+            Some(family) => family.push(group),
+            None => groups.push(vec![group]),
+        }
+    }
+    groups.iter().map(|groups| Family::new(groups)).collect()
+}
+
+impl Family {
+    /// Name and place.
+    pub(crate) fn title(&self) -> String {
+        format!("{} {}", self.name, self.place).trim_end().to_owned()
+    }
+
+    /// The numbers as ranges, `2–25`; of many the first.
+    pub(crate) fn numbers(&self) -> String {
+        let runs = self.numbers.chunk_by(|a, b| a + 1 == *b);
+        let mut runs: Vec<_> = runs.map(range).collect();
+        if runs.len() > MAX_RUNS {
+            runs.truncate(MAX_RUNS - 1);
+            runs.push("…".into());
+        }
+        runs.join(", ")
+    }
+
+    fn new(groups: &[Group<'_>]) -> Self {
+        let (first, last) = (&groups[0], &groups[groups.len() - 1]);
+        let name = match (first.numbered(), last.numbered()) {
+            (Some((base, from)), Some((_, to))) if from < to => format!("{base} {from}–{to}"),
+            _ => first.stem.to_owned(),
+        };
+        let mut numbers: Vec<_> = groups.iter().flat_map(|group| &group.numbers).copied().collect();
+        numbers.sort_unstable();
+        Self {
+            numbers,
+            name,
+            place: first.place(),
+            formulas: groups.iter().filter_map(Group::formula).collect(),
+            blocks: groups.iter().map(|group| group.blocks).sum(),
+        }
+    }
+}
+
+/// Most ranges of numbers that are shown.
+const MAX_RUNS: usize = 4;
+
+fn range(run: &[usize]) -> String {
+    match run {
+        [only] => only.to_string(),
+        _ => format!("{}–{}", run[0], run[run.len() - 1]),
+    }
+}
+
+/// Functions that differ in their places only.
+struct Group<'f> {
+    stem: &'f str,
+    names: Vec<&'f str>,
+    kinds: Vec<&'f FunctionKind>,
+    numbers: Vec<usize>,
+    blocks: usize,
+}
+
+fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> {
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for (number, (function, &blocks)) in functions.iter().zip(blocks).enumerate() {
+        let (stem, kind) = (function.stem(), &function.kind);
+        match groups.iter_mut().find(|g| g.stem == stem && is_moved(g.kinds[0], kind)) {
+            Some(group) => {
+                group.names.push(&function.name);
+                group.kinds.push(kind);
+                group.numbers.push(number);
+                group.blocks += blocks;
+            }
+            None => {
+                let (names, kinds, numbers) = (vec![&*function.name], vec![kind], vec![number]);
+                groups.push(Group { stem, names, kinds, numbers, blocks });
+            }
+        }
+    }
+    groups
+}
+
+/// True if two functions differ in their places only.
+fn is_moved(a: &FunctionKind, b: &FunctionKind) -> bool {
+    match (parts(a), parts(b)) {
+        (Some((text, frame, parameters, declared)), Some((t, f, p, d))) => {
+            let same_frame = std::mem::discriminant(frame) == std::mem::discriminant(f);
+            same_frame && (text, parameters, declared) == (t, p, d)
+        }
+        (None, None) => std::mem::discriminant(a) == std::mem::discriminant(b),
+        _ => false,
+    }
+}
+
+type Parts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);
+
+fn parts(kind: &FunctionKind) -> Option<Parts<'_>> {
+    match kind {
+        FunctionKind::Formula { text, frame, parameters, declared } => {
+            Some((text, frame, parameters, declared))
+        }
+        _ => None,
+    }
+}
+
+impl Group<'_> {
+    /// A name that ends in a number, and the number.
+    fn numbered(&self) -> Option<(&str, usize)> {
+        let (base, number) = self.stem.rsplit_once(' ')?;
+        Some((base, number.parse().ok()?))
+    }
+
+    /// True if this is the next function of a family at the same places.
+    fn continues(&self, last: &Self) -> bool {
+        let is_next = match (last.numbered(), self.numbered()) {
+            (Some((base, k)), Some((next, m))) => base == next && m == k + 1,
+            _ => false,
+        };
+        let place = |kind: &&FunctionKind| {
+            parts(kind).map(|(_, frame, parameters, _)| (*frame, parameters.to_vec()))
+        };
+        is_next && last.kinds.iter().map(place).eq(self.kinds.iter().map(place))
+    }
+
+    /// Where the functions are; of a single one its name tells.
+    fn place(&self) -> String {
+        let n = self.names.len();
+        match self.kinds[0] {
+            FunctionKind::Side { .. } => format!("of {}", count(n, "crack", "cracks")),
+            FunctionKind::Formula { frame: Frame::Tip(_), .. } => {
+                format!("at {}", count(n, "tip", "tips"))
+            }
+            _ if n > 1 => format!("at {n} places"),
+            _ => self.names[0][self.stem.len()..].trim_start().to_owned(),
+        }
+    }
+
+    /// The formula, unless the name says it, and its parameters.
+    fn formula(&self) -> Option<String> {
+        let (text, _, parameters, _) = parts(self.kinds[0])?;
+        let parameters =
+            parameters.iter().map(|(name, value)| format!("{name} = {}", trimmed(*value)));
+        let text = [text.to_owned()].into_iter().filter(|text| text != self.stem);
+        let all: Vec<_> = text.chain(parameters).collect();
+        (!all.is_empty()).then(|| all.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::crack::{End, TipId};
+    use ppum::function::WESTERGAARD;
+    use ppum::vec2::vec2;
+
+    use super::*;
+
+    fn function(name: &str, kind: FunctionKind) -> Function {
+        Function { name: name.into(), kind }
+    }
+
+    /// One, two sides, the four functions of three tips.
+    fn cracked() -> Vec<Function> {
+        let mut all = vec![function("one", FunctionKind::One)];
+        all.extend((0..2).map(|crack| {
+            function(&format!("side of crack {crack}"), FunctionKind::Side { crack })
+        }));
+        for crack in 0..3 {
+            let frame = Frame::Tip(TipId { crack, end: End::Last });
+            all.extend((1..).zip(WESTERGAARD).map(|(k, text)| {
+                let name = format!("westergaard {k} of crack {crack} end");
+                function(&name, FunctionKind::formula(text, frame))
+            }));
+        }
+        all
+    }
+
+    fn told(functions: &[Function]) -> Vec<String> {
+        let families = families(functions, &vec![2; functions.len()]);
+        families.iter().map(|f| format!("{} {} {}", f.numbers(), f.title(), f.blocks)).collect()
+    }
+
+    #[test]
+    fn functions_of_tips_are_a_family() {
+        let all = cracked();
+        assert_eq!(
+            told(&all),
+            ["0 one 2", "1–2 side of 2 cracks 4", "3–14 westergaard 1–4 at 3 tips 24"]
+        );
+        assert_eq!(families(&all, &[0; 15])[2].formulas, WESTERGAARD);
+    }
+
+    /// What differs in more than its place is told apart.
+    #[test]
+    fn a_replaced_function_stands_alone() {
+        let mut all = cracked();
+        all[8].kind = FunctionKind::formula("r", Frame::Tip(TipId { crack: 1, end: End::Last }));
+        assert_eq!(
+            told(&all)[2..],
+            [
+                "3, 7, 11 westergaard 1 at 3 tips 6",
+                "4, 12 westergaard 2 at 2 tips 4",
+                "5–6, 9–10, 13–14 westergaard 3–4 at 3 tips 12",
+                "8 westergaard 2 at 1 tip 2",
+            ]
+        );
+    }
+
+    #[test]
+    fn places_and_parameters() {
+        let corner = |text: &str, x: f64| FunctionKind::Formula {
+            text: text.into(),
+            frame: Frame::Fixed { origin: vec2(x, 0.5), angle: 1.5 },
+            parameters: vec![("lambda".into(), 0.5)],
+            declared: Declared::default(),
+        };
+        let all = [
+            function("corner 1 at [1, 0.5]", corner("r^lambda", 1.0)),
+            function("corner 2 at [1, 0.5]", corner("r", 1.0)),
+            function("x*y", FunctionKind::formula("x*y", Frame::World)),
+        ];
+        assert_eq!(told(&all), ["0–1 corner 1–2 at [1, 0.5] 4", "2 x*y 2"]);
+        let families = families(&all, &[1; 3]);
+        assert_eq!(families[0].formulas, ["r^lambda, lambda = 0.5", "r, lambda = 0.5"]);
+        assert!(families[1].formulas.is_empty());
+    }
+}

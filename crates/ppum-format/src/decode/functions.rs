@@ -1,0 +1,104 @@
+//! The function table.
+
+use ppum::crack::TipId;
+use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::vec2::{Vec2, vec2};
+
+use super::Read;
+use super::group::Group;
+use crate::names::ENDS;
+
+/// The columns of the function table that are not plain names.
+struct Columns {
+    crack: Vec<i64>,
+    formula: Vec<String>,
+    frame: Vec<String>,
+    end: Vec<String>,
+    origin: Vec<Vec2>,
+    angle: Vec<f64>,
+    parameters: Vec<Vec<(String, f64)>>,
+    declared: Vec<Declared>,
+}
+
+pub(super) fn functions(group: &mut Group) -> Read<Vec<Function>> {
+    let names = group.vector::<String>("name")?;
+    let n = names.len();
+    let kinds = group.column::<String>("kind", n)?;
+    let mut columns = Columns {
+        crack: group.column("crack", n)?,
+        formula: group.column("formula", n)?,
+        frame: group.column("frame", n)?,
+        end: group.column("frame_end", n)?,
+        origin: group.points("frame_origin")?,
+        angle: group.column("frame_angle", n)?,
+        parameters: parameters(group, n)?,
+        declared: declared(group, n)?,
+    };
+    if columns.origin.len() != n {
+        return Err(group.error("frame_origin", format!("expected {n} rows")));
+    }
+    let function = |(k, (name, kind)): (usize, (String, String))| {
+        Ok(Function { name, kind: columns.function_kind(group, k, &kind)? })
+    };
+    names.into_iter().zip(kinds).enumerate().map(function).collect()
+}
+
+fn parameters(group: &mut Group, functions: usize) -> Read<Vec<Vec<(String, f64)>>> {
+    let names = group.vector::<String>("parameter_name")?;
+    let values = group.column::<f64>("parameter_value", names.len())?;
+    let parts = group.offsets("parameter_offsets", functions, names.len())?;
+    let pairs: Vec<(String, f64)> = std::iter::zip(names, values).collect();
+    Ok(parts.into_iter().map(|part| pairs[part].to_vec()).collect())
+}
+
+/// Kinks and singular points, each of which may be missing from the file.
+fn declared(group: &mut Group, functions: usize) -> Read<Vec<Declared>> {
+    let mut declared = vec![Declared::default(); functions];
+    if group.has("kinks") || group.has("kink_offsets") {
+        let segment = |[x0, y0, x1, y1]: [f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
+        let kinks: Vec<_> = group.rows("kinks")?.into_iter().map(segment).collect();
+        let parts = group.offsets("kink_offsets", functions, kinks.len())?;
+        std::iter::zip(&mut declared, parts).for_each(|(d, part)| d.kinks = kinks[part].to_vec());
+    }
+    if group.has("singular") || group.has("singular_offsets") {
+        let points = group.points("singular")?;
+        let parts = group.offsets("singular_offsets", functions, points.len())?;
+        std::iter::zip(&mut declared, parts)
+            .for_each(|(d, part)| d.singular = points[part].to_vec());
+    }
+    Ok(declared)
+}
+
+impl Columns {
+    fn function_kind(&mut self, group: &Group, k: usize, kind: &str) -> Read<FunctionKind> {
+        match kind {
+            "one" => Ok(FunctionKind::One),
+            "side" => Ok(FunctionKind::Side { crack: self.crack_index(group, k)? }),
+            "formula" => Ok(FunctionKind::Formula {
+                frame: self.frame(group, k)?,
+                text: std::mem::take(&mut self.formula[k]),
+                parameters: std::mem::take(&mut self.parameters[k]),
+                declared: std::mem::take(&mut self.declared[k]),
+            }),
+            _ => Err(group.error("kind", format!("function {k} is of unknown kind `{kind}`"))),
+        }
+    }
+
+    fn frame(&self, group: &Group, k: usize) -> Read<Frame> {
+        match self.frame[k].as_str() {
+            "world" => Ok(Frame::World),
+            "fixed" => Ok(Frame::Fixed { origin: self.origin[k], angle: self.angle[k] }),
+            "tip" => Ok(Frame::Tip(TipId {
+                crack: self.crack_index(group, k)?,
+                end: group.word(ENDS, &self.end[k], "frame_end")?,
+            })),
+            other => Err(group.error("frame", format!("function {k} has unknown frame `{other}`"))),
+        }
+    }
+
+    fn crack_index(&self, group: &Group, k: usize) -> Read<u32> {
+        let crack = self.crack[k];
+        u32::try_from(crack)
+            .map_err(|_| group.error("crack", format!("function {k} has no crack ({crack})")))
+    }
+}

@@ -1,0 +1,69 @@
+//! Tables, and the scopes of formulas that may read them.
+
+use std::sync::Arc;
+
+use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
+
+use super::Read;
+use super::group::{Extent, Group, numbered};
+use crate::MAX_TABLE_VALUES;
+use crate::error::ReadError;
+
+/// The scopes in which formulas are read before the dataset is complete.
+pub(super) struct Scopes {
+    /// x and y.
+    pub(super) plane: Scope,
+    /// t, of weights.
+    pub(super) weight: Scope,
+}
+
+impl Scopes {
+    pub(super) fn new(tables: &[Arc<Table>]) -> Read<Self> {
+        let scope = |variables: &[&str]| Scope::new(variables)?.with_tables(tables);
+        Self::of(scope).map_err(|error| ReadError::object("tables", error.to_string()))
+    }
+
+    fn of(scope: impl Fn(&[&str]) -> Result<Scope, ScopeError>) -> Result<Self, ScopeError> {
+        scope(&VARIABLES)?;
+        Ok(Self { plane: scope(&["x", "y"])?, weight: scope(&["t"])? })
+    }
+}
+
+pub(super) fn tables(root: &mut Group) -> Read<Vec<Arc<Table>>> {
+    let mut left = MAX_TABLE_VALUES;
+    numbered(root, "tables", |group| table(group, &mut left).map(Arc::new))
+}
+
+fn table(group: &mut Group, left: &mut usize) -> Read<Table> {
+    let name: String = group.attribute("name")?;
+    let x = group.vector::<f64>("x")?;
+    let y = if group.has("y") { Some(group.vector::<f64>("y")?) } else { None };
+    let rows = y.iter().map(|y| Extent::Is(y.len() as u64));
+    let shape: Vec<Extent> = rows.chain([Extent::Is(x.len() as u64)]).collect();
+    let values = group.array::<f64>("values", &shape)?;
+    *left = left.checked_sub(values.len()).ok_or_else(|| {
+        let problem = format!("the tables have more than {MAX_TABLE_VALUES} values together");
+        group.error("values", problem)
+    })?;
+    let table = match y {
+        Some(y) => Table::surface(&name, x, y, values),
+        None => Table::curve(&name, x, values),
+    };
+    table.map_err(|error| group.error(at_fault(&error), error.to_string()))
+}
+
+/// The array that an error is about.
+fn at_fault(error: &TableError) -> &'static str {
+    match error {
+        TableError::TooFewKnots { axis, .. }
+        | TableError::KnotNotFinite { axis, .. }
+        | TableError::NotIncreasing { axis, .. } => {
+            if *axis == 'x' {
+                "x"
+            } else {
+                "y"
+            }
+        }
+        _ => "values",
+    }
+}

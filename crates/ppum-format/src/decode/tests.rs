@@ -1,0 +1,294 @@
+//! Contents that are damaged in one place each.
+
+use super::*;
+use crate::{checksum, encode, everything};
+
+fn content() -> Content {
+    encode::content(&everything::dataset(1)).unwrap()
+}
+
+/// The object that decoding complains about.
+fn complaint(content: Content) -> Option<String> {
+    match dataset(content) {
+        Ok(_) => None,
+        Err(ReadError::Object { object, .. }) => Some(object),
+        Err(other) => panic!("unexpected error: {other}"),
+    }
+}
+
+/// A group that goes missing as a whole is a shorter list, an item alone is an error.
+#[test]
+fn a_missing_item_is_named() {
+    let optional = ["problem", "@format", "@format_version"];
+    for key in content().keys() {
+        let mut damaged = content();
+        damaged.remove(key);
+        match complaint(damaged) {
+            // without knots in y the values are those of a table of one argument
+            Some(object) => assert_eq!(object, key.replace("0002/y", "0002/values")),
+            None => {
+                assert!(optional.contains(&key.as_str()) || key.ends_with("exact"), "{key}")
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wrong_type_or_rank_is_named() {
+    for key in content().keys().filter(|key| !key.starts_with("@format")) {
+        let mut damaged = content();
+        damaged.get_mut(key).unwrap().values = Values::Other("complex".into());
+        assert_eq!(complaint(damaged).as_ref(), Some(key));
+        let mut damaged = content();
+        damaged.get_mut(key).unwrap().shape.push(1);
+        assert_eq!(complaint(damaged).as_ref(), Some(key));
+    }
+}
+
+#[test]
+fn unknown_words_are_named() {
+    for (key, word) in [
+        ("domain@kind", "disc"),
+        ("equation@kind", "heat"),
+        ("equation@state", "plane"),
+        ("steps/0000/partition@kind", "mesh"),
+        ("steps/0000/partition@weight", "sextic"),
+    ] {
+        let mut damaged = content();
+        damaged.insert(key.into(), Array::scalar(word.to_owned()));
+        let error = dataset(damaged).unwrap_err().to_string();
+        let (group, name) = key.split_once('@').unwrap();
+        assert!(error.contains(group) && error.contains(name) && error.contains(word), "{error}");
+    }
+    for key in ["cracks/ends", "functions/kind", "functions/frame", "intensities/end"] {
+        let key = format!("steps/0000/{key}");
+        let mut damaged = content();
+        let Values::Text(words) = &mut damaged.get_mut(&key).unwrap().values else {
+            panic!("{key} holds words")
+        };
+        words.fill("sideways".into());
+        // functions of other kinds have no frame
+        assert_eq!(complaint(damaged), Some(key));
+    }
+}
+
+#[test]
+fn lists_that_do_not_divide_are_named() {
+    for key in ["cracks/offsets", "functions/parameter_offsets", "intensities/ring_offsets"] {
+        let key = format!("steps/0000/{key}");
+        for change in [
+            |v: &mut Vec<u64>| v[0] = 1,
+            |v: &mut Vec<u64>| *v.last_mut().unwrap() += 1,
+            |v: &mut Vec<u64>| {
+                let n = v.len();
+                v[n - 2] = u64::MAX;
+            },
+        ] {
+            let mut damaged = content();
+            let Values::U64(offsets) = &mut damaged.get_mut(&key).unwrap().values else {
+                panic!("{key} holds offsets")
+            };
+            change(offsets);
+            assert_eq!(complaint(damaged), Some(key.clone()));
+        }
+    }
+}
+
+/// What decoding or the check of the dataset says after one change.
+fn complaint_after(change: impl FnOnce(&mut Content)) -> String {
+    let mut damaged = content();
+    change(&mut damaged);
+    let Err(error) = crate::checked(damaged) else { panic!("the change must be found") };
+    error.to_string()
+}
+
+fn put(content: &mut Content, key: &str, array: Array) {
+    content.insert(key.to_owned(), array);
+}
+
+/// Puts a text in the place of the last one of an array.
+fn put_last(content: &mut Content, key: &str, text: &str) {
+    let Values::Text(texts) = &mut content.get_mut(key).expect(key).values else {
+        panic!("{key} holds texts")
+    };
+    *texts.last_mut().expect("not empty") = text.to_owned();
+}
+
+fn text(text: &str) -> Array {
+    Array::scalar(text.to_owned())
+}
+
+#[test]
+fn tables_are_checked() {
+    let with = |key: &str, array: Array| complaint_after(|c| put(c, key, array));
+    let cases = [
+        ("tables/0000/x", Array::vector([0.0, 1.0, f64::NAN, 3.0, 4.0]), "knot 2 in x"),
+        ("tables/0002/y", Array::vector([0.0, 0.0, 1.0]), "knot 1 in y"),
+        ("tables/0000/values", Array::vector([0.0, 1.0, f64::INFINITY, 3.0, 4.0]), "value 2"),
+        ("tables/0000/values", Array::vector([1e308, -1e308, 1e308, 0.0, 0.0]), "too steep"),
+        ("tables/0000/values", Array::vector([0.0; 4]), "expected [5]"),
+        ("tables/0002/values", Array::vector([0.0; 12]), "expected [3, 4]"),
+        ("tables/0001/y", Array::vector([0.0; 0]), "expected [0, 2]"),
+    ];
+    for (key, array, problem) in cases {
+        let message = with(key, array);
+        let object = key.replace("0001/y", "0001/values");
+        assert!(message.starts_with(&object) && message.contains(problem), "{message}");
+    }
+    let none = complaint_after(|c| {
+        put(c, "tables/0002/y", Array::vector([0.0; 0]));
+        put(c, "tables/0002/values", Array { shape: vec![0, 4], values: Values::F64(vec![]) });
+    });
+    assert!(none.starts_with("tables/0002/y: ") && none.contains("0 knots in y"), "{none}");
+    for name in ["x", "theta", "t", "sin", "1a", "", "surface"] {
+        let message = with("tables/0000@name", text(name));
+        assert!(
+            message.contains("tables: ") && message.contains(&format!("`{name}`")),
+            "{message}"
+        );
+    }
+}
+
+/// A few kilobytes can hold tables of gigabytes, all zeros.
+#[test]
+fn tables_have_a_limit() {
+    let huge = |n: usize| {
+        complaint_after(|c| {
+            put(c, "tables/0003@name", text("huge"));
+            put(c, "tables/0003/x", Array::vector((0..n).map(|k| k as f64)));
+            put(c, "tables/0003/values", Array::vector(vec![0.0; n]));
+            put(c, "equation@young", Array::scalar(f64::NAN));
+        })
+    };
+    assert!(huge(1 << 20).starts_with("tables/0003/values: the tables have more than"));
+    assert!(huge(1 << 19).contains("equation.young"), "the next mistake");
+    let mut data = everything::dataset(1);
+    let knots: Vec<f64> = (0..1 << 20).map(f64::from).collect();
+    let table = ppum::formula::Table::curve("huge", knots.clone(), knots).expect("a table");
+    data.tables.push(table.into());
+    let error = encode::content(&data).expect_err("it could not be read").to_string();
+    assert!(error.starts_with("tables: have 1048595 values"), "{error}");
+}
+
+#[test]
+fn formulas_are_read_with_the_tables() {
+    let functions = "steps/0000/functions/formula";
+    type Change = fn(&mut Content);
+    let cases: [(&str, Change); 8] = [
+        ("equation@young: ", |c| put(c, "equation@young", text("1 + curv*x"))),
+        ("equation@poisson: ", |c| put(c, "equation@poisson", text("table(line, x)"))),
+        ("equation@young: ", |c| put(c, "equation@young", text("r"))),
+        ("steps/0000/partition@weight_formula: ", |c| {
+            put(c, "steps/0000/partition@weight_formula", text("(1 - t)*table(a, t)"));
+        }),
+        ("steps[0].functions[", |c| put_last(c, "steps/0000/functions/formula", "x + sid")),
+        ("steps[0].fields[0].exact[", |c| put_last(c, "steps/0000/fields/0000/exact", "x; y")),
+        ("quantities `", |c| put_last(c, "quantities/formula", "sxx + table(b, x)")),
+        ("quantities `", |c| put_last(c, "quantities/name", "von-mises")),
+    ];
+    for (place, change) in cases {
+        let message = complaint_after(change);
+        assert!(message.contains(place), "{place}: {message}");
+        let is_text = !message.contains("von-mises");
+        assert_eq!(message.contains("line 1, column"), is_text, "{message}");
+    }
+    assert!(complaint_after(|c| put_last(c, functions, "")).contains(".formula: line 1, column 1"));
+}
+
+#[test]
+fn constants_and_breakpoints_have_ranges() {
+    let constant = |array| complaint_after(|c| put(c, "equation@young", array));
+    assert!(constant(Array::scalar(f64::NAN)).contains("equation.young: is NaN"));
+    assert!(constant(text("y/0")).contains("equation.young: is"));
+    assert!(constant(Array::vector([1.0])).starts_with("equation@young: has shape"));
+    for t in [-1.0, 1.0, f64::NAN] {
+        let message = complaint_after(|c| {
+            put(c, "steps/0000/partition/weight_breakpoints", Array::vector([t]));
+        });
+        assert!(message.starts_with("steps/0000/partition/weight_breakpoints: "), "{message}");
+    }
+    let weight = |formula: &str| {
+        complaint_after(|c| put(c, "steps/0000/partition@weight_formula", text(formula)))
+    };
+    assert!(weight("1 + t").contains("a weight must vanish"));
+    assert!(weight("(1 - t)*(t - 0.5)").contains("a weight must be positive"));
+    let kinks = complaint_after(|c| {
+        let key = "steps/0000/functions/kinks";
+        let Values::F64(v) = &mut c.get_mut(key).expect(key).values else { panic!("numbers") };
+        v[1] = f64::INFINITY;
+    });
+    assert!(kinks.contains("].declared.kinks[0]: "), "{kinks}");
+}
+
+#[test]
+fn plain_datasets_have_no_objects_of_version_1_1() {
+    let plain = encode::content(&everything::dataset(0)).expect("valid");
+    let new = ["tables", "quantities", "weight_formula", "kink", "singular"];
+    let found = plain.keys().find(|key| new.iter().any(|new| key.contains(new)));
+    assert_eq!(found, None);
+    assert!(matches!(plain["equation@young"].values, Values::F64(_)));
+    let full = content();
+    for new in new {
+        assert!(full.keys().any(|key| key.contains(new)), "{new}");
+    }
+}
+
+/// What a program of version 1.0 wrote is written again, but for the version.
+#[test]
+fn plain_files_differ_from_version_1_0_in_the_version_alone() {
+    let bytes = include_bytes!("../../tests/data/version-1.0.h5").to_vec();
+    let mut old = crate::hdf5::from_bytes(bytes).expect("an HDF5 file");
+    checksum::verify(&mut old).expect("undamaged");
+    let mut new = encode::content(&dataset(old.clone()).expect("a dataset")).expect("valid");
+    assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));
+    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 1])));
+    assert_eq!(old, new);
+}
+
+#[test]
+fn a_newer_minor_version_explains_what_is_unknown() {
+    let with = |minor: u32, word: &str| {
+        let mut later = content();
+        put(&mut later, "@format_version", Array::vector([1, minor]));
+        put(&mut later, "steps/0000/partition@weight", text(word));
+        let bytes = crate::hdf5::to_bytes(&later).expect("an HDF5 file");
+        crate::from_bytes(bytes).map(drop).map_err(|error| error.to_string())
+    };
+    assert_eq!(with(9, "formula"), Ok(()));
+    let newer = with(9, "spherical").expect_err("unknown");
+    assert!(newer.contains("unknown weight") && newer.contains("version 1.9"), "{newer}");
+    assert!(!with(1, "spherical").expect_err("unknown").contains("newer"));
+}
+
+#[test]
+fn versions() {
+    let with = |version: [u32; 2]| {
+        let mut content = content();
+        content.insert("@format_version".into(), Array::vector(version));
+        check_version(&content)
+    };
+    assert!(with([1, 0]).is_ok() && with([1, 9]).is_ok());
+    assert!(matches!(with([2, 1]), Err(ReadError::TooNew { major: 2, minor: 1 })));
+    assert!(matches!(with([0, 1]), Err(ReadError::Object { .. })));
+    assert!(matches!(check_version(&Content::new()), Err(ReadError::NotADataset)));
+}
+
+#[test]
+fn unknown_groups_are_ignored() {
+    let mut later = content();
+    later.insert("steps/0000/later@kind".into(), Array::scalar(1.0));
+    later.insert("steps/0000/fields/notes/text".into(), Array::vector([1u8]));
+    let text = |content| format!("{:?}", dataset(content).unwrap());
+    assert!(text(later) == text(content()));
+}
+
+#[test]
+fn the_checksum_is_optional_but_must_be_right() {
+    let mut plain = content();
+    assert!(checksum::verify(&mut plain).is_ok());
+    let mut sealed = content();
+    checksum::seal(&mut sealed);
+    assert!(checksum::verify(&mut sealed.clone()).is_ok());
+    sealed.insert("@title".into(), Array::scalar("another".to_owned()));
+    assert!(matches!(checksum::verify(&mut sealed), Err(ReadError::Checksum { .. })));
+}

@@ -1,0 +1,63 @@
+//! Lines of numbers, separated by commas.
+
+use std::path::Path;
+
+use super::error::{Finding, Place};
+
+/// A line that says something.
+pub(super) struct Line<'t> {
+    /// Its number, from 1.
+    pub(super) number: usize,
+    pub(super) words: Vec<Word<'t>>,
+}
+
+/// What stands between two commas.
+pub(super) struct Word<'t> {
+    /// Column of its first character, from 1.
+    pub(super) column: usize,
+    pub(super) text: &'t str,
+}
+
+impl Word<'_> {
+    /// The number, if it is a finite one.
+    pub(super) fn number(&self) -> Option<f64> {
+        self.text.parse().ok().filter(|value: &f64| value.is_finite())
+    }
+}
+
+/// The lines of a text without empty ones, and without what follows `#`.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+    let numbered = (1..).zip(text.trim_start_matches('\u{feff}').lines());
+    let contents = numbered.map(|(number, line)| (number, line.split('#').next().unwrap_or("")));
+    contents
+        .filter(|(_, content)| !content.trim().is_empty())
+        .map(|(number, content)| Line { number, words: words(content) })
+}
+
+fn words(content: &str) -> Vec<Word<'_>> {
+    let mut next = 1;
+    let word = |text: &'_ str| {
+        let column = next + text.chars().take_while(|c| c.is_whitespace()).count();
+        next += text.chars().count() + 1;
+        column
+    };
+    let columns: Vec<_> = content.split(',').map(word).collect();
+    let texts = content.split(',').map(str::trim);
+    columns.into_iter().zip(texts).map(|(column, text)| Word { column, text }).collect()
+}
+
+/// The text of a file, or what to say of it: `what` cannot be read.
+pub(super) fn read(path: &Path, what: &str) -> Result<String, Finding> {
+    std::fs::read_to_string(path)
+        .map_err(|error| of_file(path, format!("cannot read the {what}: {error}")))
+}
+
+/// A finding about a file as a whole.
+pub(super) fn of_file(path: &Path, message: String) -> Finding {
+    Finding { place: Place::File(path.display().to_string()), message }
+}
+
+/// A finding at a place of a file.
+pub(super) fn finding(file: &str, line: usize, column: usize, message: String) -> Finding {
+    Finding { place: Place::Text { file: file.to_owned(), line, column }, message }
+}

@@ -1,0 +1,175 @@
+//! Files of tables.
+//!
+//! A curve has a line `x,value` for each knot. A surface is a grid: its first line holds the knots in x
+//! after an empty place, `,x1,x2,…`; each further line holds a knot in y and the values there,
+//! `y,v1,v2,…`.
+
+use std::path::Path;
+
+use ppum::formula::{Table, TableError};
+
+use super::csv::{self, Line, finding};
+use super::error::{Finding, ProblemError};
+
+/// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Data {
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) values: Vec<f64>,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// One finding a line that has the wrong number of entries, an entry that is not a finite number, or
+/// a knot that does not exceed the one before; or one for the file.
+pub(super) fn read(path: &Path) -> Result<Data, Vec<Finding>> {
+    let text = csv::read(path, "table").map_err(|finding| vec![finding])?;
+    let data = parse(&text, &path.display().to_string())?;
+    if data.values.is_empty() {
+        let message = "there are no values; write one `x,value` a line".to_owned();
+        return Err(vec![csv::of_file(path, message)]);
+    }
+    Ok(data)
+}
+
+/// Reads a table from a file, as `file` of `[[table]]` in problem files: a line `x,value` for each
+/// knot, or a grid with the knots in x after an empty place on the first line, `,x1,x2,…`, and lines
+/// `y,v1,v2,…`.
+///
+/// # Errors
+/// Every line that is wrong; or data that make no table.
+pub fn read_table(name: &str, path: &Path) -> Result<Table, ProblemError> {
+    let data = read(path).map_err(ProblemError::new)?;
+    data.table(name).map_err(|error| csv::of_file(path, error.to_string()).into())
+}
+
+impl Data {
+    /// The table of the data.
+    pub(super) fn table(self, name: &str) -> Result<Table, TableError> {
+        let Self { x, y, values } = self;
+        match y.as_slice() {
+            [] => Table::curve(name, x, values),
+            _ => Table::surface(name, x, y, values),
+        }
+    }
+}
+
+fn parse(text: &str, file: &str) -> Result<Data, Vec<Finding>> {
+    let lines: Vec<_> = csv::lines(text).collect();
+    let mut reader = Reader { file, data: Data::default(), findings: Vec::new() };
+    match lines.split_first() {
+        Some((first, rest)) if first.words[0].text.is_empty() => reader.grid(first, rest),
+        _ => lines.iter().for_each(|line| reader.knot(line)),
+    }
+    if reader.findings.is_empty() { Ok(reader.data) } else { Err(reader.findings) }
+}
+
+struct Reader<'f> {
+    file: &'f str,
+    data: Data,
+    findings: Vec<Finding>,
+}
+
+impl Reader<'_> {
+    fn grid(&mut self, first: &Line<'_>, rest: &[Line<'_>]) {
+        let count = first.words.len();
+        for place in 1..count {
+            if let Some(knot) = self.number(first, place) {
+                let before = self.data.x.last().copied();
+                self.increases(before, knot, first.number, first.words[place].column);
+                self.data.x.push(knot);
+            }
+        }
+        for line in rest {
+            if let Some([knot, values @ ..]) = self.numbers(line, count).as_deref() {
+                let before = self.data.y.last().copied();
+                self.increases(before, *knot, line.number, line.words[0].column);
+                self.data.y.push(*knot);
+                self.data.values.extend(values);
+            }
+        }
+    }
+
+    /// A line of a curve.
+    fn knot(&mut self, line: &Line<'_>) {
+        if let Some(&[knot, value]) = self.numbers(line, 2).as_deref() {
+            let before = self.data.x.last().copied();
+            self.increases(before, knot, line.number, line.words[0].column);
+            self.data.x.push(knot);
+            self.data.values.push(value);
+        }
+    }
+
+    fn numbers(&mut self, line: &Line<'_>, count: usize) -> Option<Vec<f64>> {
+        let found = line.words.len();
+        if found != count {
+            let message = match count {
+                2 => format!("expected two numbers `x,value`, found {found}"),
+                _ => format!("expected {count} numbers as on the first line, found {found}"),
+            };
+            self.findings.push(finding(self.file, line.number, 1, message));
+            return None;
+        }
+        (0..count).map(|place| self.number(line, place)).collect()
+    }
+
+    fn number(&mut self, line: &Line<'_>, place: usize) -> Option<f64> {
+        let word = &line.words[place];
+        let number = word.number();
+        if number.is_none() {
+            let message = format!("`{}` is not a finite number", word.text);
+            self.findings.push(finding(self.file, line.number, word.column, message));
+        }
+        number
+    }
+
+    fn increases(&mut self, before: Option<f64>, knot: f64, line: usize, column: usize) {
+        if let Some(before) = before.filter(|before| knot <= *before) {
+            let message = format!("{knot} follows {before}, but knots must increase; sort them");
+            self.findings.push(finding(self.file, line, column, message));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wrong(text: &str) -> Vec<String> {
+        let findings = parse(text, "t.csv").expect_err("should be wrong");
+        findings.iter().map(Finding::to_string).collect()
+    }
+
+    #[test]
+    fn curves_and_grids() {
+        let curve = parse("# x, value\n 0, 1\n\n0.5,4 # middle\n1,9\n", "t.csv");
+        let (x, values) = (vec![0.0, 0.5, 1.0], vec![1.0, 4.0, 9.0]);
+        assert_eq!(curve, Ok(Data { x, y: vec![], values }));
+        let grid = parse(", 1, 2, 4\n-1, 10, 20, 40\n3, 11, 21, 41\n", "t.csv");
+        let (x, y) = (vec![1.0, 2.0, 4.0], vec![-1.0, 3.0]);
+        assert_eq!(grid, Ok(Data { x, y, values: vec![10.0, 20.0, 40.0, 11.0, 21.0, 41.0] }));
+    }
+
+    #[test]
+    fn every_mistake_has_its_line() {
+        assert_eq!(
+            wrong("x,value\n0,1\n0,2\n1\n2,nan\n"),
+            [
+                "t.csv:1:1: `x` is not a finite number",
+                "t.csv:3:1: 0 follows 0, but knots must increase; sort them",
+                "t.csv:4:1: expected two numbers `x,value`, found 1",
+                "t.csv:5:3: `nan` is not a finite number",
+            ]
+        );
+        assert_eq!(
+            wrong(",1,0\n0,1,2\n-1,1,2\n1,3\n"),
+            [
+                "t.csv:1:4: 0 follows 1, but knots must increase; sort them",
+                "t.csv:3:1: -1 follows 0, but knots must increase; sort them",
+                "t.csv:4:1: expected 3 numbers as on the first line, found 2",
+            ]
+        );
+    }
+}

@@ -1,0 +1,88 @@
+//! Functions and coefficients as quadrature looks at them.
+
+use crate::quadrature::Probes;
+use ppum::crack::{Crack, Side};
+use ppum::formula::{DerivativeError, Formula, Table};
+use ppum::function::{Function, FunctionError, FunctionKind, FunctionTable, GROUP, Slot};
+use ppum::jet::Jet;
+use ppum::vec2::Vec2;
+use std::sync::Arc;
+
+/// A scalar with its gradient.
+#[derive(Clone, Debug)]
+pub(crate) enum Probe {
+    /// A function of a step's table.
+    Function { table: FunctionTable, cracks: Arc<[Crack]> },
+    /// A coefficient of the equation: a formula of x and y, its derivatives.
+    Coefficient(Box<[Formula; 3]>),
+}
+
+impl Probe {
+    /// A function of a step with these cracks.
+    pub(crate) fn function(
+        function: &Function,
+        cracks: &Arc<[Crack]>,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        let table = FunctionTable::new(std::slice::from_ref(function), cracks.len(), tables)?;
+        Ok(Self::Function { table, cracks: Arc::clone(cracks) })
+    }
+
+    /// A formula in the frame of a function, with its parameters.
+    pub(crate) fn part_of(
+        function: &Function,
+        text: &str,
+        cracks: &Arc<[Crack]>,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        let mut part = function.clone();
+        if let FunctionKind::Formula { text: whole, .. } = &mut part.kind {
+            *whole = text.to_owned();
+        }
+        Self::function(&part, cracks, tables)
+    }
+
+    pub(crate) fn coefficient(formula: &Formula) -> Result<Self, DerivativeError> {
+        let derivatives = [formula.derivative("x")?, formula.derivative("y")?];
+        let [x, y] = derivatives;
+        Ok(Self::Coefficient(Box::new([formula.clone(), x, y])))
+    }
+
+    /// Value and gradient at `anchor + offset`.
+    pub(crate) fn jet(&self, anchor: Vec2, offset: Vec2) -> [f64; 3] {
+        let mut out = Vec::with_capacity(1);
+        self.jets(anchor, &[offset], &mut out);
+        out[0]
+    }
+
+    /// Appends values and gradients at several points.
+    pub(crate) fn jets(&self, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+        match self {
+            Self::Function { table, cracks } => {
+                let Slot::Jet { group, entry } = table.of(0) else { return };
+                let seen = table.at(cracks, anchor);
+                out.extend(offsets.iter().map(|offset| {
+                    let mut jets = [Jet::constant(0.0); GROUP];
+                    let place = [offset.x, offset.y];
+                    seen.evaluate::<f64, 1>(group as usize, place, Side::Above, &mut jets);
+                    let jet = jets[entry as usize];
+                    [jet.v, jet.x, jet.y]
+                }));
+            }
+            Self::Coefficient(formulas) => out.extend(offsets.iter().map(|&offset| {
+                let p = anchor + offset;
+                formulas.each_ref().map(|formula| formula.evaluate(&[p.x, p.y]))
+            })),
+        }
+    }
+}
+
+/// The probes of a space, by their places in the list.
+#[derive(Debug, Default)]
+pub(super) struct ProbeList(pub(super) Vec<Probe>);
+
+impl Probes for ProbeList {
+    fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+        self.0[function as usize].jets(anchor, offsets, out);
+    }
+}

@@ -1,0 +1,52 @@
+//! How far back ends may be from the corpus: the one place where that is decided.
+
+use super::Bound;
+
+/// What an evaluator may do to a result: with the unit roundoff u
+///
+/// ```text
+/// |found − exact| ≤ u (c · arithmetic + f · functions + inputs)
+/// ```
+///
+/// over the parts of a [`Bound`].
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// The unit roundoff u.
+    pub unit: f64,
+    /// c: how many times the bound another order of the operations may need.
+    pub arithmetic: f64,
+    /// f: the error of a function in unit roundoffs of its result.
+    pub functions: f64,
+    /// True if inputs and literals are rounded to this precision.
+    pub rounds_inputs: bool,
+}
+
+/// One point in double precision by the operations of std.
+///
+/// c = 2: the bound is that of the chain rule of second order, while programs are differentiated twice, so
+/// that some terms stand twice. f = 2: functions of the platform's library are wrong by less than one
+/// unit in the last place, which is two roundoffs.
+pub const SCALAR: Tolerance =
+    Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 2.0, rounds_inputs: false };
+
+/// One point in single precision by the texts of WGSL, in an interpreter that rounds functions correctly.
+///
+/// c = 2 as in [`SCALAR`]. f = 4: cube root and common logarithm are made of up to four rounded operations.
+pub const SHADER: Tolerance = Tolerance {
+    unit: f32::EPSILON as f64 / 2.0,
+    arithmetic: 2.0,
+    functions: 4.0,
+    rounds_inputs: true,
+};
+
+impl Tolerance {
+    /// The largest allowed difference from `expected`, the corpus' number as a double.
+    #[must_use]
+    pub fn of(&self, bound: &Bound, expected: f64) -> f64 {
+        let inputs = if self.rounds_inputs { bound.inputs } else { 0.0 };
+        let rounding =
+            self.arithmetic * bound.arithmetic + self.functions * bound.functions + inputs;
+        // the corpus' number itself is rounded, and so may be the result; the smallest numbers are sparse
+        self.unit * (rounding + 2.0 * expected.abs()) + f64::from_bits(1)
+    }
+}

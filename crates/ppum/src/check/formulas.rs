@@ -1,0 +1,271 @@
+//! The formulas of a dataset: each must be one of its scope, with the dataset's tables.
+
+use std::collections::BTreeSet;
+use std::fmt::Display;
+use std::sync::Arc;
+
+use super::{CheckError, Checked, check_names, fail};
+use crate::dataset::{Dataset, NamedQuantity, Step};
+use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
+use crate::function::{CompileError, FunctionTable};
+use crate::quantity::{QuantityFormula, Vocabulary, names};
+use crate::weight::WeightFunction;
+
+/// Most quantities a dataset may name. Each is read with all before it, so time grows as the square.
+const MAX_QUANTITIES: usize = 256;
+
+/// Checks names of tables, then all formulas but those of quantities, which need checked fields.
+pub(super) fn check(dataset: &Dataset) -> Checked {
+    let tables = &dataset.tables;
+    let plane = with_tables(&VARIABLES, tables)
+        .and_then(|_| with_tables(&["x", "y"], tables))
+        .map_err(|error| mistake("tables", &error))?;
+    for (name, expression) in dataset.equation.constants() {
+        parse(&format!("equation.{name}"), expression.text(), &plane)?;
+    }
+    for (k, step) in dataset.steps.iter().enumerate() {
+        check_step(step, tables, &plane).map_err(|e| e.inside(&format!("steps[{k}]")))?;
+    }
+    Ok(())
+}
+
+fn with_tables(variables: &[&str], tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
+    Scope::new(variables)?.with_tables(tables)
+}
+
+fn mistake(place: &str, problem: &dyn Display) -> CheckError {
+    CheckError { place: place.to_owned(), problem: problem.to_string() }
+}
+
+fn parse(place: &str, text: &str, scope: &Scope) -> Checked {
+    Formula::parse(text, scope).map(drop).map_err(|error| mistake(place, &error))
+}
+
+fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope) -> Checked {
+    if let WeightFunction::Formula(weight) = &step.partition.weight {
+        let scope = with_tables(&["t"], tables).map_err(|error| mistake("tables", &error))?;
+        parse("partition.weight", weight.text(), &scope)?;
+    }
+    check_functions(step, tables)?;
+    for (k, field) in step.fields.iter().enumerate() {
+        for (c, text) in field.exact.iter().enumerate() {
+            parse(&format!("fields[{k}].exact[{c}]"), text, plane)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
+    let Err(error) = FunctionTable::new(&step.functions, step.cracks.len(), tables) else {
+        return Ok(());
+    };
+    let part = match *error.source {
+        CompileError::Scope(_) => "parameters",
+        _ => "formula",
+    };
+    fail(&format!("functions[{}].{part}", error.index), error.source.to_string())
+}
+
+/// Checks the quantities that a dataset names: names of their own, and formulas of the first field of
+/// each step, which may use the quantities before them.
+pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
+    let count = dataset.quantities.len();
+    if count > MAX_QUANTITIES {
+        return fail(
+            "quantities",
+            format!("there are {count}, but at most {MAX_QUANTITIES} may be"),
+        );
+    }
+    check_names("quantities", dataset.quantities.iter().map(|quantity| &quantity.name))?;
+    let mut seen = BTreeSet::new();
+    for field in dataset.steps.iter().flat_map(|step| &step.fields) {
+        if seen.insert(&field.components) {
+            check_names_of(dataset, &field.components)?;
+        }
+    }
+    seen.clear();
+    for field in dataset.steps.iter().filter_map(|step| step.fields.first()) {
+        if seen.insert(&field.components) {
+            check_texts(dataset, &field.components)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
+    let built_in = names(&dataset.equation, components);
+    for NamedQuantity { name, .. } in &dataset.quantities {
+        let place = format!("quantities `{name}`");
+        if !is_name(name) {
+            let rule = "names are letters, digits, `_` and `-`, a letter or `_` first";
+            return fail(&place, rule.into());
+        }
+        if built_in.iter().any(|(known, _)| known == name) {
+            return fail(&place, "a field has a quantity of this name; choose another".into());
+        }
+    }
+    Ok(())
+}
+
+fn check_texts(dataset: &Dataset, components: &[String]) -> Checked {
+    let Dataset { equation, tables, quantities, .. } = dataset;
+    let parse = |place: &str, text: &str, named| {
+        let vocabulary = Vocabulary { equation, components, tables, named };
+        QuantityFormula::new(text, &vocabulary).map(drop).map_err(|error| mistake(place, &error))
+    };
+    // any number is a formula where the names do not clash
+    parse("tables", "0", &[])?;
+    for (k, NamedQuantity { name, text, .. }) in quantities.iter().enumerate() {
+        let place = format!("quantities `{name}`");
+        parse(&place, text, &quantities[..k])?;
+        parse(&place, "0", &quantities[..=k])?;
+    }
+    Ok(())
+}
+
+fn is_name(name: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
+    name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit() || c == '-')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::tests::dataset;
+    use crate::equation::{Elasticity, Equation, StressState};
+    use crate::expression::Expression;
+    use crate::function::{Declared, Frame, FunctionKind};
+
+    fn table(name: &str) -> Arc<Table> {
+        Arc::new(Table::curve(name, vec![0.0, 1.0], vec![1.0, 2.0]).expect("a table"))
+    }
+
+    fn quantity(name: &str, text: &str) -> NamedQuantity {
+        NamedQuantity { name: name.into(), text: text.into(), unit: String::new() }
+    }
+
+    fn function(text: &str) -> FunctionKind {
+        let parameters = vec![("a".to_owned(), 2.0)];
+        let (text, declared) = (text.to_owned(), Declared::default());
+        FunctionKind::Formula { text, frame: Frame::World, parameters, declared }
+    }
+
+    fn body(young: &str, tables: &[Arc<Table>]) -> Equation {
+        let scope = Scope::cartesian().with_tables(tables).expect("new names");
+        Equation::Elasticity(Elasticity {
+            young: Expression::parse_in(young, &scope).expect("a formula"),
+            poisson: 0.3.into(),
+            state: StressState::PlaneStrain,
+        })
+    }
+
+    /// Every kind of formula, all of them with a table.
+    fn good() -> Dataset {
+        let mut data = dataset();
+        data.tables = vec![table("k"), table("q")];
+        data.equation = body("table(k, x*y)", &data.tables);
+        let scope = with_tables(&["t"], &data.tables).expect("new names");
+        let weight = WeightFunction::formula("(1 - t)*table(k, t)", &scope);
+        data.steps[0].partition.weight = weight.expect("a weight");
+        data.steps[0].functions[1].kind = function("a*table(k, r)*theta");
+        data.steps[0].fields[0].exact = vec!["table(k, y)".into(), "0".into()];
+        data.quantities = vec![quantity("a-b", "von_mises/table(q, ux) + young*duy_dx")];
+        data
+    }
+
+    fn error_after(change: impl FnOnce(&mut Dataset)) -> CheckError {
+        let mut data = good();
+        change(&mut data);
+        data.check().expect_err("the change must be found")
+    }
+
+    #[test]
+    fn tables_are_known_in_every_formula() {
+        assert_eq!(good().check(), Ok(()));
+        type Change = fn(&mut Dataset);
+        let places: [(&str, Change); 5] = [
+            ("equation.young", |_| {}),
+            ("steps[0].partition.weight", |d| d.equation = dataset().equation),
+            ("steps[0].functions[1].formula", |d| {
+                d.equation = dataset().equation;
+                d.steps[0].partition.weight = WeightFunction::Linear;
+            }),
+            ("steps[0].fields[0].exact[0]", |d| {
+                d.equation = dataset().equation;
+                d.steps[0].partition = dataset().steps.remove(0).partition;
+                d.steps[0].functions[1].kind = function("a*r");
+            }),
+            ("quantities `a-b`", |d| {
+                let exact = vec!["x".to_owned(), "0".to_owned()];
+                d.equation = dataset().equation;
+                d.steps = dataset().steps;
+                d.steps[0].fields[0].exact = exact;
+            }),
+        ];
+        for (place, change) in places {
+            let error = error_after(|d| {
+                change(d);
+                d.tables.clear();
+            });
+            assert_eq!(error.place, place);
+            assert!(error.problem.contains("there are no tables here"), "{error}");
+        }
+    }
+
+    #[test]
+    fn mistakes_point_at_the_text() {
+        let error = error_after(|d| d.steps[0].functions[1].kind = function("x +\n  b*y"));
+        assert_eq!(error.place, "steps[0].functions[1].formula");
+        assert!(error.problem.contains("line 2, column 3: unknown name `b`"), "{error}");
+        let error = error_after(|d| d.steps[0].fields[0].exact[1] = "r".into());
+        assert_eq!(error.place, "steps[0].fields[0].exact[1]");
+        let error = error_after(|d| d.steps[0].functions[1].kind = function(" "));
+        assert_eq!(error.place, "steps[0].functions[1].formula");
+    }
+
+    #[test]
+    fn names_do_not_clash() {
+        for name in ["x", "theta", "t", "sin", "1a", "k"] {
+            assert_eq!(error_after(|d| d.tables.push(table(name))).place, "tables", "{name}");
+        }
+        let error = error_after(|d| d.tables.push(table("a")));
+        assert_eq!(error.place, "steps[0].functions[1].parameters");
+        for name in ["ux", "sxx", "duy_dx", "mu"] {
+            assert_eq!(error_after(|d| d.tables.push(table(name))).place, "tables", "{name}");
+        }
+        for name in [
+            "",
+            "ux",
+            "von-mises",
+            "von_mises",
+            "duy_dx",
+            "a b",
+            "phi:3",
+            "7",
+            "-a",
+            "a-b",
+            "a_b",
+            "k",
+        ] {
+            let error = error_after(|d| d.quantities.push(quantity(name, "x")));
+            assert!(error.place.starts_with("quantities"), "{name}: {error}");
+        }
+    }
+
+    #[test]
+    fn quantities_are_formulas_of_the_first_field() {
+        for text in ["u", "theta", "q", "phi", "a_b", "x < y", ""] {
+            let error = error_after(|d| d.quantities[0].text = text.into());
+            assert_eq!(error.place, "quantities `a-b`", "{text}");
+        }
+        let mut data = good();
+        data.quantities[0].text = "s1 - s2 + exx*lambda/mu + poisson + energy".into();
+        data.quantities.push(quantity("twice", "2*a_b"));
+        assert_eq!(data.check(), Ok(()));
+        data.quantities.swap(0, 1);
+        let error = data.check().expect_err("used before it is defined");
+        assert_eq!(error.place, "quantities `twice`");
+        data.quantities = (0..300).map(|k| quantity(&format!("q{k}"), "x")).collect();
+        assert_eq!(data.check().expect_err("too many").place, "quantities");
+    }
+}

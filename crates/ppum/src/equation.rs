@@ -1,0 +1,264 @@
+//! The equation behind a field and its material, the same everywhere or given by formulas.
+
+use crate::expression::Expression;
+use crate::real::Real;
+use crate::vec2::{Rect, Vec2, vec2};
+
+/// Intervals in each direction of the points at which formulas of a material are looked at.
+const LOOKS: u32 = 64;
+
+/// The differential equation behind a field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Equation {
+    /// Linear elasticity, −div σ(u) = f, two displacement components.
+    Elasticity(Elasticity),
+    /// −∇·(κ ∇u) = f, one component.
+    Poisson {
+        /// κ > 0, at every point of the domain.
+        conductivity: Expression,
+    },
+}
+
+/// An isotropic linear elastic body in the plane; its constants may differ from place to place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elasticity {
+    /// Young's modulus E > 0, a stress.
+    pub young: Expression,
+    /// Poisson's ratio ν; see [`Material::poisson`] for its range.
+    pub poisson: Expression,
+    /// Plane strain or plane stress.
+    pub state: StressState,
+}
+
+impl Elasticity {
+    /// The material at a point.
+    #[must_use]
+    pub fn at(&self, p: Vec2) -> Material {
+        Material { young: self.young.value(p), poisson: self.poisson.value(p), state: self.state }
+    }
+
+    /// The material, if it is the same everywhere.
+    #[must_use]
+    pub fn uniform(&self) -> Option<Material> {
+        let (young, poisson) = (self.young.constant()?, self.poisson.constant()?);
+        Some(Material { young, poisson, state: self.state })
+    }
+}
+
+impl From<Material> for Elasticity {
+    fn from(material: Material) -> Self {
+        let Material { young, poisson, state } = material;
+        Self { young: young.into(), poisson: poisson.into(), state }
+    }
+}
+
+impl Equation {
+    /// Elasticity of one material.
+    #[must_use]
+    pub fn elasticity(material: Material) -> Self {
+        Self::Elasticity(material.into())
+    }
+
+    /// Poisson's equation with one conductivity κ.
+    #[must_use]
+    pub fn poisson(conductivity: f64) -> Self {
+        Self::Poisson { conductivity: conductivity.into() }
+    }
+
+    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        match self {
+            Self::Elasticity(_) => 2,
+            Self::Poisson { .. } => 1,
+        }
+    }
+
+    /// The elastic body, if the equation has stresses.
+    #[must_use]
+    pub fn elastic(&self) -> Option<&Elasticity> {
+        match self {
+            Self::Elasticity(elasticity) => Some(elasticity),
+            Self::Poisson { .. } => None,
+        }
+    }
+
+    /// The expressions of the material constants with their names: `young` and `poisson`, or
+    /// `conductivity`.
+    pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
+        let list = match self {
+            Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
+            Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
+        };
+        list.into_iter().flatten()
+    }
+
+    /// What is wrong with the constants, if anything is: the name of the first that is impossible and
+    /// why. Constants are looked at once, formulas at a grid of points of the domain.
+    #[must_use]
+    pub fn mistake(&self, domain: &Rect) -> Option<(&'static str, String)> {
+        if self.is_uniform() {
+            return self.mistake_at(domain.center());
+        }
+        let at = |k: u32| f64::from(k) / f64::from(LOOKS);
+        let size = domain.size();
+        let point = |j, i| domain.min + vec2(at(i) * size.x, at(j) * size.y);
+        let mut points = (0..=LOOKS).flat_map(|j| (0..=LOOKS).map(move |i| point(j, i)));
+        points.find_map(|p| {
+            let place = format!(" at [{}, {}]", p.x, p.y);
+            self.mistake_at(p).map(|(name, message)| (name, message + &place))
+        })
+    }
+
+    fn mistake_at(&self, p: Vec2) -> Option<(&'static str, String)> {
+        let positive = |name, expression: &Expression| {
+            let value = expression.value(p);
+            let message = || (name, format!("is {value}, but must be positive and finite"));
+            (!(value > 0.0 && value.is_finite())).then(message)
+        };
+        match self {
+            Self::Elasticity(e) => positive("young", &e.young).or_else(|| {
+                let nu = e.poisson.value(p);
+                let (possible, rule) = match e.state {
+                    StressState::PlaneStrain => (nu < 0.5, "-1 < ν < 0.5 in plane strain"),
+                    StressState::PlaneStress => (nu <= 0.5, "-1 < ν ≤ 0.5 in plane stress"),
+                };
+                let message = || ("poisson", format!("is {nu}, but {rule}"));
+                (!(possible && nu > -1.0)).then(message)
+            }),
+            Self::Poisson { conductivity } => positive("conductivity", conductivity),
+        }
+    }
+
+    /// True if the constants are the same everywhere.
+    #[must_use]
+    pub fn is_uniform(&self) -> bool {
+        self.constants().all(|(_, expression)| expression.constant().is_some())
+    }
+
+    /// The moduli at the points `anchor + offset` of some lanes.
+    #[inline(always)]
+    pub fn moduli<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> Moduli<R> {
+        match self {
+            Self::Elasticity(e) => {
+                let (young, poisson) =
+                    (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
+                Moduli::new(young, poisson, e.state)
+            }
+            Self::Poisson { conductivity } => {
+                let zero = offset[0].lit(0.0);
+                let conductivity = conductivity.values(anchor, offset);
+                Moduli { conductivity, ..Moduli::zero(zero) }
+            }
+        }
+    }
+}
+
+/// The constants of an equation at a point, as its quantities need them; zero where the equation
+/// has no such constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moduli<R> {
+    /// E
+    pub young: R,
+    /// ν
+    pub poisson: R,
+    /// λ of the plane law, see [`Material::lambda`].
+    pub lambda: R,
+    /// μ
+    pub mu: R,
+    /// σ_zz / (σ_xx + σ_yy)
+    pub out_of_plane: R,
+    /// κ of Poisson's equation.
+    pub conductivity: R,
+}
+
+impl<R: Real> Moduli<R> {
+    /// The moduli of an elastic material.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(young: R, poisson: R, state: StressState) -> Self {
+        let (zero, one) = (young.lit(0.0), young.lit(1.0));
+        let mu = young / (one.lit(2.0) * (one + poisson));
+        let (denominator, out_of_plane) = match state {
+            StressState::PlaneStrain => ((one + poisson) * (one - one.lit(2.0) * poisson), poisson),
+            StressState::PlaneStress => (one - poisson * poisson, zero),
+        };
+        let lambda = young * poisson / denominator;
+        Self { young, poisson, lambda, mu, out_of_plane, ..Self::zero(zero) }
+    }
+
+    #[inline(always)]
+    fn zero(zero: R) -> Self {
+        Self {
+            young: zero,
+            poisson: zero,
+            lambda: zero,
+            mu: zero,
+            out_of_plane: zero,
+            conductivity: zero,
+        }
+    }
+}
+
+/// Isotropic linear elastic material in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus E > 0, a stress.
+    pub young: f64,
+    /// Poisson's ratio, −1 < ν < 1/2 (plane stress: −1 < ν ≤ 1/2).
+    pub poisson: f64,
+    /// Plane strain or plane stress.
+    pub state: StressState,
+}
+
+/// What is assumed of the third direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StressState {
+    /// ε_zz = 0.
+    PlaneStrain,
+    /// σ_zz = 0.
+    PlaneStress,
+}
+
+impl Material {
+    /// Shear modulus μ = E / (2 (1 + ν)).
+    #[must_use]
+    pub fn mu(&self) -> f64 {
+        self.moduli().mu
+    }
+
+    /// Lamé's λ of the plane law σ = 2μ ε + λ tr(ε) I over the in-plane components:
+    /// Eν / ((1+ν)(1−2ν)) in plane strain, Eν / (1−ν²) in plane stress.
+    #[must_use]
+    pub fn lambda(&self) -> f64 {
+        self.moduli().lambda
+    }
+
+    /// Kolosov's constant κ: 3 − 4ν in plane strain, (3 − ν)/(1 + ν) in plane stress.
+    #[must_use]
+    pub fn kolosov(&self) -> f64 {
+        match self.state {
+            StressState::PlaneStrain => 3.0 - 4.0 * self.poisson,
+            StressState::PlaneStress => (3.0 - self.poisson) / (1.0 + self.poisson),
+        }
+    }
+
+    /// E′ of G = K²/E′: E/(1 − ν²) in plane strain, E in plane stress.
+    #[must_use]
+    pub fn effective_young(&self) -> f64 {
+        match self.state {
+            StressState::PlaneStrain => self.young / (1.0 - self.poisson * self.poisson),
+            StressState::PlaneStress => self.young,
+        }
+    }
+
+    /// σ_zz / (σ_xx + σ_yy): ν in plane strain, 0 in plane stress.
+    #[must_use]
+    pub fn out_of_plane(&self) -> f64 {
+        self.moduli().out_of_plane
+    }
+
+    fn moduli(&self) -> Moduli<f64> {
+        Moduli::new(self.young, self.poisson, self.state)
+    }
+}

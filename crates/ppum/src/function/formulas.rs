@@ -1,0 +1,250 @@
+//! Formulas in one frame, evaluated together.
+
+use std::sync::Arc;
+
+use super::Frame;
+use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
+use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
+use crate::jet::Jet;
+use crate::real::{Real, Scalar};
+use crate::vec2::{Vec2, vec2};
+
+use super::table::GROUP;
+
+/// Up to [`GROUP`] formulas of one scope in one frame.
+#[derive(Clone, Debug)]
+pub(super) struct Formulas {
+    compiled: Arc<Compiled>,
+    frame: Frame,
+}
+
+#[derive(Debug)]
+struct Compiled {
+    formulas: Vec<Formula>,
+    /// With 0, 1 and 2 derivatives.
+    jets: [FormulaJets; 3],
+    /// Whether each input is used: x, y, r, θ, cos(θ/2), sin(θ/2), the sides of the cracks.
+    uses: Vec<bool>,
+}
+
+/// Index of θ among the inputs; it costs an arc tangent.
+const THETA: usize = 3;
+
+/// Number of inputs before the sides of cracks.
+const POLAR: usize = 6;
+
+impl Formulas {
+    /// Compiles formulas of one scope.
+    pub(super) fn new(formulas: Vec<Formula>, frame: Frame) -> Result<Self, DerivativeError> {
+        let all: Vec<_> = formulas.iter().collect();
+        let uses = |name: &str| formulas.iter().any(|formula| formula.uses(name));
+        let uses = formulas[0].scope().inputs().map(uses).collect();
+        let compiled = Compiled {
+            jets: [
+                FormulaJets::new(&all, 0)?,
+                FormulaJets::new(&all, 1)?,
+                FormulaJets::new(&all, 2)?,
+            ],
+            uses,
+            formulas,
+        };
+        Ok(Self { compiled: Arc::new(compiled), frame })
+    }
+
+    /// The same functions in another frame, if these are the same formulas.
+    pub(super) fn with_frame(&self, formulas: &[Formula], frame: Frame) -> Option<Self> {
+        let compiled = Arc::clone(&self.compiled);
+        (compiled.formulas == formulas).then_some(Self { compiled, frame })
+    }
+
+    /// Number of functions.
+    pub(super) fn len(&self) -> usize {
+        self.compiled.formulas.len()
+    }
+
+    /// The functions seen from an anchor.
+    pub(super) fn at(&self, cracks: &[Crack], anchor: Vec2) -> LocalFormulas<'_> {
+        let used = |(crack, &used): (_, &bool)| used.then(|| LocalCrack::new(crack, anchor));
+        LocalFormulas {
+            compiled: &self.compiled,
+            frame: LocalFrame::new(cracks, self.frame, anchor),
+            cracks: cracks.iter().zip(&self.compiled.uses[POLAR..]).map(used).collect(),
+        }
+    }
+}
+
+/// A formula's frame seen from an anchor.
+#[derive(Clone, Debug)]
+enum LocalFrame {
+    Fixed { from_origin: Vec2, axis: Vec2 },
+    Tip(LocalTip),
+}
+
+impl LocalFrame {
+    fn new(cracks: &[Crack], frame: Frame, anchor: Vec2) -> Self {
+        match frame {
+            Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },
+            Frame::Fixed { origin, angle } => {
+                Self::Fixed { from_origin: anchor - origin, axis: vec2(angle.cos(), angle.sin()) }
+            }
+            Frame::Tip(tip) => {
+                Self::Tip(LocalTip::new(&cracks[tip.crack as usize], tip.end, anchor))
+            }
+        }
+    }
+
+    /// The point `anchor + offset` in the frame. In a fixed frame the negative x axis belongs to the
+    /// upper side, θ = +π.
+    #[inline(always)]
+    fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
+        match self {
+            Self::Fixed { from_origin, axis } => {
+                let one = offset[0].lit(1.0);
+                let (c, s) = (one.lit(axis.x), one.lit(axis.y));
+                let dx = offset[0] + one.lit(from_origin.x);
+                let dy = offset[1] + one.lit(from_origin.y);
+                let (x, y) = (c.mul_add(dx, s * dy), c * dy - s * dx);
+                TipPoint { x, y, sign: R::sign(y.ge(one.lit(0.0)), one), branch: one }
+            }
+            Self::Tip(tip) => tip.point(offset, side),
+        }
+    }
+
+    fn axis(&self) -> Vec2 {
+        match self {
+            Self::Fixed { axis, .. } => *axis,
+            Self::Tip(tip) => tip.axis,
+        }
+    }
+}
+
+/// Formulas seen from an anchor.
+#[derive(Clone, Debug)]
+pub(super) struct LocalFormulas<'t> {
+    compiled: &'t Compiled,
+    frame: LocalFrame,
+    /// The cracks whose sides are used.
+    cracks: Vec<Option<LocalCrack>>,
+}
+
+impl LocalFormulas<'_> {
+    fn len(&self) -> usize {
+        self.compiled.formulas.len()
+    }
+
+    /// The functions at one point or at one vector of points, one lane after the other.
+    pub(super) fn evaluate<R: Real, const D: usize>(
+        &self,
+        offset: [R; 2],
+        side: Side,
+        out: &mut [Jet<R>],
+    ) {
+        let like = offset[0];
+        let uses = self.compiled.uses.as_slice();
+        let jets = &self.compiled.jets[D];
+        // 16 lanes are the widest vector there is.
+        let mut rows = vec![[R::Scalar::default(); 16]; uses.len()];
+        let polar = self.polar(offset, side);
+        for (index, row) in rows.iter_mut().enumerate() {
+            self.input(index, &polar, offset, side).store(row);
+        }
+        let mut results = vec![[R::Scalar::default(); 16]; jets.n_outputs()];
+        let (mut inputs, mut scratch) = (vec![0.0; uses.len()], Vec::new());
+        let mut numbers = vec![0.0; jets.n_outputs()];
+        for lane in 0..R::LANES {
+            inputs.iter_mut().zip(&rows).for_each(|(input, row)| *input = row[lane].to_f64());
+            jets.evaluate(&inputs, &mut scratch, &mut numbers);
+            for (row, &number) in results.iter_mut().zip(&numbers) {
+                row[lane] = R::Scalar::from_f64(number);
+            }
+        }
+        let axis = self.frame.axis();
+        for (entry, out) in out.iter_mut().enumerate().take(self.len()) {
+            let rows = &results[entry * SIZE[D]..];
+            let mut values = [like.lit(0.0); 6];
+            values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(v, row)| *v = like.load(row));
+            *out = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
+        }
+    }
+
+    /// The functions at many vectors of points, block by block.
+    #[inline(always)]
+    pub(super) fn fill<R: Real, const D: usize>(
+        &self,
+        offsets: &[[R; 2]],
+        side: Side,
+        scratch: &mut Scratch<R::Scalar>,
+        out: &mut [[Jet<R>; GROUP]],
+    ) {
+        let mut block = self.compiled.jets[D].block(scratch);
+        let per_block = Block::<R::Scalar>::POINTS / R::LANES;
+        let (axis, mut first) = (self.frame.axis(), 0);
+        while first < offsets.len() {
+            let n = per_block.min(offsets.len() - first);
+            let mut k = 0;
+            while k < n {
+                let offset = offsets[first + k];
+                let polar = self.polar(offset, side);
+                let mut index = 0;
+                while index < self.compiled.uses.len() {
+                    if self.compiled.uses[index] {
+                        let value = self.input(index, &polar, offset, side);
+                        value.store(&mut block.input(index)[k * R::LANES..]);
+                    }
+                    index += 1;
+                }
+                k += 1;
+            }
+            block.run();
+            k = 0;
+            while k < n {
+                let like = offsets[first + k][0];
+                let (c, s) = (like.lit(axis.x), like.lit(axis.y));
+                let mut entry = 0;
+                while entry < self.len() {
+                    let (mut values, mut j) = ([like.lit(0.0); 6], 0);
+                    while j < SIZE[D] {
+                        let row = block.output(entry * SIZE[D] + j);
+                        values[j] = like.load(&row[k * R::LANES..]);
+                        j += 1;
+                    }
+                    out[first + k][entry] = jet(values).turned::<D>(c, s);
+                    entry += 1;
+                }
+                k += 1;
+            }
+            first += n;
+        }
+    }
+
+    /// The inputs before the sides of cracks, at a point.
+    #[inline(always)]
+    fn polar<R: Real>(&self, offset: [R; 2], side: Side) -> [R; POLAR] {
+        let p = self.frame.point(offset, side);
+        let r = p.radius();
+        let half @ [cos_half, sin_half] = p.half_angle(r);
+        let theta = if self.compiled.uses[THETA] { TipPoint::theta(half) } else { r };
+        [p.x, p.y, r, theta, cos_half, sin_half]
+    }
+
+    /// The input of an index; that of a side of a crack that is not used has no meaning.
+    #[inline(always)]
+    fn input<R: Real>(&self, index: usize, polar: &[R; POLAR], offset: [R; 2], side: Side) -> R {
+        if index < POLAR {
+            return polar[index];
+        }
+        match &self.cracks[index - POLAR] {
+            Some(crack) => crack.side(offset, side),
+            None => offset[0],
+        }
+    }
+}
+
+/// Numbers of a jet of order D.
+const SIZE: [usize; 3] = [1, 3, 6];
+
+/// The jet of a sequence of values and derivatives.
+#[inline(always)]
+fn jet<R: Real>([v, x, y, xx, xy, yy]: [R; 6]) -> Jet<R> {
+    Jet { v, x, y, xx, xy, yy }
+}

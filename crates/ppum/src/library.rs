@@ -1,0 +1,156 @@
+//! The built-in functions, as formulas.
+//!
+//! Everything this crate evaluates by a kernel written by hand is defined here by a text; the kernels
+//! are held to their texts by tests. Problem files name the weights and enrichments of this library;
+//! formulas of quantities may use its quantities by their names.
+
+/// A function of the library, or several that belong together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// Name in problem files.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// Its parameters with their defaults.
+    pub parameters: &'static [(&'static str, f64)],
+    /// The formulas.
+    pub texts: &'static [&'static str],
+}
+
+const NONE: &[(&str, f64)] = &[];
+
+/// Weight functions of t = |ξ| on 0 ≤ t < 1; they end at t = 1.
+pub const WEIGHTS: [Entry; 6] = [
+    Entry { name: "linear", about: "B-spline of degree 1", parameters: NONE, texts: &["1 - t"] },
+    Entry {
+        name: "quadratic",
+        about: "B-spline of degree 2, knots at ±1/3, ±1",
+        parameters: NONE,
+        texts: &["if(t < 1/3, 1 - 3*t^2, 3/2*(1 - t)^2)"],
+    },
+    Entry {
+        name: "cubic",
+        about: "B-spline of degree 3, knots at 0, ±1/2, ±1",
+        parameters: NONE,
+        texts: &["if(t < 1/2, 1 - 6*t^2 + 6*t^3, 2*(1 - t)^3)"],
+    },
+    Entry {
+        name: "bump",
+        about: "infinitely smooth, all derivatives vanish at t = 1",
+        parameters: NONE,
+        texts: &["exp(1 - 1/((1 - t)*(1 + t)))"],
+    },
+    Entry {
+        name: "cosine",
+        about: "half a wave of the cosine, with continuous slope",
+        parameters: NONE,
+        texts: &["cos(pi*t/2)^2"],
+    },
+    Entry {
+        name: "wendland",
+        about: "polynomial of least degree with continuous curvature (Wendland 1995)",
+        parameters: NONE,
+        texts: &["(1 - t)^4*(4*t + 1)"],
+    },
+];
+
+/// The four Westergaard functions in the order of equation (6) of Üffinger et al. 2011.
+pub const WESTERGAARD: [&str; 4] = [
+    "sqrt(r)*cos(theta/2)",
+    "sqrt(r)*sin(theta/2)",
+    "sqrt(r)*sin(theta)*sin(theta/2)",
+    "sqrt(r)*sin(theta)*cos(theta/2)",
+];
+
+/// Enrichment functions of x, y, r, theta of their frame.
+///
+/// Frames: `westergaard` and `williams` belong to crack tips, θ jumps on the crack; `corner` to a point;
+/// `kink` and the layers to a line, y is the distance to its left.
+pub const ENRICHMENTS: [Entry; 6] = [
+    Entry {
+        name: "westergaard",
+        about: "the four functions of equation (6) of Üffinger et al. 2011: √r fields of a crack tip",
+        parameters: NONE,
+        texts: &WESTERGAARD,
+    },
+    Entry {
+        name: "williams",
+        about: "functions that span the n-th term of Williams' series (1957), r^(n/2)",
+        parameters: &[("n", 3.0)],
+        texts: &[
+            "r^(n/2)*cos(n*theta/2)",
+            "r^(n/2)*sin(n*theta/2)",
+            "r^(n/2)*cos((n - 4)*theta/2)",
+            "r^(n/2)*sin((n - 4)*theta/2)",
+        ],
+    },
+    Entry {
+        name: "kink",
+        about: "weak discontinuity |d| across a line: a jump of the normal derivative",
+        parameters: NONE,
+        texts: &["abs(y)"],
+    },
+    Entry {
+        name: "corner",
+        about: "r^λ cos λθ and r^λ sin λθ: harmonic functions of a corner, an interface or a slit",
+        parameters: &[("lambda", 2.0 / 3.0)],
+        texts: &["r^lambda*cos(lambda*theta)", "r^lambda*sin(lambda*theta)"],
+    },
+    Entry {
+        name: "boundary-layer",
+        about: "exponential layer of width ε beside a line",
+        parameters: &[("epsilon", 0.01)],
+        texts: &["exp(-abs(y)/epsilon)"],
+    },
+    Entry {
+        name: "log-layer",
+        about: "logarithmic layer beside a line that begins at the distance ε",
+        parameters: &[("epsilon", 0.01)],
+        texts: &["log(1 + abs(y)/epsilon)"],
+    },
+];
+
+/// A quantity: its name with `_` for `-`, and its formula. It may use those before it.
+pub type Definition = (&'static str, &'static str);
+
+/// Quantities of a field with the components ux, uy and their derivatives `dux_dx`, …, in a material
+/// with `mu`, `lambda` and `out_of_plane` = σ_zz / (σ_xx + σ_yy).
+pub const ELASTICITY: [Definition; 18] = [
+    ("magnitude", "sqrt(ux^2 + uy^2)"),
+    ("gradient", "sqrt(dux_dx^2 + dux_dy^2 + duy_dx^2 + duy_dy^2)"),
+    ("divergence", "dux_dx + duy_dy"),
+    ("curl", "duy_dx - dux_dy"),
+    ("exx", "dux_dx"),
+    ("eyy", "duy_dy"),
+    ("exy", "(dux_dy + duy_dx)/2"),
+    ("sxx", "2*mu*exx + lambda*(exx + eyy)"),
+    ("syy", "2*mu*eyy + lambda*(exx + eyy)"),
+    ("sxy", "2*mu*exy"),
+    ("szz", "out_of_plane*(sxx + syy)"),
+    ("von_mises", "sqrt(((sxx - syy)^2 + (syy - szz)^2 + (szz - sxx)^2)/2 + 3*sxy^2)"),
+    ("s1", "(sxx + syy)/2 + sqrt(((sxx - syy)/2)^2 + sxy^2)"),
+    ("s2", "(sxx + syy)/2 - sqrt(((sxx - syy)/2)^2 + sxy^2)"),
+    ("tresca", "max(s1, szz) - min(s2, szz)"),
+    ("direction", "if(sxy == 0 and sxx >= syy, 0, atan2(2*sxy, sxx - syy)/2)"),
+    ("hydrostatic", "(sxx + syy + szz)/3"),
+    ("energy", "(sxx*exx + syy*eyy)/2 + sxy*exy"),
+];
+
+/// Quantities of a field with the one component u.
+pub const POISSON: [Definition; 3] = [
+    ("magnitude", "abs(u)"),
+    ("gradient", "sqrt(du_dx^2 + du_dy^2)"),
+    ("energy", "conductivity*(du_dx^2 + du_dy^2)/2"),
+];
+
+/// The weight function of a name.
+#[must_use]
+pub fn weight(name: &str) -> Option<&'static Entry> {
+    WEIGHTS.iter().find(|entry| entry.name == name)
+}
+
+/// The enrichment of a name.
+#[must_use]
+pub fn enrichment(name: &str) -> Option<&'static Entry> {
+    ENRICHMENTS.iter().find(|entry| entry.name == name)
+}

@@ -1,0 +1,97 @@
+//! A function replaced is the function a dataset would have had from the start.
+
+use crate::support::{compiled, evaluate};
+use ppum::crack::Side;
+use ppum::dataset::Dataset;
+use ppum::function::FunctionKind;
+use ppum::replace::ReplaceError;
+use ppum::weight::WeightFunction;
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::Recipe;
+
+/// The same at random points of the domain, to the last bit.
+fn assert_same(a: &Dataset, b: &Dataset) {
+    assert_eq!(a.check(), Ok(()));
+    let (mut random, domain) = (Random(11), a.domain);
+    let (a, b) = (compiled(a), compiled(b));
+    for _ in 0..50 {
+        let at = random.point(&domain);
+        let [u, v] =
+            [&a, &b].map(|f| evaluate::<1>(&mut f.at(at), Default::default(), Side::Above));
+        assert_eq!(u, v, "{at:?}");
+    }
+}
+
+fn recipe(functions: [&str; 4]) -> Recipe {
+    Recipe { tip_functions: functions.map(str::to_owned), ..Recipe::random(4) }
+}
+
+#[test]
+fn functions_at_all_their_places() {
+    let mut dataset = recipe(["r", "x", "y", "x*y"]).dataset();
+    let step = &mut dataset.steps[0];
+    let called = step.functions_called("x");
+    assert!(called.len() > 1, "{called:?}");
+    assert_eq!(step.replace_function("x", "sqrt(r)*cos(theta/2)", &[]), Ok(called));
+    let wanted = recipe(["r", "sqrt(r)*cos(theta/2)", "y", "x*y"]).dataset();
+    assert_same(&dataset, &wanted);
+}
+
+#[test]
+fn one_function_by_its_number_or_whole_name() {
+    let original = recipe(["r", "x", "y", "x*y"]).dataset();
+    let index = original.steps[0].functions_called("y")[0];
+    let name = original.steps[0].functions[index].name.clone();
+    let replaced = |which: &str| {
+        let mut dataset = original.clone();
+        assert_eq!(dataset.steps[0].replace_function(which, "2*y", &[]), Ok(vec![index]));
+        dataset
+    };
+    let mut wanted = original.clone();
+    let kind = &mut wanted.steps[0].functions[index].kind;
+    let FunctionKind::Formula { text, .. } = kind else { panic!("a formula") };
+    *text = "2*y".into();
+    assert_same(&replaced(&name), &wanted);
+    assert_same(&replaced(&index.to_string()), &wanted);
+}
+
+/// Function 0 is 1; as a formula it is still 1.
+#[test]
+fn functions_that_were_no_formulas() {
+    let original = recipe(["r", "x", "y", "x*y"]).dataset();
+    let mut dataset = original.clone();
+    assert_eq!(dataset.steps[0].replace_function("one", "x/x", &[]), Ok(vec![0]));
+    assert_same(&dataset, &original);
+}
+
+#[test]
+fn weights() {
+    let linear = Recipe { weight: WeightFunction::Linear, ..Recipe::random(4) };
+    let with = |text: &str| {
+        let mut dataset = linear.dataset();
+        dataset.steps[0].replace_weight(text, &[]).expect("a weight");
+        dataset
+    };
+    let cubic = Recipe { weight: WeightFunction::Cubic, ..linear.clone() }.dataset();
+    assert_same(&with("cubic"), &cubic);
+    assert_eq!(with(" 1 - t^2 ").steps[0].partition.weight.name(), "formula");
+    let mut dataset = linear.dataset();
+    let error = dataset.steps[0].replace_weight("2 - t", &[]).expect_err("1 at t = 1");
+    assert!(matches!(error, ReplaceError::Weight(_)), "{error}");
+    assert_eq!(dataset, linear.dataset());
+}
+
+#[test]
+fn what_is_wrong_changes_nothing() {
+    let original = recipe(["r", "x", "y", "x*y"]).dataset();
+    let mut dataset = original.clone();
+    let step = &mut dataset.steps[0];
+    let n = step.functions.len().to_string();
+    for which in ["z", "", "-1", n.as_str()] {
+        let error = step.replace_function(which, "x", &[]).expect_err("no such function");
+        assert!(error.to_string().contains("`x*y`"), "{error}");
+    }
+    let error = step.replace_function("x", "x + thet", &[]).expect_err("an unknown name");
+    assert!(error.to_string().contains("^^^^"), "{error}");
+    assert_eq!(dataset, original);
+}
