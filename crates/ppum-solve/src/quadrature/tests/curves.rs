@@ -66,7 +66,7 @@ fn discs_in_one_cell() {
 fn moments_of_discs_on_graded_covers() {
     let mut random = Random(41);
     for trial in 0..12 {
-        let weight = WeightFunction::ALL[trial % 3];
+        let weight = WeightFunction::ALL[trial % 3].clone();
         let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
         let (c, r) = (random.point(0.5), random.between(0.1, 0.45));
         let inside = |x: Vec2| (x - c).length() < r;

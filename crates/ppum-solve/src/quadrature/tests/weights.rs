@@ -59,7 +59,8 @@ fn overlaps_of_bumps_are_right_to_a_given_accuracy() {
 #[test]
 fn linear_weights_need_no_more_than_the_default() {
     let weight = WeightFunction::Linear;
-    let (orders, _) = Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight), 1e-5);
+    let (orders, _) =
+        Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), 1e-5);
     assert_eq!(orders, Orders::for_degree(2));
 }
 
@@ -85,7 +86,7 @@ fn the_orders_hold_in_the_plane() {
     let weight = WeightFunction::Cubic;
     for (accuracy, tolerance) in [(1e-3, 1e-3), (1e-6, 1e-6)] {
         let (orders, _) =
-            Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight), accuracy);
+            Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), accuracy);
         assert_near(energy(&case, orders), fine, tolerance * fine, &format!("{accuracy:e}"));
     }
     let area = integrate(&case.rules(Orders { parts: 3, ..Orders::for_degree(1) }), |_, _| 1.0);
