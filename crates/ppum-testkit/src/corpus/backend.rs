@@ -1,6 +1,7 @@
 //! Evaluators of formulas as the corpus sees them.
 
-use ppum::formula::{Formula, FormulaJets};
+use ppum::formula::{Formula, FormulaJets, Scratch};
+use ppum::real::Scalar as Number;
 
 use super::Case;
 
@@ -69,6 +70,66 @@ impl Backend for Scalar {
         jets.evaluate(&case.inputs, &mut self.scratch, &mut out);
         Outcome::Results(orders(case, &out))
     }
+}
+
+/// Blocks of points on lanes, in the precision of `T`.
+///
+/// The case's point stands at several places of a block, other numbers and NaN between them: its results
+/// must not depend on where it stands.
+#[derive(Debug)]
+pub struct Lanes<T> {
+    name: String,
+    scratch: Scratch<T>,
+}
+
+/// Where the case's point stands: first, last, and between, in different lanes of vectors of up to 16.
+const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
+
+impl<T: Number> Lanes<T> {
+    /// The lanes of a number type, called `name`.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), scratch: Scratch::default() }
+    }
+}
+
+impl<T: Number> Backend for Lanes<T> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn evaluate(&mut self, case: &Case) -> Outcome {
+        let f = parse(case);
+        let jets = jets(case, &f);
+        let mut block = jets.block::<T>(&mut self.scratch);
+        for (index, &input) in case.inputs.iter().enumerate() {
+            fill(block.input(index), input);
+        }
+        block.run();
+        let at = |place: usize| -> Vec<f64> {
+            (0..jets.n_outputs()).map(|k| block.output(k)[place].to_f64()).collect()
+        };
+        let first = at(PLACES[0]);
+        for place in PLACES {
+            let here = at(place);
+            let equal = here.iter().zip(&first).all(|(&a, &b)| same(a, b));
+            assert!(equal, "{}: {here:?} at {place}, not {first:?}", case.place);
+        }
+        Outcome::Results(orders(case, &first))
+    }
+}
+
+/// Writes a number to [`PLACES`], and others between them.
+fn fill<T: Number>(to: &mut [T], input: f64) {
+    for (k, to) in to.iter_mut().enumerate() {
+        let other = if k % 3 == 0 { f64::NAN } else { input * 1.25 + k as f64 };
+        *to = T::from_f64(if PLACES.contains(&k) { input } else { other });
+    }
+}
+
+/// The same number to the last bit, or both NaN.
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
 /// Value and derivatives in one program; of more than two variables the value.

@@ -15,9 +15,9 @@ use std::sync::Arc;
 use ppum::formula::{Scope, Table};
 use record::{Record, records};
 
-pub use backend::{Backend, Derivatives, Outcome, Scalar};
+pub use backend::{Backend, Derivatives, Lanes, Outcome, Scalar};
 pub use report::{Report, check};
-pub use tolerance::{SCALAR, SHADER, Tolerance};
+pub use tolerance::{LANES, LANES_SINGLE, SCALAR, SHADER, Tolerance};
 
 /// The themes, one file each.
 pub const THEMES: [&str; 11] = [
