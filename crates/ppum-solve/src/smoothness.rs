@@ -29,6 +29,10 @@ use std::sync::Arc;
 /// Highest degree of a piecewise polynomial that is seen to be one.
 const POLYNOMIAL: usize = 3;
 
+/// Most lines and curves between which a function is taken for a polynomial on every piece; one with
+/// more, a spline of many knots, is probed.
+const MOST_SETS: usize = 64;
+
 /// What a function whose energy is infinite is graded for.
 const DIVERGENT: Growth = Growth::Powers { least: 0.04 };
 
@@ -231,9 +235,9 @@ impl<'s> Surroundings<'s> {
         declared: &Declared,
     ) -> Result<Traits, FunctionError> {
         let probe = Probe::function(function, &self.cracks, self.tables)?;
-        let degree = polynomial_degree(formula);
+        let Pieces { sets, degree } = Pieces::new(formula);
         let mut traits = Traits { degree: degree.unwrap_or(0), ..Traits::default() };
-        for set in sets(formula) {
+        for set in sets {
             traits.kinks.push(match set.line() {
                 Some(line) => Kink::Line(axes.line(line)),
                 None => {
@@ -287,30 +291,63 @@ fn traits_of_coefficient(coefficient: &Expression) -> Traits {
         Some(line) => Kink::Line(world.line(line)),
         None => Kink::Curve(Arc::new(move |p: Vec2| set.value.evaluate(&[p.x, p.y]))),
     };
-    let degree = polynomial_degree(formula);
+    let Pieces { sets, degree } = Pieces::new(formula);
     let probe = degree.is_none().then(|| Probe::coefficient(formula).ok()).flatten();
-    let kinks = sets(formula).map(kink).collect();
+    let kinks = sets.into_iter().map(kink).collect();
     Traits { kinks, probe, degree: degree.unwrap_or(0), ..Traits::default() }
 }
 
-/// Lines and curves on which a formula may not be smooth. The origin of a polar frame is no curve.
-fn sets(formula: &Formula) -> impl Iterator<Item = formula::Kink> {
-    let singular = formula.singularities().into_iter().filter(|set| set.value.text() != "r");
-    formula.kinks().into_iter().chain(singular)
+/// A formula as quadrature sees it.
+struct Pieces {
+    /// Lines and curves between which it is smooth.
+    sets: Vec<formula::Kink>,
+    /// Its degree, if it is a polynomial of x and y on every piece between them.
+    degree: Option<usize>,
 }
 
-/// Degree of a formula that is a polynomial of x and y on every piece between its kinks.
-fn polynomial_degree(formula: &Formula) -> Option<usize> {
-    let mut derivatives = vec![formula.clone()];
-    for degree in 0..=POLYNOMIAL {
-        let along_x = derivatives.iter().map(|f| f.derivative("x"));
-        let along_y = derivatives.last().map(|f| f.derivative("y"));
-        derivatives = along_x.chain(along_y).collect::<Result<_, _>>().ok()?;
-        if derivatives.iter().all(|f| f.constant() == Some(0.0)) {
-            return Some(degree);
+impl Pieces {
+    fn new(formula: &Formula) -> Self {
+        // The origin of a polar frame is no curve.
+        let singular = formula.singularities().into_iter().filter(|set| set.value.text() != "r");
+        let mut sets: Vec<_> = formula.kinks().into_iter().chain(singular).collect();
+        let Some(polynomial) = Polynomial::new(formula) else { return Self { sets, degree: None } };
+        // Of a spline the value is smooth at the knots, but no polynomial across them.
+        for derivative in &polynomial.derivatives {
+            for set in derivative.kinks() {
+                if sets.iter().all(|known| known.value.text() != set.value.text()) {
+                    sets.push(set);
+                }
+            }
         }
+        let few = sets.len() <= MOST_SETS;
+        if !few {
+            sets.truncate(formula.kinks().len());
+        }
+        Self { sets, degree: few.then_some(polynomial.degree) }
     }
-    None
+}
+
+/// A formula that is a polynomial of x and y on every piece between some lines and curves.
+struct Polynomial {
+    degree: usize,
+    /// All its derivatives of this order, which are constants on every piece.
+    derivatives: Vec<Formula>,
+}
+
+impl Polynomial {
+    fn new(formula: &Formula) -> Option<Self> {
+        let mut derivatives = vec![formula.clone()];
+        for degree in 0..=POLYNOMIAL {
+            let along_x = derivatives.iter().map(|f| f.derivative("x"));
+            let along_y = derivatives.last().map(|f| f.derivative("y"));
+            let next: Vec<_> = along_x.chain(along_y).collect::<Result<_, _>>().ok()?;
+            if next.iter().all(|f| f.constant() == Some(0.0)) {
+                return Some(Self { degree, derivatives });
+            }
+            derivatives = next;
+        }
+        None
+    }
 }
 
 /// A frame's axes in the world.

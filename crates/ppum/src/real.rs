@@ -57,9 +57,9 @@ pub trait Real:
     /// Whole vectors of a slice.
     fn arrays_mut(of: &mut [Self::Scalar]) -> &mut [Self::Array];
     /// The lanes from an array.
-    fn from_array(self, array: &Self::Array) -> Self;
+    fn load_array(self, array: &Self::Array) -> Self;
     /// The lanes as an array.
-    fn to_array(self, array: &mut Self::Array);
+    fn store_array(self, array: &mut Self::Array);
     /// Writes the lanes to the start of a slice.
     fn store(self, to: &mut [Self::Scalar]);
     /// Applies a scalar function in f64 lane by lane: the slow path for functions without a kernel.
@@ -152,11 +152,11 @@ macro_rules! scalar {
                 of.as_chunks_mut().0
             }
             #[inline(always)]
-            fn from_array(self, array: &[$t; 1]) -> Self {
+            fn load_array(self, array: &[$t; 1]) -> Self {
                 array[0]
             }
             #[inline(always)]
-            fn to_array(self, array: &mut [$t; 1]) {
+            fn store_array(self, array: &mut [$t; 1]) {
                 array[0] = self;
             }
             #[inline(always)]
@@ -237,11 +237,11 @@ macro_rules! scalar {
                 of.as_chunks_mut().0
             }
             #[inline(always)]
-            fn from_array(self, array: &[$t; $lanes]) -> Self {
+            fn load_array(self, array: &[$t; $lanes]) -> Self {
                 Self::from_slice(self.token(), array)
             }
             #[inline(always)]
-            fn to_array(self, array: &mut [$t; $lanes]) {
+            fn store_array(self, array: &mut [$t; $lanes]) {
                 self.store_slice(array);
             }
             #[inline(always)]

@@ -5,7 +5,7 @@ use ppum::formula::Scope;
 #[test]
 fn degrees_of_piecewise_polynomials() {
     let degree =
-        |text: &str| polynomial_degree(&Formula::parse(text, &Scope::polar()).expect("a formula"));
+        |text: &str| Pieces::new(&Formula::parse(text, &Scope::polar()).expect("a formula")).degree;
     for (text, expected) in [
         ("7", Some(0)),
         ("if(y > 0, 10, 1)", Some(0)),
@@ -23,7 +23,28 @@ fn degrees_of_piecewise_polynomials() {
     }
 }
 
-/// Two cracks, patches of half-size 0.1.
+/// A spline is a cubic between its knots.
+#[test]
+fn knots_of_splines() {
+    let table = |n: usize| {
+        let knots: Vec<f64> = (0..n).map(|k| k as f64).collect();
+        let values = knots.iter().map(|x| x.sin()).collect();
+        Arc::new(Table::curve("k", knots, values).expect("a table"))
+    };
+    let pieces = |n: usize| {
+        let scope = Scope::cartesian().with_table(table(n)).expect("a name");
+        Pieces::new(&Formula::parse("table(k, 2*x)", &scope).expect("a formula"))
+    };
+    let few = pieces(5);
+    assert_eq!(few.degree, Some(3));
+    let mut at: Vec<_> = few.sets.iter().filter_map(|set| set.line()).collect();
+    at.sort_by(|a, b| (-a[2] / a[0]).total_cmp(&(-b[2] / b[0])));
+    assert_eq!(at.iter().map(|l| -l[2] / l[0]).collect::<Vec<_>>(), [0.0, 0.5, 1.0, 1.5, 2.0]);
+    let many = pieces(200);
+    assert_eq!((many.degree, many.sets.len()), (None, 2));
+}
+
+/// A crack, patches of half-size 0.1.
 fn surroundings() -> Surroundings<'static> {
     let kinked = Crack {
         points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0), vec2(1.0, 1.0)],

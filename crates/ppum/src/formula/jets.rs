@@ -90,8 +90,8 @@ impl FormulaJets {
     /// `side_0`, and one called `a` by the makers of the scope `in_a`. The results are those of
     /// [`FormulaJets::evaluate`]. Tables come as functions `table_0_of_name`, …, before it.
     ///
-    /// `name` has to be a name of WGSL that begins with neither `ppum_` nor `table_`. Numbers are
-    /// rounded to single precision, those beyond it are infinite or 0. Functions are as accurate as
+    /// `name` has to be a name that WGSL has no meaning for (`f32` has one), beginning with neither
+    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite or 0. Functions are as accurate as
     /// the device's, infinities and NaN as well kept as the device does. WGSL promises arrays of up to
     /// 2047 elements, hence tables of that many knots and cells, a quarter of the cells with two arguments.
     #[must_use]
@@ -106,7 +106,9 @@ impl FormulaJets {
         self.program.ops().contains(&Op::Input(input as u32))
     }
 
+    #[cfg(test)]
     /// What every back end starts from.
+    #[cfg(test)]
     pub(super) fn program(&self) -> &Program {
         &self.program
     }

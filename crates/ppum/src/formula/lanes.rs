@@ -83,7 +83,7 @@ struct Each<R> {
 impl<R: Real> Operand<R> for Each<R> {
     #[inline(always)]
     fn at(self, registers: &[Register<R>], k: usize) -> R {
-        self.zero.from_array(&registers[self.register][k])
+        self.zero.load_array(&registers[self.register][k])
     }
 }
 
@@ -291,7 +291,7 @@ impl<R: Real> Machine<'_, R> {
 
     #[inline(always)]
     fn store(&mut self, value: R, step: &Step, k: usize) {
-        value.to_array(&mut self.registers[step.to as usize][k]);
+        value.store_array(&mut self.registers[step.to as usize][k]);
     }
 }
 

@@ -27,9 +27,9 @@ pub(super) fn share_reciprocals(graph: &mut Graph, values: &[NodeId], outputs: &
         }
     }
     let mut new: Vec<NodeId> = Vec::with_capacity(needed.len());
-    for node in 0..needed.len() {
+    for (node, &is_needed) in needed.iter().enumerate() {
         let id = NodeId(node as u32);
-        let rewritten = if !needed[node] || is_kept(node) {
+        let rewritten = if !is_needed || is_kept(node) {
             id
         } else {
             match divisions(graph, node) {

@@ -22,7 +22,7 @@ pub fn wgsl_prelude() -> &'static str {
 /// The function of a program and those of its tables.
 pub(super) fn function(name: &str, scope: &Scope, program: &Program) -> String {
     let inputs: Vec<String> = scope.inputs().map(parameter).collect();
-    let mut text = tables(name, scope, program);
+    let mut text = tables(name, program);
     let parameters: Vec<String> = inputs.iter().map(|input| format!("{input}: f32")).collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
@@ -197,12 +197,11 @@ fn table_name(index: u32, function: &str) -> String {
 }
 
 /// The functions of the tables that a program uses.
-fn tables(function: &str, scope: &Scope, program: &Program) -> String {
+fn tables(function: &str, program: &Program) -> String {
     let is_used = |index: u32| {
         program.ops().iter().any(|op| matches!(op, Op::Table { table, .. } if *table == index))
     };
-    let tables = scope.tables();
-    let used = (0..).zip(tables.iter()).filter(|(index, _)| is_used(*index));
+    let used = (0..).zip(program.tables().iter()).filter(|(index, _)| is_used(*index));
     used.map(|(index, table)| table_function(&table_name(index, function), table)).collect()
 }
 

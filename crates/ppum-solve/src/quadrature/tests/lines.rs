@@ -42,7 +42,7 @@ fn signed_square(line: [Vec2; 2]) -> f64 {
 fn lines_cut_exactly_on_graded_covers() {
     let mut random = Random(31);
     for trial in 0..30 {
-        let weight = WeightFunction::ALL[trial % 3];
+        let weight = WeightFunction::ALL[trial % 3].clone();
         let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
         let line = match trial % 3 {
             0 => [random.point(1.0), random.point(1.0)],

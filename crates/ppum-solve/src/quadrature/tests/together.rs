@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// A geometry's parts, all of them active everywhere.
 fn scene(random: &mut Random, trial: usize) -> (Case, Vec<Kink>) {
     let cover = match trial % 2 {
-        0 => graded(random, WeightFunction::ALL[trial % 3]),
+        0 => graded(random, WeightFunction::ALL[trial % 3].clone()),
         _ => uniform(trial as u32 % 3),
     };
     let (start, tip) = (random.point(0.9), random.point(0.9));

@@ -59,7 +59,8 @@ fn overlaps_of_bumps_are_right_to_a_given_accuracy() {
 #[test]
 fn linear_weights_need_no_more_than_the_default() {
     let weight = WeightFunction::Linear;
-    let (orders, _) = Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight), 1e-5);
+    let (orders, _) =
+        Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), 1e-5);
     assert_eq!(orders, Orders::for_degree(2));
 }
 
@@ -85,7 +86,7 @@ fn the_orders_hold_in_the_plane() {
     let weight = WeightFunction::Cubic;
     for (accuracy, tolerance) in [(1e-3, 1e-3), (1e-6, 1e-6)] {
         let (orders, _) =
-            Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight), accuracy);
+            Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), accuracy);
         assert_near(energy(&case, orders), fine, tolerance * fine, &format!("{accuracy:e}"));
     }
     let area = integrate(&case.rules(Orders { parts: 3, ..Orders::for_degree(1) }), |_, _| 1.0);
@@ -104,4 +105,23 @@ fn only_overlaps_are_divided_and_only_where_functions_vary() {
     assert_eq!(counts[0], (1, 9));
     assert_eq!(counts[1..5], [(2, 3 * 36); 4]);
     assert_eq!(counts[5..], [(4, 9 * 36); 4]);
+}
+
+#[test]
+fn discs_have_the_points_that_the_weight_needs() {
+    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let points = |orders: Orders| {
+        let quadrature = case.quadrature(orders);
+        let (center, radius) = (vec2(0.1, 0.2), 0.5);
+        let rules = |c: &Rect| quadrature.disc(c, &coverers(&case.partition, c), center, radius, 8);
+        let rules: Vec<Rule> = case.partition.cell.iter().flat_map(rules).collect();
+        let (overlaps, rest): (Vec<_>, Vec<_>) =
+            rules.into_iter().partition(|r| r.patches.len() > 1);
+        (n_points(&overlaps), n_points(&rest))
+    };
+    let default = Orders::for_degree(1);
+    let (few, alone) = points(default);
+    assert_eq!(points(Orders { overlap: 8, ..default }), (few, alone));
+    let (more, same) = points(Orders { overlap: 16, ..default });
+    assert!(more > few && same == alone);
 }

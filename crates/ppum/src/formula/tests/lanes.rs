@@ -1,6 +1,6 @@
 //! Blocks of points on lanes against one point at a time.
 
-use super::random::{Random, point, sample};
+use super::random::{Random, point, sample, scope};
 use super::{Formula, FormulaJets, Scope, polar, same};
 use crate::formula::graph::Op;
 use crate::formula::{Block, Scratch, Table};
@@ -185,7 +185,7 @@ fn random_formulas() {
         let texts: Vec<String> =
             (0..3).map(|_| sample(&mut random, &point(0.3, 0.4), 5).text).collect();
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-        let jets = compile(&parse(&texts, &Scope::polar()), random.below(3));
+        let jets = compile(&parse(&texts, &scope()), random.below(3));
         assert_same(&jets, &points, &texts.join("\n"));
     }
 }
@@ -235,7 +235,7 @@ fn single_precision() {
     for _ in 0..500 {
         let text = sample(&mut random, &point(0.3, 0.4), 5).text;
         let [x, y] = [(); 2].map(|()| random.between(-2.0, 2.0));
-        let jets = compile(&parse(&[&text], &Scope::polar()), random.below(3));
+        let jets = compile(&parse(&[&text], &scope()), random.below(3));
         check(&jets, &[single(polar(x, y))], &text);
     }
 }

@@ -213,7 +213,7 @@ pub(super) fn point(x: f64, y: f64) -> [Jet; 4] {
 }
 
 /// Polar coordinates and k(x) = x³ − 2x on [−2, 3].
-fn scope() -> Scope {
+pub(super) fn scope() -> Scope {
     let knots = [-2.0, -0.5, 1.0, 2.0, 3.0];
     let values = knots.iter().map(|x: &f64| x.powi(3) - 2.0 * x).collect();
     let table = Table::curve("k", knots.to_vec(), values).expect("valid");
