@@ -1,26 +1,32 @@
-//! The first problem of README.md, as a reader would follow it.
+//! The problems and commands of README.md, as a reader would follow them.
 
 use super::Lab;
 
 const PAGE: &str = include_str!("../../../../README.md");
 
-/// The text of the only block of a language.
-fn block(language: &str) -> &'static str {
+/// The texts of the blocks of a language.
+fn blocks<const N: usize>(language: &str) -> [&'static str; N] {
     let start = format!("```{language}\n");
-    let mut parts = PAGE.split(&start).skip(1);
-    let text = parts.next().unwrap().split("```").next().unwrap();
-    assert!(parts.next().is_none(), "more than one block of {language}");
-    text
+    let texts = PAGE.split(&start).skip(1).map(|part| part.split("```").next().unwrap());
+    let texts: Vec<_> = texts.collect();
+    texts.try_into().unwrap_or_else(|all: Vec<_>| panic!("{} blocks of {language}", all.len()))
+}
+
+/// Runs the commands of a block; their arguments have no blanks.
+fn follow(lab: &Lab, block: &str) {
+    let lines = block.lines().map(|line| line.split('#').next().unwrap());
+    for command in lines.map(|line| line.strip_prefix("ppum ").unwrap()) {
+        lab.run(&command.replace('"', ""));
+    }
 }
 
 #[test]
 fn the_first_problem() {
     let lab = Lab::new();
-    lab.write("plate.toml", block("toml"));
-    let lines = block("sh").lines().map(|line| line.split('#').next().unwrap());
-    for command in lines.map(|line| line.strip_prefix("ppum ").unwrap()) {
-        lab.run(command);
-    }
+    let ([problem, _], [commands, formulas]) = (blocks("toml"), blocks("sh"));
+    lab.write("plate.toml", problem);
+    follow(&lab, commands);
+    follow(&lab, formulas);
     for name in ["plate.h5", "plate.png", "uy.png"] {
         assert!(lab.path(name).is_file(), "{name}");
     }
@@ -35,4 +41,19 @@ fn the_first_problem() {
             assert!(PAGE.contains(&told), "the page does not say {told}");
         }
     }
+}
+
+/// The part of a problem file that is made of formulas.
+#[test]
+fn functions_are_formulas() {
+    let lab = Lab::new();
+    let [problem, formulas] = blocks("toml");
+    let start = problem.split("[material]").next().unwrap();
+    let boundary = &problem[problem.find("[[boundary]]").unwrap()..];
+    let boundary = boundary.split("[discretization]").next().unwrap();
+    lab.write("plate.toml", &[start, boundary, formulas].concat());
+    lab.run("solve plate.toml");
+    let values = lab.json("probe plate.h5 --at 0.5,0.5 -q safety,von-mises");
+    let value = |name: &str| values["points"][0]["values"][name].as_f64().unwrap();
+    assert!((value("safety") * value("von-mises") / 240.0 - 1.0).abs() < 1e-14);
 }
