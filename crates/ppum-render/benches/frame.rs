@@ -88,6 +88,12 @@ fn main() {
         for (level, tip_level) in [(1, 8), (2, 12), (3, 12), (4, 12)] {
             row("graded", &dataset(&recipe(level, tip_level)));
         }
+        for level in [0, 3, 5] {
+            let recipe = Recipe { formulas: true, ..recipe(level, level) };
+            let [wide, narrow] = row("formulas", &dataset(&recipe));
+            let [native_wide, native_narrow] = uniform[usize::from(level)];
+            println!("  over kernels: {:.2} {:.2}", wide / native_wide, narrow / native_narrow);
+        }
         let ratio = |k: usize| {
             let times = uniform.iter().map(|row| row[k]);
             times.clone().fold(0.0, f64::max) / times.fold(f64::INFINITY, f64::min)

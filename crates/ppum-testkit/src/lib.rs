@@ -1,8 +1,9 @@
-//! Development tools of `ppum`: exact solutions, synthetic datasets, the corpus of formulas and an evaluation in extended
-//! precision to compare with.
+//! Development tools of `ppum`: exact solutions, synthetic datasets, the corpus of formulas, an evaluation in extended
+//! precision to compare with, and an interpreter of WGSL.
 
 pub mod corpus;
 pub mod exact;
 pub mod extended;
 pub mod random;
 pub mod synthetic;
+pub mod wgsl;

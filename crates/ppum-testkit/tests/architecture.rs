@@ -17,12 +17,13 @@ const ARROWS: [(&str, &[&str]); 6] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 7] = [
+const DOORS: [(&str, &str); 8] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum"),
     ("hdf5-pure", "ppum-format"),
+    ("naga", "ppum-testkit"),
     ("png", "ppum-render"),
     ("toml", "ppum-solve"),
 ];

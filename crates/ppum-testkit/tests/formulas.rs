@@ -1,6 +1,8 @@
 //! All back ends of formulas against the conformance corpus (`tests/corpus`).
 
-use ppum_testkit::corpus::{self, Backend, Derivatives, Report, SCALAR, Scalar, Tolerance};
+use ppum_testkit::corpus::{
+    self, Backend, Derivatives, LANES, LANES_SINGLE, Lanes, Report, SCALAR, Scalar, Tolerance,
+};
 
 /// Runs the whole corpus.
 #[track_caller]
@@ -25,6 +27,18 @@ fn scalar_derivative_by_derivative() {
     let report = conforms(&mut Derivatives::default(), &SCALAR);
     assert!(report.asserted >= 900, "{} cases", report.asserted);
     assert!(report.skipped.is_empty());
+}
+
+#[test]
+fn lanes_of_doubles() {
+    let report = conforms(&mut Lanes::<f64>::new("lanes f64"), &LANES);
+    assert!(report.skipped.is_empty());
+}
+
+#[test]
+fn lanes_of_singles() {
+    let report = conforms(&mut Lanes::<f32>::new("lanes f32"), &LANES_SINGLE);
+    assert!(report.asserted >= 700, "{} cases", report.asserted);
 }
 
 /// An expected number that is wrong by a few tolerances fails, whichever it is.

@@ -2,13 +2,18 @@
 //! the gradient and the Hessian, from 16 to a million patches; point location is included, and
 //! measured alone.
 //!
+//! Before that, the four Westergaard functions with gradients as formulas on lanes and by their kernel.
+//!
 //! Points follow each other along a line of pixels ("line") or are anywhere ("anywhere").
 //! `cargo bench -p ppum --bench evaluate`
 
-use ppum::crack::{CrackEnd, Side};
+use ppum::crack::{CrackEnd, Side, TipPoint};
 use ppum::dataset::Dataset;
 use ppum::field::{Field, LocalField};
+use ppum::formula::{Block, Formula, FormulaJets, Scope, Scratch};
+use ppum::function::{WESTERGAARD, westergaard};
 use ppum::jet::Jet;
+use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, crack};
@@ -22,6 +27,17 @@ const POINTS: usize = 20_000;
 const REPETITIONS: usize = 5;
 
 fn main() {
+    let [double, single] = [formulas::<f64>(), formulas::<f32>()];
+    println!("ns per point, Westergaard functions with gradients    f64     f32");
+    println!(
+        "as formulas on lanes                               {:>6.2}  {:>6.2}",
+        double[0], single[0]
+    );
+    println!(
+        "by their kernel                                    {:>6.2}  {:>6.2}",
+        double[1], single[1]
+    );
+    println!();
     println!("ns per point, fastest of {REPETITIONS}; order 2, two components, two tips");
     println!("{:>8} {:>9} {:>8} {:>24} {:>24}", "", "", "", "one at a time", "lanes");
     println!(
@@ -110,4 +126,69 @@ fn nanoseconds(mut work: impl FnMut()) -> f64 {
     };
     let best = (0..REPETITIONS).map(once).fold(f64::INFINITY, f64::min);
     best * 1e9 / POINTS as f64
+}
+
+/// Nanoseconds per point of the Westergaard functions with gradients: as formulas, by their kernel.
+fn formulas<T: Scalar>() -> [f64; 2] {
+    let scope = Scope::polar();
+    let parse = |text| Formula::parse(text, &scope).expect("a formula");
+    let formulas = WESTERGAARD.map(parse);
+    let jets = FormulaJets::new(&formulas.each_ref(), 1).expect("small");
+    let mut scratch = Scratch::<T>::default();
+    let mut block = jets.block(&mut scratch);
+    let n = Block::<T>::POINTS;
+    for k in 0..n {
+        let angle = 3.0 * (2 * k) as f64 / n as f64 - 3.0;
+        let (x, y) = (angle.cos(), angle.sin());
+        let inputs = [x, y, 1.0, angle, (angle / 2.0).cos(), (angle / 2.0).sin()];
+        for (index, value) in inputs.into_iter().enumerate() {
+            block.input(index)[k] = T::from_f64(value);
+        }
+    }
+    let [xs, ys] = [0, 1].map(|input| block.input(input).to_vec());
+    let as_formulas = nanoseconds(|| {
+        for _ in 0..POINTS / n {
+            black_box(&mut block).run();
+        }
+    });
+    let mut out = vec![T::default(); 12 * n];
+    let by_kernel = nanoseconds(|| {
+        for _ in 0..POINTS / n {
+            T::dispatch(Kernel { xs: black_box(&xs), ys: &ys, out: &mut out });
+        }
+    });
+    [as_formulas, by_kernel]
+}
+
+/// The kernel of the Westergaard functions at some points.
+struct Kernel<'a, T> {
+    xs: &'a [T],
+    ys: &'a [T],
+    out: &'a mut [T],
+}
+
+impl<T: Scalar> Job<T> for Kernel<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = T>>(self, zero: R) {
+        let (n, mut k) = (self.xs.len(), 0);
+        while k < n {
+            let (x, y) = (zero.load(&self.xs[k..]), zero.load(&self.ys[k..]));
+            let one = zero.lit(1.0);
+            let jets = westergaard::<R, 1>(&TipPoint {
+                x,
+                y,
+                sign: R::sign(y.ge(zero), one),
+                branch: one,
+            });
+            let mut row = 0;
+            while row < 12 {
+                let jet = &jets[row / 3];
+                [jet.v, jet.x, jet.y][row % 3].store(&mut self.out[row * n + k..]);
+                row += 1;
+            }
+            k += R::LANES;
+        }
+    }
 }

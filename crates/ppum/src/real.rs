@@ -11,6 +11,8 @@
 use fearless_simd::{Level, Select as _, Simd, dispatch, f32x16, f64x8, prelude::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::formula::Interpret;
+
 /// A number or a vector of numbers.
 pub trait Real:
     Copy
@@ -24,6 +26,8 @@ pub trait Real:
     type Scalar: Scalar;
     /// Result of a comparison.
     type Mask: Copy;
+    /// The numbers in the lanes.
+    type Array: Copy + AsRef<[Self::Scalar]> + AsMut<[Self::Scalar]>;
     /// Number of lanes.
     const LANES: usize;
 
@@ -36,6 +40,8 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Magnitude.
     fn abs(self) -> Self;
+    /// Largest integer that is not above it.
+    fn floor(self) -> Self;
     /// Larger value; `other` if `self` is NaN.
     fn max(self, other: Self) -> Self;
     /// Smaller value; `other` if `self` is NaN.
@@ -48,6 +54,12 @@ pub trait Real:
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
     /// The first [`Self::LANES`] numbers of a slice.
     fn load(self, from: &[Self::Scalar]) -> Self;
+    /// Whole vectors of a slice.
+    fn arrays_mut(of: &mut [Self::Scalar]) -> &mut [Self::Array];
+    /// The lanes from an array.
+    fn load_array(self, array: &Self::Array) -> Self;
+    /// The lanes as an array.
+    fn store_array(self, array: &mut Self::Array);
     /// Writes the lanes to the start of a slice.
     fn store(self, to: &mut [Self::Scalar]);
     /// Applies a scalar function in f64 lane by lane: the slow path for functions without a kernel.
@@ -70,7 +82,7 @@ pub trait Job<T: Scalar> {
 
 /// One lane: f64 or f32.
 pub trait Scalar:
-    Real<Scalar = Self> + Default + PartialOrd + Send + Sync + std::fmt::Debug
+    Real<Scalar = Self> + Interpret + Default + PartialOrd + Send + Sync + std::fmt::Debug
 {
     /// Lanes in a vector of [`Scalar::dispatch`]; buffers are padded to a multiple of it.
     const VECTOR: usize;
@@ -87,6 +99,7 @@ macro_rules! scalar {
         impl Real for $t {
             type Scalar = $t;
             type Mask = bool;
+            type Array = [$t; 1];
             const LANES: usize = 1;
 
             #[inline(always)]
@@ -105,6 +118,10 @@ macro_rules! scalar {
             #[inline(always)]
             fn abs(self) -> Self {
                 $t::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                $t::floor(self)
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
@@ -129,6 +146,18 @@ macro_rules! scalar {
             #[inline(always)]
             fn load(self, from: &[$t]) -> Self {
                 from[0]
+            }
+            #[inline(always)]
+            fn arrays_mut(of: &mut [$t]) -> &mut [[$t; 1]] {
+                of.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn load_array(self, array: &[$t; 1]) -> Self {
+                array[0]
+            }
+            #[inline(always)]
+            fn store_array(self, array: &mut [$t; 1]) {
+                array[0] = self;
             }
             #[inline(always)]
             fn store(self, to: &mut [$t]) {
@@ -156,6 +185,7 @@ macro_rules! scalar {
         impl<S: Simd> Real for $vector<S> {
             type Scalar = $t;
             type Mask = <Self as SimdBase<S>>::Mask;
+            type Array = [$t; $lanes];
             const LANES: usize = $lanes;
 
             #[inline(always)]
@@ -172,7 +202,11 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn abs(self) -> Self {
-                Real::max(self, -self)
+                SimdBase::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                SimdFloat::floor(self)
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
@@ -197,6 +231,18 @@ macro_rules! scalar {
             #[inline(always)]
             fn load(self, from: &[$t]) -> Self {
                 Self::from_slice(self.token(), &from[..$lanes])
+            }
+            #[inline(always)]
+            fn arrays_mut(of: &mut [$t]) -> &mut [[$t; $lanes]] {
+                of.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn load_array(self, array: &[$t; $lanes]) -> Self {
+                Self::from_slice(self.token(), array)
+            }
+            #[inline(always)]
+            fn store_array(self, array: &mut [$t; $lanes]) {
+                self.store_slice(array);
             }
             #[inline(always)]
             fn store(self, to: &mut [$t]) {

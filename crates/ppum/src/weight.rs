@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::formula::{DerivativeError, Formula, FormulaError, Scope};
+use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 use crate::jet::Jet;
 use crate::library;
 use crate::real::{Real, Scalar};
@@ -127,11 +127,19 @@ impl WeightFunction {
 }
 
 /// A weight function given by a formula of t = |ξ| on 0 ≤ t < 1; it is 0 beyond.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct WeightFormula {
+    formula: Formula,
     /// w, dw/dt, d²w/dt²
-    derivatives: [Formula; 3],
+    jets: FormulaJets,
     breakpoints: Vec<f64>,
+}
+
+/// Weights are equal when their formulas are.
+impl PartialEq for WeightFormula {
+    fn eq(&self, other: &Self) -> bool {
+        self.formula == other.formula
+    }
 }
 
 /// A formula that is no weight function.
@@ -204,7 +212,8 @@ impl WeightFormula {
         }
         breakpoints.sort_by(f64::total_cmp);
         breakpoints.dedup_by(|b, a| *b - *a < ROUNDING);
-        let formula = Self { derivatives: [w, slope, curvature], breakpoints };
+        let jets = FormulaJets::new(&[&w], 2)?;
+        let formula = Self { formula: w, jets, breakpoints };
         formula.check()?;
         Ok(formula)
     }
@@ -222,9 +231,9 @@ impl WeightFormula {
             }
             largest = largest.max(value);
         }
-        let value = self.derivatives[0].evaluate(&[1.0]);
+        let value = self.formula.evaluate(&[1.0]);
         // A bump has no value at 1, but a limit.
-        let before = self.derivatives[0].evaluate(&[1.0 - f64::EPSILON]);
+        let before = self.formula.evaluate(&[1.0 - f64::EPSILON]);
         let end = if value.is_nan() { before } else { value };
         if end.abs() <= VANISHING * largest {
             Ok(())
@@ -236,23 +245,24 @@ impl WeightFormula {
     /// The formula of w.
     #[must_use]
     pub fn text(&self) -> &str {
-        self.derivatives[0].text()
+        self.formula.text()
     }
 
-    /// w, dw/dt, d²w/dt² at t.
+    /// w, dw/dt, d²w/dt² at t, lane by lane.
     fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
         // 16 lanes are the widest vector there is.
         let mut lanes = [R::Scalar::default(); 16];
         t.store(&mut lanes);
         let mut scratch = Vec::new();
         let mut out = [[R::Scalar::default(); 16]; 3];
-        for (formula, out) in self.derivatives.iter().zip(&mut out) {
-            for (t, out) in lanes.iter().zip(out).take(R::LANES) {
-                // Beyond the support the formula need not have a value, at its end perhaps a limit.
-                let t = t.to_f64().min(1.0);
-                let value = formula.evaluate_with(&[t], &mut scratch);
+        for (lane, t) in lanes.iter().enumerate().take(R::LANES) {
+            // Beyond the support the formula need not have a value, at its end perhaps a limit.
+            let t = t.to_f64().min(1.0);
+            let mut jet = [0.0; 3];
+            self.jets.evaluate(&[t], &mut scratch, &mut jet);
+            for (out, value) in out.iter_mut().zip(jet) {
                 let possible = t < 1.0 || value.is_finite();
-                *out = R::Scalar::from_f64(if possible { value } else { 0.0 });
+                out[lane] = R::Scalar::from_f64(if possible { value } else { 0.0 });
             }
         }
         out.map(|values| t.load(&values))

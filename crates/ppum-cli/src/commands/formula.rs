@@ -46,6 +46,9 @@ pub(crate) struct Args {
     /// A table for table(NAME, x); may be given more than once
     #[arg(long, value_name = "NAME=FILE.csv", value_parser = assignment)]
     table: Vec<(String, String)>,
+    /// Print a module of WGSL, the shading language of WebGPU, with the value and its derivatives
+    #[arg(long)]
+    wgsl: bool,
     /// Print JSON, see docs/cli.md
     #[arg(long)]
     json: bool,
@@ -58,7 +61,8 @@ Examples:
   ppum formula 'sqrt(r)*sin(theta/2)' --at x=-0.5,y=0.1
   ppum formula 'r^lambda*cos(lambda*theta)' --parameter lambda=0.5445
   ppum formula '(1 - t)^2*(1 + 2*t)' --at t=0.25
-  ppum formula 'max(s1, 0)' --of plate.h5";
+  ppum formula 'max(s1, 0)' --of plate.h5
+  ppum formula westergaard --wgsl > westergaard.wgsl";
 
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
@@ -70,8 +74,14 @@ impl Args {
             parameters: &self.parameter,
             tables: self.tables()?,
         };
-        let report = Report::new(&question.subjects(self.of.as_ref())?, &self.at)?;
-        if self.json { Ok(json(out, &report)?) } else { Ok(text::write(out, &report)?) }
+        let subjects = question.subjects(self.of.as_ref())?;
+        let report = Report::new(&subjects, &self.at, self.wgsl)?;
+        match (self.json, self.wgsl) {
+            (true, _) => json(out, &report)?,
+            (false, true) => text::write_wgsl(out, &report)?,
+            (false, false) => text::write(out, &report)?,
+        }
+        Ok(())
     }
 
     fn tables(&self) -> anyhow::Result<Vec<Arc<Table>>> {

@@ -1,3 +1,4 @@
+use ppum_testkit::wgsl::Module;
 use serde_json::{Value, json};
 
 use crate::{CRACKED, LINEAR, Lab, keys, with_formulas};
@@ -253,4 +254,64 @@ fn long_derivatives_are_shortened() {
         Lab::new().run_with("formula", &["sin(x*y)^3*exp(x)/(1 + x^2 + y^4)^2*atan2(y, x)^2"]);
     assert!(text.contains("more lines") && text.contains("--json has them"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() < 110), "{text}");
+}
+
+/// Texts that are too deep, too long, or too much to differentiate end in an error or a result.
+#[test]
+fn hostile_formulas() {
+    let lab = Lab::new();
+    let doubled: String = (0..60).map(|k| format!("let a{} = a{k} + a{k}*x;\n", k + 1)).collect();
+    for (text, complaint) in [
+        (format!("{}x{}", "(".repeat(10_000), ")".repeat(10_000)), Some("nested deeper")),
+        ("x+".repeat(500_000), Some("longer than 65536 bytes")),
+        ("let a = a; a".into(), Some("used in its own definition")),
+        (format!("let a0 = y;\n{doubled}a60"), None),
+        ("sin(x)^".repeat(150) + "2", None),
+        ("0/0 + 1/0*x + log(-1)".into(), None),
+    ] {
+        lab.write("f.txt", &text);
+        match complaint {
+            Some(hint) => assert!(lab.fail("formula @f.txt").contains(hint), "{hint}"),
+            None => assert!(lab.run("formula @f.txt --at x=1,y=1").contains("value"), "{text}"),
+        }
+    }
+}
+
+/// The printed module is valid WGSL, and its functions give what `--at` prints, in single precision.
+#[test]
+fn wgsl_is_valid_and_the_same_function() {
+    let lab = Lab::new();
+    lab.write("k.csv", "0,1\n1,3\n2,2\n3,7\n");
+    let [x, y] = [-0.5f32, 0.25];
+    let (r, theta) = (x.hypot(y), y.atan2(x));
+    let plane = [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin()];
+    for (formula, options, function, inputs) in [
+        ("westergaard", "--at x=-0.5,y=0.25", "formula_westergaard_3", &plane[..]),
+        (
+            "boundary-layer",
+            "--at x=-0.5,y=0.25 --parameter epsilon=0.5",
+            "formula_boundary_layer",
+            &plane,
+        ),
+        ("x*table(k, y)^2", "--at x=-0.5,y=0.25 --table k=k.csv", "formula", &plane),
+        ("cubic", "--at t=0.75", "formula_cubic", &[0.75]),
+    ] {
+        let module = lab.run_with(&format!("formula --wgsl {options}"), &[formula]);
+        let found = Module::new(&module).unwrap().call(function, inputs).unwrap();
+        let report = lab.json_with(&format!("formula --wgsl {options}"), &[formula]);
+        let rows = report["formulas"].as_array().unwrap();
+        let row = rows.iter().find(|row| row["wgsl"].as_str().unwrap().contains(function)).unwrap();
+        assert!(module.starts_with(report["wgsl_prelude"].as_str().unwrap()));
+        assert!(module.contains(row["wgsl"].as_str().unwrap()));
+        let exact = values(row);
+        assert_eq!(found.len(), exact.len(), "{formula}");
+        for (found, exact) in found.into_iter().zip(exact) {
+            // some tens of operations, each with a relative error of 2^-24
+            let error = (f64::from(found) - exact).abs();
+            assert!(error <= 1e-5 * (1.0 + exact.abs()), "{formula}: {found} {exact}");
+        }
+    }
+    let quantity = lab.run_with("formula --wgsl", &["sqrt(ux^2 + uy^2)"]);
+    assert!(quantity.contains("-> array<f32, 1>"), "{quantity}");
+    Module::new(&quantity).unwrap();
 }

@@ -1,5 +1,7 @@
 //! Functions and weights replaced while looking.
 
+use ppum_render::colormap::Colormap;
+
 use crate::{CRACKED, LINEAR, Lab, Png};
 
 /// u = x + 2y is a polynomial on every patch: with 2 + x in place of 1 it is (2 + x)(x + 2y).
@@ -13,6 +15,25 @@ fn the_function_one() {
         let [u, slope] = ["u", "du_dx"].map(|name| values[name].as_f64().unwrap());
         assert!((u - 2.5 * 0.75).abs() < 1e-12, "{u}");
         assert!((slope - (0.75 + 2.5)).abs() < 1e-11, "{slope}");
+    }
+}
+
+/// Pictures without any function 1 show the same values.
+#[test]
+fn pixels_without_the_function_one() {
+    let lab = Lab::solved(LINEAR);
+    for precision in ["f64", "f32"] {
+        let options = format!("--size 64x32 --range 0,16 --precision {precision}");
+        let render = format!("render plate.h5 -o a.png -q u {options}");
+        lab.run_with(&render, &["--function", "one=2 + x"]);
+        let (png, map) = (Png::read(&lab.path("a.png")), Colormap::named("viridis").unwrap());
+        for (column, row) in [(0, 0), (63, 0), (0, 31), (63, 31), (20, 7)] {
+            let (x, y) = ((f64::from(column) + 0.5) / 32.0, (31.5 - f64::from(row)) / 32.0);
+            let exact = map.color((2.0 + x) * (x + 2.0 * y) / 16.0);
+            let found = png.pixel(column, row);
+            let near = found.iter().zip(exact).all(|(a, b)| a.abs_diff(b) <= 1);
+            assert!(near, "{column} {row}: {found:?} {exact:?}");
+        }
     }
 }
 

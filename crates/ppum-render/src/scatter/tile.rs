@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use ppum::crack::Side;
+use ppum::formula::Scratch as FormulaScratch;
 use ppum::function::{GROUP, Slot};
 use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
@@ -12,6 +13,9 @@ use super::collapse::{ROWS, splat};
 use super::plan::{COLUMNS, Patch};
 use super::spread::{Collapsed, size};
 
+/// Vectors of points at which formulas are evaluated at a time.
+const VECTORS: usize = 32;
+
 /// Buffers of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch<T> {
@@ -20,6 +24,8 @@ pub(super) struct Scratch<T> {
     pub(super) sums: Vec<T>,
     /// The functions of each active group with derivatives, at the same points.
     pub(super) basis: Vec<T>,
+    /// Working space of formulas.
+    pub(super) formulas: FormulaScratch<T>,
     /// The groups in `basis`.
     pub(super) active: Vec<Active>,
     /// The patch at hand.
@@ -153,7 +159,49 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
         let groups = scratch.basis.chunks_exact_mut(basis_len::<R, D>());
         for (active, basis) in scratch.active.iter().zip(groups) {
-            self.evaluate_group(active, basis, zero);
+            if self.scene.functions.is_native(active.group as usize) {
+                self.evaluate_group(active, basis, zero);
+            } else {
+                self.evaluate_formulas(active, (&mut scratch.formulas, basis), zero);
+            }
+        }
+    }
+
+    /// Formulas at many vectors at a time, so that what a step of them costs is shared.
+    #[inline(always)]
+    fn evaluate_formulas<R: Real<Scalar = T>>(
+        &self,
+        active: &Active,
+        (memory, basis): (&mut FormulaScratch<T>, &mut [T]),
+        zero: R,
+    ) {
+        let [column, row] = self.corner();
+        let mut offsets = [[zero; 2]; VECTORS];
+        let mut places = [0; VECTORS];
+        let mut jets = [[Jet::constant(zero); GROUP]; VECTORS];
+        let (vectors, rows) = (active.part.vectors.clone(), active.part.rows.clone());
+        let count = vectors.len() * rows.len();
+        let mut done = 0;
+        while done < count {
+            let n = VECTORS.min(count - done);
+            let mut k = 0;
+            while k < n {
+                let vector = vectors.start + (done + k) / rows.len();
+                let at = rows.start + (done + k) % rows.len();
+                let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
+                offsets[k] = [x, splat(zero, self.scene.ys[row + at])];
+                places[k] = (vector * ROWS + at) * basis_stride::<R, D>();
+                k += 1;
+            }
+            let group = active.group as usize;
+            let functions = &self.scene.functions;
+            functions.fill::<R, D>(group, &offsets[..n], Side::Above, memory, &mut jets);
+            let mut k = 0;
+            while k < n {
+                store_jets::<R, D>(&jets[k], &mut basis[places[k]..]);
+                k += 1;
+            }
+            done += n;
         }
     }
 

@@ -1,6 +1,7 @@
 //! Evaluators of formulas as the corpus sees them.
 
-use ppum::formula::{Formula, FormulaJets};
+use ppum::formula::{Formula, FormulaJets, Scratch};
+use ppum::real::Scalar as Number;
 
 use super::Case;
 
@@ -71,14 +72,74 @@ impl Backend for Scalar {
     }
 }
 
+/// Blocks of points on lanes, in the precision of `T`.
+///
+/// The case's point stands at several places of a block, other numbers and NaN between them: its results
+/// must not depend on where it stands.
+#[derive(Debug)]
+pub struct Lanes<T> {
+    name: String,
+    scratch: Scratch<T>,
+}
+
+/// Where the case's point stands: first, last, and between, in different lanes of vectors of up to 16.
+const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
+
+impl<T: Number> Lanes<T> {
+    /// The lanes of a number type, called `name`.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), scratch: Scratch::default() }
+    }
+}
+
+impl<T: Number> Backend for Lanes<T> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn evaluate(&mut self, case: &Case) -> Outcome {
+        let f = parse(case);
+        let jets = jets(case, &f);
+        let mut block = jets.block::<T>(&mut self.scratch);
+        for (index, &input) in case.inputs.iter().enumerate() {
+            fill(block.input(index), input);
+        }
+        block.run();
+        let at = |place: usize| -> Vec<f64> {
+            (0..jets.n_outputs()).map(|k| block.output(k)[place].to_f64()).collect()
+        };
+        let first = at(PLACES[0]);
+        for place in PLACES {
+            let here = at(place);
+            let equal = here.iter().zip(&first).all(|(&a, &b)| same(a, b));
+            assert!(equal, "{}: {here:?} at {place}, not {first:?}", case.place);
+        }
+        Outcome::Results(orders(case, &first))
+    }
+}
+
+/// Writes a number to [`PLACES`], and others between them.
+fn fill<T: Number>(to: &mut [T], input: f64) {
+    for (k, to) in to.iter_mut().enumerate() {
+        let other = if k % 3 == 0 { f64::NAN } else { input * 1.25 + k as f64 };
+        *to = T::from_f64(if PLACES.contains(&k) { input } else { other });
+    }
+}
+
+/// The same number to the last bit, or both NaN.
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
 /// Value and derivatives in one program; of more than two variables the value.
-pub(super) fn jets(case: &Case, f: &Formula) -> FormulaJets {
+pub(crate) fn jets(case: &Case, f: &Formula) -> FormulaJets {
     let order = if case.variables.len() > 2 { 0 } else { case.expected.len() - 1 };
     FormulaJets::new(&[f], order).unwrap_or_else(|error| panic!("{}: {error}", case.place))
 }
 
 /// The outputs of a [`FormulaJets`] order by order.
-pub(super) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
     let n = case.variables.len();
     let counts = [1, n, n * (n + 1) / 2];
     let of_order = |count: usize| {
@@ -90,7 +151,7 @@ pub(super) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// The formula of a case.
-pub(super) fn parse(case: &Case) -> Formula {
+pub(crate) fn parse(case: &Case) -> Formula {
     Formula::parse(&case.formula, &case.scope)
         .unwrap_or_else(|error| panic!("{}: {}\n{error}", case.place, case.formula))
 }

@@ -3,7 +3,7 @@
 //!
 //! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
-mod backend;
+pub(crate) mod backend;
 pub mod hostile;
 mod record;
 mod report;
@@ -15,9 +15,9 @@ use std::sync::Arc;
 use ppum::formula::{Scope, Table};
 use record::{Record, records};
 
-pub use backend::{Backend, Derivatives, Outcome, Scalar};
+pub use backend::{Backend, Derivatives, Lanes, Outcome, Scalar};
 pub use report::{Report, check};
-pub use tolerance::{SCALAR, Tolerance};
+pub use tolerance::{LANES, LANES_SINGLE, SCALAR, SHADER, Tolerance};
 
 /// The themes, one file each.
 pub const THEMES: [&str; 11] = [

@@ -29,6 +29,28 @@ pub struct Tolerance {
 pub const SCALAR: Tolerance =
     Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 2.0, rounds_inputs: false };
 
+/// Blocks of points in double precision: the same operations in the same order as [`SCALAR`].
+pub const LANES: Tolerance = SCALAR;
+
+/// Blocks of points in single precision. c = 2 as in [`SCALAR`]. f = 2: functions are found in double
+/// precision and rounded, or wrong by less than one unit in the last place.
+pub const LANES_SINGLE: Tolerance = Tolerance {
+    unit: f32::EPSILON as f64 / 2.0,
+    arithmetic: 2.0,
+    functions: 2.0,
+    rounds_inputs: true,
+};
+
+/// One point in single precision by the texts of WGSL, in an interpreter that rounds functions correctly.
+///
+/// c = 2 as in [`SCALAR`]. f = 4: cube root and common logarithm are made of up to four rounded operations.
+pub const SHADER: Tolerance = Tolerance {
+    unit: f32::EPSILON as f64 / 2.0,
+    arithmetic: 2.0,
+    functions: 4.0,
+    rounds_inputs: true,
+};
+
 impl Tolerance {
     /// The largest allowed difference from `expected`, the corpus' number as a double.
     #[must_use]

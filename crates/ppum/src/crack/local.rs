@@ -212,6 +212,15 @@ impl LocalTip {
 }
 
 impl<R: Real> TipPoint<R> {
+    /// r = √(x² + y²), without overflow or underflow.
+    #[inline(always)]
+    pub fn radius(&self) -> R {
+        let (x, y, zero, one) = (self.x.abs(), self.y.abs(), self.x.lit(0.0), self.x.lit(1.0));
+        let large = x.max(y);
+        let slope = x.min(y) / large;
+        R::select(large.gt(zero), large * slope.mul_add(slope, one).sqrt(), large)
+    }
+
     /// √r cos(θ/2) and √r sin(θ/2), the parts of √z, for `r` = |z|: no trigonometry.
     ///
     /// The larger of the two magnitudes is a root, the smaller follows by division, so nothing cancels
@@ -234,6 +243,14 @@ impl<R: Real> TipPoint<R> {
         let [c, s] = self.half_root(r);
         let (apart, root) = (r.gt(r.lit(0.0)), r.sqrt());
         [R::select(apart, c / root, self.branch), R::select(apart, s / root, s)]
+    }
+
+    /// θ on the branch that jumps on the crack itself, from its [half angle](TipPoint::half_angle):
+    /// 4 arctan(tan(θ/4)). Slow: lanes have no arc tangent.
+    #[inline(always)]
+    pub fn theta([cos_half, sin_half]: [R; 2]) -> R {
+        let one = cos_half.lit(1.0);
+        (sin_half / (one + cos_half)).map(f64::atan) * one.lit(4.0)
     }
 }
 

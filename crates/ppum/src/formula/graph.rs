@@ -395,16 +395,16 @@ impl Graph {
         let mut nodes = Vec::with_capacity(ops.len());
         for op in ops {
             let given = if let Op::Input(index) = op { inputs.get(index) } else { None };
-            let renumbered = op.renumbered(|operand: NodeId| nodes[operand.index()]);
-            nodes.push(given.copied().unwrap_or_else(|| self.made_anew(renumbered)));
+            let node = given.copied();
+            nodes.push(node.unwrap_or_else(|| self.on_operands(*op, |old| nodes[old.index()])));
         }
         nodes
     }
 
-    /// The node of an operation, folded and with its operands in order.
-    fn made_anew(&mut self, op: Op) -> NodeId {
-        match op {
-            Op::Constant(_) | Op::Input(_) | Op::Truth(_) => self.node(op),
+    /// The node of an operation on other operands, folded and with these in order.
+    pub(super) fn on_operands(&mut self, op: Op, new: impl Fn(NodeId) -> NodeId) -> NodeId {
+        match op.renumbered(new) {
+            op @ (Op::Constant(_) | Op::Input(_) | Op::Truth(_)) => self.node(op),
             Op::Unary(op, a) => self.unary(op, a),
             Op::Power(a, n) => self.power(a, n),
             Op::Binary(op, a, b) => self.binary(op, a, b),
@@ -425,7 +425,7 @@ impl Graph {
 }
 
 /// 1/b if multiplying with it is the same as dividing by b: for powers of two.
-fn exact_reciprocal(b: f64) -> Option<f64> {
+pub(super) fn exact_reciprocal(b: f64) -> Option<f64> {
     const MANTISSA: u64 = (1 << 52) - 1;
     let reciprocal = 1.0 / b;
     let is_power_of_two = b.is_normal() && reciprocal.is_normal() && b.to_bits() & MANTISSA == 0;

@@ -21,7 +21,9 @@ use std::sync::Arc;
 use super::derivative::gradients;
 use super::graph::{Graph, NodeId, Op};
 use super::program::Program;
-use super::{DerivativeError, Formula, Scope, check_inputs};
+use super::reciprocal::share_reciprocals;
+use super::tape::Tape;
+use super::{DerivativeError, Formula, Scope, check_inputs, wgsl};
 
 /// Values and derivatives of formulas of one scope.
 ///
@@ -38,6 +40,7 @@ use super::{DerivativeError, Formula, Scope, check_inputs};
 pub struct FormulaJets {
     scope: Arc<Scope>,
     program: Program,
+    tape: Tape,
 }
 
 impl FormulaJets {
@@ -55,8 +58,11 @@ impl FormulaJets {
         let mut graph = Graph::new(scope.tables());
         let roots: Vec<NodeId> =
             formulas.iter().map(|formula| root_in(&mut graph, formula, scope)).collect();
-        let outputs = jets(&mut graph, scope, &roots, order)?;
-        Ok(Self { scope: Arc::clone(scope), program: Program::new(&graph, &outputs) })
+        let mut outputs = jets(&mut graph, scope, &roots, order)?;
+        share_reciprocals(&mut graph, &roots, &mut outputs);
+        let program = Program::new(&graph, &outputs);
+        let tape = Tape::new(&program, scope.n_inputs());
+        Ok(Self { scope: Arc::clone(scope), program, tape })
     }
 
     /// The results at one point, all those of the first formula first. `inputs` has one number for
@@ -73,11 +79,43 @@ impl FormulaJets {
         }
     }
 
+    /// The function of WGSL that computes the results in single precision, to stand in a module together
+    /// with [`wgsl_prelude`](super::wgsl_prelude).
+    ///
+    /// ```wgsl
+    /// fn name(x: f32, y: f32, r: f32, theta: f32, cos_half_theta: f32, sin_half_theta: f32) -> array<f32, 6>
+    /// ```
+    ///
+    /// The parameters are all inputs of the scope in their order, used or not: `side(0)` is called
+    /// `side_0`, and one called `a` by the makers of the scope `in_a`. The results are those of
+    /// [`FormulaJets::evaluate`]. Tables come as functions `table_0_of_name`, …, before it.
+    ///
+    /// `name` has to be a name that WGSL has no meaning for (`f32` has one), beginning with neither
+    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite or 0. Functions are as accurate as
+    /// the device's, infinities and NaN as well kept as the device does. WGSL promises arrays of up to
+    /// 2047 elements, hence tables of that many knots and cells, a quarter of the cells with two arguments.
+    #[must_use]
+    pub fn wgsl(&self, name: &str) -> String {
+        wgsl::function(name, &self.scope, &self.program)
+    }
+
     /// True if a result depends on this input, by its index among [`Scope::inputs`]. A dependent
     /// variable counts by itself only.
     #[must_use]
     pub fn uses(&self, input: usize) -> bool {
         self.program.ops().contains(&Op::Input(input as u32))
+    }
+
+    #[cfg(test)]
+    /// What every back end starts from.
+    #[cfg(test)]
+    pub(super) fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// What lanes run.
+    pub(super) fn tape(&self) -> &Tape {
+        &self.tape
     }
 
     /// Number of results: of formulas times that of each.

@@ -61,12 +61,14 @@
 //! without bound.
 
 mod ast;
+mod block;
 mod derivative;
 mod error;
 mod graph;
 mod half_angle;
 mod jets;
 mod kinks;
+mod lanes;
 mod lexer;
 mod library;
 mod lower;
@@ -74,21 +76,27 @@ mod operation;
 mod parser;
 mod print;
 mod program;
+mod reciprocal;
 mod roots;
 mod scope;
 mod substitute;
 mod table;
+mod tape;
 #[cfg(test)]
 mod tests;
+mod wgsl;
 
 use std::fmt;
 use std::sync::Arc;
 
+pub use block::{Block, Scratch};
 pub use error::{FormulaError, Problem};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
+pub(crate) use lanes::Interpret;
 pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
+pub use wgsl::wgsl_prelude;
 
 use derivative::gradients;
 use graph::{Graph, NodeId};

@@ -26,6 +26,11 @@ impl Program {
         Graph::from_ops(&self.ops, Arc::clone(&self.tables))
     }
 
+    /// The tables its operations refer to.
+    pub(super) fn tables(&self) -> &Arc<[Arc<Table>]> {
+        &self.tables
+    }
+
     /// The operations.
     pub(super) fn ops(&self) -> &[Op] {
         &self.ops
@@ -42,32 +47,32 @@ impl Program {
         values.clear();
         values.reserve(self.ops.len());
         for &op in &self.ops {
-            let value = execute(op, inputs, values, &self.tables);
+            let value = self.execute(op, inputs, values);
             values.push(value);
         }
     }
-}
 
-/// The result of one operation; `values` are those of the earlier ones.
-#[inline]
-fn execute(op: Op, inputs: &[f64], values: &[f64], tables: &[Arc<Table>]) -> f64 {
-    let at = |id: NodeId| values[id.index()];
-    let holds = |id: NodeId| values[id.index()] > 0.0;
-    match op {
-        Op::Constant(bits) => f64::from_bits(bits),
-        Op::Input(index) => inputs[index as usize],
-        Op::Unary(op, a) => op.apply(at(a)),
-        Op::Power(a, n) => super::operation::power(at(a), n),
-        Op::Binary(op, a, b) => op.apply(at(a), at(b)),
-        Op::Table { table, orders, x, y } => {
-            tables[table as usize].derivative(orders, at(x), y.map_or(0.0, at))
+    /// The result of one operation; `values` are those of the earlier ones.
+    #[inline]
+    pub(super) fn execute(&self, op: Op, inputs: &[f64], values: &[f64]) -> f64 {
+        let at = |id: NodeId| values[id.index()];
+        let holds = |id: NodeId| values[id.index()] > 0.0;
+        match op {
+            Op::Constant(bits) => f64::from_bits(bits),
+            Op::Input(index) => inputs[index as usize],
+            Op::Unary(op, a) => op.apply(at(a)),
+            Op::Power(a, n) => super::operation::power(at(a), n),
+            Op::Binary(op, a, b) => op.apply(at(a), at(b)),
+            Op::Table { table, orders, x, y } => {
+                self.tables[table as usize].derivative(orders, at(x), y.map_or(0.0, at))
+            }
+            Op::Select(c, a, b) => at(if holds(c) { a } else { b }),
+            Op::Truth(known) => truth(known),
+            Op::Compare(op, a, b) => truth(op.holds(at(a), at(b))),
+            Op::Not(c) => truth(!holds(c)),
+            Op::And(a, b) => truth(holds(a) && holds(b)),
+            Op::Or(a, b) => truth(holds(a) || holds(b)),
         }
-        Op::Select(c, a, b) => at(if holds(c) { a } else { b }),
-        Op::Truth(known) => truth(known),
-        Op::Compare(op, a, b) => truth(op.holds(at(a), at(b))),
-        Op::Not(c) => truth(!holds(c)),
-        Op::And(a, b) => truth(holds(a) && holds(b)),
-        Op::Or(a, b) => truth(holds(a) || holds(b)),
     }
 }
 

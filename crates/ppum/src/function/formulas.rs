@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Frame;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
-use crate::formula::{DerivativeError, Formula, FormulaJets};
+use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
 use crate::vec2::{Vec2, vec2};
@@ -23,29 +23,29 @@ struct Compiled {
     formulas: Vec<Formula>,
     /// With 0, 1 and 2 derivatives.
     jets: [FormulaJets; 3],
-    /// Whether θ itself is used, which costs an arc tangent.
-    theta: bool,
-    /// Whether the side of each crack is used.
-    sides: Vec<bool>,
+    /// Whether each input is used: x, y, r, θ, cos(θ/2), sin(θ/2), the sides of the cracks.
+    uses: Vec<bool>,
 }
+
+/// Index of θ among the inputs; it costs an arc tangent.
+const THETA: usize = 3;
+
+/// Number of inputs before the sides of cracks.
+const POLAR: usize = 6;
 
 impl Formulas {
     /// Compiles formulas of one scope.
-    pub(super) fn new(
-        formulas: Vec<Formula>,
-        frame: Frame,
-        cracks: usize,
-    ) -> Result<Self, DerivativeError> {
+    pub(super) fn new(formulas: Vec<Formula>, frame: Frame) -> Result<Self, DerivativeError> {
         let all: Vec<_> = formulas.iter().collect();
         let uses = |name: &str| formulas.iter().any(|formula| formula.uses(name));
+        let uses = formulas[0].scope().inputs().map(uses).collect();
         let compiled = Compiled {
             jets: [
                 FormulaJets::new(&all, 0)?,
                 FormulaJets::new(&all, 1)?,
                 FormulaJets::new(&all, 2)?,
             ],
-            theta: uses("theta"),
-            sides: (0..cracks).map(|k| uses(&format!("side({k})"))).collect(),
+            uses,
             formulas,
         };
         Ok(Self { compiled: Arc::new(compiled), frame })
@@ -68,7 +68,7 @@ impl Formulas {
         LocalFormulas {
             compiled: &self.compiled,
             frame: LocalFrame::new(cracks, self.frame, anchor),
-            cracks: cracks.iter().zip(&self.compiled.sides).map(used).collect(),
+            cracks: cracks.iter().zip(&self.compiled.uses[POLAR..]).map(used).collect(),
         }
     }
 }
@@ -95,14 +95,18 @@ impl LocalFrame {
 
     /// The point `anchor + offset` in the frame. In a fixed frame the negative x axis belongs to the
     /// upper side, θ = +π.
-    fn point(&self, offset: Vec2, side: Side) -> TipPoint<f64> {
+    #[inline(always)]
+    fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
         match self {
             Self::Fixed { from_origin, axis } => {
-                let d = *from_origin + offset;
-                let (x, y) = (axis.dot(d), axis.cross(d));
-                TipPoint { x, y, sign: if y >= 0.0 { 1.0 } else { -1.0 }, branch: 1.0 }
+                let one = offset[0].lit(1.0);
+                let (c, s) = (one.lit(axis.x), one.lit(axis.y));
+                let dx = offset[0] + one.lit(from_origin.x);
+                let dy = offset[1] + one.lit(from_origin.y);
+                let (x, y) = (c.mul_add(dx, s * dy), c * dy - s * dx);
+                TipPoint { x, y, sign: R::sign(y.ge(one.lit(0.0)), one), branch: one }
             }
-            Self::Tip(tip) => tip.point([offset.x, offset.y], side),
+            Self::Tip(tip) => tip.point(offset, side),
         }
     }
 
@@ -124,53 +128,123 @@ pub(super) struct LocalFormulas<'t> {
 }
 
 impl LocalFormulas<'_> {
-    /// The inputs of the formulas at a point; NaN for those they do not use.
-    fn inputs(&self, offset: Vec2, side: Side, inputs: &mut Vec<f64>) {
-        let p = self.frame.point(offset, side);
-        let r = p.x.hypot(p.y);
-        let theta = if self.compiled.theta { p.polar().1 } else { f64::NAN };
-        let [cos_half, sin_half] = p.half_angle(r);
-        inputs.clear();
-        inputs.extend([p.x, p.y, r, theta, cos_half, sin_half]);
-        let side_of = |crack: &LocalCrack| crack.side([offset.x, offset.y], side);
-        inputs.extend(self.cracks.iter().map(|crack| crack.as_ref().map_or(f64::NAN, side_of)));
+    fn len(&self) -> usize {
+        self.compiled.formulas.len()
     }
 
-    /// The functions at the lanes of `offset`, one lane after the other.
+    /// The functions at one point or at one vector of points, one lane after the other.
     pub(super) fn evaluate<R: Real, const D: usize>(
         &self,
         offset: [R; 2],
         side: Side,
         out: &mut [Jet<R>],
     ) {
-        let [mut xs, mut ys] = [[R::Scalar::default(); 16]; 2];
-        offset[0].store(&mut xs);
-        offset[1].store(&mut ys);
-        let mut lanes = [[[R::Scalar::default(); 16]; 6]; GROUP];
-        let (mut inputs, mut scratch) = (Vec::new(), Vec::new());
-        let axis = self.frame.axis();
+        let like = offset[0];
+        let uses = self.compiled.uses.as_slice();
         let jets = &self.compiled.jets[D];
-        let size = [1, 3, 6][D];
-        let mut results = [0.0; 6 * GROUP];
-        let results = &mut results[..jets.n_outputs()];
-        for k in 0..R::LANES {
-            let point = vec2(xs[k].to_f64(), ys[k].to_f64());
-            self.inputs(point, side, &mut inputs);
-            jets.evaluate(&inputs, &mut scratch, results);
-            for (lanes, results) in lanes.iter_mut().zip(results.chunks_exact(size)) {
-                let mut all = [0.0; 6];
-                all[..size].copy_from_slice(results);
-                let [v, x, y, xx, xy, yy] = all;
-                let world = Jet { v, x, y, xx, xy, yy }.turned::<D>(axis.x, axis.y);
-                let world = [world.v, world.x, world.y, world.xx, world.xy, world.yy];
-                for (lane, value) in lanes.iter_mut().zip(world) {
-                    lane[k] = R::Scalar::from_f64(value);
-                }
+        // 16 lanes are the widest vector there is.
+        let mut rows = vec![[R::Scalar::default(); 16]; uses.len()];
+        let polar = self.polar(offset, side);
+        for (index, row) in rows.iter_mut().enumerate() {
+            self.input(index, &polar, offset, side).store(row);
+        }
+        let mut results = vec![[R::Scalar::default(); 16]; jets.n_outputs()];
+        let (mut inputs, mut scratch) = (vec![0.0; uses.len()], Vec::new());
+        let mut numbers = vec![0.0; jets.n_outputs()];
+        for lane in 0..R::LANES {
+            inputs.iter_mut().zip(&rows).for_each(|(input, row)| *input = row[lane].to_f64());
+            jets.evaluate(&inputs, &mut scratch, &mut numbers);
+            for (row, &number) in results.iter_mut().zip(&numbers) {
+                row[lane] = R::Scalar::from_f64(number);
             }
         }
-        for (out, lanes) in out.iter_mut().zip(&lanes).take(self.compiled.formulas.len()) {
-            let [v, x, y, xx, xy, yy] = lanes.map(|lane| offset[0].load(&lane));
-            *out = Jet { v, x, y, xx, xy, yy };
+        let axis = self.frame.axis();
+        for (entry, out) in out.iter_mut().enumerate().take(self.len()) {
+            let rows = &results[entry * SIZE[D]..];
+            let mut values = [like.lit(0.0); 6];
+            values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(v, row)| *v = like.load(row));
+            *out = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
         }
     }
+
+    /// The functions at many vectors of points, block by block.
+    #[inline(always)]
+    pub(super) fn fill<R: Real, const D: usize>(
+        &self,
+        offsets: &[[R; 2]],
+        side: Side,
+        scratch: &mut Scratch<R::Scalar>,
+        out: &mut [[Jet<R>; GROUP]],
+    ) {
+        let mut block = self.compiled.jets[D].block(scratch);
+        let per_block = Block::<R::Scalar>::POINTS / R::LANES;
+        let (axis, mut first) = (self.frame.axis(), 0);
+        while first < offsets.len() {
+            let n = per_block.min(offsets.len() - first);
+            let mut k = 0;
+            while k < n {
+                let offset = offsets[first + k];
+                let polar = self.polar(offset, side);
+                let mut index = 0;
+                while index < self.compiled.uses.len() {
+                    if self.compiled.uses[index] {
+                        let value = self.input(index, &polar, offset, side);
+                        value.store(&mut block.input(index)[k * R::LANES..]);
+                    }
+                    index += 1;
+                }
+                k += 1;
+            }
+            block.run();
+            k = 0;
+            while k < n {
+                let like = offsets[first + k][0];
+                let (c, s) = (like.lit(axis.x), like.lit(axis.y));
+                let mut entry = 0;
+                while entry < self.len() {
+                    let (mut values, mut j) = ([like.lit(0.0); 6], 0);
+                    while j < SIZE[D] {
+                        let row = block.output(entry * SIZE[D] + j);
+                        values[j] = like.load(&row[k * R::LANES..]);
+                        j += 1;
+                    }
+                    out[first + k][entry] = jet(values).turned::<D>(c, s);
+                    entry += 1;
+                }
+                k += 1;
+            }
+            first += n;
+        }
+    }
+
+    /// The inputs before the sides of cracks, at a point.
+    #[inline(always)]
+    fn polar<R: Real>(&self, offset: [R; 2], side: Side) -> [R; POLAR] {
+        let p = self.frame.point(offset, side);
+        let r = p.radius();
+        let half @ [cos_half, sin_half] = p.half_angle(r);
+        let theta = if self.compiled.uses[THETA] { TipPoint::theta(half) } else { r };
+        [p.x, p.y, r, theta, cos_half, sin_half]
+    }
+
+    /// The input of an index; that of a side of a crack that is not used has no meaning.
+    #[inline(always)]
+    fn input<R: Real>(&self, index: usize, polar: &[R; POLAR], offset: [R; 2], side: Side) -> R {
+        if index < POLAR {
+            return polar[index];
+        }
+        match &self.cracks[index - POLAR] {
+            Some(crack) => crack.side(offset, side),
+            None => offset[0],
+        }
+    }
+}
+
+/// Numbers of a jet of order D.
+const SIZE: [usize; 3] = [1, 3, 6];
+
+/// The jet of a sequence of values and derivatives.
+#[inline(always)]
+fn jet<R: Real>([v, x, y, xx, xy, yy]: [R; 6]) -> Jet<R> {
+    Jet { v, x, y, xx, xy, yy }
 }

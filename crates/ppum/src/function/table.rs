@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::formulas::{Formulas, LocalFormulas};
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
-use crate::formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Table};
+use crate::formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::vec2::Vec2;
@@ -180,8 +180,9 @@ impl<'a> Compiler<'a> {
                     });
                     Group::Formulas(match like {
                         Some(known) => known,
-                        None => Formulas::new(formulas, frame, self.cracks)
-                            .map_err(|e| error(first, e.into()))?,
+                        None => {
+                            Formulas::new(formulas, frame).map_err(|e| error(first, e.into()))?
+                        }
                     })
                 }
             });
@@ -303,5 +304,32 @@ impl<'t> LocalFunctions<'t> {
             }
             LocalGroup::Formulas(formulas) => formulas.evaluate::<R, D>(offset, side, out),
         }
+    }
+
+    /// Fills the jets of one group at many vectors of points: faster than one by one for formulas.
+    #[inline(always)]
+    pub fn fill<R: Real, const D: usize>(
+        &self,
+        group: usize,
+        offsets: &[[R; 2]],
+        side: Side,
+        scratch: &mut Scratch<R::Scalar>,
+        out: &mut [[Jet<R>; GROUP]],
+    ) {
+        if let LocalGroup::Formulas(formulas) = &self.groups[group] {
+            formulas.fill::<R, D>(offsets, side, scratch, out);
+            return;
+        }
+        let mut k = 0;
+        while k < offsets.len() {
+            self.evaluate::<R, D>(group, offsets[k], side, &mut out[k]);
+            k += 1;
+        }
+    }
+
+    /// True if a group is evaluated by a kernel, not by formulas.
+    #[must_use]
+    pub fn is_native(&self, group: usize) -> bool {
+        !matches!(self.groups[group], LocalGroup::Formulas(_))
     }
 }

@@ -200,6 +200,7 @@ impl QuantityFormula {
     /// The value; +∞ where the field has no gradient but the formula needs it.
     #[inline(always)]
     pub(super) fn evaluate<R: Real>(&self, at: &Sample<'_, R>) -> R {
+        // 16 lanes are the widest vector there is.
         let mut lanes = vec![[R::Scalar::default(); 16]; self.inputs.len()];
         for ((_, input), lanes) in self.inputs.iter().zip(&mut lanes) {
             input.value(at).store(lanes);
@@ -212,7 +213,7 @@ impl QuantityFormula {
         R::select(slope.ge(slope), value, value.lit(f64::INFINITY))
     }
 
-    /// The values of some lanes. 16 lanes are the widest vector there is.
+    /// The values of some lanes, one after the other.
     fn lanes<R: Real>(&self, lanes: &[[R::Scalar; 16]]) -> [R::Scalar; 16] {
         let mut out = [R::Scalar::default(); 16];
         let (mut values, mut scratch) = (vec![0.0; self.n_inputs], Vec::new());

@@ -1,6 +1,6 @@
 //! What `ppum formula` tells, in the shape of its JSON.
 
-use ppum::formula::{DerivativeError, Formula, FormulaJets, Kink};
+use ppum::formula::{DerivativeError, Formula, FormulaJets, Kink, wgsl_prelude};
 use ppum::weight::WeightFunction;
 use serde::Serialize;
 
@@ -12,6 +12,9 @@ use crate::number::Number;
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     pub(super) formulas: Vec<Row>,
+    /// What the functions of WGSL call.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) wgsl_prelude: Option<&'static str>,
 }
 
 /// A formula and what is known of it.
@@ -39,6 +42,9 @@ pub(super) struct Row {
     /// Of a formula of t: why it is no weight function.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) not_a_weight: Option<String>,
+    /// The function of WGSL.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) wgsl: Option<String>,
     /// The point of the values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) at: Option<Point>,
@@ -75,11 +81,27 @@ pub(super) fn parameters<'p>(parameters: impl Iterator<Item = (&'p str, f64)>) -
 }
 
 impl Report {
-    /// Everything about some formulas, with values if a point is given.
-    pub(super) fn new(subjects: &[Subject], at: &[(String, f64)]) -> anyhow::Result<Self> {
-        let formulas = subjects.iter().map(|subject| Row::new(subject, at));
-        Ok(Self { formulas: formulas.collect::<Result<_, _>>()? })
+    /// Everything about some formulas, with values if a point is given, and with WGSL if that is wanted.
+    pub(super) fn new(
+        subjects: &[Subject],
+        at: &[(String, f64)],
+        wgsl: bool,
+    ) -> anyhow::Result<Self> {
+        let row = |subject: &Subject| {
+            let wgsl = wgsl.then(|| self::wgsl(subject)).transpose()?;
+            Ok(Row { wgsl, ..Row::new(subject, at)? })
+        };
+        let formulas: anyhow::Result<_> = subjects.iter().map(row).collect();
+        Ok(Self { formulas: formulas?, wgsl_prelude: wgsl.then(wgsl_prelude) })
     }
+}
+
+/// The function with all derivatives that are shown.
+fn wgsl(subject: &Subject) -> Result<String, DerivativeError> {
+    let name = subject.name.as_deref().map_or(String::new(), |name| format!("_{name}"));
+    let name: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let jets = FormulaJets::new(&[&subject.formula], subject.order())?;
+    Ok(jets.wgsl(&format!("formula{name}")))
 }
 
 impl Row {
@@ -102,13 +124,14 @@ impl Row {
             ),
             uses: uses(formula),
             derivatives: derivatives.iter().map(shown).collect(),
-            operations: operations(formula, variables),
+            operations: operations(formula, subject.order()),
             kinks: sets(formula.kinks()),
             singularities: sets(formula.singularities()),
             singular_at_origin: formula.singular_at_origin(),
             jumps_with_theta: formula.uses_branch(),
             breakpoints: is_weight.then(|| formula.breakpoints(0.0, 1.0)),
             not_a_weight: not_a_weight(formula).filter(|_| is_weight),
+            wgsl: None,
             at,
         })
     }
@@ -132,9 +155,8 @@ fn derivatives(
     Ok(all)
 }
 
-/// Operations of one evaluation, with no, with first and with second derivatives.
-fn operations(formula: &Formula, variables: &[String]) -> Vec<usize> {
-    let last = if variables.is_empty() { 0 } else { 2 };
+/// Operations of one evaluation, with no, with first and with second derivatives, up to an order.
+fn operations(formula: &Formula, last: usize) -> Vec<usize> {
     let jets = (0..=last).map(|order| FormulaJets::new(&[formula], order));
     jets.map_while(Result::ok).map(|jets| jets.n_operations()).collect()
 }

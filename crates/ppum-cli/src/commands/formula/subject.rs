@@ -82,6 +82,11 @@ impl Subject {
         let (of, parameters) = (of.clone(), parameters.to_vec());
         Self { of, name, formula, parameters, variables }
     }
+
+    /// The highest order of derivatives.
+    pub(super) fn order(&self) -> usize {
+        if self.variables.is_empty() { 0 } else { 2 }
+    }
 }
 
 /// What was asked for.

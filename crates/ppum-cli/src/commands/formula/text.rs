@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use ppum::formula::one_line;
+
 use super::report::{Derivative, Report, Row, Set};
 use crate::number::trimmed;
 
@@ -18,6 +20,17 @@ pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             writeln!(out)?;
         }
         Page(out).formula(row)?;
+    }
+    Ok(())
+}
+
+/// A module of WGSL: the functions, each with its formula above, and what they call.
+pub(super) fn write_wgsl(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    write!(out, "{}", report.wgsl_prelude.unwrap_or_default())?;
+    for row in &report.formulas {
+        let by: Vec<_> = row.derivatives.iter().map(symbol).collect();
+        writeln!(out, "\n// {}: {}", one_line(&row.text), by.join(", "))?;
+        write!(out, "{}", row.wgsl.as_deref().unwrap_or_default())?;
     }
     Ok(())
 }

@@ -224,7 +224,8 @@ fn hostile_level_functions_end_and_keep_the_area() {
 #[test]
 fn a_curve_on_borders_cuts_nothing() {
     let case = Case::new(uniform(2), Vec::new(), Vec::new());
-    let kinks = [curve(|p| p.y - 0.5), curve(|p| 3.0 * (p.x + 0.5))];
+    let rounding = curve(|p| (p.x + p.y) - p.x - 0.5);
+    let kinks = [rounding, curve(|p| 3.0 * (p.x + 0.5))];
     let geometry = Geometry { kinks: &kinks, common_kinks: &[0, 1], ..case.geometry() };
     let orders = Orders::uniform(4);
     assert_eq!(n_points(&rules(geometry, orders)), n_points(&case.rules(orders)));
@@ -232,9 +233,13 @@ fn a_curve_on_borders_cuts_nothing() {
 
 #[test]
 fn curves_around_and_through_singular_points() {
-    for (lambda, beta) in
-        [(0.5, 2.0), (0.25, PI.sqrt() * 1.225_416_702_465_177_6 / 0.906_402_477_055_477)]
-    {
+    // λ, Γ(λ + 1/2) and Γ(λ + 1): ∫ cos^(2λ) over half a turn is √π times their quotient
+    for (lambda, above, below) in [
+        (0.5, 1.0, 0.5 * PI.sqrt()),
+        (0.25, 1.225_416_702_465_177_6, 0.906_402_477_055_477),
+        (0.1, 1.489_192_248_812_817, 0.951_350_769_866_873_2),
+    ] {
+        let beta = PI.sqrt() * above / below;
         let growth =
             if lambda == 0.5 { Growth::HalfPowers } else { Growth::Powers { least: lambda } };
         let tip = vec2(0.07, -0.03);
@@ -259,7 +264,8 @@ fn curves_around_and_through_singular_points() {
         for kink in circles(tip + way, r) {
             let value = relative(kink, &|p| p.dot(p) < 2.0 * p.dot(way));
             let exact = (2.0 * r).powf(2.0 * lambda) / (2.0 * lambda) * beta;
-            assert_near(value, exact, 1e-9 * exact, &format!("through, λ = {lambda}"));
+            let tolerance = if lambda < 0.25 { 1e-8 } else { 1e-9 };
+            assert_near(value, exact, tolerance * exact, &format!("through, λ = {lambda}"));
         }
     }
 }

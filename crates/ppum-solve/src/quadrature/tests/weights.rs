@@ -106,3 +106,22 @@ fn only_overlaps_are_divided_and_only_where_functions_vary() {
     assert_eq!(counts[1..5], [(2, 3 * 36); 4]);
     assert_eq!(counts[5..], [(4, 9 * 36); 4]);
 }
+
+#[test]
+fn discs_have_the_points_that_the_weight_needs() {
+    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let points = |orders: Orders| {
+        let quadrature = case.quadrature(orders);
+        let (center, radius) = (vec2(0.1, 0.2), 0.5);
+        let rules = |c: &Rect| quadrature.disc(c, &coverers(&case.partition, c), center, radius, 8);
+        let rules: Vec<Rule> = case.partition.cell.iter().flat_map(rules).collect();
+        let (overlaps, rest): (Vec<_>, Vec<_>) =
+            rules.into_iter().partition(|r| r.patches.len() > 1);
+        (n_points(&overlaps), n_points(&rest))
+    };
+    let default = Orders::for_degree(1);
+    let (few, alone) = points(default);
+    assert_eq!(points(Orders { overlap: 8, ..default }), (few, alone));
+    let (more, same) = points(Orders { overlap: 16, ..default });
+    assert!(more > few && same == alone);
+}

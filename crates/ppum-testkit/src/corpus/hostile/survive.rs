@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
-use ppum::formula::{Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope};
+use ppum::formula::{
+    Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope, Scratch, wgsl_prelude,
+};
+use ppum::real::Scalar as Number;
 
 use crate::corpus::tables;
 use crate::random::Random;
+use crate::wgsl::Module;
 
 /// The scopes texts are tried in, and the points.
 #[derive(Debug)]
@@ -53,6 +57,9 @@ const POINTS: usize = 4;
 
 /// Longest program whose derivative is printed and parsed again: more takes long, and is no different.
 const PRINTED: usize = 4_000;
+
+/// Longest program whose text of WGSL is validated and run.
+const SHADED: usize = 400;
 
 /// Most sets whose places are searched: each costs thousands of evaluations.
 const SEARCHED: usize = 8;
@@ -137,10 +144,55 @@ fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
         jets.evaluate(inputs, &mut scratch, &mut out);
         same(out[0], *value, "value of the jet")?;
     }
+    on_lanes(&jets, &points, &mut scratch)?;
+    if jets.n_operations() <= SHADED {
+        in_a_shader(&jets, &points)?;
+    }
     if jets.n_operations() <= PRINTED {
         check_print(formula)?;
     }
     Ok(Fate::Evaluated)
+}
+
+/// Blocks of both precisions run; in double precision their results are those of single points.
+fn on_lanes(jets: &FormulaJets, points: &[Vec<f64>], scratch: &mut Vec<f64>) -> Result<(), String> {
+    let doubles = lanes::<f64>(jets, points);
+    let _ = lanes::<f32>(jets, points);
+    let mut out = vec![0.0; jets.n_outputs()];
+    for (inputs, found) in points.iter().zip(doubles) {
+        jets.evaluate(inputs, scratch, &mut out);
+        for (a, b) in out.iter().zip(found) {
+            same(*a, b, "a point and a lane")?;
+        }
+    }
+    Ok(())
+}
+
+/// All results at some points of a block.
+fn lanes<T: Number>(jets: &FormulaJets, points: &[Vec<f64>]) -> Vec<Vec<T>> {
+    let mut scratch = Scratch::default();
+    let mut block = jets.block::<T>(&mut scratch);
+    for index in 0..points[0].len() {
+        let input = block.input(index);
+        input.fill(T::from_f64(points[0][index]));
+        for (to, point) in input.iter_mut().zip(points) {
+            *to = T::from_f64(point[index]);
+        }
+    }
+    block.run();
+    let at = |place: usize| (0..jets.n_outputs()).map(|k| block.output(k)[place]).collect();
+    (0..points.len()).map(at).collect()
+}
+
+/// The text of WGSL is valid, and runs.
+fn in_a_shader(jets: &FormulaJets, points: &[Vec<f64>]) -> Result<(), String> {
+    let source = wgsl_prelude().to_owned() + &jets.wgsl("f");
+    let module = Module::new(&source)?;
+    for point in points {
+        let inputs: Vec<f32> = point.iter().map(|&input| input as f32).collect();
+        module.call("f", &inputs)?;
+    }
+    Ok(())
 }
 
 /// What is asked of formulas besides their values: any answer will do.

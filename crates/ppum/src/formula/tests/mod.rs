@@ -6,6 +6,7 @@ mod half_angle;
 mod hostile;
 mod jets;
 mod kinks;
+mod lanes;
 mod language;
 mod random;
 mod sides;

@@ -7,26 +7,26 @@ use crate::formula::Table;
 use super::{Formula, Scope, jet_at, jets, polar, same};
 
 /// A small generator of random numbers (xorshift64*, Vigna 2016): the same sequence everywhere.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub(super) fn next(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         (self.next() >> 33) as usize % n
     }
 
     /// In [a, b).
-    fn between(&mut self, a: f64, b: f64) -> f64 {
+    pub(super) fn between(&mut self, a: f64, b: f64) -> f64 {
         a + (b - a) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+    pub(super) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }
 }
@@ -34,7 +34,7 @@ impl Random {
 /// Value, gradient and Hessian carried along numerically (order v, x, y, xx, xy, yy): an evaluation
 /// that shares nothing with the graph.
 #[derive(Clone, Copy)]
-struct Jet([f64; 6]);
+pub(super) struct Jet([f64; 6]);
 
 impl Jet {
     fn constant(v: f64) -> Self {
@@ -93,14 +93,14 @@ impl Jet {
 }
 
 /// A random formula: its text and its jet at a point.
-struct Sample {
-    text: String,
+pub(super) struct Sample {
+    pub(super) text: String,
     jet: Jet,
     /// Largest number met on the way: bounds the rounding errors.
-    largest: f64,
+    pub(super) largest: f64,
 }
 
-fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sample {
+pub(super) fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sample {
     if depth == 0 || random.below(8) == 0 {
         return leaf(random, point);
     }
@@ -194,7 +194,7 @@ fn join(random: &mut Random, a: Sample, b: Sample) -> Sample {
     node(text, jet, &[a.largest, b.largest, excluded(tied)])
 }
 
-fn point(x: f64, y: f64) -> [Jet; 4] {
+pub(super) fn point(x: f64, y: f64) -> [Jet; 4] {
     let [_, _, r, theta, ..] = polar(x, y);
     let (c, s) = (x / r, y / r);
     [
@@ -213,7 +213,7 @@ fn point(x: f64, y: f64) -> [Jet; 4] {
 }
 
 /// Polar coordinates and k(x) = x³ − 2x on [−2, 3].
-fn scope() -> Scope {
+pub(super) fn scope() -> Scope {
     let knots = [-2.0, -0.5, 1.0, 2.0, 3.0];
     let values = knots.iter().map(|x: &f64| x.powi(3) - 2.0 * x).collect();
     let table = Table::curve("k", knots.to_vec(), values).expect("valid");

@@ -1,0 +1,189 @@
+//! The walk over naga's representation of a function.
+
+use naga::{Arena, Block, Expression, Function, Handle, Module, Statement, TypeInner};
+
+use super::value::{Value, binary, math, unary, unknown};
+
+/// One call of a function.
+pub(super) struct Frame<'m> {
+    module: &'m Module,
+    function: &'m Function,
+    arguments: Vec<Value>,
+    variables: Vec<Option<Value>>,
+    /// Results of the expressions that were emitted.
+    results: Vec<Option<Value>>,
+}
+
+/// Where execution goes after a statement.
+enum Flow {
+    On,
+    Break,
+    Continue,
+    Return(Option<Value>),
+}
+
+impl<'m> Frame<'m> {
+    /// The result of a function.
+    pub(super) fn call(
+        module: &'m Module,
+        function: &'m Function,
+        arguments: Vec<Value>,
+    ) -> Result<Value, String> {
+        let (given, expected) = (arguments.len(), function.arguments.len());
+        if given != expected {
+            return Err(format!("{given} arguments, not {expected}"));
+        }
+        let variables = vec![None; function.local_variables.len()];
+        let results = vec![None; function.expressions.len()];
+        let mut frame = Self { module, function, arguments, variables, results };
+        frame.initialize()?;
+        match frame.block(&function.body)? {
+            Flow::Return(Some(value)) => Ok(value),
+            _ => Err("no result".to_owned()),
+        }
+    }
+
+    fn initialize(&mut self) -> Result<(), String> {
+        for (handle, variable) in self.function.local_variables.iter() {
+            let init = variable.init.map(|init| self.value(init)).transpose()?;
+            self.variables[handle.index()] = init;
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, block: &'m Block) -> Result<Flow, String> {
+        for statement in block.iter() {
+            match self.statement(statement)? {
+                Flow::On => {}
+                other => return Ok(other),
+            }
+        }
+        Ok(Flow::On)
+    }
+
+    fn statement(&mut self, statement: &'m Statement) -> Result<Flow, String> {
+        match statement {
+            Statement::Emit(range) => {
+                for handle in range.clone() {
+                    self.results[handle.index()] = Some(self.evaluate(handle)?);
+                }
+            }
+            Statement::Block(block) => return self.block(block),
+            Statement::If { condition, accept, reject } => {
+                let holds = self.value(*condition)?.holds()?;
+                return self.block(if holds { accept } else { reject });
+            }
+            Statement::Loop { body, continuing, break_if } => {
+                return self.repeat(body, continuing, *break_if);
+            }
+            Statement::Break => return Ok(Flow::Break),
+            Statement::Continue => return Ok(Flow::Continue),
+            Statement::Return { value } => {
+                return Ok(Flow::Return(value.map(|value| self.value(value)).transpose()?));
+            }
+            Statement::Store { pointer, value } => {
+                let Value::Pointer(variable) = self.value(*pointer)? else {
+                    return unknown(statement);
+                };
+                self.variables[variable.index()] = Some(self.value(*value)?);
+            }
+            Statement::Call { function, arguments, result: Some(result) } => {
+                let arguments: Result<_, _> = arguments.iter().map(|&a| self.value(a)).collect();
+                let function = &self.module.functions[*function];
+                self.results[result.index()] = Some(Self::call(self.module, function, arguments?)?);
+            }
+            other => return unknown(other),
+        }
+        Ok(Flow::On)
+    }
+
+    fn repeat(
+        &mut self,
+        body: &'m Block,
+        continuing: &'m Block,
+        break_if: Option<Handle<Expression>>,
+    ) -> Result<Flow, String> {
+        loop {
+            match self.block(body)? {
+                Flow::On | Flow::Continue => {}
+                Flow::Break => return Ok(Flow::On),
+                done @ Flow::Return(_) => return Ok(done),
+            }
+            self.block(continuing)?;
+            if let Some(condition) = break_if
+                && self.value(condition)?.holds()?
+            {
+                return Ok(Flow::On);
+            }
+        }
+    }
+
+    /// What an expression has given, or gives whenever it is asked.
+    fn value(&self, handle: Handle<Expression>) -> Result<Value, String> {
+        match &self.results[handle.index()] {
+            Some(value) => Ok(value.clone()),
+            None => self.evaluate(handle),
+        }
+    }
+
+    fn evaluate(&self, handle: Handle<Expression>) -> Result<Value, String> {
+        let at = |handle: Handle<Expression>| self.value(handle);
+        match &self.function.expressions[handle] {
+            Expression::FunctionArgument(index) => Ok(self.arguments[*index as usize].clone()),
+            Expression::LocalVariable(variable) => Ok(Value::Pointer(*variable)),
+            Expression::Load { pointer } => match at(*pointer)? {
+                Value::Pointer(variable) => {
+                    let value = self.variables[variable.index()].clone();
+                    value.ok_or_else(|| "a variable is read before it is written".to_owned())
+                }
+                other => unknown(other),
+            },
+            Expression::Access { base, index } => self.element(*base, at(*index)?.index()?),
+            Expression::AccessIndex { base, index } => self.element(*base, *index as usize),
+            Expression::Unary { op, expr } => unary(*op, &at(*expr)?),
+            Expression::Binary { op, left, right } => binary(*op, &at(*left)?, &at(*right)?),
+            Expression::Select { condition, accept, reject } => {
+                at(if at(*condition)?.holds()? { *accept } else { *reject })
+            }
+            Expression::Math { fun, arg, arg1, arg2, arg3 } => {
+                let arguments = [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten();
+                math(*fun, &arguments.map(at).collect::<Result<Vec<_>, _>>()?)
+            }
+            Expression::As { expr, kind, convert } => at(*expr)?.cast(*kind, *convert),
+            _ => constant(self.module, &self.function.expressions, handle, &at),
+        }
+    }
+
+    /// An element, without a copy of what it is an element of.
+    fn element(&self, base: Handle<Expression>, index: usize) -> Result<Value, String> {
+        match &self.results[base.index()] {
+            Some(value) => value.element(index),
+            None => self.evaluate(base)?.element(index),
+        }
+    }
+}
+
+/// The expressions that may be constant; `at` gives the value of another one of the arena.
+fn constant(
+    module: &Module,
+    arena: &Arena<Expression>,
+    handle: Handle<Expression>,
+    at: &dyn Fn(Handle<Expression>) -> Result<Value, String>,
+) -> Result<Value, String> {
+    match &arena[handle] {
+        Expression::Literal(literal) => Value::literal(*literal),
+        Expression::Constant(constant) => global(module, module.constants[*constant].init),
+        Expression::Compose { ty, components } => match module.types[*ty].inner {
+            TypeInner::Array { .. } | TypeInner::Vector { .. } => {
+                components.iter().map(|&c| at(c)).collect::<Result<_, _>>().map(Value::List)
+            }
+            ref other => unknown(other),
+        },
+        other => unknown(other),
+    }
+}
+
+/// A constant of the module.
+fn global(module: &Module, handle: Handle<Expression>) -> Result<Value, String> {
+    constant(module, &module.global_expressions, handle, &|handle| global(module, handle))
+}

@@ -1,0 +1,119 @@
+//! Modules of WGSL, checked as a driver would, and functions of them executed: what shaders compute, without
+//! a graphics card.
+//!
+//! naga parses and validates. The interpreter here walks its representation with the operations that formulas
+//! need: numbers and conditions, vectors and arrays of them, variables, branches, loops and calls. It
+//! computes as IEEE 754 says in single precision, other functions than √ and ⌊⌋ in double precision and
+//! rounded. Where WGSL leaves a result open, it is NaN, so that nobody can rely on it.
+
+mod backend;
+mod interpreter;
+mod value;
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+pub use backend::Shader;
+use interpreter::Frame;
+use value::Value;
+
+/// A valid module.
+#[derive(Debug)]
+pub struct Module {
+    naga: naga::Module,
+}
+
+impl Module {
+    /// Parses and validates a text.
+    ///
+    /// # Errors
+    /// When it is no valid WGSL: the message of naga, with the place.
+    pub fn new(source: &str) -> Result<Self, String> {
+        let naga =
+            naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+        validator.validate(&naga).map_err(|error| error.emit_to_string(source))?;
+        Ok(Self { naga })
+    }
+
+    /// Names of its functions.
+    pub fn functions(&self) -> impl Iterator<Item = &str> {
+        self.naga.functions.iter().filter_map(|(_, function)| function.name.as_deref())
+    }
+
+    /// The numbers that a function of numbers gives: one, or those of an array.
+    ///
+    /// # Errors
+    /// When there is no such function, it has other parameters, or it uses what this interpreter does not
+    /// know.
+    pub fn call(&self, function: &str, arguments: &[f32]) -> Result<Vec<f32>, String> {
+        let found = self.naga.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function));
+        let (_, found) = found.ok_or_else(|| format!("no function `{function}`"))?;
+        let arguments: Vec<Value> = arguments.iter().map(|&a| Value::F32(a)).collect();
+        let result = Frame::call(&self.naga, found, arguments);
+        result.and_then(|value| value.numbers()).map_err(|error| format!("`{function}`: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn call(source: &str, arguments: &[f32]) -> Result<Vec<f32>, String> {
+        Module::new(source)?.call("f", arguments)
+    }
+
+    #[test]
+    fn loops_branches_and_calls() {
+        let source = "
+            fn square(x: f32) -> f32 { return x * x; }
+            fn f(x: f32) -> array<f32, 2> {
+                var n = 0u;
+                var sum = 0.0;
+                loop {
+                    if n == 5u { break; }
+                    if n % 2u == 1u { n = n + 1u; continue; }
+                    sum += square(x);
+                    continuing { n += 1u; }
+                }
+                return array<f32, 2>(sum, f32(n));
+            }";
+        // n = 0; 1 skips to 3, 3 to 5
+        assert_eq!(call(source, &[3.0]), Ok(vec![9.0, 5.0]));
+    }
+
+    #[test]
+    fn constants_and_indices() {
+        let source = "
+            const a = array<vec4<f32>, 2>(vec4(1.0, 2.0, 3.0, 4.0), vec4(5.0, 6.0, 7.0, 8.0));
+            fn f(x: f32) -> f32 { return a[u32(x)].z; }";
+        assert_eq!(call(source, &[1.0]), Ok(vec![7.0]));
+        assert!(call(source, &[2.0]).is_err_and(|error| error.contains("index 2")));
+    }
+
+    #[test]
+    fn single_precision() {
+        let source = "fn f(x: f32) -> f32 { return (x + 1.0) - 1.0; }";
+        assert_eq!(call(source, &[f32::EPSILON / 4.0]), Ok(vec![0.0]));
+        assert_eq!(call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]), Ok(vec![1f32.exp()]));
+    }
+
+    #[test]
+    fn what_wgsl_leaves_open_is_nan() {
+        for body in ["pow(x, 2.0)", "atan2(x + 1.0, 0.0)", "sqrt(x)", "acos(x - 1.0)"] {
+            let source = format!("fn f(x: f32) -> f32 {{ return {body}; }}");
+            assert!(call(&source, &[-1.0]).is_ok_and(|result| result[0].is_nan()), "{body}");
+        }
+    }
+
+    #[test]
+    fn errors_name_what_is_wrong() {
+        assert!(Module::new("fn f() -> f32 { return 1.0 }").is_err());
+        assert!(Module::new("fn f() -> f32 { return 1u; }").is_err());
+        assert!(
+            call("fn f(x: f32) -> f32 { return fract(x); }", &[1.0])
+                .is_err_and(|error| error.contains("Fract"))
+        );
+        assert!(call("fn g() {}", &[]).is_err_and(|error| error.contains("no function `f`")));
+        assert!(call("fn f(x: f32) -> f32 { return x; }", &[]).is_err());
+    }
+}

@@ -1,0 +1,367 @@
+//! The WGSL of formulas: valid whatever the formula, and giving what the corpus says.
+
+use std::sync::Arc;
+
+use ppum::formula::{Formula, FormulaJets, Scope, Table, wgsl_prelude};
+use ppum::library::{ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
+use ppum_testkit::corpus::{self, SHADER};
+use ppum_testkit::random::Random;
+use ppum_testkit::wgsl::{Module, Shader};
+
+fn jets(texts: &[&str], scope: &Scope, order: usize) -> FormulaJets {
+    let parse =
+        |text: &&str| Formula::parse(text, scope).unwrap_or_else(|error| panic!("{text}\n{error}"));
+    let formulas: Vec<Formula> = texts.iter().map(parse).collect();
+    FormulaJets::new(&formulas.iter().collect::<Vec<_>>(), order).expect("one or two variables")
+}
+
+/// A valid module of some functions.
+#[track_caller]
+fn module(functions: &[String]) -> Module {
+    let source = wgsl_prelude().to_owned() + &functions.concat();
+    Module::new(&source).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What one formula gives in a module of its own.
+#[track_caller]
+fn run(text: &str, scope: &Scope, order: usize, inputs: &[f32]) -> Vec<f32> {
+    let module = module(&[jets(&[text], scope, order).wgsl("f")]);
+    module.call("f", inputs).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+#[test]
+fn corpus_conforms() {
+    let cases = corpus::cases();
+    let mut shader = Shader::new(&cases).unwrap_or_else(|error| panic!("{error}"));
+    let report = corpus::check(&mut shader, &SHADER, &cases);
+    println!("{report}");
+    assert!(report.failures.is_empty(), "{report}");
+    assert_eq!(report.cases(), cases.len(), "every case is asserted or declared skipped");
+    assert!(report.asserted >= 800, "{} cases", report.asserted);
+}
+
+/// Texts whose last derivative is wrong by more than what rounding may do do not conform.
+#[test]
+fn wrong_derivatives_fail() {
+    let wrong = |text: String| {
+        let (before, results) = text.rsplit_once(">(").expect("an array is returned");
+        let mut results: Vec<&str> = results.trim_end_matches(");\n}\n").split(", ").collect();
+        let last = results.pop().expect("a result");
+        let last = format!("{last} + (1.0 + abs({last}))");
+        results.push(&last);
+        format!("{before}>({});\n}}\n", results.join(", "))
+    };
+    let mut cases = corpus::cases();
+    cases.retain(|case| {
+        let last = case.expected.len() - 1;
+        let expected = case.expected[last][case.expected[last].len() - 1];
+        let limit = SHADER.of(&case.bounds[last], expected);
+        last > 0 && case.not_single.is_none() && 1.0 + expected.abs() > 2.0 * limit
+    });
+    let mut shader = Shader::with_edited(&cases, wrong).unwrap_or_else(|error| panic!("{error}"));
+    let report = corpus::check(&mut shader, &SHADER, &cases);
+    assert!(cases.len() >= 700, "{} cases", cases.len());
+    assert_eq!(report.failures.len(), cases.len());
+}
+
+/// Values that decide: zeros of both signs, what overflows when it is squared, infinities, NaN.
+const EDGES: [f32; 22] = [
+    0.0,
+    -0.0,
+    0.3,
+    -0.3,
+    0.5,
+    1.0,
+    -1.0,
+    2.0,
+    -2.0,
+    3.0,
+    -3.0,
+    -2.5,
+    27.0,
+    1e-30,
+    -1e-44,
+    3e30,
+    -3e38,
+    16_777_217.0,
+    f32::MAX,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NAN,
+];
+
+/// What double precision gives, rounded, up to 4 roundoffs: cube root and common logarithm are made of
+/// up to four rounded operations. The smallest numbers are sparse.
+#[track_caller]
+fn agrees(found: f32, exact: f64, place: &str) {
+    let expected = exact as f32;
+    let same = found.is_nan() && expected.is_nan() || found == expected;
+    let limit = 2.0 * f32::EPSILON * expected.abs() + 4.0 * f32::from_bits(1);
+    assert!(same || (found - expected).abs() <= limit, "{place}: {found:e}, not {expected:e}");
+}
+
+#[test]
+fn functions_at_edges() {
+    let calls = [
+        "sqrt(a)",
+        "cbrt(a)",
+        "exp(a)",
+        "log(a)",
+        "log10(a)",
+        "sin(a)",
+        "cos(a)",
+        "tan(a)",
+        "asin(a)",
+        "acos(a)",
+        "atan(a)",
+        "atan2(a, b)",
+        "sinh(a)",
+        "cosh(a)",
+        "tanh(a)",
+        "abs(a)",
+        "sign(a)",
+        "min(a, b)",
+        "max(a, b)",
+        "floor(a)",
+        "hypot(a, b)",
+        "a^b",
+        "a < b",
+        "not (a <= b)",
+        "a == b",
+        "a < b and b > 0",
+        "a != b or b > 0",
+        "clamp(a, -1, 2)",
+        "a^3",
+        "a^-2",
+        "a/b",
+        "a - b",
+    ];
+    let condition = |text: &str| text.contains(['<', '>', '=']);
+    let scope = Scope::new(&["a", "b"]).expect("names");
+    let formula = |text: &str| match condition(text) {
+        true => Formula::parse_condition(text, &scope),
+        false => Formula::parse(text, &scope),
+    };
+    let formulas: Vec<Formula> =
+        calls.iter().map(|text| formula(text).expect("a formula")).collect();
+    let jets = FormulaJets::new(&formulas.iter().collect::<Vec<_>>(), 0).expect("values");
+    let module = module(&[jets.wgsl("f")]);
+    let mut exact = vec![0.0; calls.len()];
+    for a in EDGES {
+        for b in EDGES {
+            let found = module.call("f", &[a, b]).unwrap_or_else(|error| panic!("{error}"));
+            jets.evaluate(&[f64::from(a), f64::from(b)], &mut Vec::new(), &mut exact);
+            for ((found, exact), call) in found.iter().zip(&exact).zip(calls) {
+                agrees(*found, *exact, &format!("{call} at {a:e}, {b:e}"));
+            }
+        }
+    }
+}
+
+/// Tables in and outside their range, on knots, at NaN, all derivatives.
+#[test]
+fn tables_at_edges() {
+    let curve = Table::curve("k", vec![-1.0, 0.0, 2.0, 4.0], vec![1.0, -2.0, 8.0, 0.5]);
+    let values = (0..12).map(|i| f64::from(i * i % 7)).collect();
+    let surface = Table::surface("s", vec![0.0, 1.0, 3.0], vec![-2.0, -1.0, 0.0, 0.5], values);
+    let tables = [curve.map(Arc::new), surface.map(Arc::new)].map(|t| t.expect("a table"));
+    let scope = Scope::new(&["a", "b"]).and_then(|scope| scope.with_tables(&tables));
+    let scope = scope.expect("names");
+    let texts: Vec<String> = (0..4)
+        .flat_map(|m| (0..4).map(move |n| format!("dtable(s, {m}, {n}, a, b)")))
+        .chain((0..4).map(|m| format!("dtable(k, {m}, a)")))
+        .collect();
+    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+    let jets = jets(&texts, &scope, 0);
+    let module = module(&[jets.wgsl("f")]);
+    let mut exact = vec![0.0; texts.len()];
+    let places = [-2.0, -1.0, -0.0, 0.25, 0.5, 1.0, 2.0, 2.75, 4.0, 5.0];
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    for a in places.into_iter().chain(odd) {
+        for b in places.into_iter().chain(odd) {
+            let found = module.call("f", &[a, b]).unwrap_or_else(|error| panic!("{error}"));
+            jets.evaluate(&[f64::from(a), f64::from(b)], &mut Vec::new(), &mut exact);
+            for ((found, exact), text) in found.iter().zip(&exact).zip(&texts) {
+                // coefficients and partial sums of these tables are below 64, with some 20 roundings
+                let near = (f64::from(*found) - exact).abs() <= 64.0 * 20.0 * 6e-8;
+                assert!(
+                    near || found.is_nan() && exact.is_nan(),
+                    "{text} at {a}, {b}: {found} {exact}"
+                );
+            }
+        }
+    }
+}
+
+/// Constants that single precision has not are infinite or 0, and no errors of constant expressions.
+#[test]
+fn constants_beyond_single_precision() {
+    let scope = Scope::new(&["x"]).expect("a name");
+    let at_2 = |text: &str| run(text, &scope, 0, &[2.0])[0];
+    assert_eq!(at_2("x*1e40"), f32::INFINITY);
+    assert_eq!(at_2("x - 1e300"), f32::NEG_INFINITY);
+    assert_eq!(at_2("x*1e-50"), 0.0);
+    assert_eq!(at_2("1e-50"), 0.0);
+    assert_eq!(at_2("1/(1e-60)"), f32::INFINITY);
+    assert_eq!(at_2("min(x, 1/0)"), 2.0);
+    assert_eq!(at_2("x/0"), f32::INFINITY);
+    assert_eq!(at_2("1/(x*-0.0)"), f32::NEG_INFINITY);
+    assert_eq!(at_2("if(x > 1, 3.4028235e38, 1e-45)"), f32::MAX);
+    assert!(at_2("x + log(-1)").is_nan());
+    assert!(at_2("0/0").is_nan());
+    let steep = Table::curve("k", vec![0.0, 1.0], vec![0.0, 1e60]).expect("finite");
+    let scope = scope.with_table(Arc::new(steep)).expect("a new name");
+    assert_eq!(run("table(k, x)", &scope, 1, &[2.0]), [f32::INFINITY, 0.0]);
+}
+
+/// The names of parameters are part of the interface.
+#[test]
+fn inputs_have_names() {
+    let scope = Scope::polar().with_dependent("a", &["0", "0"]).expect("a new name").with_sides(2);
+    let text = jets(&["x"], &scope, 2).wgsl("f");
+    let head = "fn f(x: f32, y: f32, r: f32, theta: f32, cos_half_theta: f32, sin_half_theta: f32, \
+                in_a: f32, side_0: f32, side_1: f32) -> array<f32, 6> {\n";
+    assert!(text.starts_with(head), "{text}");
+}
+
+/// Names that mean something to WGSL, to the prelude or to the writer are names of variables as others.
+#[test]
+fn any_name_is_valid() {
+    let words = naga_words();
+    let ours = [
+        "v0",
+        "v1",
+        "in_x",
+        "side_0",
+        "f",
+        "table_0_of_f",
+        "ppum_pow",
+        "_",
+        "__",
+        "cos_half_theta",
+    ];
+    let mut count = 0;
+    for names in words.iter().map(String::as_str).chain(ours).collect::<Vec<_>>().chunks(40) {
+        let free: Vec<&str> = names.iter().copied().filter(|n| Scope::new(&[n]).is_ok()).collect();
+        let scope = Scope::new(&free).expect("names");
+        let sum = free.iter().map(|name| format!("{name}^1.5")).collect::<Vec<_>>().join(" + ");
+        let found = run(&sum, &scope, 0, &vec![4.0; free.len()])[0];
+        assert_eq!(found, 8.0 * free.len() as f32);
+        count += free.len();
+    }
+    assert!(count > 200, "{count} names");
+}
+
+/// Keywords, reserved words and predeclared names of WGSL.
+fn naga_words() -> Vec<String> {
+    use naga::keywords::wgsl::{BUILTIN_IDENTIFIERS, RESERVED};
+    RESERVED.iter().chain(BUILTIN_IDENTIFIERS).map(|&word| word.to_owned()).collect()
+}
+
+#[test]
+fn library_is_valid() {
+    let of = |entries: &[Entry], scope: &Scope| -> Vec<FormulaJets> {
+        let jets_of = |entry: &Entry| {
+            let parameters = entry.parameters.iter();
+            let scope = parameters.fold(scope.clone(), |scope, &(name, value)| {
+                scope.with_parameter(name, value).expect("a new name")
+            });
+            jets(entry.texts, &scope, 2)
+        };
+        entries.iter().map(jets_of).collect()
+    };
+    let mut all = of(&WEIGHTS, &Scope::new(&["t"]).expect("a name"));
+    all.extend(of(&ENRICHMENTS, &Scope::polar()));
+    let elastic =
+        ["ux", "uy", "dux_dx", "dux_dy", "duy_dx", "duy_dy", "mu", "lambda", "out_of_plane"];
+    all.extend(quantities(&ELASTICITY, &elastic));
+    all.extend(quantities(&POISSON, &["u", "du_dx", "du_dy", "conductivity"]));
+    let texts: Vec<String> = (0..).zip(&all).map(|(i, j)| j.wgsl(&format!("f_{i}"))).collect();
+    let module = module(&texts);
+    assert!(module.functions().count() > all.len());
+}
+
+/// Each definition after those it may use.
+fn quantities(definitions: &[(&str, &str)], names: &[&str]) -> Vec<FormulaJets> {
+    let scope = Scope::new(names).expect("names");
+    let mut before = String::new();
+    let mut all = Vec::new();
+    for (name, text) in definitions {
+        all.push(jets(&[&format!("{before}{text}")], &scope, 0));
+        before += &format!("let {name} = {text}; ");
+    }
+    all
+}
+
+/// A random number in the language.
+fn random_number(random: &mut Random, depth: usize) -> String {
+    const LEAVES: [&str; 12] = [
+        "x",
+        "y",
+        "r",
+        "theta",
+        "side(0)",
+        "0.5",
+        "0",
+        "-1e39",
+        "1e-60",
+        "7",
+        "pi",
+        "sin(1.5*theta)",
+    ];
+    const CALLS: [&str; 26] = [
+        "-", "sqrt", "cbrt", "exp", "log", "log10", "sin", "cos", "tan", "asin", "acos", "atan",
+        "sinh", "cosh", "tanh", "abs", "sign", "floor", "+", "min", "max", "hypot", "atan2", "^",
+        "if", "table",
+    ];
+    if depth == 0 || random.below(8) == 0 {
+        return LEAVES[random.below(LEAVES.len())].to_owned();
+    }
+    let call = CALLS[random.below(CALLS.len())];
+    let a = random_number(random, depth - 1);
+    match call {
+        "^" => format!("({a})^({})", ["-3", "2", "7", "0.3", "y", "-16"][random.below(6)]),
+        "table" => format!("table(curve_of_test, {a})"),
+        "min" | "max" | "hypot" | "atan2" | "+" | "if" => {
+            let b = random_number(random, depth - 1);
+            match call {
+                "+" => format!("(({a}) {} ({b}))", ["+", "-", "*", "/"][random.below(4)]),
+                "if" => format!("if({}, {a}, {b})", random_condition(random, depth - 1)),
+                _ => format!("{call}({a}, {b})"),
+            }
+        }
+        _ => format!("{call}({a})"),
+    }
+}
+
+fn random_condition(random: &mut Random, depth: usize) -> String {
+    let sign = ["<", "<=", ">", ">=", "==", "!="][random.below(6)];
+    let (a, b) = (random_number(random, depth / 2), random_number(random, depth / 2));
+    let plain = format!("({a}) {sign} ({b})");
+    match random.below(4) {
+        0 if depth > 0 => format!("not ({plain})"),
+        1 if depth > 0 => format!("({plain}) and ({})", random_condition(random, depth / 2)),
+        2 if depth > 0 => format!("({plain}) or ({})", random_condition(random, depth / 2)),
+        _ => plain,
+    }
+}
+
+#[test]
+fn random_formulas_are_valid() {
+    let table = Table::curve("curve_of_test", vec![-1.0, 0.0, 1.0, 2.0], vec![1.0, 0.0, 1.0, 8.0]);
+    let scope = Scope::polar().with_table(Arc::new(table.expect("a table"))).expect("a new name");
+    let scope = scope.with_sides(1);
+    let mut random = Random(7);
+    let texts: Vec<String> = (0..400).map(|i| random_number(&mut random, 2 + i % 3)).collect();
+    let compiled = (0..).zip(&texts).map(|(i, text)| (format!("f_{i}"), jets(&[text], &scope, 2)));
+    let compiled: Vec<(String, FormulaJets)> = compiled.collect();
+    let module = module(&compiled.iter().map(|(name, jets)| jets.wgsl(name)).collect::<Vec<_>>());
+    for ((name, jets), text) in compiled.iter().zip(&texts) {
+        let (x, y) = (random.between(-2.0, 2.0), random.between(-2.0, 2.0));
+        let (r, theta) = (f64::hypot(x, y), f64::atan2(y, x));
+        let inputs = [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin(), 1.0];
+        let found = module.call(name, &inputs.map(|input| input as f32));
+        let found = found.unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(found.len(), jets.n_outputs());
+    }
+}
