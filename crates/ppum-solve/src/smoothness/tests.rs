@@ -1,6 +1,12 @@
-use super::*;
-use ppum::crack::{CrackEnd, End, TipId};
-use ppum::formula::Scope;
+use super::pieces::{Pieces, rays};
+use super::traits::{Surroundings, Traits, traits_of_coefficient};
+use crate::quadrature::{Growth, Kink, Singular};
+use ppum::crack::{Crack, CrackEnd, End, TipId};
+use ppum::formula::{Formula, Scope, Table};
+use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::vec2::{Vec2, vec2};
+use std::f64::consts::PI;
+use std::sync::Arc;
 
 #[test]
 fn degrees_of_piecewise_polynomials() {
@@ -103,6 +109,38 @@ fn the_cut_of_the_polar_angle_is_a_kink() {
 }
 
 #[test]
+fn kinks_at_angles_are_rays() {
+    let rays = |text: &str| rays(&Formula::parse(text, &Scope::polar()).expect("a formula"));
+    for (text, expected) in [
+        ("theta - 0.6", Some(vec![0.6])),
+        ("theta", Some(vec![0.0])),
+        ("2*theta^2 - 8", Some(vec![-2.0, 2.0])),
+        ("sin(theta/2) - 1/2", Some(vec![PI / 3.0])),
+        ("theta - 4", Some(vec![])),
+        ("theta - r", None),
+        ("sin(theta)", None),
+    ] {
+        let found = rays(text);
+        let near = match (&found, &expected) {
+            (Some(found), Some(expected)) => {
+                let mut pairs = found.iter().zip(expected);
+                found.len() == expected.len() && pairs.all(|(a, b)| (a - b).abs() < 1e-14)
+            }
+            (found, expected) => found == expected,
+        };
+        assert!(near, "{text}: {found:?}");
+    }
+    let frame = Frame::Fixed { origin: vec2(1.0, 0.0), angle: PI / 2.0 };
+    let found = traits("r*abs(theta - 0.6)", frame);
+    let ray = vec2((0.6 + PI / 2.0).cos(), (0.6 + PI / 2.0).sin());
+    let on_ray = |kink: &Kink| {
+        matches!(kink, Kink::Segment([a, b]) if *a == vec2(1.0, 0.0)
+            && (*b - *a).cross(ray).abs() < 1e-13 && (*b - *a).dot(ray) > 10.0)
+    };
+    assert!(found.kinks.iter().any(on_ray), "{:?}", found.kinks);
+}
+
+#[test]
 fn functions_at_tips() {
     for text in WESTERGAARD {
         let found = traits(text, Frame::Tip(TIP));
@@ -127,10 +165,10 @@ fn declared_places() {
     };
     let function = Function { name: "declared".into(), kind };
     let found = surroundings().traits(&function).expect("a function");
-    let [Singular { point, growth: Growth::Powers { least } }] = found.singular[..] else {
+    let [Singular { point, growth: Growth::HalfPowers }] = found.singular[..] else {
         panic!("{:?}", found.singular)
     };
-    assert!((point - vec2(0.0, 0.0)).length() < 1e-15 && (least - 0.3).abs() < 1e-6);
+    assert!((point - vec2(0.0, 0.0)).length() < 1e-15);
     let Some(Kink::Segment([a, b])) = found.kinks.last() else { panic!("{:?}", found.kinks) };
     assert!((*a - vec2(1.0, 0.0)).length() < 1e-15 && (*b - vec2(-1.0, 0.0)).length() < 1e-15);
 }

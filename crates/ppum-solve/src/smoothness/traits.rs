@@ -1,0 +1,186 @@
+//! What quadrature has to know of one function or coefficient.
+
+use super::growth::{Behaviour, growth};
+use super::pieces::{Pieces, rays};
+use super::probe::Probe;
+use crate::quadrature::{Growth, Kink, Singular};
+use ppum::crack::Crack;
+use ppum::dataset::Step;
+use ppum::expression::Expression;
+use ppum::formula::{self, Formula, Table};
+use ppum::function::{
+    CompileError, Declared, Frame, Function, FunctionError, FunctionKind, WESTERGAARD,
+    function_scope,
+};
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// What a function whose energy is infinite is graded for.
+const DIVERGENT: Growth = Growth::Powers { least: 0.04 };
+
+/// What quadrature has to know of one function or coefficient.
+#[derive(Default)]
+pub(super) struct Traits {
+    pub(super) singular: Vec<Singular>,
+    pub(super) kinks: Vec<Kink>,
+    pub(super) probe: Option<Probe>,
+    /// Degree, where it is a piecewise polynomial.
+    pub(super) degree: usize,
+    /// A point around which the energy is infinite.
+    pub(super) divergent: Option<Vec2>,
+}
+
+impl Traits {
+    fn add_singular(&mut self, point: Vec2, growth: Growth) {
+        self.singular.push(Singular { point, growth });
+    }
+}
+
+/// What the traits of a function depend on.
+pub(super) struct Surroundings<'s> {
+    pub(super) cracks: Arc<[Crack]>,
+    pub(super) tables: &'s [Arc<Table>],
+    /// A length longer than the domain.
+    pub(super) reach: f64,
+    /// Half the width of the smallest patch.
+    pub(super) scale: f64,
+}
+
+impl<'s> Surroundings<'s> {
+    pub(super) fn new(step: &Step, tables: &'s [Arc<Table>]) -> Self {
+        let partition = &step.partition;
+        let first = partition.cell.first().copied().unwrap_or(Rect::new(Vec2::ZERO, Vec2::ZERO));
+        let domain = partition.cell.iter().fold(first, |all, cell| all.union(cell));
+        let halves = partition.half.iter().map(|half| half.x.min(half.y));
+        Self {
+            cracks: step.cracks.as_slice().into(),
+            tables,
+            reach: 2.0 * domain.size().length(),
+            scale: halves.fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    pub(super) fn traits(&self, function: &Function) -> Result<Traits, FunctionError> {
+        match &function.kind {
+            FunctionKind::Formula { text, frame: frame @ Frame::Tip(_), .. }
+                if WESTERGAARD.contains(&text.as_str()) =>
+            {
+                let singular = vec![Singular::tip(self.axes(*frame).origin)];
+                Ok(Traits { singular, ..Traits::default() })
+            }
+            FunctionKind::Formula { text, frame, parameters, declared } => {
+                let error = |source: CompileError| FunctionError {
+                    index: 0,
+                    name: function.name.clone(),
+                    source: Box::new(source),
+                };
+                let scope = function_scope(parameters, self.cracks.len(), self.tables);
+                let scope = scope.map_err(|e| error(e.into()))?;
+                let formula = Formula::parse(text, &scope).map_err(|e| error(e.into()))?;
+                self.of_formula(function, &formula, &self.axes(*frame), declared)
+            }
+            _ => Ok(Traits::default()),
+        }
+    }
+
+    fn of_formula(
+        &self,
+        function: &Function,
+        formula: &Formula,
+        axes: &Axes,
+        declared: &Declared,
+    ) -> Result<Traits, FunctionError> {
+        let probe = Probe::function(function, &self.cracks, self.tables)?;
+        let Pieces { sets, degree } = Pieces::new(formula);
+        let mut traits = Traits { degree: degree.unwrap_or(0), ..Traits::default() };
+        for set in sets {
+            if let Some(line) = set.line() {
+                traits.kinks.push(Kink::Line(axes.line(line)));
+            } else if let Some(rays) = rays(&set.value) {
+                traits.kinks.extend(rays.into_iter().map(|theta| self.ray(axes, theta)));
+            } else {
+                let text = set.value.text();
+                let part = Probe::part_of(function, text, &self.cracks, self.tables)?;
+                traits.kinks.push(Kink::Curve(Arc::new(move |p| part.jet(p, Vec2::ZERO)[0])));
+            }
+        }
+        if formula.uses_branch() && !axes.is_tip {
+            traits.kinks.push(self.ray(axes, PI));
+        }
+        let segments = declared.kinks.iter();
+        traits.kinks.extend(segments.map(|s| Kink::Segment(s.map(|p| axes.to_world(p)))));
+        if formula.singular_at_origin() {
+            match growth(&|offset| probe.jet(axes.origin, offset), self.scale) {
+                Behaviour::Constant => {}
+                Behaviour::Grows(growth) => traits.add_singular(axes.origin, growth),
+                Behaviour::Diverges => {
+                    traits.add_singular(axes.origin, DIVERGENT);
+                    traits.divergent = Some(axes.origin);
+                }
+            }
+        }
+        // Distances from points other than the origin carry the rounding of coordinates. Nothing may
+        // look nearer than the rule for half powers does: noise would be taken for the function.
+        for &point in &declared.singular {
+            traits.add_singular(axes.to_world(point), Growth::HalfPowers);
+        }
+        traits.probe = (degree.is_none() && declared.singular.is_empty()).then_some(probe);
+        Ok(traits)
+    }
+
+    /// The ray from the origin of a frame, as far as the domain reaches.
+    fn ray(&self, axes: &Axes, theta: f64) -> Kink {
+        let end = vec2(theta.cos(), theta.sin()) * (self.reach + axes.origin.length());
+        Kink::Segment([axes.origin, axes.to_world(end)])
+    }
+
+    fn axes(&self, frame: Frame) -> Axes {
+        let (origin, x, is_tip) = match frame {
+            Frame::Fixed { origin, angle } => (origin, vec2(angle.cos(), angle.sin()), false),
+            Frame::Tip(tip) => {
+                let crack = &self.cracks[tip.crack as usize];
+                (crack.end_point(tip.end), crack.growth_direction(tip.end), true)
+            }
+            _ => (Vec2::ZERO, vec2(1.0, 0.0), false),
+        };
+        Axes { origin, x, is_tip }
+    }
+}
+
+/// The traits of a coefficient of the equation.
+pub(super) fn traits_of_coefficient(coefficient: &Expression) -> Traits {
+    if coefficient.constant().is_some() {
+        return Traits::default();
+    }
+    let formula = coefficient.formula();
+    let world = Axes { origin: Vec2::ZERO, x: vec2(1.0, 0.0), is_tip: false };
+    let kink = |set: formula::Kink| match set.line() {
+        Some(line) => Kink::Line(world.line(line)),
+        None => Kink::Curve(Arc::new(move |p: Vec2| set.value.evaluate(&[p.x, p.y]))),
+    };
+    let Pieces { sets, degree } = Pieces::new(formula);
+    let probe = degree.is_none().then(|| Probe::coefficient(formula).ok()).flatten();
+    let kinks = sets.into_iter().map(kink).collect();
+    Traits { kinks, probe, degree: degree.unwrap_or(0), ..Traits::default() }
+}
+
+/// A frame's axes in the world.
+struct Axes {
+    origin: Vec2,
+    x: Vec2,
+    is_tip: bool,
+}
+
+impl Axes {
+    fn to_world(&self, p: Vec2) -> Vec2 {
+        self.origin + self.x * p.x + self.x.left() * p.y
+    }
+
+    /// Two points of the line a x + b y + c = 0.
+    fn line(&self, [a, b, c]: [f64; 3]) -> [Vec2; 2] {
+        let normal = vec2(a, b);
+        let foot = normal * (-c / normal.dot(normal));
+        [foot, foot + normal.unit().left()].map(|p| self.to_world(p))
+    }
+}
