@@ -1,6 +1,7 @@
 //! The solver against exact solutions and independent reference values.
 
 mod examples;
+mod formulas;
 mod kernels;
 mod physics;
 mod plates;

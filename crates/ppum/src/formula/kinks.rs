@@ -88,7 +88,8 @@ impl Formula {
 
     /// The places in \[lo, hi\] where a formula of one variable may not be smooth, increasing: where it
     /// meets its [`kinks`](Self::kinks) and [`singularities`](Self::singularities). Those of linear
-    /// functions are exact, the others are searched among 4096 intervals and refined to rounding.
+    /// functions are exact, the others are searched among 4096 intervals and refined to rounding; the
+    /// search for those of one function ends after some thousand.
     ///
     /// # Panics
     /// When the scope has more than one input.

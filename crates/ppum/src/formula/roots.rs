@@ -8,6 +8,9 @@ const INTERVALS: u32 = 4096;
 /// Most steps of a `floor` that are searched in an interval.
 const MAX_STEPS: f64 = 4096.0;
 
+/// Places after which a search ends: no quadrature can honour that many.
+const MAX_PLACES: usize = 4096;
+
 /// Rounding of a value that should be zero, in units of the largest value, as of some tens of
 /// operations.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -38,6 +41,9 @@ impl Scan<'_> {
         let values: Vec<f64> = grid.iter().map(|&t| value(t)).collect();
         let mut places = Vec::new();
         for (t, u) in grid.windows(2).zip(values.windows(2)) {
+            if places.len() >= MAX_PLACES {
+                return places;
+            }
             for level in self.levels(u[0], u[1]) {
                 places.push(bisect(|t| value(t) - level, t[0], t[1]));
             }
