@@ -101,10 +101,11 @@ fn formulas_solve_like_kernels() {
     assert!(found.iter().all(|&d| d > 0.0 && d <= 1e-9), "{found:?}");
 }
 
+/// With quadrature points of their own strains move by the error of the quadrature.
 #[test]
 fn own_enrichments_solve_like_built_in_ones() {
     let [built_in, own] = [KERNELS, OWN].map(solved);
     let found = differences(&built_in, &own);
     println!("K, energy, strains differ by {found:?}");
-    assert!(found.iter().zip([1e-9, 1e-9, 1e-9]).all(|(&d, bound)| d <= bound), "{found:?}");
+    assert!(found.iter().zip([1e-9, 1e-9, 1e-8]).all(|(&d, bound)| d <= bound), "{found:?}");
 }

@@ -37,17 +37,11 @@ impl Formulas {
     /// Compiles formulas of one scope.
     pub(super) fn new(formulas: Vec<Formula>, frame: Frame) -> Result<Self, DerivativeError> {
         let all: Vec<_> = formulas.iter().collect();
-        let uses = |name: &str| formulas.iter().any(|formula| formula.uses(name));
-        let uses = formulas[0].scope().inputs().map(uses).collect();
-        let compiled = Compiled {
-            jets: [
-                FormulaJets::new(&all, 0)?,
-                FormulaJets::new(&all, 1)?,
-                FormulaJets::new(&all, 2)?,
-            ],
-            uses,
-            formulas,
-        };
+        let [v, d, dd] = [0, 1, 2].map(|order| FormulaJets::new(&all, order));
+        let jets = [v?, d?, dd?];
+        // Derivatives use inputs that values do not.
+        let uses = (0..formulas[0].scope().inputs().count()).map(|input| jets[2].uses(input));
+        let compiled = Compiled { uses: uses.collect(), jets, formulas };
         Ok(Self { compiled: Arc::new(compiled), frame })
     }
 
