@@ -75,7 +75,13 @@ fn sign_of_largest(entries: impl Iterator<Item = f64>) -> f64 {
 pub(crate) fn inverse_root_diagonal(a: MatRef<'_, f64>, vanishing: f64) -> Vec<f64> {
     let diagonal = || (0..a.nrows()).map(|k| a[(k, k)]);
     let limit = vanishing * diagonal().fold(0.0, f64::max);
-    diagonal().map(|x| if x > limit { x.sqrt().recip() } else { 0.0 }).collect()
+    let root = |x: f64| match x {
+        // not to be taken for a function that vanishes
+        x if !x.is_finite() => f64::NAN,
+        x if x > limit => x.sqrt().recip(),
+        _ => 0.0,
+    };
+    diagonal().map(root).collect()
 }
 
 /// The congruence D A D with a diagonal D.

@@ -66,6 +66,12 @@ pub enum SolveError {
     /// Data that are not finite.
     #[error("the data of the problem are not finite somewhere on the plate or its border ({0})")]
     Data(#[from] EigenError),
+    /// Functions of the local spaces.
+    #[error(
+        "a function of the local spaces is not finite at a point of its patches ({0}); look at the \
+         formulas of [[enrichment]]"
+    )]
+    Basis(EigenError),
     /// Loads without support.
     #[error(transparent)]
     Unbalanced(#[from] UnbalancedError),
@@ -176,7 +182,7 @@ impl Solver<'_> {
         let motions = RigidMotions::new(&self.problem.domain, components);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
-        let basis = StableBasis::new(&space)?;
+        let basis = StableBasis::new(&space).map_err(SolveError::Basis)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
         let mut system = assemble(self.problem, &space, &basis, &law, motions, &mut tell)?;

@@ -183,6 +183,17 @@ mod tests {
     }
 
     #[test]
+    fn functions_that_are_not_finite_are_an_error() {
+        for value in [f64::NAN, f64::INFINITY] {
+            let m = Mat::from_fn(3, 3, |i, j| match (i, j) {
+                (2, 2) => value,
+                _ => f64::from(u8::from(i == j)),
+            });
+            assert!(Transform::new(m.as_ref(), 2, CUT_OFF).is_err());
+        }
+    }
+
+    #[test]
     fn the_scale_of_the_functions_does_not_matter() {
         let mut random = Random::new(3);
         let factor = Mat::from_fn(12, 12, |_, _| random.signed());

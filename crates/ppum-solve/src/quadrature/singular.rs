@@ -82,7 +82,9 @@ impl Pieces<'_, '_> {
 
     /// Adds triangles with their apex at the singular point, one for each edge of the polygon.
     fn add_fan(&mut self, at: &Singular, polygon: &Polygon) {
-        let triangles = polygon.edges().map(|(a, b)| apex_triangle(at, a, b, self.order));
+        let has_area = |(a, b): &(Vec2, Vec2)| 0.5 * a.cross(*b) > self.least;
+        let edges = polygon.edges().filter(has_area);
+        let triangles = edges.map(|(a, b)| apex_triangle(at, a, b, self.order));
         let (windows, cut) = cut_all(triangles.flatten().collect(), self.curves, at.point);
         self.add_windows(at.point, windows, cut);
     }
