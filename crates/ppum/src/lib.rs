@@ -9,7 +9,8 @@
 //!
 //! - [`dataset`] is the data model: all that is needed to evaluate a field, and nothing more.
 //! - [`cover`] makes patches, [`weight`] their weights, [`crack`] and [`function`] the f_b, for which
-//!   [`formula`] is the language.
+//!   [`formula`] is the language and [`library`] the built-in ones as texts; [`equation`] is the
+//!   material.
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
@@ -176,7 +177,7 @@
 //!
 //! # Scope and simplifications
 //!
-//! - Two dimensions, boxes as patches, B-splines of degree 1 to 3 as weights, polynomials up to degree
+//! - Two dimensions, boxes as patches, even functions of |ξ| as weights, polynomials up to degree
 //!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box.
 //! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`), no
 //!   pictures (`ppum-render`), no threads.
@@ -187,8 +188,8 @@
 //! - The evaluator is exact up to rounding at any magnification if the anchor is near. Rounding errors
 //!   of the gradient are about 10⁻¹⁶ |u| / h for patches of size h: below 10⁻¹² of the stresses on
 //!   covers of up to some 10⁵ patches where |u| is comparable with |∇u| × the size of the domain.
-//! - Formulas are interpreted, one lane after the other; the Westergaard functions, recognised by
-//!   their text, have a kernel of their own.
+//! - Formulas are interpreted, functions of the plane in blocks of points on lanes; the Westergaard
+//!   functions, recognised by their text, have a kernel of their own.
 
 pub mod box_tree;
 pub mod check;
