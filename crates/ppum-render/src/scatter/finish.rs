@@ -19,18 +19,22 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         out: &mut [T],
         zero: R,
     ) {
+        let uniform = self.scene.field.equation.is_uniform();
         match (self.scene.quantity, scratch.shift.len()) {
-            (Quantity::VonMises, 2) => {
-                self.finish_as::<R, 2>(&Quantity::VonMises, scratch, out, zero);
+            (Quantity::VonMises, 2) if uniform => {
+                self.finish_as::<R, 2, true>(&Quantity::VonMises, scratch, out, zero);
             }
-            (quantity, 2) => self.finish_as::<R, 2>(quantity, scratch, out, zero),
-            (quantity, _) => self.finish_as::<R, ANY>(quantity, scratch, out, zero),
+            (quantity, 2) if uniform => {
+                self.finish_as::<R, 2, true>(quantity, scratch, out, zero);
+            }
+            (quantity, _) => self.finish_as::<R, ANY, false>(quantity, scratch, out, zero),
         }
     }
 
-    /// [`finish`](Self::finish) for `C` components.
+    /// [`finish`](Self::finish) for `C` components, and constants of the equation that are the same
+    /// everywhere if `UNIFORM`.
     #[inline(always)]
-    fn finish_as<R: Real<Scalar = T>, const C: usize>(
+    fn finish_as<R: Real<Scalar = T>, const C: usize, const UNIFORM: bool>(
         &self,
         quantity: &Quantity,
         scratch: &mut Scratch<T>,
@@ -49,8 +53,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         };
         let mut exact = Vec::new();
         let (equation, anchor) = (self.scene.field.equation, self.scene.view.center);
-        let uniform = equation.is_uniform();
-        let mut moduli = equation.moduli(anchor, [zero; 2]);
+        let moduli = equation.moduli(anchor, [zero; 2]);
         let source = quantity.source();
         let stride = size::<R, D>() * (1 + components);
         let width = self.scene.view.pixels[0] as usize;
@@ -66,7 +69,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                     self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
                 }
                 let weight = divide::<R, D>(cell, jets, zero);
-                if source != Source::Exact {
+                if matches!(source, Source::Values | Source::Partition)
+                    || matches!(quantity, Quantity::Formula(_))
+                {
                     for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
                         jet.v = jet.v + zero.lit(shift);
                     }
@@ -77,9 +82,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                     _ => {
                         let x = zero.load(&self.scene.xs[column..]);
                         let offset = [x, splat(zero, self.scene.ys[first_row + row])];
-                        if !uniform {
-                            moduli = equation.moduli(anchor, offset);
-                        }
+                        let moduli = if UNIFORM { moduli } else { equation.moduli(anchor, offset) };
                         quantity.of_field(&Sample { anchor, offset, moduli, jets, exact: &exact })
                     }
                 };
