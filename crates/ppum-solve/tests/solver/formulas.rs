@@ -1,87 +1,414 @@
-//! Problems defined wholly in problem files, with functions nobody has compiled: errors against their
-//! exact solutions, rates of convergence with these functions, and what is lost without them.
+//! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
 
-use std::path::{Path, PathBuf};
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::path::Path;
 
+use ppum::dataset::{Dataset, Elasticity, Equation, Material, StressState};
+use ppum::field::Field;
 use ppum::formula::Formula;
-use ppum::vec2::{Vec2, vec2};
-use ppum_solve::problem::{Cells, Problem};
+use ppum::function::WESTERGAARD;
+use ppum::jet::Jet;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_solve::norms::norms;
+use ppum_solve::problem::{
+    BoundaryCondition, Cells, Condition, Discretization, Edge, Enrichment, Expression,
+    LocalEnrichment, Order, Problem, Region, Site,
+};
+use ppum_solve::solve::solve;
+use ppum_solve::space::{Space, discretise};
+use ppum_testkit::exact::ExactField;
 
-use crate::studies::support::{Both, errors, solved};
+use crate::studies::exact_fields::{OBLIQUE, SQUARE, discretization};
+use crate::studies::support::{both, errors, solved};
 
-/// A problem file of the examples at a level, with its enrichments or without.
-fn example(name: &str, level: u32, enriched: bool) -> Problem {
-    let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    let mut problem = Problem::read(&folder.join(name)).expect("an example");
+/// Value and gradient of each component at `anchor + offset`.
+type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
+
+/// A problem of `examples/` at a level, with polynomials of a degree.
+fn example(name: &str, order: usize, level: u32) -> Problem {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut problem = Problem::read(&folder.join(name)).expect("a problem in order");
+    problem.discretization.order = Order::Uniform(order);
     problem.discretization.cells = Cells::Level(level);
-    if !enriched {
-        problem.enrichments.clear();
+    problem
+}
+
+/// The problem without its enrichments.
+fn bare(problem: &Problem) -> Problem {
+    Problem { enrichments: Vec::new(), ..problem.clone() }
+}
+
+/// The exact solution that a problem gives.
+fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync + use<> {
+    let derivative = |f: &Formula, name| f.derivative(name).expect("a derivative");
+    let jet = |f: &Formula| [f.clone(), derivative(f, "x"), derivative(f, "y")];
+    let all: Vec<_> = problem.exact.iter().map(|e| jet(e.formula())).collect();
+    move |anchor, offset| {
+        let p = anchor + offset;
+        let component = |k: usize| match all.get(k) {
+            Some(jet) => {
+                let [v, x, y] = jet.each_ref().map(|f| f.evaluate(&[p.x, p.y]));
+                Jet { x, y, ..Jet::constant(v) }
+            }
+            None => Jet::constant(0.0),
+        };
+        [component(0), component(1)]
+    }
+}
+
+/// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has the
+/// same cover.
+fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
+    let step = discretise(fine).expect("a space");
+    let space = Space::new(&step, &fine.equation, &fine.tables).expect("functions that compile");
+    let field = Field::new(dataset, 0).expect("a field");
+    let [_, reference, difference] = norms(&field, &space, exact);
+    difference.relative_to(&reference).0
+}
+
+fn listed(errors: &[f64]) -> String {
+    errors.iter().map(|error| format!("{error:.2e}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Errors at some levels, and the rate between the last two.
+fn study(levels: [u32; 3], error: impl Fn(u32) -> f64) -> ([f64; 3], f64) {
+    let errors = levels.map(error);
+    let rate = (errors[1] / errors[2]).log2();
+    println!("levels {levels:?}: errors {}, last rate {rate:.2}", listed(&errors));
+    (errors, rate)
+}
+
+/// Mean rate of errors at three levels.
+fn mean_rate(errors: [f64; 3]) -> f64 {
+    0.5 * (errors[0] / errors[2]).log2()
+}
+
+/// |d| times polynomials of degree p − 1 make the rate p of a smooth solution in a plate of two
+/// materials; without it the rate is 1/2, that of a kink across the cells.
+#[test]
+fn a_weak_discontinuity_restores_the_rate() {
+    for (order, levels) in [(1, [2, 3, 4]), (2, [2, 3, 4]), (3, [1, 2, 3])] {
+        let error = |level| {
+            let mut problem = example("bimaterial-plate.toml", order, level);
+            problem.enrichments[0].degree = Some(order - 1);
+            energy_error(&solved(&problem), &problem, &given(&problem))
+        };
+        let (_, rate) = study(levels, error);
+        assert!((rate - order as f64).abs() < 0.1, "order {order}: rate {rate}");
+    }
+    let without = |level| {
+        let fine = example("bimaterial-plate.toml", 2, level);
+        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
+    };
+    let rate = mean_rate(study([2, 3, 4], without).0);
+    assert!((0.4..0.8).contains(&rate), "{rate}");
+}
+
+/// The exponent of the corner of two conductivities 10 and 1, opening ω: the smallest root of
+/// 10 tan(λω/2) + tan(λ(π − ω/2)) = 0, by bisection of the equation without poles.
+fn corner_exponent(omega: f64) -> f64 {
+    let f = |l: f64| {
+        let (a, b) = (0.5 * omega * l, (PI - 0.5 * omega) * l);
+        10.0 * a.sin() * b.cos() + b.sin() * a.cos()
+    };
+    let (mut lo, mut hi) = (0.6, 0.8);
+    assert!(f(lo) * f(hi) < 0.0);
+    for _ in 0..60 {
+        let mid = 0.5 * (lo + hi);
+        if f(lo) * f(mid) > 0.0 { lo = mid } else { hi = mid }
+    }
+    lo
+}
+
+/// r^λ f(θ) around the corner of the example.
+fn corner(anchor: Vec2, offset: Vec2) -> [Jet<f64>; 2] {
+    const HALF: f64 = 0.6;
+    let lambda = corner_exponent(2.0 * HALF);
+    let p = (anchor - vec2(0.1, -0.05)) + offset;
+    let axis = vec2(0.3f64.cos(), 0.3f64.sin());
+    let (x, y) = (axis.dot(p), axis.cross(p));
+    let (r, q) = (x.hypot(y), y.abs().atan2(x));
+    let a = (HALF * lambda).cos() / ((PI - HALF) * lambda).cos();
+    let (f, slope) = if q < HALF {
+        ((lambda * q).cos(), -lambda * (lambda * q).sin())
+    } else {
+        let t = lambda * (PI - q);
+        (a * t.cos(), a * lambda * t.sin())
+    };
+    let power = r.powf(lambda - 1.0);
+    let (radial, around) = (lambda * power * f, power * slope * y.signum());
+    let (gx, gy) = ((radial * x - around * y) / r, (radial * y + around * x) / r);
+    let gradient = axis * gx + axis.left() * gy;
+    [Jet { x: gradient.x, y: gradient.y, ..Jet::constant(r * power * f) }, Jet::constant(0.0)]
+}
+
+fn corner_problem(order: usize, level: u32) -> Problem {
+    let mut problem = example("interface-corner.toml", order, level);
+    for kink in &mut problem.enrichments[1..] {
+        kink.degree = Some(order - 1);
     }
     problem
 }
 
-/// Relative error in the energy norm.
-fn error(problem: &Problem) -> f64 {
-    let formulas: Vec<[Formula; 3]> = problem
-        .exact
-        .iter()
-        .map(|exact| {
-            let f = exact.formula();
-            [f.clone(), f.derivative("x").expect("smooth"), f.derivative("y").expect("smooth")]
-        })
-        .collect();
-    let exact = |p: Vec2| -> Both {
-        let (mut values, mut gradients) = ([0.0; 2], [Vec2::ZERO; 2]);
-        for (k, formulas) in formulas.iter().enumerate() {
-            let [v, x, y] = formulas.each_ref().map(|f| f.evaluate(&[p.x, p.y]));
-            (values[k], gradients[k]) = (v, vec2(x, y));
-        }
-        (values, gradients)
+/// The corner's function in a fixed zone and kinks along the interfaces make the rate p; without the
+/// function it is about λ = 0.7, without kinks 1/2.
+#[test]
+fn a_corner_function_restores_the_rate() {
+    let (_, lambda) = corner_problem(2, 1).enrichments[0].parameters[0];
+    assert!((lambda - corner_exponent(1.2)).abs() < 1e-12);
+    for (order, least) in [(2, 1.85), (3, 2.75)] {
+        let error = |level| {
+            let problem = corner_problem(order, level);
+            energy_error(&solved(&problem), &problem, &corner)
+        };
+        let (_, rate) = study([2, 3, 4], error);
+        assert!(rate > least, "order {order}: rate {rate}");
+    }
+    for (kept, most) in [(1..3, 0.8), (0..1, 0.7)] {
+        let error = |level| {
+            let fine = corner_problem(2, level);
+            let enrichments = fine.enrichments[kept.clone()].to_vec();
+            let part = Problem { enrichments, ..fine.clone() };
+            energy_error(&solved(&part), &fine, &corner)
+        };
+        let (errors, _) = study([2, 3, 4], error);
+        assert!(mean_rate(errors) < most && errors[2] > 0.02, "{kept:?}: {errors:?}");
+    }
+}
+
+/// Where all patches have the corner's function, the solution is in the space.
+#[test]
+fn a_corner_function_everywhere_is_exact() {
+    let mut problem = corner_problem(2, 2);
+    problem.enrichments[0].region = Region::Near(10.0);
+    let error = energy_error(&solved(&problem), &problem, &corner);
+    println!("corner everywhere: {error:.1e}");
+    // λ is given to 12 digits
+    assert!(error < 1e-10, "{error}");
+}
+
+/// exp(−x/ε) times polynomials makes the rate p on cells up to 250 times as wide as ε, with a weight
+/// function that is no spline; without it nothing is seen of the layer.
+#[test]
+fn a_layer_is_resolved() {
+    let error = |level| {
+        let problem = example("boundary-layer.toml", 2, level);
+        energy_error(&solved(&problem), &problem, &given(&problem))
     };
-    errors(&solved(problem), &exact).energy
+    let (errors, rate) = study([1, 2, 3], error);
+    assert!(rate > 1.95 && errors[2] < 2e-4, "{rate}");
+    let without = |level| {
+        let fine = example("boundary-layer.toml", 2, level);
+        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
+    };
+    let (errors, _) = study([1, 2, 3], without);
+    assert!(errors.iter().all(|error| *error > 0.5), "{errors:?}");
 }
 
-/// The errors at two levels, and the rate.
-fn study(name: &str, levels: [u32; 2], enriched: bool) -> ([f64; 2], f64) {
-    let found = levels.map(|level| error(&example(name, level, enriched)));
-    let rate = (found[0] / found[1]).log2() / f64::from(levels[1] - levels[0]);
-    println!("{name} {levels:?} enriched {enriched}: {found:?}, rate {rate:.2}");
-    (found, rate)
-}
-
-/// |d| across an interface that lies on no line of cells: order 2 with it, 1/2 without.
+/// The same with a function that only a table gives.
 #[test]
-fn two_materials() {
-    let (found, rate) = study("bimaterial-plate.toml", [3, 4], true);
-    assert!(rate > 1.8 && found[1] < 1e-2, "{found:?} {rate}");
-    let (lost, rate) = study("bimaterial-plate.toml", [3, 4], false);
-    assert!(rate < 0.9 && lost[1] > 10.0 * found[1], "{lost:?} {rate}");
+fn a_tabulated_function_is_as_good_as_a_formula() {
+    let error = |level| {
+        let problem = example("tabulated-profile.toml", 2, level);
+        energy_error(&solved(&problem), &problem, &given(&problem))
+    };
+    let (errors, rate) = study([1, 2, 3], error);
+    assert!(rate > 1.95 && errors[2] < 2e-5, "{rate}");
+    let without = |level| {
+        let fine = example("tabulated-profile.toml", 2, level);
+        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
+    };
+    let (errors, _) = study([2, 3, 4], without);
+    assert!(errors.iter().all(|error| *error > 0.1), "{errors:?}");
 }
 
-/// A layer of a hundredth of a cell under a weight no spline library has: without its function
-/// nothing of it is seen.
+/// A disc of conductivity 5 in a uniform field.
+const DISC: &str = r#"
+[domain]
+min = [-1.0, -1.0]
+max = [1.0, 1.0]
+[equation]
+kind = "poisson"
+[material]
+conductivity = "if(x^2 + y^2 < 0.25, 5, 1)"
+[exact]
+value = "if(x^2 + y^2 < 0.25, x/3, x*(1 - 1/(6*(x^2 + y^2))))"
+[[enrichment]]
+function = "abs(r^2 - 0.25)"
+at = [0.0, 0.0]
+radius = 0.5
+degree = 1
+[[boundary]]
+on = "left"
+value = "exact"
+[[boundary]]
+on = "right"
+value = "exact"
+[[boundary]]
+on = "bottom"
+value = "exact"
+[[boundary]]
+on = "top"
+value = "exact"
+[discretization]
+level = 2
+"#;
+
+/// u = c x inside, (1 + d/r²) x outside with c = 2/(1 + 5), d = R² (1 − 5)/(1 + 5): the interface is a
+/// curve.
 #[test]
-fn boundary_layer() {
-    let (found, rate) = study("boundary-layer.toml", [1, 2], true);
-    assert!(rate > 1.7 && found[1] < 1e-2, "{found:?} {rate}");
-    let (lost, _) = study("boundary-layer.toml", [1, 2], false);
-    assert!(lost[1] > 0.5, "{lost:?}");
+fn a_round_inclusion() {
+    let problem = |level| {
+        let mut problem = Problem::parse(DISC, "disc.toml", Path::new("")).expect("in order");
+        problem.discretization.cells = Cells::Level(level);
+        problem
+    };
+    let error = |level| {
+        let problem = problem(level);
+        energy_error(&solved(&problem), &problem, &given(&problem))
+    };
+    // 1.66, 1.80, 1.93, 1.96 from level 2 on
+    let (_, rate) = study([2, 3, 4], error);
+    assert!(rate > 1.75, "{rate}");
+    let without = |level| {
+        let fine = problem(level);
+        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
+    };
+    let rate = mean_rate(study([2, 3, 4], without).0);
+    assert!(rate < 0.8, "{rate}");
 }
 
-/// r^λ at a corner of two conductivities, λ = 0.704: the rate without it is λ.
-#[test]
-fn interface_corner() {
-    let (found, rate) = study("interface-corner.toml", [2, 3], true);
-    let (lost, slow) = study("interface-corner.toml", [2, 3], false);
-    assert!(rate > 1.0 && slow < 0.9, "{rate} {slow}");
-    assert!(lost[1] > 5.0 * found[1], "{lost:?} {found:?}");
+/// u = 0 on the right half of the lower edge of a plate, no flux on the left half: √r sin(θ/2), singular
+/// at a point of the border.
+fn changing_boundary() -> Problem {
+    let domain = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 1.0));
+    let mut set = discretization(Cells::Grid([6, 3]), 2);
+    set.enrichment = Enrichment::None;
+    let mut problem = Problem::poisson(domain, 1.0, set);
+    let root = "sqrt(hypot(x, y))*sin(atan2(y, x)/2)";
+    problem.exact = vec![root.parse().expect("a formula")];
+    let site = Site::Point { at: vec2(0.0, 0.0), angle: 0.0 };
+    problem.enrichments.push(LocalEnrichment::new(&["sqrt(r)*sin(theta/2)"], site));
+    let zero = vec![Condition::Dirichlet(0.0.into())];
+    let lower = BoundaryCondition::on_edge(Edge::Bottom, &domain, zero);
+    problem.boundary.push(BoundaryCondition { from: 0.0, ..lower });
+    [Edge::Left, Edge::Right, Edge::Top].into_iter().fold(problem, Problem::with_exact_boundary)
 }
 
-/// A function that is known from a table of a file only.
 #[test]
-fn tabulated_profile() {
-    let (found, rate) = study("tabulated-profile.toml", [1, 2], true);
-    assert!(rate > 1.7 && found[1] < 1e-2, "{found:?} {rate}");
-    let (lost, _) = study("tabulated-profile.toml", [1, 2], false);
-    assert!(lost[1] > 10.0 * found[1], "{lost:?}");
+fn a_singular_point_on_the_border() {
+    let problem = changing_boundary();
+    let mut everywhere = problem.clone();
+    everywhere.enrichments[0].region = Region::Near(10.0);
+    let exact = |anchor: Vec2, offset: Vec2| {
+        let p = anchor + offset;
+        let (r, half) = (p.length(), 0.5 * p.y.atan2(p.x));
+        let (c, s, slope) = (half.cos(), half.sin(), 0.5 / r.sqrt());
+        // ∇ √r sin(θ/2) = (−sin(θ/2), cos(θ/2)) / (2√r)
+        [Jet { x: -slope * s, y: slope * c, ..Jet::constant(r.sqrt() * s) }, Jet::constant(0.0)]
+    };
+    let error = |problem: &Problem| energy_error(&solved(problem), &everywhere, &exact);
+    let found = [&everywhere, &problem, &bare(&problem)].map(error);
+    println!("on the border: everywhere, at the point, without: {}", listed(&found));
+    assert!(found[0] < 1e-9 && found[1] < 0.3 * found[2], "{found:?}");
+}
+
+/// Higher terms of Williams' series as enrichments: a field with an r^{3/2} term is in the space of both
+/// sets of functions.
+#[test]
+fn williams_terms_as_enrichments() {
+    let field = OBLIQUE.field().with_intensities(1.0, 0.5).with_term(3, 0.4, 0.3);
+    let mut set = discretization(Cells::Level(2), 2);
+    set.enrichment_radius = Some(10.0);
+    set.tip_degree = 0;
+    let problem = OBLIQUE.problem(&field, set);
+    let error = |problem: &Problem| errors(&solved(problem), &|p| both(field.evaluate(p))).energy;
+    let functions = [
+        "r^(3/2)*cos(3*theta/2)",
+        "r^(3/2)*sin(3*theta/2)",
+        "r^(3/2)*cos(theta/2)",
+        "r^(3/2)*sin(theta/2)",
+    ];
+    let mut more = problem.clone();
+    more.enrichments = vec![LocalEnrichment {
+        region: Region::Near(10.0),
+        degree: Some(0),
+        ..LocalEnrichment::new(&functions, Site::Tips)
+    }];
+    let (with, without) = (error(&more), error(&problem));
+    println!("r^3/2: {with:.1e} with its functions, {without:.1e} without");
+    assert!(with < 1e-9 && without > 1e-3, "{with} {without}");
+}
+
+/// The built-in tip functions and the same ones as an enrichment of one's own give the same step, bit by
+/// bit.
+#[test]
+fn built_in_and_own_tip_functions_are_one() {
+    let field = OBLIQUE.field().with_intensities(1.0, 0.5);
+    let mut set = discretization(Cells::Level(3), 2);
+    set.enrichment_radius = Some(0.4);
+    let built_in = OBLIQUE.problem(&field, set);
+    let mut own = built_in.clone();
+    own.discretization.enrichment = Enrichment::Jumps;
+    own.enrichments = vec![LocalEnrichment {
+        name: "westergaard".to_owned(),
+        ..LocalEnrichment::new(&WESTERGAARD, Site::Tips)
+    }];
+    let step = |problem: &Problem| {
+        let mut step = solved(problem).steps.remove(0);
+        step.history.retain(|record| record.unit != "s");
+        step
+    };
+    assert_eq!(step(&built_in), step(&own));
+}
+
+/// The discs of the stress intensity factors end at an interface of two materials.
+#[test]
+fn discs_end_at_interfaces() {
+    let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+    let plate = Problem::elasticity(SQUARE, steel, Discretization::new(Cells::Level(3)))
+        .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
+        .with_boundary(Edge::Bottom, pull(-1.0))
+        .with_boundary(Edge::Top, pull(1.0));
+    let check = |young: &str, expected: &[f64]| {
+        let young: Expression = young.parse().expect("a formula");
+        let elasticity = Elasticity { young, poisson: 0.3.into(), ..steel.into() };
+        let plate = Problem { equation: Equation::Elasticity(elasticity), ..plate.clone() };
+        let intensities = solved(&plate).steps.remove(0).intensities;
+        assert_eq!(intensities.len(), expected.len());
+        for (tip, radius) in intensities.iter().zip(expected) {
+            // the largest ring has 0.9 of the free radius
+            assert!((tip.rings[2].r2 - 0.9 * radius).abs() < 1e-12, "{:?}", tip.rings);
+        }
+    };
+    check("1", &[0.5, 0.5]);
+    check("if(x - y > 0.7, 3, 1)", &[0.5, 0.2 * FRAC_1_SQRT_2]);
+    // a tip on the interface has no factors
+    check("if(x > 0.5, 3, 1)", &[0.5]);
+}
+
+/// Functions that a space cannot hold are named, with the place.
+#[test]
+fn functions_that_cannot_be_used() {
+    let mut set = discretization(Cells::Level(3), 1);
+    set.enrichment = Enrichment::None;
+    let one = Problem::poisson(SQUARE, 1.0, set);
+    let problem = |function: &str, site, region| Problem {
+        enrichments: vec![LocalEnrichment { region, ..LocalEnrichment::new(&[function], site) }],
+        ..one.clone()
+    };
+    let at = |x, y| Site::Point { at: vec2(x, y), angle: 0.0 };
+    let right = |x: f64| Region::Where(format!("x - {x}").parse().expect("a formula"));
+    for (function, site, region, part) in [
+        ("sqrt(x)", Site::World, Region::Default, "the enrichment `sqrt(x)` is NaN at [-"),
+        ("log(r)", at(0.3, 0.2), Region::Default, "infinite energy around [0.3, 0.2]"),
+        ("r^(-0.2)", at(0.3, 0.2), Region::Default, "infinite energy around [0.3, 0.2]"),
+        ("theta", at(0.3, 0.2), Region::Near(0.5), "`theta at [0.3, 0.2]` has infinite energy"),
+        ("abs(y)", Site::World, right(2.0), "no patch has the enrichment `abs(y)`"),
+    ] {
+        let error = solve(&problem(function, site, region), &mut |_| {}).expect_err(function);
+        assert!(error.to_string().contains(part), "{function}: {error}");
+    }
+    discretise(&problem("sqrt(x)", Site::World, right(0.5))).expect("finite where it is needed");
 }

@@ -5,5 +5,6 @@ mod formulas;
 mod kernels;
 mod physics;
 mod plates;
+mod problem_files;
 #[path = "../studies/mod.rs"]
 mod studies;
