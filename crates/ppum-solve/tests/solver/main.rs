@@ -5,6 +5,7 @@ mod formulas;
 mod intensity;
 mod kernels;
 mod physics;
+mod pieces;
 mod plates;
 mod problem_files;
 #[path = "../studies/mod.rs"]
