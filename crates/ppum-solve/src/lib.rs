@@ -54,7 +54,6 @@ pub mod norms;
 mod pencil;
 pub mod problem;
 pub mod quadrature;
-#[cfg(test)]
 mod random;
 mod refine;
 mod rigid;
@@ -62,5 +61,6 @@ pub mod shape;
 mod smoothness;
 pub mod solve;
 pub mod space;
+mod spectrum;
 mod system;
 mod transform;

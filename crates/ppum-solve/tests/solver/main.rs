@@ -5,6 +5,8 @@ mod formulas;
 mod kernels;
 mod physics;
 mod plates;
+mod positions;
 mod problem_files;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod weights;
