@@ -1,13 +1,15 @@
 //! From a problem to a dataset.
 
+use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
-use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
+use crate::gauge::Gauge;
 use crate::intensity::intensities;
 use crate::law::Law;
+use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
-use crate::rigid::RigidMotions;
+use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
 use crate::system::{System, assemble, source_at};
@@ -119,7 +121,8 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
 pub fn spectrum(problem: &Problem) -> Result<Spectrum, SolveError> {
     let step = discretise(problem)?;
     let solver = Solver { problem, step: &step };
-    let (_, system) = solver.system(&solver.space()?, &mut Clock::new(), &mut |_| {})?;
+    let Assembled { system, .. } =
+        solver.assemble(&solver.space()?, &mut Clock::new(), &mut |_| {})?;
     Ok(Spectrum::new(&system.matrix, &Cholesky::new(&system.matrix)?)?)
 }
 
@@ -176,6 +179,10 @@ struct Solution {
     unknowns: usize,
     /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
+    /// Pieces of the plate.
+    pieces: usize,
+    /// Rigid motions of pieces that nothing holds.
+    free_motions: usize,
 }
 
 impl Solver<'_> {
@@ -186,15 +193,19 @@ impl Solver<'_> {
     ) -> Result<Solution, SolveError> {
         let components = self.problem.components();
         let space = self.space()?;
-        let (basis, system) = self.system(&space, clock, report)?;
+        let Assembled { basis, pieces, system, gauge } = self.assemble(&space, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
+        let solver = Cholesky::new(&system.matrix)?;
+        let mut solution = solver.solve(&system.load)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
             coefficients: basis.plain(&space, &solution.unknowns, components),
             dropped: basis.dropped().collect(),
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
+            pieces: pieces.all().len(),
+            free_motions: gauge.len(),
         })
     }
 
@@ -208,27 +219,45 @@ impl Solver<'_> {
         Ok(space)
     }
 
-    /// The stable basis and the system in it, gauged.
-    fn system(
+    fn assemble(
         &self,
         space: &Space<'_>,
         clock: &mut Clock,
         report: &mut dyn FnMut(Progress),
-    ) -> Result<(StableBasis, System), SolveError> {
+    ) -> Result<Assembled, SolveError> {
         let law = Law::new(&self.problem.equation);
-        let motions = RigidMotions::new(&self.problem.domain, self.problem.components());
+        let pieces = Pieces::new(self.problem.domain, &[], &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(space).map_err(SolveError::Basis)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, space, &basis, &law, motions, &mut tell)?;
-        let free = free_motions(&system, &motions)?;
-        check_balance(&system, &free)?;
-        gauge(&mut system, space, &basis, &motions, &free);
+        let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
+        let free = free_motions(&system.balance, &pieces)?;
+        let gauge = Gauge::new(space, &basis, &pieces, &system.balance, &free, &system.matrix);
+        gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
-        Ok((basis, system))
+        Ok(Assembled { basis, pieces, system, gauge })
     }
+}
+
+/// The system in the stable basis, with the penalty of the gauge.
+struct Assembled {
+    basis: StableBasis,
+    pieces: Pieces,
+    system: System,
+    gauge: Gauge,
+}
+
+/// The free motions of each piece, after a check that the loads leave them alone.
+fn free_motions(balances: &[Balance], pieces: &Pieces) -> Result<Vec<Vec<PerMotion>>, SolveError> {
+    let several = pieces.all().len() > 1;
+    let of_piece = |(balance, piece): (&Balance, &Piece)| {
+        let free = balance.free()?;
+        balance.check(&free, several.then_some(piece.inside))?;
+        Ok(free)
+    };
+    balances.iter().zip(pieces.all()).map(of_piece).collect()
 }
 
 impl Solution {
@@ -258,6 +287,8 @@ impl Solution {
             record("unknowns", self.unknowns as f64),
             record("cut-off", total),
             record("residual", self.residual),
+            record("pieces", self.pieces as f64),
+            record("free motions", self.free_motions as f64),
         ];
     }
 }
