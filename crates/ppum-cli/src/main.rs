@@ -15,6 +15,7 @@ mod replacements;
 mod sides;
 mod threads;
 mod tips;
+mod warnings;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;

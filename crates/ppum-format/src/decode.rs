@@ -6,7 +6,7 @@ mod tables;
 use ppum::crack::{Crack, CrackEnd, TipId};
 use ppum::dataset::{
     Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Record, Ring,
-    Step, TipIntensity,
+    Step, TipIntensity, Warning,
 };
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
@@ -16,7 +16,7 @@ use crate::content::{Array, Content, Values};
 use crate::error::ReadError;
 use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES};
 use functions::functions;
-use group::{Group, numbered, optional};
+use group::{Extent, Group, numbered, optional};
 use tables::{Scopes, tables};
 
 type Read<T> = Result<T, ReadError>;
@@ -112,6 +112,7 @@ fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
         attributes: optional(group, "attributes", attributes)?,
         intensities: optional(group, "intensities", intensities)?,
         history: optional(group, "history", history)?,
+        warnings: optional(group, "warnings", warnings)?,
     })
 }
 
@@ -220,6 +221,24 @@ fn history(group: &mut Group) -> Read<Vec<Record>> {
     let units = group.column::<String>("unit", names.len())?;
     let records = names.into_iter().zip(values).zip(units);
     Ok(records.map(|((name, value), unit)| Record { name, value, unit }).collect())
+}
+
+fn warnings(group: &mut Group) -> Read<Vec<Warning>> {
+    let kinds = group.vector::<String>("kind")?;
+    let n = kinds.len();
+    let at = group.array::<f64>("at", &[Extent::Is(n as u64), Extent::Is(2)])?;
+    let messages = group.column::<String>("message", n)?;
+    let (values, limits) = (group.column::<f64>("value", n)?, group.column::<f64>("limit", n)?);
+    let place = |k: usize| {
+        let [x, y] = [at[2 * k], at[2 * k + 1]];
+        (!x.is_nan() || !y.is_nan()).then_some(vec2(x, y))
+    };
+    let texts = kinds.into_iter().zip(messages).enumerate();
+    let warning = |(k, (kind, message))| {
+        let (value, limit) = (values[k], limits[k]);
+        Warning { kind, at: place(k), value, limit, message }
+    };
+    Ok(texts.map(warning).collect())
 }
 
 #[cfg(test)]

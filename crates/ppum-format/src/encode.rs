@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{
-    Dataset, Equation, FieldData, NamedQuantity, Partition, Record, Step, TipIntensity,
+    Dataset, Equation, FieldData, NamedQuantity, Partition, Record, Step, TipIntensity, Warning,
 };
 use ppum::formula::Table;
 use ppum::function::{Frame, Function, FunctionKind};
@@ -150,6 +150,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
     attributes.array("values", Array::matrix(&values, patches));
     intensities(&mut group.group("intensities"), &step.intensities)?;
     history(&mut group.group("history"), &step.history);
+    warnings(&mut group.group("warnings"), &step.warnings);
     Ok(())
 }
 
@@ -324,4 +325,17 @@ fn history(group: &mut Group, history: &[Record]) {
     group.vector("name", history.iter().map(|r| r.name.clone()));
     group.vector("value", history.iter().map(|r| r.value));
     group.vector("unit", history.iter().map(|r| r.unit.clone()));
+}
+
+/// Nothing where there are none; the place of a warning without one is NaN.
+fn warnings(group: &mut Group, warnings: &[Warning]) {
+    if warnings.is_empty() {
+        return;
+    }
+    let at = |w: &Warning| w.at.map_or([f64::NAN; 2], <[f64; 2]>::from);
+    group.vector("kind", warnings.iter().map(|w| w.kind.clone()));
+    group.array("at", Array::rows(warnings.iter().map(at)));
+    group.vector("value", warnings.iter().map(|w| w.value));
+    group.vector("limit", warnings.iter().map(|w| w.limit));
+    group.vector("message", warnings.iter().map(|w| w.message.clone()));
 }

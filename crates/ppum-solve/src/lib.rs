@@ -66,3 +66,4 @@ pub mod space;
 mod spectrum;
 mod system;
 mod transform;
+pub mod warnings;

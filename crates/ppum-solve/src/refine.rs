@@ -8,7 +8,7 @@
 use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
 use ppum::cover::{Cover, CoverError};
-use ppum::crack::{Crack, TipId, tips};
+use ppum::crack::{TipId, tips};
 use ppum::vec2::{Rect, Vec2};
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
@@ -71,7 +71,7 @@ struct Need {
 impl Need {
     fn new(problem: &Problem, id: TipId) -> Self {
         let crack = &problem.cracks[id.crack as usize];
-        let share = length(crack) / crack.tips().count() as f64;
+        let share = crack.length() / crack.tips().count() as f64;
         let other_tips = tips(&problem.cracks)
             .filter(|other| *other != id)
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
@@ -88,8 +88,4 @@ impl Need {
             && (cell.size().x.max(cell.size().y) > self.largest
                 || self.apart.iter().any(|&p| patch.contains(p)))
     }
-}
-
-fn length(crack: &Crack) -> f64 {
-    crack.points.windows(2).map(|s| (s[1] - s[0]).length()).sum()
 }

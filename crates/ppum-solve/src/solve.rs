@@ -5,7 +5,7 @@ use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
-use crate::intensity::{Loads, intensities};
+use crate::intensity::Loads;
 use crate::law::Law;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
@@ -13,8 +13,9 @@ use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
 use crate::system::{System, assemble, source_at};
-use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
-use ppum::field::{Field, FieldError};
+use crate::warnings::judge;
+use ppum::dataset::{Attribute, Dataset, Record, Step};
+use ppum::field::FieldError;
 use ppum::function::{FunctionError, FunctionTable};
 use ppum::vec2::Vec2;
 use std::time::Instant;
@@ -105,10 +106,13 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     solution.store(&mut step, problem.components());
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
-    let intensities = stress_intensity(problem, &dataset)?;
+    let force = |x: Vec2| source_at(problem, x);
+    let loads = Loads { force: Some(&force), faces: None };
+    let (tips, warnings) = judge(&dataset, 0, loads)?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
-    step.intensities = intensities;
+    step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
+    step.warnings = warnings;
     step.history.extend(clock.records);
     Ok(dataset)
 }
@@ -137,14 +141,6 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
         tables: problem.tables.clone(),
         steps: vec![step],
     }
-}
-
-fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
-    let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)?;
-    let force = |x: Vec2| source_at(problem, x);
-    let loads = Loads { force: Some(&force), faces: None };
-    let found = intensities(dataset, &Field::new(dataset, 0)?, &space, loads);
-    Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
 }
 
 /// Times phases.
@@ -185,6 +181,8 @@ struct Solution {
     pieces: usize,
     /// Rigid motions of pieces that nothing holds.
     free_motions: usize,
+    /// Largest part of the loads on a piece that does not balance.
+    imbalance: f64,
 }
 
 impl Solver<'_> {
@@ -195,7 +193,8 @@ impl Solver<'_> {
     ) -> Result<Solution, SolveError> {
         let components = self.problem.components();
         let space = self.space()?;
-        let Assembled { basis, pieces, system, gauge } = self.assemble(&space, clock, report)?;
+        let Assembled { basis, pieces, system, gauge, imbalance } =
+            self.assemble(&space, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
         let solver = Cholesky::new(&system.matrix)?;
         let mut solution = solver.solve(&system.load)?;
@@ -208,6 +207,7 @@ impl Solver<'_> {
             residual: solution.relative_residual,
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
+            imbalance,
         })
     }
 
@@ -236,10 +236,12 @@ impl Solver<'_> {
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
         let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
         let free = free_motions(&system.balance, &pieces)?;
+        let balances = system.balance.iter().zip(&free);
+        let imbalance = balances.map(|(b, free)| b.imbalance(free)).fold(0.0, f64::max);
         let gauge = Gauge::new(space, &basis, &pieces, &system.balance, &free, &system.matrix);
         gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
-        Ok(Assembled { basis, pieces, system, gauge })
+        Ok(Assembled { basis, pieces, system, gauge, imbalance })
     }
 }
 
@@ -249,6 +251,8 @@ struct Assembled {
     pieces: Pieces,
     system: System,
     gauge: Gauge,
+    /// See [`Solution::imbalance`].
+    imbalance: f64,
 }
 
 /// The free motions of each piece, after a check that the loads leave them alone.
@@ -291,6 +295,7 @@ impl Solution {
             record("residual", self.residual),
             record("pieces", self.pieces as f64),
             record("free motions", self.free_motions as f64),
+            record("imbalance", self.imbalance),
         ];
     }
 }

@@ -185,6 +185,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         partition,
         intensities: Vec::new(),
         history: Vec::new(),
+        warnings: Vec::new(),
     };
     inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)

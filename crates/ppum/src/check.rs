@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use crate::crack::Crack;
 use crate::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Step, TipIntensity, monomials,
+    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Step, TipIntensity, Warning, monomials,
 };
 use crate::function::{Frame, Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
@@ -158,6 +158,9 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     for (k, intensity) in step.intensities.iter().enumerate() {
         check_intensity(intensity, step.cracks.len())
             .map_err(|e| e.inside(&format!("intensities[{k}]")))?;
+    }
+    for (k, warning) in step.warnings.iter().enumerate() {
+        check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
     }
     Ok(())
 }
@@ -315,6 +318,13 @@ fn check_intensity(intensity: &TipIntensity, cracks: usize) -> Checked {
     )
 }
 
+fn check_warning(warning: &Warning) -> Checked {
+    require(!warning.kind.trim().is_empty(), "kind", || "is empty".into())?;
+    check_points("at", warning.at.as_slice())?;
+    check_number("value", warning.value)?;
+    check_number("limit", warning.limit)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -371,6 +381,7 @@ mod tests {
             attributes: vec![Attribute { name: "order".into(), values: vec![f64::NAN] }],
             intensities: vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }],
             history: vec![],
+            warnings: vec![],
         };
         Dataset {
             title: "one patch".into(),

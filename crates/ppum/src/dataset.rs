@@ -61,6 +61,8 @@ pub struct Step {
     pub intensities: Vec<TipIntensity>,
     /// What the solver reports: residual, unknowns, functions cut off, seconds per phase.
     pub history: Vec<Record>,
+    /// What a specialist would remark on.
+    pub warnings: Vec<Warning>,
 }
 
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
@@ -181,6 +183,21 @@ pub struct Record {
     pub value: f64,
     /// Unit, e.g. `s`; empty for plain numbers.
     pub unit: String,
+}
+
+/// A finding about a solution that does not make it wrong to have, but wrong to trust unread.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// A word for its kind, e.g. `faces-overlap`.
+    pub kind: String,
+    /// Where, if it is about a place.
+    pub at: Option<Vec2>,
+    /// The number that gave rise to it.
+    pub value: f64,
+    /// The bound that the number passes.
+    pub limit: f64,
+    /// What is wrong and what to do, on one line, with the place.
+    pub message: String,
 }
 
 /// Stress intensity factors at one tip, from interaction integrals over several discs.

@@ -49,6 +49,7 @@
 //!     attributes: Vec::new(),
 //!     intensities: Vec::new(),
 //!     history: Vec::new(),
+//!     warnings: Vec::new(),
 //! };
 //! let dataset = Dataset {
 //!     title: "A slope".into(),
@@ -140,6 +141,7 @@
 //!         attributes: vec![],
 //!         intensities: vec![],
 //!         history: vec![],
+//!         warnings: vec![],
 //!     }],
 //! };
 //!

@@ -3,18 +3,19 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
-use ppum::dataset::{Dataset, Step, TipIntensity};
-use ppum::field::Field;
+use anyhow::bail;
+use ppum::crack::{TipId, tips};
+use ppum::dataset::{Dataset, Step, Warning};
 use ppum::vec2::Vec2;
-use ppum_solve::intensity::{Loads, intensities};
+use ppum_solve::intensity::{Loads, Outcome};
 use ppum_solve::problem::{Expression, Problem};
-use ppum_solve::space::Space;
+use ppum_solve::warnings::judge;
 use serde::Serialize;
 
 use crate::dataset::open;
 use crate::number::json;
-use crate::tips::{Tip, table, warn};
+use crate::tips::{Tip, table};
+use crate::warnings::{WarningRow, rows, warn};
 
 /// Print the stress intensity factors of all crack tips
 ///
@@ -40,6 +41,7 @@ Examples:
 struct Report {
     file: String,
     tips: Vec<Tip>,
+    warnings: Vec<WarningRow>,
 }
 
 impl Args {
@@ -51,59 +53,76 @@ impl Args {
                 "{file}: a Poisson problem has no stress intensity factors; solve one of elasticity"
             );
         }
-        let tips = tips(&dataset, &self.file)?;
-        warn(&tips);
+        let report = Report::new(file, &dataset, &self.file)?;
+        warn(&report.warnings);
         if self.json {
-            json(out, &Report { file, tips })?;
-        } else if tips.is_empty() {
-            writeln!(out, "{file}: no crack tips, so no stress intensity factors")?;
+            json(out, &report)?;
+        } else if report.tips.is_empty() {
+            writeln!(out, "{}: no crack tips, so no stress intensity factors", report.file)?;
         } else {
-            table(out, &tips)?;
+            table(out, &report.tips)?;
         }
         Ok(())
     }
 }
 
-fn tips(dataset: &Dataset, path: &Path) -> anyhow::Result<Vec<Tip>> {
-    let force = BodyForce::of(dataset, path);
-    let mut tips = Vec::new();
-    for (index, step) in dataset.steps.iter().enumerate() {
-        let found = match &force {
-            BodyForce::Known(force) => computed(dataset, index, force)?,
-            // What the solver found while it knew the force.
-            BodyForce::Unknown if is_complete(step) => step.intensities.clone(),
-            BodyForce::Unknown => bail!(
-                "{}: the stored problem cannot be read, so the body force is not known",
-                path.display()
-            ),
-        };
-        tips.extend(found.iter().map(|tip| Tip::new(index, step, tip)));
+impl Report {
+    fn new(file: String, dataset: &Dataset, path: &Path) -> anyhow::Result<Self> {
+        let force = BodyForce::of(dataset, path);
+        let (mut tips, mut warnings) = (Vec::new(), Vec::new());
+        for (index, step) in dataset.steps.iter().enumerate() {
+            let (found, remarks) = match &force {
+                BodyForce::Known(force) => computed(dataset, index, force)?,
+                // What the solver found while it knew the force.
+                BodyForce::Unknown => stored(&file, index, step)?,
+            };
+            tips.extend(found);
+            warnings.extend(rows(index, &remarks));
+        }
+        Ok(Self { file, tips, warnings })
     }
-    Ok(tips)
-}
-
-/// True if every tip has stored intensities.
-fn is_complete(step: &Step) -> bool {
-    step.intensities.len() == ppum::crack::tips(&step.cracks).count()
 }
 
 /// The interaction integrals over the field of a step.
 fn computed(
     dataset: &Dataset,
-    step: usize,
+    index: usize,
     force: &[Expression],
-) -> anyhow::Result<Vec<TipIntensity>> {
-    let field = Field::new(dataset, step)?;
-    let space =
-        Space::new(field.step, field.equation, field.tables).context("functions of the field")?;
+) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let at = |x: Vec2| {
         let mut values = [0.0; 2];
         values.iter_mut().zip(force).for_each(|(value, f)| *value = f.value(x));
         values
     };
     let loads = Loads { force: Some(&at), faces: None };
-    let found = intensities(dataset, &field, &space, loads);
-    Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
+    let (outcomes, warnings) = judge(dataset, index, loads)?;
+    let step = &dataset.steps[index];
+    let tip = |outcome: &Outcome| match &outcome.factors {
+        Some(factors) => Tip::new(index, step, factors),
+        None => Tip::without_factors(index, step, outcome.tip),
+    };
+    Ok((outcomes.iter().map(tip).collect(), warnings))
+}
+
+/// What the solver stored in a step.
+fn stored(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
+    let found = |tip: TipId| step.intensities.iter().find(|known| known.tip == tip);
+    let tip = |tip: TipId| match found(tip) {
+        Some(factors) => Tip::new(index, step, factors),
+        None => Tip::without_factors(index, step, tip),
+    };
+    let tips: Vec<Tip> = tips(&step.cracks).map(tip).collect();
+    if step.intensities.is_empty() && !tips.is_empty() {
+        bail!(
+            "{file}: the stored problem cannot be read, so the loads near the tips are not known, and \
+             no factors are stored; solve the problem again"
+        );
+    }
+    eprintln!(
+        "warning: {file}: the stored problem cannot be read, so the loads near the tips are not known; \
+         these are the factors that the solver stored"
+    );
+    Ok((tips, step.warnings.clone()))
 }
 
 /// The force inside the plate, which the interaction integral needs.

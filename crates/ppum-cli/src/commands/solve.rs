@@ -15,7 +15,8 @@ use crate::families::{Family, blocks, families};
 use crate::number::trimmed;
 use crate::progress::Bar;
 use crate::threads;
-use crate::tips::{Tip, table, warn};
+use crate::tips::{Tip, table};
+use crate::warnings::{rows, warn};
 
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]
@@ -88,8 +89,8 @@ fn summary(out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
         let tips: Vec<_> = step.intensities.iter().map(|t| Tip::new(index, step, t)).collect();
         if !tips.is_empty() {
             table(out, &tips)?;
-            warn(&tips);
         }
+        warn(&rows(index, &step.warnings));
     }
     Ok(())
 }

@@ -151,6 +151,7 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
             attributes: Vec::new(),
             intensities: Vec::new(),
             history: Vec::new(),
+            warnings: Vec::new(),
         }],
     }
 }

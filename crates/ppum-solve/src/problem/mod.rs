@@ -214,8 +214,7 @@ impl Problem {
             return radius;
         }
         let position = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
-        let segments = self.cracks[tip.crack as usize].points.windows(2);
-        let length = segments.map(|pair| (pair[1] - pair[0]).length()).sum();
+        let length = self.cracks[tip.crack as usize].length();
         let others = tips(&self.cracks).filter(|other| *other != tip);
         let distances = others.map(|other| (position(other) - position(tip)).length());
         0.25 * distances.fold(length, f64::min)

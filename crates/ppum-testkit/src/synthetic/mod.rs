@@ -170,6 +170,7 @@ impl Recipe {
             attributes: Vec::new(),
             intensities: Vec::new(),
             history: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 

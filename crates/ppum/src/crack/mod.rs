@@ -62,6 +62,12 @@ pub enum Side {
 }
 
 impl Crack {
+    /// Length along the crack.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.points.windows(2).map(|s| (s[1] - s[0]).length()).sum()
+    }
+
     /// Position of an end.
     #[must_use]
     pub fn end_point(&self, end: End) -> Vec2 {

@@ -15,6 +15,7 @@ use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
 use crate::families::{Family, blocks, families};
 use crate::number::Number;
 use crate::tips::Tip;
+use crate::warnings::{WarningRow, rows};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
@@ -91,6 +92,7 @@ pub(super) struct StepReport {
     pub(super) unknowns: usize,
     pub(super) history: Vec<HistoryRow>,
     pub(super) intensities: Vec<Tip>,
+    pub(super) warnings: Vec<WarningRow>,
 }
 
 /// Cells of a level of the tree.
@@ -179,6 +181,7 @@ impl StepReport {
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
+            warnings: rows(index, &field.step.warnings),
         })
     }
 }

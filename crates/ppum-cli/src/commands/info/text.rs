@@ -64,6 +64,12 @@ impl Page<'_> {
             writeln!(self.0, "\nstress intensity factors")?;
             table(self.0, &step.intensities)?;
         }
+        if !step.warnings.is_empty() {
+            writeln!(self.0, "\nwarnings")?;
+        }
+        for warning in &step.warnings {
+            writeln!(self.0, "{}", warning.message())?;
+        }
         Ok(())
     }
 }

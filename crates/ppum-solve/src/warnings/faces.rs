@@ -1,0 +1,91 @@
+//! Warnings about the faces of cracks: whether they open.
+
+use super::{kind, short, shown, warning};
+use ppum::crack::{Crack, Side};
+use ppum::dataset::Warning;
+use ppum::field::Field;
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+/// Places along a crack at which its opening is looked at.
+const SAMPLES: usize = 96;
+
+/// Distance from the crack at which its faces are evaluated, in parts of its length: beyond rounding
+/// of the coordinates, and nothing against the opening.
+const BESIDE: f64 = 1e-9;
+
+/// Part of a crack's scale by which faces may overlap where they should just touch.
+const NOISE: f64 = 5e-3;
+
+/// The warnings about the faces of all cracks of a displacement.
+pub(super) fn of_faces(field: &Field<'_>) -> Vec<Warning> {
+    if field.equation.elastic().is_none() || field.components() != 2 {
+        return Vec::new();
+    }
+    let cracks = field.step.cracks.iter().enumerate();
+    cracks.filter_map(|(k, crack)| overlap(field, k, crack)).collect()
+}
+
+/// A place on a crack.
+struct Place {
+    at: Vec2,
+    /// Normal component of the jump.
+    opening: f64,
+    /// Length of the jump.
+    jump: f64,
+    /// Magnitude of the strain beside the crack.
+    strain: f64,
+}
+
+fn overlap(field: &Field<'_>, index: usize, crack: &Crack) -> Option<Warning> {
+    let places: Vec<Place> = places(crack).filter_map(|p| Place::new(field, crack, p)).collect();
+    // an opening is small against other jumps, or against what the strain makes of the length
+    let jump = places.iter().fold(0.0f64, |m, p| m.max(p.jump));
+    let strain = places.iter().map(|p| p.strain).sum::<f64>() / places.len() as f64;
+    let scale = jump.max(strain * crack.length());
+    let limit = -NOISE * scale;
+    let closed = places.iter().filter(|p| p.opening < limit).count();
+    let worst = places.iter().min_by(|a, b| a.opening.total_cmp(&b.opening))?;
+    (worst.opening < limit).then(|| {
+        let message = format!(
+            "crack {index}: its faces overlap on {:.0} % of its length, most at {} by {}: the solution \
+             has no meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
+            (100.0 * closed as f64 / places.len() as f64).max(1.0),
+            shown(worst.at),
+            short(-worst.opening)
+        );
+        warning(kind::FACES_OVERLAP, Some(worst.at), [worst.opening, limit], message)
+    })
+}
+
+/// Points along a crack, equally apart and none at a vertex, with the normal there.
+fn places(crack: &Crack) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let length = crack.length();
+    crack.points.windows(2).flat_map(move |s| {
+        let (a, way) = (s[0], s[1] - s[0]);
+        let count = (SAMPLES as f64 * way.length() / length).ceil();
+        let at = move |k: usize| a + way * ((k as f64 + 0.5) / count);
+        (0..count as usize).map(move |k| (at(k), way.unit().left()))
+    })
+}
+
+impl Place {
+    fn new(field: &Field<'_>, crack: &Crack, (at, normal): (Vec2, Vec2)) -> Option<Self> {
+        let beside = BESIDE * crack.length();
+        let mut local = field.at(at);
+        let mut face = |sign: f64, side: Side| {
+            let mut u = [Jet::constant(0.0); 2];
+            let offset = normal * (sign * beside);
+            local.evaluate::<1>(offset, side, &mut u).then_some(u)
+        };
+        let (above, below) = (face(1.0, Side::Above)?, face(-1.0, Side::Below)?);
+        let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
+        let strain = |u: [Jet<f64>; 2]| u[0].x.hypot(u[1].y).hypot(0.5 * (u[0].y + u[1].x));
+        Some(Self {
+            at,
+            opening: jump.dot(normal),
+            jump: jump.length(),
+            strain: strain(above).min(strain(below)),
+        })
+    }
+}

@@ -1,0 +1,129 @@
+//! What a specialist would remark on: findings about a solution that do not make it wrong to have, but
+//! wrong to trust unread.
+//!
+//! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the bound
+//! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset.
+
+mod faces;
+mod tips;
+
+pub use tips::relative_spread;
+
+use crate::intensity::{Loads, Outcome, intensities};
+use crate::space::Space;
+use faces::of_faces;
+use ppum::dataset::{Dataset, Record, Step, Warning};
+use ppum::field::{Field, FieldError};
+use ppum::vec2::Vec2;
+use tips::of_tips;
+
+/// Relative residual of the linear system above which it is not solved as well as it should be:
+/// 1e-12 and less is usual.
+pub const LARGE_RESIDUAL: f64 = 1e-8;
+
+/// Part of the loads that may remain unbalanced on a piece of the plate that nothing holds; more is
+/// seen in the solution's digits.
+pub const LARGE_IMBALANCE: f64 = 1e-8;
+
+/// Part of the unknowns that the stable basis may cut off.
+pub const LARGE_CUT_OFF: f64 = 0.25;
+
+/// Words of the kinds of warnings.
+pub mod kind {
+    /// The faces of a crack overlap.
+    pub const FACES_OVERLAP: &str = "faces-overlap";
+    /// K_I of a tip is negative.
+    pub const NEGATIVE_K1: &str = "negative-k1";
+    /// A tip has no factors, because it has too little room.
+    pub const NO_ROOM: &str = "no-room";
+    /// A tip has little room, so its factors are less accurate.
+    pub const LITTLE_ROOM: &str = "little-room";
+    /// The factors at the radii of a tip differ.
+    pub const SPREAD: &str = "spread";
+    /// A tip is close to the border, measured by the length of its crack.
+    pub const TIP_NEAR_BORDER: &str = "tip-near-border";
+    /// A crack is as long as a few cells only.
+    pub const COARSE: &str = "coarse";
+    /// Loads do not balance to the last digits.
+    pub const IMBALANCE: &str = "imbalance";
+    /// The linear system has a large residual.
+    pub const RESIDUAL: &str = "residual";
+    /// Many functions were cut off as dependent.
+    pub const CUT_OFF: &str = "cut-off";
+}
+
+/// The stress intensity factors of a step's first field, and the warnings about it, with the loads it
+/// was solved for. Nothing but the dataset is asked: for a solver's dataset both are what it holds.
+///
+/// # Errors
+/// A step that is not there, functions that do not compile.
+pub fn judge(
+    dataset: &Dataset,
+    step: usize,
+    loads: Loads<'_>,
+) -> Result<(Vec<Outcome>, Vec<Warning>), FieldError> {
+    let field = Field::new(dataset, step)?;
+    let space = Space::new(field.step, &dataset.equation, &dataset.tables)?;
+    let tips = intensities(dataset, &field, &space, loads);
+    let mut warnings = of_tips(&tips, &field.step.cracks);
+    warnings.extend(of_faces(&field));
+    warnings.extend(of_history(field.step));
+    Ok((tips, warnings))
+}
+
+/// The warnings about the solution as a whole, from the solver's report in the step's history.
+fn of_history(step: &Step) -> Vec<Warning> {
+    let value =
+        |name: &str| step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value);
+    let residual = value("residual").unwrap_or(0.0);
+    let imbalance = value("imbalance").unwrap_or(0.0);
+    let cut = value("cut-off").zip(value("unknowns")).map_or(0.0, |(cut, all)| cut / all);
+    let rules = [
+        (
+            kind::RESIDUAL,
+            residual,
+            LARGE_RESIDUAL,
+            format!(
+                "the residual of the linear system is {residual:.1e} of the load; the solution has lost \
+             digits: look for cracks that nearly touch, or cells far smaller than their neighbours' cracks"
+            ),
+        ),
+        (
+            kind::IMBALANCE,
+            imbalance,
+            LARGE_IMBALANCE,
+            format!(
+                "{imbalance:.1e} of the loads remain unbalanced on a plate that nothing holds, and are left \
+             out; balance the loads, or hold the plate"
+            ),
+        ),
+        (
+            kind::CUT_OFF,
+            cut,
+            LARGE_CUT_OFF,
+            format!(
+                "{:.0} % of the functions depend on others and were cut off; a smaller `enrichment_radius` or \
+             a lower `order` gives the same with less work",
+                100.0 * cut
+            ),
+        ),
+    ];
+    let passed = rules.into_iter().filter(|(_, value, limit, _)| value > limit);
+    passed
+        .map(|(kind, value, limit, message)| warning(kind, None, [value, limit], message))
+        .collect()
+}
+
+fn warning(kind: &str, at: Option<Vec2>, [value, limit]: [f64; 2], message: String) -> Warning {
+    Warning { kind: kind.into(), at, value, limit, message }
+}
+
+/// A point for people.
+fn shown(p: Vec2) -> String {
+    format!("({}, {})", short(p.x), short(p.y))
+}
+
+/// Four digits, without zeros at the end.
+fn short(value: f64) -> String {
+    format!("{:.4e}", value).parse::<f64>().map_or_else(|_| value.to_string(), |v| v.to_string())
+}

@@ -1,0 +1,134 @@
+//! Warnings about tips and their stress intensity factors.
+
+use super::{kind, short, shown, warning};
+use crate::intensity::{AMPLE_ROOM, Obstacle, Outcome};
+use ppum::crack::Crack;
+use ppum::dataset::{Ring, TipIntensity, Warning};
+
+/// Difference of the factors at three radii, in parts of their size, above which they are not to be
+/// trusted.
+pub(super) const LARGE_SPREAD: f64 = 0.01;
+
+/// Part of |K| that K_I may be negative by where it should be zero.
+const NOISE: f64 = 1e-3;
+
+/// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly
+/// broken through.
+const NEAR_BORDER: f64 = 0.05;
+
+/// Least number of cells along a crack.
+const LEAST_CELLS: f64 = 4.0;
+
+/// The warnings about the tips of a step, whose cracks these are.
+pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
+    let of_tip = |outcome: &Outcome| {
+        let length = cracks[outcome.tip.crack as usize].length();
+        let about_factors = match &outcome.factors {
+            Some(factors) => [negative(outcome, factors), spread(outcome, factors)],
+            None => [Some(no_room(outcome)), None],
+        };
+        let about_place =
+            [little_room(outcome), near_border(outcome, length), coarse(outcome, length)];
+        about_factors.into_iter().chain(about_place).flatten()
+    };
+    outcomes.iter().flat_map(of_tip).collect()
+}
+
+/// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
+/// the denominator; NaN where that is zero, or without rings.
+#[must_use]
+pub fn relative_spread(intensity: &TipIntensity) -> f64 {
+    let rings = &intensity.rings;
+    let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);
+    let pairs = rings.iter().flat_map(|a| rings.iter().map(move |b| difference(a, b)));
+    pairs.fold(f64::NAN, f64::max) / intensity.k1.hypot(intensity.k2)
+}
+
+fn negative(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
+    let TipIntensity { k1, k2, .. } = *factors;
+    let limit = -NOISE * k1.hypot(k2);
+    let message = format!(
+        "tip {}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
+         meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
+        shown(outcome.at),
+        short(k1)
+    );
+    (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
+}
+
+fn spread(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
+    let spread = relative_spread(factors);
+    let message = format!(
+        "tip {}: the values at three radii differ by {} %; use smaller cells there, and look for \
+         loads or materials that vary near the tip",
+        shown(outcome.at),
+        short((1e3 * spread).round() / 10.0)
+    );
+    (spread > LARGE_SPREAD)
+        .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
+}
+
+fn no_room(outcome: &Outcome) -> Warning {
+    let (room, needed) = (outcome.room.radius, outcome.needed());
+    let at = shown(outcome.at);
+    let message = if room <= f64::EPSILON * needed {
+        format!(
+            "tip {at}: no stress intensity factors, because it lies on {}; move it away",
+            outcome.room.end.name()
+        )
+    } else {
+        format!(
+            "tip {at}: no stress intensity factors: the disc up to {} has a radius of {}, but {} is \
+             needed with cells {} wide; use cells of at most {} there, or move the tip away",
+            outcome.room.end.name(),
+            short(room),
+            short(needed),
+            short(outcome.cell),
+            short(room * outcome.cell / needed)
+        )
+    };
+    warning(kind::NO_ROOM, Some(outcome.at), [room, needed], message)
+}
+
+fn little_room(outcome: &Outcome) -> Option<Warning> {
+    let (room, ample) = (outcome.room.radius, AMPLE_ROOM * outcome.cell);
+    let little = outcome.factors.is_some() && room < ample;
+    little.then(|| {
+        let message = format!(
+            "tip {}: the disc up to {} has a radius of {} cells only, and the factors may be off by \
+             1 %; use cells of at most {} there",
+            shown(outcome.at),
+            outcome.room.end.name(),
+            short((100.0 * room / outcome.cell).round() / 100.0),
+            short(room / AMPLE_ROOM)
+        );
+        warning(kind::LITTLE_ROOM, Some(outcome.at), [room, ample], message)
+    })
+}
+
+fn near_border(outcome: &Outcome, length: f64) -> Option<Warning> {
+    let (room, limit) = (outcome.room.radius, NEAR_BORDER * length);
+    (outcome.room.end == Obstacle::Border && room < limit).then(|| {
+        let message = format!(
+            "tip {}: it is {} from the border, {} % of the crack's length: the factors grow like one over \
+             the root of that distance; see that the position is meant, or let the crack end on the border",
+            shown(outcome.at),
+            short(room),
+            short((1e3 * room / length).round() / 10.0)
+        );
+        warning(kind::TIP_NEAR_BORDER, Some(outcome.at), [room, limit], message)
+    })
+}
+
+fn coarse(outcome: &Outcome, length: f64) -> Option<Warning> {
+    let cells = length / outcome.cell;
+    (cells < LEAST_CELLS).then(|| {
+        let message = format!(
+            "tip {}: its crack is only {} cells long; use cells of at most {} there, or `refine = true`",
+            shown(outcome.at),
+            short((100.0 * cells).round() / 100.0),
+            short(length / LEAST_CELLS)
+        );
+        warning(kind::COARSE, Some(outcome.at), [cells, LEAST_CELLS], message)
+    })
+}
