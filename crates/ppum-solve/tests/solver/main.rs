@@ -6,6 +6,8 @@ mod kernels;
 mod physics;
 mod pieces;
 mod plates;
+mod positions;
 mod problem_files;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod weights;
