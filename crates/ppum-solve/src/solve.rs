@@ -5,7 +5,7 @@ use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
-use crate::intensity::intensities;
+use crate::intensity::{Loads, intensities};
 use crate::law::Law;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
@@ -142,7 +142,9 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
 fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
     let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)?;
     let force = |x: Vec2| source_at(problem, x);
-    Ok(intensities(dataset, &Field::new(dataset, 0)?, &space, Some(&force)))
+    let loads = Loads { force: Some(&force), faces: None };
+    let found = intensities(dataset, &Field::new(dataset, 0)?, &space, loads);
+    Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
 }
 
 /// Times phases.
