@@ -118,11 +118,13 @@ fn stored(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Ve
              no factors are stored; solve the problem again"
         );
     }
-    eprintln!(
-        "warning: {file}: the stored problem cannot be read, so the loads near the tips are not known; \
-         these are the factors that the solver stored"
+    let message = format!(
+        "{file}: the stored problem cannot be read, so the loads near the tips are not known; these are \
+         the factors that the solver stored"
     );
-    Ok((tips, step.warnings.clone()))
+    let unknown =
+        Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
+    Ok((tips, step.warnings.iter().cloned().chain([unknown]).collect()))
 }
 
 /// The force inside the plate, which the interaction integral needs.

@@ -30,7 +30,22 @@ const FACE_PANELS: u32 = 8;
 const FACE_ORDER: usize = 8;
 
 /// Integrals of both modes over each disc.
-type Integrals = [[f64; 2]; RINGS];
+type Modes = [[f64; 2]; RINGS];
+
+/// Integrals around a tip.
+#[derive(Clone, Copy, Default)]
+struct Integrals {
+    modes: Modes,
+    /// Twice the strain energy in the largest disc.
+    energy: f64,
+}
+
+/// What is found at a tip.
+pub(super) struct Found {
+    pub(super) rings: [Ring; RINGS],
+    /// See [`Outcome::strength`](super::Outcome::strength).
+    pub(super) strength: f64,
+}
 
 /// The interaction integrals around one tip.
 pub(super) struct Interaction<'a> {
@@ -96,7 +111,7 @@ impl<'a> Interaction<'a> {
         for ((&offset, &weight), u) in offsets.iter().zip(&weights).zip(jets.chunks_exact(2)) {
             let force = self.loads.force.map_or([0.0; 2], |force| force(rule.anchor + offset));
             let part = self.at(&point(offset), &in_frame(u, tip.axis), turned(tip.axis, force));
-            integrals = sum(integrals, part.map(|modes| modes.map(|m| weight * m)));
+            integrals = sum(integrals, part.times(weight));
         }
         integrals
     }
@@ -107,17 +122,20 @@ impl<'a> Interaction<'a> {
     fn at(&self, point: &TipPoint<f64>, u: &[Vec2; 2], force: Vec2) -> Integrals {
         let auxiliary = auxiliary(&self.material, &westergaard::<f64, 1>(point));
         let along = vec2(point.x, point.y);
-        let parts =
-            auxiliary.map(|a| (self.flow(u, &a).dot(along), force.x * a[0].x + force.y * a[1].x));
-        self.radii.map(|radius| {
+        let stress = self.law.flux(u);
+        let energy = (0..2).map(|i| stress[i][0] * u[i].x + stress[i][1] * u[i].y).sum();
+        let parts = auxiliary
+            .map(|a| (self.flow(&stress, u, &a).dot(along), force.x * a[0].x + force.y * a[1].x));
+        let modes = self.radii.map(|radius| {
             let (q, slope) = cut_off(square(point), radius);
             parts.map(|(flow, work)| slope * flow - q * work)
-        })
+        });
+        Integrals { modes, energy }
     }
 
     /// σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σ_ik εᵃ_ik δ_1j, a vector over j.
-    fn flow(&self, u: &[Vec2; 2], aux: &[Vec2; 2]) -> Vec2 {
-        let (s, sa) = (self.law.flux(u), self.law.flux(aux));
+    fn flow(&self, s: &[[f64; 2]; 2], u: &[Vec2; 2], aux: &[Vec2; 2]) -> Vec2 {
+        let sa = self.law.flux(aux);
         let work = s[0][0] * aux[0].x + s[0][1] * (aux[0].y + aux[1].x) + s[1][1] * aux[1].y;
         let flow = |j: usize| (0..2).map(|i| s[i][j] * aux[i].x + sa[i][j] * u[i].x).sum::<f64>();
         vec2(flow(0) - work, flow(1))
@@ -130,12 +148,14 @@ impl<'a> Interaction<'a> {
     }
 
     /// K = E′/2 M
-    fn factors(&self, integrals: &Integrals) -> [Ring; RINGS] {
-        let factor = 0.5 * self.material.effective_young();
-        std::array::from_fn(|k| {
-            let [k1, k2] = integrals[k].map(|m| factor * m);
+    fn found(&self, integrals: &Integrals) -> Found {
+        let modulus = self.material.effective_young();
+        let rings = std::array::from_fn(|k| {
+            let [k1, k2] = integrals.modes[k].map(|m| 0.5 * modulus * m);
             Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
-        })
+        });
+        let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
+        Found { rings, strength }
     }
 
     /// One face. With r = R s² the integrand has no singularity.
@@ -149,11 +169,11 @@ impl<'a> Interaction<'a> {
             let traction = load(self.tip.crack, side, self.center - axis * r);
             let t = turned(axis, traction);
             let auxiliary = auxiliary(&self.material, &westergaard::<f64, 1>(&point));
-            let part = self.radii.map(|radius| {
+            let modes = self.radii.map(|radius| {
                 let (q, _) = cut_off(r * r, radius);
                 auxiliary.map(|a| -dr * q * (t.x * a[0].x + t.y * a[1].x))
             });
-            integrals = sum(integrals, part);
+            integrals = sum(integrals, Integrals { modes, energy: 0.0 });
         }
         integrals
     }
@@ -173,7 +193,7 @@ fn on_face(r: f64, end: End, side: Side) -> TipPoint<f64> {
 }
 
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
-pub(super) fn rings(tips: &[Interaction<'_>]) -> Vec<[Ring; RINGS]> {
+pub(super) fn found(tips: &[Interaction<'_>]) -> Vec<Found> {
     let pairs = |k: usize| tips[k].cells().map(move |c| (k, c));
     let work: Vec<_> = (0..tips.len()).flat_map(pairs).collect();
     let parts: Vec<_> = work.par_iter().map(|&(k, c)| tips[k].cell(c)).collect();
@@ -181,11 +201,20 @@ pub(super) fn rings(tips: &[Interaction<'_>]) -> Vec<[Ring; RINGS]> {
     for ((k, _), part) in work.into_iter().zip(parts) {
         integrals[k] = sum(integrals[k], part);
     }
-    tips.iter().zip(integrals).map(|(tip, sums)| tip.factors(&sums)).collect()
+    tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect()
 }
 
 fn sum(a: Integrals, b: Integrals) -> Integrals {
-    std::array::from_fn(|k| [a[k][0] + b[k][0], a[k][1] + b[k][1]])
+    let mode = |k: usize, i: usize| a.modes[k][i] + b.modes[k][i];
+    let modes = std::array::from_fn(|k| [mode(k, 0), mode(k, 1)]);
+    Integrals { modes, energy: a.energy + b.energy }
+}
+
+impl Integrals {
+    fn times(self, weight: f64) -> Self {
+        let modes = self.modes.map(|modes| modes.map(|m| weight * m));
+        Self { modes, energy: weight * self.energy }
+    }
 }
 
 /// r² of a point in the tip's frame.

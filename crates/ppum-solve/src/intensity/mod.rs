@@ -19,7 +19,7 @@ mod integral;
 mod room;
 
 use crate::space::Space;
-use integral::{Interaction, RINGS, rings};
+use integral::{Found, Interaction, RINGS, found};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
 use ppum::field::Field;
@@ -69,6 +69,9 @@ pub struct Outcome {
     pub cell: f64,
     /// Its factors; none if there is too little room for them, see [`Outcome::needed`].
     pub factors: Option<TipIntensity>,
+    /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
+    /// where the crack concentrates stress, and far above K where nothing does. Zero without factors.
+    pub strength: f64,
 }
 
 impl Outcome {
@@ -101,25 +104,15 @@ pub fn intensities(
     }
     let wanted: Vec<_> = tips.iter_mut().filter(|o| o.room.radius >= o.needed()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.room.radius)));
-    let found = factors(field, space, &discs.collect::<Vec<_>>(), loads);
-    for (outcome, rings) in wanted.into_iter().zip(found) {
+    let integrals: Vec<_> = discs
+        .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
+        .collect();
+    for (outcome, Found { rings, strength }) in wanted.into_iter().zip(found(&integrals)) {
         let Ring { k1, k2, .. } = rings[RINGS - 1];
         outcome.factors = Some(TipIntensity { tip: outcome.tip, k1, k2, rings: rings.to_vec() });
+        outcome.strength = strength;
     }
     tips
-}
-
-/// The factors at tips from discs of three given radii each, which must ascend and should lie in the
-/// tip's [`Room`]; none at all unless the field is a displacement.
-#[must_use]
-pub fn factors(
-    field: &Field<'_>,
-    space: &Space<'_>,
-    discs: &[(TipId, [f64; RINGS])],
-    loads: Loads<'_>,
-) -> Vec<[Ring; RINGS]> {
-    let integral = |&(tip, radii)| Interaction::new(field, space, tip, radii, loads);
-    rings(&discs.iter().filter_map(integral).collect::<Vec<_>>())
 }
 
 impl Outcome {
@@ -127,6 +120,6 @@ impl Outcome {
         let at = space.step.cracks[tip.crack as usize].end_point(tip.end);
         let own = space.partition.cell.iter().filter(|cell| cell.contains(at));
         let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);
-        Self { tip, at, room: Room::new(space, domain, tip), cell, factors: None }
+        Self { tip, at, room: Room::new(space, domain, tip), cell, factors: None, strength: 0.0 }
     }
 }

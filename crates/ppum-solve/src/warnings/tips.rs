@@ -12,6 +12,10 @@ pub(super) const LARGE_SPREAD: f64 = 0.01;
 /// Part of |K| that K_I may be negative by where it should be zero.
 const NOISE: f64 = 1e-3;
 
+/// Part of the [strength](Outcome::strength) below which factors are rounding and discretisation: a crack
+/// along the load has none.
+const NOTHING: f64 = 0.01;
+
 /// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly
 /// broken through.
 const NEAR_BORDER: f64 = 0.05;
@@ -38,15 +42,24 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
 /// the denominator; NaN where that is zero, or without rings.
 #[must_use]
 pub fn relative_spread(intensity: &TipIntensity) -> f64 {
+    largest_difference(intensity) / intensity.k1.hypot(intensity.k2)
+}
+
+fn largest_difference(intensity: &TipIntensity) -> f64 {
     let rings = &intensity.rings;
     let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);
     let pairs = rings.iter().flat_map(|a| rings.iter().map(move |b| difference(a, b)));
-    pairs.fold(f64::NAN, f64::max) / intensity.k1.hypot(intensity.k2)
+    pairs.fold(f64::NAN, f64::max)
+}
+
+/// |K|, or more where that is nothing but noise.
+fn size(outcome: &Outcome, factors: &TipIntensity) -> f64 {
+    factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
 }
 
 fn negative(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
-    let TipIntensity { k1, k2, .. } = *factors;
-    let limit = -NOISE * k1.hypot(k2);
+    let k1 = factors.k1;
+    let limit = -NOISE * size(outcome, factors);
     let message = format!(
         "tip {}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
          meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
@@ -57,7 +70,7 @@ fn negative(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
 }
 
 fn spread(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
-    let spread = relative_spread(factors);
+    let spread = largest_difference(factors) / size(outcome, factors);
     let message = format!(
         "tip {}: the values at three radii differ by {} %; use smaller cells there, and look for \
          loads or materials that vary near the tip",
@@ -131,4 +144,20 @@ fn coarse(outcome: &Outcome, length: f64) -> Option<Warning> {
         );
         warning(kind::COARSE, Some(outcome.at), [cells, LEAST_CELLS], message)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::{End, TipId};
+
+    #[test]
+    fn the_spread_is_that_of_both_factors() {
+        let ring = |k1, k2| Ring { r1: 0.0, r2: 1.0, k1, k2 };
+        let tip = TipId { crack: 0, end: End::Start };
+        let rings = vec![ring(3.0, 4.03), ring(3.04, 4.0), ring(3.0, 4.0)];
+        let intensity = TipIntensity { tip, k1: 3.0, k2: 4.0, rings };
+        assert!((relative_spread(&intensity) - 0.01).abs() < 1e-15);
+        assert!(relative_spread(&TipIntensity { rings: Vec::new(), ..intensity }).is_nan());
+    }
 }

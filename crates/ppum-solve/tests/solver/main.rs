@@ -11,4 +11,5 @@ mod positions;
 mod problem_files;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod warnings;
 mod weights;

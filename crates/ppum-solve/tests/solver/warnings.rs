@@ -1,0 +1,168 @@
+//! Warnings: each is provoked, and good problems are silent.
+
+use std::path::Path;
+
+use crate::studies::support::solved;
+use ppum::dataset::{Dataset, Warning};
+use ppum::vec2::Vec2;
+use ppum_solve::problem::Problem;
+use ppum_solve::warnings::kind;
+
+/// A plate with a crack, 8 × 8 cells.
+fn text(points: &str, loads: &str, discretization: &str) -> String {
+    format!(
+        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
+         state = \"plane-strain\"\n[[crack]]\npoints = {points}\n{loads}\n[discretization]\n\
+         cells = [8, 8]\n{discretization}\n"
+    )
+}
+
+fn solve_text(text: &str) -> Dataset {
+    solved(&Problem::parse(text, "plate.toml", Path::new("")).expect("a problem"))
+}
+
+fn plate(points: &str, loads: &str, discretization: &str) -> Dataset {
+    solve_text(&text(points, loads, discretization))
+}
+
+fn ends(bottom: &str, top: &str) -> String {
+    let end =
+        |on: &str, traction: &str| format!("[[boundary]]\non = \"{on}\"\ntraction = {traction}\n");
+    end("bottom", bottom) + &end("top", top)
+}
+
+fn tension() -> String {
+    ends("[0, -1]", "[0, 1]")
+}
+
+fn warnings(dataset: &Dataset) -> &[Warning] {
+    let found = &dataset.steps[0].warnings;
+    found.iter().for_each(|w| println!("{}: {} ({} {:?})", w.kind, w.message, w.value, w.at));
+    found
+}
+
+/// The only warnings there are, which are of one kind.
+fn only<'d>(dataset: &'d Dataset, kind: &str) -> &'d [Warning] {
+    let found = warnings(dataset);
+    assert!(!found.is_empty() && found.iter().all(|w| w.kind == kind), "{found:?}");
+    found
+}
+
+fn places(warnings: &[Warning]) -> Vec<Vec2> {
+    warnings.iter().filter_map(|w| w.at).collect()
+}
+
+const STRAIGHT: &str = "[[-0.5, 0.0], [0.5, 0.0]]";
+
+#[test]
+fn good_problems_are_silent() {
+    for (points, loads) in [
+        (STRAIGHT, tension()),
+        // shear: K_I = 0 up to discretisation, faces that slide
+        (STRAIGHT, ends("[-1, 0]", "[1, 0]") + &sides("[0, -1]", "[0, 1]")),
+        // along the load: no jump at all
+        ("[[0.01, -0.5], [0.01, 0.5]]", tension()),
+        ("[[-0.5, -0.2], [0.1, 0.1], [0.3, 0.1]]", tension()),
+        ("[[-1.0, 0.1], [0.2, 0.1]]", tension()),
+    ] {
+        let dataset = plate(points, &loads, "");
+        assert_eq!(warnings(&dataset), [], "{points}");
+    }
+}
+
+fn sides(left: &str, right: &str) -> String {
+    let side =
+        |on: &str, traction: &str| format!("[[boundary]]\non = \"{on}\"\ntraction = {traction}\n");
+    side("left", left) + &side("right", right)
+}
+
+#[test]
+fn pressed_faces_overlap() {
+    let dataset = plate(STRAIGHT, &ends("[0, 1]", "[0, -1]"), "");
+    let found = warnings(&dataset);
+    let of = |kind: &str| found.iter().filter(|w| w.kind == kind).collect::<Vec<_>>();
+    let [left, right] = of(kind::NEGATIVE_K1)[..] else { panic!("{found:?}") };
+    assert!(left.value < -1.0 && right.value < -1.0);
+    let [faces] = of(kind::FACES_OVERLAP)[..] else { panic!("{found:?}") };
+    assert!(faces.message.contains("crack 0") && faces.message.contains("100 %"));
+    // most in the middle
+    assert!(faces.at.expect("a place").length() < 0.02, "{faces:?}");
+    assert_eq!(found.len(), 3);
+}
+
+/// Under bending a crack through the neutral axis opens at one end and overlaps at the other.
+#[test]
+fn faces_overlap_where_bending_presses() {
+    let dataset = plate(STRAIGHT, &ends("[0, \"-x\"]", "[0, \"x\"]"), "");
+    let found = warnings(&dataset);
+    let kinds: Vec<_> = found.iter().map(|w| w.kind.as_str()).collect();
+    assert_eq!(kinds, [kind::NEGATIVE_K1, kind::FACES_OVERLAP]);
+    assert_eq!(found[0].at, Some(Vec2::from([-0.5, 0.0])));
+    assert!(found[1].at.expect("a place").x < -0.1, "{found:?}");
+}
+
+#[test]
+fn little_room_and_none() {
+    // cells of 0.25, nothing refined
+    let near = |gap: f64| {
+        let points = format!("[[{}, 0.0], [0.2, 0.0]]", -1.0 + gap);
+        plate(&points, &tension(), "refine = false")
+    };
+    let dataset = near(0.2);
+    let found = only(&dataset, kind::LITTLE_ROOM);
+    assert_eq!(places(found), [Vec2::from([-0.8, 0.0])]);
+    assert!((found[0].value - 0.2).abs() < 1e-15 && found[0].limit == 0.5);
+    let dataset = near(0.1);
+    let found = only(&dataset, kind::NO_ROOM);
+    assert!((found[0].value - 0.1).abs() < 1e-15 && found[0].limit == 0.125);
+    assert!(found[0].message.contains("the border") && found[0].message.contains("at most 0.2"));
+    assert_eq!(dataset.steps[0].intensities.len(), 1);
+    dataset.check().expect("a dataset in order");
+}
+
+#[test]
+fn tips_near_the_border() {
+    let dataset = plate("[[-0.97, 0.0], [0.5, 0.0]]", &tension(), "");
+    let found = only(&dataset, kind::TIP_NEAR_BORDER);
+    assert_eq!(places(found), [Vec2::from([-0.97, 0.0])]);
+    assert!(found[0].message.contains("2 % of the crack's length"), "{}", found[0].message);
+}
+
+#[test]
+fn coarse_cracks() {
+    let dataset = plate("[[-0.3, 0.03], [0.4, 0.03]]", &tension(), "refine = false");
+    let found = warnings(&dataset);
+    let coarse: Vec<_> = found.iter().filter(|w| w.kind == kind::COARSE).collect();
+    assert_eq!(coarse.len(), 2);
+    assert!((coarse[0].value - 2.8).abs() < 1e-12 && coarse[0].limit == 4.0);
+}
+
+/// A material whose stiffness falls by a factor of e⁴ across the crack is not uniform in the discs.
+#[test]
+fn values_that_differ() {
+    let text = text(STRAIGHT, &tension(), "").replace("young = 1.0", "young = \"exp(4*x)\"");
+    let dataset = solve_text(&text);
+    let found = warnings(&dataset);
+    let spread: Vec<_> = found.iter().filter(|w| w.kind == kind::SPREAD).collect();
+    assert!(!spread.is_empty() && spread.iter().all(|w| w.value > 0.01), "{found:?}");
+}
+
+#[test]
+fn loads_that_nearly_balance() {
+    let dataset = plate(STRAIGHT, &ends("[0, -1]", "[0, 1.0000005]"), "");
+    let found = only(&dataset, kind::IMBALANCE);
+    // of 4 in all, 1e-6 on the vertical motion
+    let record = |name: &str| dataset.steps[0].history.iter().find(|r| r.name == name);
+    assert_eq!(record("imbalance").map(|r| r.value), Some(found[0].value));
+    assert!(found[0].value > 1e-8 && found[0].value < 1e-6 && found[0].at.is_none());
+}
+
+/// Polynomials once more, as functions of one's own.
+#[test]
+fn functions_that_are_cut_off() {
+    let own = "[[enrichment]]\nfunctions = [\"x\", \"y\"]\ndegree = 1";
+    let dataset = plate(STRAIGHT, &tension(), own);
+    let found = only(&dataset, kind::CUT_OFF);
+    // 6 of 12 functions on most patches, fewer where there are others
+    assert!(found[0].value > 0.25 && found[0].value < 0.5, "{found:?}");
+}
