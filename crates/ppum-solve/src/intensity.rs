@@ -67,7 +67,7 @@ pub fn intensities(
     let law = Law::new(&dataset.equation);
     tips(&field.step.cracks)
         .filter_map(|tip| {
-            let radius = free_radius(&field.step.cracks, &dataset.domain, tip);
+            let radius = free_radius(&field.step.cracks, &dataset.domain.bounds, tip);
             // The auxiliary field is that of the material at the tip.
             let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
             let apart = space.interfaces().map(|kink| interface_distance(kink, at, radius));

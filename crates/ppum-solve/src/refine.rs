@@ -45,9 +45,9 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Level(level) => Cover::uniform(problem.domain, *level as u8),
-        Cells::Grid(cells) => Cover::grid(problem.domain, *cells),
-        Cells::Points(points) => Cover::scattered(problem.domain, [1, 1], points.clone()),
+        Cells::Level(level) => Cover::uniform(problem.domain.bounds, *level as u8),
+        Cells::Grid(cells) => Cover::grid(problem.domain.bounds, *cells),
+        Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
     }
 }
 

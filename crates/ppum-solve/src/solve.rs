@@ -115,7 +115,7 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
         title: problem.title.clone(),
         program: concat!("ppum ", env!("CARGO_PKG_VERSION")).into(),
         problem: problem.text.clone(),
-        domain: problem.domain,
+        domain: problem.domain.clone(),
         equation: problem.equation.clone(),
         quantities: problem.quantities.clone(),
         tables: problem.tables.clone(),
@@ -179,7 +179,7 @@ impl Solver<'_> {
             space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
         }
         let law = Law::new(&self.problem.equation);
-        let motions = RigidMotions::new(&self.problem.domain, components);
+        let motions = RigidMotions::new(&self.problem.domain.bounds, components);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(&space).map_err(SolveError::Basis)?;
