@@ -37,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod balance;
 mod basis;
 mod batch;
 mod block_matrix;
@@ -52,6 +53,7 @@ pub mod intensity;
 pub mod law;
 pub mod norms;
 mod pencil;
+mod pieces;
 pub mod problem;
 pub mod quadrature;
 #[cfg(test)]

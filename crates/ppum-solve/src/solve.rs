@@ -1,13 +1,15 @@
 //! From a problem to a dataset.
 
+use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
-use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
+use crate::gauge::Gauge;
 use crate::intensity::intensities;
 use crate::law::Law;
+use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
-use crate::rigid::RigidMotions;
+use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 use crate::system::{assemble, source_at};
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
@@ -163,6 +165,10 @@ struct Solution {
     unknowns: usize,
     /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
+    /// Pieces of the plate.
+    pieces: usize,
+    /// Rigid motions of pieces that nothing holds.
+    free_motions: usize,
 }
 
 impl Solver<'_> {
@@ -179,27 +185,42 @@ impl Solver<'_> {
             space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
         }
         let law = Law::new(&self.problem.equation);
-        let motions = RigidMotions::new(&self.problem.domain.bounds, components);
+        let pieces = Pieces::new(self.problem.domain.bounds, &[], &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(&space).map_err(SolveError::Basis)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, &space, &basis, &law, motions, &mut tell)?;
-        let free = free_motions(&system, &motions)?;
-        check_balance(&system, &free)?;
-        gauge(&mut system, &space, &basis, &motions, &free);
+        let mut system = assemble(self.problem, &space, &basis, &law, &pieces, &mut tell)?;
+        let free = free_motions(&system.balance, &pieces)?;
+        let gauge = Gauge::new(&space, &basis, &pieces, &system.balance, &free, &system.matrix);
+        gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
+        let solver = Cholesky::new(&system.matrix)?;
+        let mut solution = solver.solve(&system.load)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
             coefficients: basis.plain(&space, &solution.unknowns, components),
             dropped: basis.dropped().collect(),
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
+            pieces: pieces.all().len(),
+            free_motions: gauge.len(),
         })
     }
+}
+
+/// The free motions of each piece, after a check that the loads leave them alone.
+fn free_motions(balances: &[Balance], pieces: &Pieces) -> Result<Vec<Vec<PerMotion>>, SolveError> {
+    let several = pieces.all().len() > 1;
+    let of_piece = |(balance, piece): (&Balance, &Piece)| {
+        let free = balance.free()?;
+        balance.check(&free, several.then_some(piece.inside))?;
+        Ok(free)
+    };
+    balances.iter().zip(pieces.all()).map(of_piece).collect()
 }
 
 impl Solution {
@@ -229,6 +250,8 @@ impl Solution {
             record("unknowns", self.unknowns as f64),
             record("cut-off", total),
             record("residual", self.residual),
+            record("pieces", self.pieces as f64),
+            record("free motions", self.free_motions as f64),
         ];
     }
 }

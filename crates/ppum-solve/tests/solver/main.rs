@@ -4,6 +4,7 @@ mod examples;
 mod formulas;
 mod kernels;
 mod physics;
+mod pieces;
 mod plates;
 mod problem_files;
 #[path = "../studies/mod.rs"]

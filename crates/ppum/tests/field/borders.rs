@@ -13,7 +13,7 @@ use ppum_testkit::synthetic::{Coefficients, Recipe};
 /// A graded cover whose borders are exact in f64: dyadic cells, α = 3/2.
 fn dataset(weight: WeightFunction) -> Dataset {
     let recipe = Recipe {
-        domain: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)).into(),
+        domain: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)),
         cells: [1, 1],
         random_rounds: 2,
         overlap: 1.5,

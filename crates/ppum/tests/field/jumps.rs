@@ -133,7 +133,7 @@ fn exact_cracks() -> Vec<Crack> {
 #[test]
 fn the_chosen_side_is_the_limit_from_there() {
     let recipe = Recipe {
-        domain: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)).into(),
+        domain: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)),
         cells: [1, 1],
         level: 3,
         cracks: exact_cracks(),
