@@ -20,7 +20,7 @@ use crate::rigid::{PerMotion, RigidMotions};
 use crate::shape::Shapes;
 use crate::space::Space;
 use faer::Mat;
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{DenseSolveCore, Solve};
 
 /// A free motion of a piece.
 struct Motion {
@@ -104,21 +104,34 @@ impl Gauge {
         if self.motions.is_empty() {
             return Ok(());
         }
-        let rigid = self.motions.iter().zip(&self.moments).map(|(motion, moments)| {
-            let mut load = vec![0.0; moments.len()];
-            let range = matrix.unknowns(self.patches[motion.group]);
-            load[range.clone()].copy_from_slice(&moments[range]);
-            Ok(solver.solve(&load)?.unknowns)
-        });
-        let rigid = rigid.collect::<Result<Vec<_>, CholeskyError>>()?;
-        let n = self.motions.len();
-        let means = Mat::from_fn(n, n, |l, k| dot(&self.moments[l], &rigid[k]));
-        let mean = Mat::from_fn(n, 1, |l, _| dot(&self.moments[l], solution));
-        let parts = means.partial_piv_lu().solve(&mean);
+        let loads = self.loads(matrix);
+        let rough = solve_all(solver, &loads)?;
+        // Loads of motions that have one mean each: those of one patch look much alike, and the
+        // rounding of their differences would be seen in strains.
+        let loads = combined(&loads, &self.means(&rough).partial_piv_lu().inverse());
+        let rigid = solve_all(solver, &loads)?;
+        let parts = self.means(&rigid).partial_piv_lu().solve(self.means(&[&*solution]));
         for (k, rigid) in rigid.iter().enumerate() {
             solution.iter_mut().zip(rigid).for_each(|(u, r)| *u -= parts[(k, 0)] * r);
         }
         Ok(())
+    }
+
+    /// The functionals of the penalty as right-hand sides: their solutions are rigid motions.
+    fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+        let load = |(motion, moments): (&Motion, &Vec<f64>)| {
+            let mut load = vec![0.0; moments.len()];
+            let range = matrix.unknowns(self.patches[motion.group]);
+            load[range.clone()].copy_from_slice(&moments[range]);
+            load
+        };
+        self.motions.iter().zip(&self.moments).map(load).collect()
+    }
+
+    /// ∫ u·m_l of some u: a row for each motion, a column for each u.
+    fn means<U: AsRef<[f64]>>(&self, all: &[U]) -> Mat<f64> {
+        let (rows, columns) = (self.moments.len(), all.len());
+        Mat::from_fn(rows, columns, |l, k| dot(&self.moments[l], all[k].as_ref()))
     }
 
     /// The functionals of one group on the unknowns of a patch.
@@ -187,6 +200,19 @@ impl Gauge {
         );
         moments
     }
+}
+
+fn solve_all(solver: &Cholesky<'_>, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CholeskyError> {
+    loads.iter().map(|load| Ok(solver.solve(load)?.unknowns)).collect()
+}
+
+/// Combinations of vectors, with the factors of each in a column.
+fn combined(vectors: &[Vec<f64>], factors: &Mat<f64>) -> Vec<Vec<f64>> {
+    let entry = |k: usize, row: usize| {
+        vectors.iter().enumerate().map(|(j, vector)| factors[(j, k)] * vector[row]).sum()
+    };
+    let rows = vectors.first().map_or(0, Vec::len);
+    (0..vectors.len()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -56,7 +56,6 @@ mod pencil;
 mod pieces;
 pub mod problem;
 pub mod quadrature;
-#[cfg(test)]
 mod random;
 mod refine;
 mod rigid;
@@ -64,5 +63,6 @@ pub mod shape;
 mod smoothness;
 pub mod solve;
 pub mod space;
+mod spectrum;
 mod system;
 mod transform;

@@ -250,6 +250,21 @@ impl<'f> LocalField<'f> {
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
     }
 
+    /// Evaluates at many points over a given list of patches, which must hold all that cover one of
+    /// them: like [`evaluate_into`](Self::evaluate_into), without looking for patches and borders.
+    ///
+    /// # Panics
+    /// If `out` is shorter than points × components.
+    pub fn evaluate_over<const D: usize>(
+        &self,
+        offsets: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        out: &mut [Jet<f64>],
+    ) {
+        f64::dispatch(Over::<D> { local: self, offsets, side, patches, out });
+    }
+
     /// Evaluates over a given list of patches, which must hold all that cover the point.
     #[inline(always)]
     pub fn over_patches<R: Real, const D: usize>(
@@ -445,18 +460,36 @@ impl<const D: usize> Job<f64> for Many<'_, '_, D> {
         let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
         for (points, out) in chunks {
             let patches = self.local.covering_any(points);
-            let [xs, ys] = transposed(points);
-            let offset = [zero.load(&xs), zero.load(&ys)];
-            self.local.over_patches::<R, D>(offset, self.side, &patches, &mut lanes);
-            for (component, jet) in lanes.iter().enumerate() {
-                scatter(jet, |k, jet| {
-                    if let Some(&point) = points.get(k) {
-                        let inside = self.local.contains(point);
-                        out[k * components + component] = if inside { jet } else { NOWHERE };
-                    }
-                });
+            self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
+            for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
+                if !self.local.contains(point) {
+                    out.fill(NOWHERE);
+                }
             }
             self.local.patches = patches;
+        }
+    }
+}
+
+/// [`LocalField::evaluate_over`] on lanes.
+struct Over<'a, 'f, const D: usize> {
+    local: &'a LocalField<'f>,
+    offsets: &'a [Vec2],
+    side: Side,
+    patches: &'a [u32],
+    out: &'a mut [Jet<f64>],
+}
+
+impl<const D: usize> Job<f64> for Over<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) {
+        let components = self.local.field.components();
+        let mut lanes = vec![Jet::constant(zero); components];
+        let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
+        for (points, out) in chunks {
+            self.local.at_once::<R, D>(points, self.side, self.patches, &mut lanes, out);
         }
     }
 }
@@ -487,6 +520,29 @@ fn scatter<R: Real<Scalar = f64>>(jet: &Jet<R>, mut f: impl FnMut(usize, Jet<f64
 }
 
 impl LocalField<'_> {
+    /// Evaluates at no more points than there are lanes; `lanes` holds one vector a component.
+    #[inline(always)]
+    fn at_once<R: Real<Scalar = f64>, const D: usize>(
+        &self,
+        points: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        lanes: &mut [Jet<R>],
+        out: &mut [Jet<f64>],
+    ) {
+        let components = lanes.len();
+        let [xs, ys] = transposed(points);
+        let offset = [lanes[0].v.load(&xs), lanes[0].v.load(&ys)];
+        self.over_patches::<R, D>(offset, side, patches, lanes);
+        for (component, jet) in lanes.iter().enumerate() {
+            scatter(jet, |k, jet| {
+                if k < points.len() {
+                    out[k * components + component] = jet;
+                }
+            });
+        }
+    }
+
     /// The patches that cover at least one of the points, ascending.
     fn covering_any(&mut self, offsets: &[Vec2]) -> Vec<u32> {
         let mut patches = std::mem::take(&mut self.patches);
