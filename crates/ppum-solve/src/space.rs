@@ -187,7 +187,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         history: Vec::new(),
         warnings: Vec::new(),
     };
-    inspect(&step, &problem.domain, &problem.tables)?;
+    inspect(&step, &problem.domain.bounds, &problem.tables)?;
     Ok(step)
 }
 
