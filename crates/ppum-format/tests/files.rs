@@ -62,6 +62,7 @@ fn lists_may_be_empty() {
     step.attributes.clear();
     step.intensities.clear();
     step.history.clear();
+    step.warnings.clear();
     step.partition.points.clear();
     step.partition.point.fill(None);
     data.title.clear();

@@ -77,7 +77,7 @@ impl Need {
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
-        let room = Room::among_cracks(&problem.cracks, &problem.domain.bounds, id).radius;
+        let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
         let largest = (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share);
         Self { tip: crack.end_point(id.end), largest, apart }
     }

@@ -7,7 +7,8 @@ use crate::{CRACKED, LINEAR, Lab, keys, sound};
 #[test]
 fn json_has_the_documented_shape() {
     let report = Lab::solved(CRACKED).json("sif plate.h5");
-    assert_eq!(keys(&report), ["file", "tips"]);
+    assert_eq!(keys(&report), ["file", "tips", "warnings"]);
+    assert_eq!(report["warnings"], json!([]));
     assert_eq!(report["file"], "plate.h5");
     let tips = report["tips"].as_array().unwrap();
     assert_eq!(tips.len(), 2);
@@ -48,17 +49,22 @@ fn a_body_force_is_taken_from_the_problem() {
     let Output { status, stdout, stderr } =
         lab.command("sif forgotten.h5 --json").output().unwrap();
     assert!(status.success() && String::from_utf8(stderr).unwrap().contains("three radii differ"));
-    let forgotten = &serde_json::from_slice::<serde_json::Value>(&stdout).unwrap()["tips"];
+    let forgotten = serde_json::from_slice::<serde_json::Value>(&stdout).unwrap();
+    let warnings = forgotten["warnings"].as_array().unwrap();
+    assert!(warnings.iter().all(|w| w["kind"] == "spread") && !warnings.is_empty());
+    assert_eq!(keys(&warnings[0]), ["at", "kind", "limit", "message", "step", "value"]);
+    let forgotten = &forgotten["tips"];
     let k1 = |tips: &serde_json::Value| tips[0]["k1"].as_f64().unwrap();
     let difference = k1(forgotten) - k1(computed);
     assert!(difference.abs() > 0.01 * k1(computed).abs(), "{difference} of {}", k1(computed));
     // a text that cannot be read any more: what the solver stored
     dataset.problem = Some("written by a later version".into());
     ppum_format::write(&dataset, &lab.path("later.h5")).unwrap();
-    assert_eq!(&lab.json("sif later.h5")["tips"], stored);
+    let later = lab.json("sif later.h5");
+    assert_eq!((&later["tips"], &later["warnings"][0]["kind"]), (stored, &json!("loads-unknown")));
     dataset.steps[0].intensities.clear();
     ppum_format::write(&dataset, &lab.path("unknown.h5")).unwrap();
-    assert!(lab.fail("sif unknown.h5").contains("body force"));
+    assert!(lab.fail("sif unknown.h5").contains("solve the problem again"));
 }
 
 #[test]
@@ -74,4 +80,23 @@ fn text_has_a_line_for_each_tip() {
     let text = Lab::solved(CRACKED).run("sif plate.h5");
     assert_eq!(text.lines().count(), 3, "{text}");
     assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
+}
+
+/// A tip that cells do not resolve: a line without numbers, and what to do about it.
+#[test]
+fn a_tip_without_room_is_shown_without_factors() {
+    let near = CRACKED.replace("[0.5, 0.0]]", "[0.95, 0.0]]");
+    let lab = Lab::solved(&near.replace("[discretization]", "[discretization]\nrefine = false"));
+    let report = lab.json("sif plate.h5");
+    let [left, right] = report["tips"].as_array().unwrap().as_slice() else { panic!("two tips") };
+    assert!(left["k1"].is_number() && right["k1"].is_null() && right["rings"] == json!([]));
+    let warnings = report["warnings"].as_array().unwrap();
+    let no_room = warnings.iter().find(|w| w["kind"] == "no-room").unwrap();
+    assert_eq!(no_room["at"], right["tip"]);
+    assert!(lab.run("sif plate.h5").contains("–"));
+    let info = lab.run("info plate.h5");
+    assert!(info.contains("warnings") && info.contains(no_room["message"].as_str().unwrap()));
+    let shown = lab.command("sif plate.h5").output().unwrap().stderr;
+    assert!(String::from_utf8(shown).unwrap().contains("warning: tip (0.95, 0): no stress"));
+    assert_eq!(lab.json("info plate.h5")["steps"][0]["warnings"], report["warnings"]);
 }

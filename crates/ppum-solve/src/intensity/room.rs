@@ -3,14 +3,15 @@
 use crate::quadrature::Kink;
 use crate::space::Space;
 use ppum::crack::{Crack, TipId};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::domain::Domain;
+use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
 /// Rays around a tip and steps along each on which curved interfaces are looked for.
 const RAYS: u32 = 64;
 const STEPS: u32 = 64;
 
-/// The largest disc around a tip that holds no border, no part of a crack but the last segment of its
+/// The largest disc around a tip that holds no border, no hole, no part of a crack but the last segment of its
 /// own, and no interface of two materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
@@ -26,6 +27,8 @@ pub struct Room {
 pub enum Obstacle {
     /// The border of the plate.
     Border,
+    /// The rim of a hole, by its index.
+    Hole(usize),
     /// A kink of its own crack, or the crack's other end.
     Kink,
     /// Another crack, by its index.
@@ -40,6 +43,7 @@ impl Obstacle {
     pub fn name(self) -> String {
         match self {
             Self::Border => "the border".into(),
+            Self::Hole(k) => format!("the rim of hole {k}"),
             Self::Kink => "a kink or the other end of its crack".into(),
             Self::Crack(k) => format!("crack {k}"),
             Self::Interface => "an interface of two materials".into(),
@@ -49,7 +53,7 @@ impl Obstacle {
 
 impl Room {
     /// The room of a tip of a space's step on a domain.
-    pub(super) fn new(space: &Space<'_>, domain: &Rect, tip: TipId) -> Self {
+    pub(super) fn new(space: &Space<'_>, domain: &Domain, tip: TipId) -> Self {
         let cracks = &space.step.cracks;
         let p = cracks[tip.crack as usize].end_point(tip.end);
         let free = Self::among_cracks(cracks, domain, tip);
@@ -58,15 +62,18 @@ impl Room {
     }
 
     /// The room without regard of materials.
-    pub(crate) fn among_cracks(cracks: &[Crack], domain: &Rect, tip: TipId) -> Self {
+    pub(crate) fn among_cracks(cracks: &[Crack], domain: &Domain, tip: TipId) -> Self {
         let own = &cracks[tip.crack as usize];
         let p = own.end_point(tip.end);
-        let border = (p - domain.min).min(domain.max - p);
+        let border = (p - domain.bounds.min).min(domain.bounds.max - p);
         let border = Self { radius: border.x.min(border.y), end: Obstacle::Border };
+        let rims = domain.holes.iter().enumerate();
+        let rims =
+            rims.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
         let others = cracks.iter().enumerate().filter(|(k, _)| *k != tip.crack as usize);
         let others =
             others.map(|(k, c)| Self { radius: nearest(&c.points, p), end: Obstacle::Crack(k) });
-        border.with(others.chain([Self { radius: behind(own, p), end: Obstacle::Kink }]))
+        border.with(rims).with(others.chain([Self { radius: behind(own, p), end: Obstacle::Kink }]))
     }
 
     /// The smallest of several.
@@ -116,10 +123,14 @@ fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
 mod tests {
     use super::*;
     use ppum::crack::{CrackEnd, End};
+    use ppum::domain::Hole;
+    use ppum::vec2::Rect;
     use std::sync::Arc;
 
     fn room(cracks: &[Crack], crack: u32, end: End) -> (f64, Obstacle) {
-        let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+        let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+        let holes = vec![Hole::Circle { center: vec2(0.0, 0.75), radius: 0.125 }];
+        let domain = Domain { bounds, holes };
         let room = Room::among_cracks(cracks, &domain, TipId { crack, end });
         (room.radius, room.end)
     }
@@ -142,7 +153,8 @@ mod tests {
         assert_eq!(room(&hooked, 0, End::Start), (0.25, Obstacle::Kink));
         let two = [crack(&[[-0.5, 0.0], [0.0, 0.0]]), crack(&[[0.125, -0.5], [0.125, 0.5]])];
         assert_eq!(room(&two, 0, End::Last), (0.125, Obstacle::Crack(1)));
-        assert_eq!(room(&two, 1, End::Last), (0.5, Obstacle::Border));
+        let up = [crack(&[[0.0, -0.5], [0.0, 0.5]])];
+        assert_eq!(room(&up, 0, End::Last), (0.125, Obstacle::Hole(0)));
     }
 
     #[test]

@@ -121,12 +121,14 @@ fn little_room(outcome: &Outcome) -> Option<Warning> {
 
 fn near_border(outcome: &Outcome, length: f64) -> Option<Warning> {
     let (room, limit) = (outcome.room.radius, NEAR_BORDER * length);
-    (outcome.room.end == Obstacle::Border && room < limit).then(|| {
+    let free = matches!(outcome.room.end, Obstacle::Border | Obstacle::Hole(_));
+    (free && room < limit).then(|| {
         let message = format!(
-            "tip {}: it is {} from the border, {} % of the crack's length: the factors grow like one over \
-             the root of that distance; see that the position is meant, or let the crack end on the border",
+            "tip {}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
+             the root of that distance; see that the position is meant, or let the crack end there",
             shown(outcome.at),
             short(room),
+            outcome.room.end.name(),
             short((1e3 * room / length).round() / 10.0)
         );
         warning(kind::TIP_NEAR_BORDER, Some(outcome.at), [room, limit], message)
