@@ -80,7 +80,6 @@ fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
     let Some(section) = value.as_section("`on`") else {
         return Some(BorderPart::edge(value.choice(&edges)?, domain));
     };
-    let section = section.only(&["edge", "from", "to", "hole", "crack", "face"], &[]);
     let kinds = ["edge", "hole", "crack"].into_iter().filter(|key| section.mentions(key));
     match kinds.collect::<Vec<_>>()[..] {
         ["hole"] => {

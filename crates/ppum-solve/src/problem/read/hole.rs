@@ -5,9 +5,9 @@ use ppum::domain::Hole;
 use super::super::document::{Section, Value};
 use super::all;
 
-/// The holes; none at all if one of them cannot be read, as the checks count them.
-pub(super) fn holes(root: &Section<'_>) -> Vec<Hole> {
-    all(root.sections("hole").into_iter().map(|section| hole(section))).unwrap_or_default()
+/// The holes; `None` if one of them cannot be read.
+pub(super) fn holes(root: &Section<'_>) -> Option<Vec<Hole>> {
+    all(root.sections("hole").into_iter().map(hole))
 }
 
 fn hole(section: Section<'_>) -> Option<Hole> {
@@ -15,7 +15,7 @@ fn hole(section: Section<'_>) -> Option<Hole> {
     let round = section.mentions("center") || section.mentions("radius");
     if section.mentions("points") {
         if round {
-            let what = "`points` make a polygon, `center` and `radius` a circle; leave one out";
+            let what = "make a polygon, `center` and `radius` a circle; leave one out";
             return section.get("points")?.error(what);
         }
         let list = section.get("points")?.list("a list of points [[x, y], …]")?;

@@ -157,7 +157,7 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let quantities = quantities(root, &equation, &tables);
     let given = boundary::Data { scope: &scope, exact: exact.as_deref() };
     let boundary = boundary(root, kind, domain, &given);
-    let domain = Domain { bounds: domain?, holes };
+    let domain = Domain { bounds: domain?, holes: holes? };
     Some(Problem {
         title: title.to_owned(),
         cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),

@@ -1,6 +1,7 @@
 //! Problem files: good ones mean what they say, bad ones are reported where they are wrong.
 
 mod formulas;
+mod holes;
 
 use std::path::Path;
 
@@ -301,7 +302,7 @@ fn bad_types_and_words() {
                 "there is no [exact]; add it with `displacement`",
             ),
             ("[0.0, \"1 + x^2\"]", "\"exact\"", 16, 12, "cannot be \"exact\"; write its formula"),
-            ("\"top\"", "{ crack = 0 }", 15, 8, "`crack` in `on` is not supported yet"),
+            ("\"top\"", "{ crack = 1 }", 15, 6, "the only [[crack]] has the number 0"),
             (
                 "[[-0.5, 0.0], [0.5, 0.0]]",
                 "[[-0.5, 0.0], 0.5]",
