@@ -5,19 +5,17 @@ use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
-use crate::intensity::Loads;
 use crate::law::Law;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
 use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
-use crate::system::{System, assemble, source_at};
+use crate::system::{System, assemble};
 use crate::warnings::judge;
 use ppum::dataset::{Attribute, Dataset, Record, Step};
 use ppum::field::FieldError;
 use ppum::function::{FunctionError, FunctionTable};
-use ppum::vec2::Vec2;
 use std::time::Instant;
 
 /// What the solver is doing, for progress bars.
@@ -106,9 +104,7 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     solution.store(&mut step, problem.components());
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
-    let force = |x: Vec2| source_at(problem, x);
-    let loads = Loads { force: Some(&force), faces: None };
-    let (tips, warnings) = judge(&dataset, 0, loads)?;
+    let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
@@ -212,8 +208,8 @@ impl Solver<'_> {
     }
 
     fn space(&self) -> Result<Space<'_>, SolveError> {
-        let Problem { equation, tables, .. } = self.problem;
-        let mut space = Space::new(self.step, equation, tables)?;
+        let Problem { domain, equation, tables, .. } = self.problem;
+        let mut space = Space::new(self.step, domain, equation, tables)?;
         if !self.problem.solver.kernels {
             let cracks = self.step.cracks.len();
             space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
@@ -228,7 +224,7 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Assembled, SolveError> {
         let law = Law::new(&self.problem.equation);
-        let pieces = Pieces::new(self.problem.domain.bounds, &[], &self.problem.cracks);
+        let pieces = Pieces::of_domain(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(space).map_err(SolveError::Basis)?;

@@ -1,14 +1,13 @@
 //! `ppum sif`: stress intensity factors of a stored field.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::bail;
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, Step, Warning};
-use ppum::vec2::Vec2;
-use ppum_solve::intensity::{Loads, Outcome};
-use ppum_solve::problem::{Expression, Problem};
+use ppum_solve::intensity::Outcome;
+use ppum_solve::problem::Problem;
 use ppum_solve::warnings::judge;
 use serde::Serialize;
 
@@ -53,7 +52,7 @@ impl Args {
                 "{file}: a Poisson problem has no stress intensity factors; solve one of elasticity"
             );
         }
-        let report = Report::new(file, &dataset, &self.file)?;
+        let report = Report::new(file, &dataset)?;
         warn(&report.warnings);
         if self.json {
             json(out, &report)?;
@@ -67,14 +66,16 @@ impl Args {
 }
 
 impl Report {
-    fn new(file: String, dataset: &Dataset, path: &Path) -> anyhow::Result<Self> {
-        let force = BodyForce::of(dataset, path);
+    fn new(file: String, dataset: &Dataset) -> anyhow::Result<Self> {
+        let problem = Problem::of_dataset(dataset);
         let (mut tips, mut warnings) = (Vec::new(), Vec::new());
         for (index, step) in dataset.steps.iter().enumerate() {
-            let (found, remarks) = match &force {
-                BodyForce::Known(force) => computed(dataset, index, force)?,
-                // What the solver found while it knew the force.
-                BodyForce::Unknown => stored(&file, index, step)?,
+            let (found, remarks) = match &problem {
+                Ok(problem) if problem.as_ref().is_none_or(|p| p.cracks == step.cracks) => {
+                    computed(dataset, index, problem.as_ref())?
+                }
+                // What the solver found while it knew the loads.
+                _ => stored(&file, index, step)?,
             };
             tips.extend(found);
             warnings.extend(rows(index, &remarks));
@@ -87,15 +88,9 @@ impl Report {
 fn computed(
     dataset: &Dataset,
     index: usize,
-    force: &[Expression],
+    problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let at = |x: Vec2| {
-        let mut values = [0.0; 2];
-        values.iter_mut().zip(force).for_each(|(value, f)| *value = f.value(x));
-        values
-    };
-    let loads = Loads { force: Some(&at), faces: None };
-    let (outcomes, warnings) = judge(dataset, index, loads)?;
+    let (outcomes, warnings) = judge(dataset, index, problem)?;
     let step = &dataset.steps[index];
     let tip = |outcome: &Outcome| match &outcome.factors {
         Some(factors) => Tip::new(index, step, factors),
@@ -125,23 +120,4 @@ fn stored(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Ve
     let unknown =
         Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
     Ok((tips, step.warnings.iter().cloned().chain([unknown]).collect()))
-}
-
-/// The force inside the plate, which the interaction integral needs.
-enum BodyForce {
-    /// One expression a component; none for no force.
-    Known(Vec<Expression>),
-    /// The problem's text cannot be read any more, e.g. because it names a file of points.
-    Unknown,
-}
-
-impl BodyForce {
-    fn of(dataset: &Dataset, path: &Path) -> Self {
-        let Some(text) = &dataset.problem else { return Self::Known(Vec::new()) };
-        let folder = path.parent().unwrap_or(Path::new(""));
-        match Problem::parse(text, "problem", folder) {
-            Ok(problem) => Self::Known(problem.source),
-            Err(_) => Self::Unknown,
-        }
-    }
 }

@@ -64,6 +64,14 @@ impl Lab {
         String::from_utf8(stdout).unwrap()
     }
 
+    /// What a successful command prints, and the warnings on standard error.
+    fn warned(&self, arguments: &str) -> (String, String) {
+        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        let [text, warnings] = [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        assert!(status.success() && warnings.starts_with("warning: "), "{arguments}: {warnings}");
+        (text, warnings)
+    }
+
     fn json(&self, arguments: &str) -> Value {
         self.json_with(arguments, &[])
     }

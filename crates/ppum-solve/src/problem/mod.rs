@@ -1,13 +1,13 @@
 //! Problems: what is to be solved, and how, from a problem file (TOML) or built in code.
 //!
-//! Find u on the box Ω with cracks Γ, faces free, such that
+//! Find u on the box minus holes Ω with cracks Γ, faces and rims free unless loaded, such that
 //!
 //! ```text
 //! elasticity:  −div σ(u) = f,  σ = 2μ ε(u) + λ tr ε(u) I        Poisson:  −div (κ ∇u) = f
 //! ```
 //!
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
-//! pieces of the border. `docs/problem-file.md` describes the file for users.
+//! parts of the border. `docs/problem-file.md` describes the file for users.
 //!
 //! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for a
 //! problem built in code [`Problem::check`] applies the same rules:
@@ -36,6 +36,7 @@ mod document;
 mod enrichment;
 mod error;
 mod expression;
+mod holes;
 mod key;
 mod points;
 pub(crate) mod quantities;
@@ -49,12 +50,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId, tips};
-use ppum::dataset::{Equation, Material, NamedQuantity};
+use ppum::dataset::{Dataset, Equation, Material, NamedQuantity};
 use ppum::domain::Domain;
 use ppum::formula::Table;
 use ppum::vec2::Vec2;
 
-pub use boundary::{BoundaryCondition, Condition, Edge};
+pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
@@ -143,7 +144,17 @@ impl Problem {
     /// # Errors
     /// Everything that is wrong, with file, line, column and remedy.
     pub fn parse(text: &str, file_name: &str, base_dir: &Path) -> Result<Self, ProblemError> {
-        read::read(text, file_name, base_dir)
+        read::read(text, file_name, read::Files::In(base_dir))
+    }
+
+    /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points that
+    /// were read from files are those of the dataset: the files need not be there any more.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the text.
+    pub fn of_dataset(dataset: &Dataset) -> Result<Option<Self>, ProblemError> {
+        let read = |text: &String| read::read(text, "problem", read::Files::Stored(dataset));
+        dataset.problem.as_ref().map(read).transpose()
     }
 
     /// A problem of elasticity on a box, as yet without cracks, loads and supports.
@@ -185,11 +196,12 @@ impl Problem {
         }
     }
 
-    /// The problem with one more crack; its ends on the border become mouths, the others tips.
+    /// The problem with one more crack; its ends on the border, also on rims
+    /// and in holes, become mouths, the others tips.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let points = points.iter().copied().map(Vec2::from).collect();
-        self.cracks.push(crack(points, &self.domain.bounds));
+        self.cracks.push(crack(points, &self.domain));
         self
     }
 
@@ -200,11 +212,23 @@ impl Problem {
         self
     }
 
+    /// The problem with a pressure on a part of the border.
+    #[must_use]
+    pub fn with_pressure(mut self, on: BorderPart, pressure: f64) -> Self {
+        self.boundary.push(BoundaryCondition::pressure(on, pressure.into()));
+        self
+    }
+
     /// The problem with exact values given on a whole edge.
     #[must_use]
     pub fn with_exact_boundary(self, edge: Edge) -> Self {
         let components = self.exact.iter().cloned().map(Condition::Dirichlet).collect();
         self.with_boundary(edge, components)
+    }
+
+    /// True if something acts on faces of cracks.
+    pub(crate) fn loads_faces(&self) -> bool {
+        self.boundary.iter().any(|condition| matches!(condition.on, BorderPart::Crack { .. }))
     }
 
     /// Number of components of the unknown field.

@@ -9,9 +9,12 @@ mod tips;
 
 pub use tips::relative_spread;
 
-use crate::intensity::{Loads, Outcome, intensities};
+use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
+use crate::problem::Problem;
 use crate::space::Space;
+use crate::system::{face_load, source_at};
 use faces::of_faces;
+use ppum::crack::Side;
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::field::{Field, FieldError};
 use ppum::vec2::Vec2;
@@ -52,18 +55,26 @@ pub mod kind {
     pub const CUT_OFF: &str = "cut-off";
 }
 
-/// The stress intensity factors of a step's first field, and the warnings about it, with the loads it
-/// was solved for. Nothing but the dataset is asked: for a solver's dataset both are what it holds.
+/// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
+/// it solves, on the cracks of the step: its loads act near the tips. Without one none do.
 ///
 /// # Errors
 /// A step that is not there, functions that do not compile.
 pub fn judge(
     dataset: &Dataset,
     step: usize,
-    loads: Loads<'_>,
+    problem: Option<&Problem>,
 ) -> Result<(Vec<Outcome>, Vec<Warning>), FieldError> {
     let field = Field::new(dataset, step)?;
-    let space = Space::new(field.step, &dataset.equation, &dataset.tables)?;
+    let space = Space::new(field.step, &dataset.domain, &dataset.equation, &dataset.tables)?;
+    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| source_at(problem, x));
+    let face = |crack: u32, side: Side, x: Vec2| {
+        problem.map_or([0.0; 2], |problem| face_load(problem, crack as usize, side, x))
+    };
+    let loads = Loads {
+        force: problem.map(|_| &force as PointLoad<'_>),
+        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
+    };
     let tips = intensities(dataset, &field, &space, loads);
     let mut warnings = of_tips(&tips, &field.step.cracks);
     warnings.extend(of_faces(&field));

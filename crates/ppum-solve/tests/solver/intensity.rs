@@ -6,13 +6,14 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::intensity::{Loads, Obstacle, Outcome, intensities};
-use ppum_solve::problem::{Cells, Condition, Edge, Expression, Problem};
+use ppum_solve::problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
 use ppum_solve::space::Space;
-use ppum_testkit::exact::{CollinearCracks, ExactField as _, Williams};
+use ppum_testkit::exact::{CollinearCracks, CrackInPlane, ExactField as _, Williams};
 
 fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
     let step = &dataset.steps[0];
-    let space = Space::new(step, &dataset.equation, &dataset.tables).expect("functions");
+    let space =
+        Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
     intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads)
 }
 
@@ -101,4 +102,35 @@ fn a_constant_body_force() {
     assert!((k1 - 1.0).abs() < 2e-4 && (k2 - 0.5).abs() < 2e-4, "{k1} {k2}");
     assert!((without - 1.0).abs() > 0.05, "{without}");
     assert_eq!(dataset.steps[0].intensities[0].k1, k1);
+}
+
+/// Pressure σ on the faces is all-round tension σ far away less a uniform stress σ, which has no K
+/// (Westergaard's field, references in the project's list): K_I = σ √(πa).
+#[test]
+fn pressure_on_the_faces() {
+    let (a, angle) = (0.4, 0.3f64);
+    let along = vec2(angle.cos(), angle.sin());
+    let field = CrackInPlane::biaxial(MATERIAL, vec2(0.03, 0.02), along, a, 1.0);
+    // uniform stress 1: ε = (1 + ν)(1 − 2ν)/E in every direction
+    let strain = 1.3 * 0.4;
+    let [ux, uy] = field.formulas();
+    let less = |text: String, x: &str| {
+        let (bindings, value) = text.rsplit_once("; ").expect("bindings");
+        format!("{bindings}; ({value}) - {strain}*{x}")
+    };
+    let exact = [less(ux, "x"), less(uy, "y")];
+    let ends = [vec2(0.03, 0.02) - along * a, vec2(0.03, 0.02) + along * a];
+    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
+        .with_crack(&ends.map(Into::into))
+        .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+    let dataset = solved(&held(plate, exact));
+    let [k1, _] = field.intensities();
+    for tip in &dataset.steps[0].intensities {
+        println!("{:.1e} {:.1e}", tip.k1 / k1 - 1.0, tip.k2 / k1);
+        assert!((tip.k1 / k1 - 1.0).abs() < 1e-3 && tip.k2.abs() < 1e-3 * k1, "{tip:?} {k1}");
+    }
+    // without the term of the faces
+    let [start, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
+    let without = start.factors.expect("room").k1;
+    assert!((without / k1 - 1.0).abs() > 0.05, "{without} {k1}");
 }

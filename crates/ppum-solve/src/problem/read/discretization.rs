@@ -10,6 +10,7 @@ use ppum::weight::{WeightError, WeightFunction};
 use super::super::discretization::{Cells, Discretization, Enrichment, Order};
 use super::super::document::{Section, Value, nearest};
 use super::super::{points, scopes};
+use super::Files;
 use super::enrichment::is_word;
 
 const KEYS: [&str; 10] = [
@@ -28,14 +29,14 @@ const KEYS: [&str; 10] = [
 /// What is optional and wrong is reported, and left at its default.
 pub(super) fn discretization(
     root: &Section<'_>,
-    base_dir: &Path,
+    files: Files<'_>,
     tables: &[Arc<Table>],
 ) -> Option<Discretization> {
     if !root.mentions("discretization") {
         root.error("the table [discretization] is missing; add it with e.g. `level = 5`");
     }
     let section = root.section("discretization")?.only(&KEYS, &[]);
-    let cells = cells(&section, base_dir);
+    let cells = cells(&section, files);
     let mut new = Discretization::new(Cells::Level(0));
     let scope = scopes::position(tables).ok()?;
     let enrichments = Enrichment::ALL.map(|enrichment| (enrichment.name(), enrichment));
@@ -89,7 +90,7 @@ fn weight(value: &Value<'_>, tables: &[Arc<Table>]) -> Option<WeightFunction> {
     }
 }
 
-fn cells(section: &Section<'_>, base_dir: &Path) -> Option<Cells> {
+fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
     let given = ["level", "cells", "points"].map(|key| section.get(key));
     match &given {
         [Some(level), None, None] => level.whole().map(Cells::Level),
@@ -98,7 +99,12 @@ fn cells(section: &Section<'_>, base_dir: &Path) -> Option<Cells> {
             let (nx, ny) = (nx.whole(), ny.whole());
             Some(Cells::Grid([nx?, ny?]))
         }
-        [None, None, Some(points)] => point_file(points, base_dir),
+        [None, None, Some(points)] => match files {
+            Files::In(folder) => point_file(points, folder),
+            Files::Stored(dataset) => {
+                dataset.steps.first().map(|step| Cells::Points(step.partition.points.clone()))
+            }
+        },
         [None, None, None] => {
             if !["level", "cells", "points"].iter().any(|key| section.mentions(key)) {
                 section.error("[discretization] has no cells; add e.g. `level = 5`");
@@ -112,8 +118,8 @@ fn cells(section: &Section<'_>, base_dir: &Path) -> Option<Cells> {
     }
 }
 
-fn point_file(value: &Value<'_>, base_dir: &Path) -> Option<Cells> {
-    let found = points::read(&base_dir.join(value.text()?));
+fn point_file(value: &Value<'_>, folder: &Path) -> Option<Cells> {
+    let found = points::read(&folder.join(value.text()?));
     let report = |findings: Vec<_>| findings.into_iter().for_each(|finding| value.add(finding));
     found.map(Cells::Points).map_err(report).ok()
 }

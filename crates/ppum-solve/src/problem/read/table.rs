@@ -9,15 +9,20 @@ use ppum::formula::{Table, TableError};
 use super::super::document::{Section, Value};
 use super::super::scopes;
 use super::super::table_file::{self, Data};
+use super::Files;
 
 /// The tables. For one that is wrong in all but its name another one stands in, so that formulas that
 /// read it are not found wrong as well.
-pub(super) fn tables(root: &Section<'_>, base_dir: &Path, equation: &Equation) -> Vec<Arc<Table>> {
+pub(super) fn tables(root: &Section<'_>, files: Files<'_>, equation: &Equation) -> Vec<Arc<Table>> {
+    let folder = match files {
+        Files::In(folder) => folder,
+        Files::Stored(dataset) => return dataset.tables.clone(),
+    };
     let mut found = Vec::new();
     for section in root.sections("table") {
         let section = section.only(&["name", "x", "y", "values", "file"], &[]);
         let name = section.require("name", "name = \"stiffness\"");
-        let data = data(&section, base_dir);
+        let data = data(&section, folder);
         let Some((value, name)) = name.and_then(|value| Some((value.clone(), value.text()?)))
         else {
             continue;
@@ -42,11 +47,11 @@ fn stand_in(name: &str, is_surface: bool) -> Option<Arc<Table>> {
     table.ok().map(Arc::new)
 }
 
-fn data(section: &Section<'_>, base_dir: &Path) -> Option<Data> {
+fn data(section: &Section<'_>, folder: &Path) -> Option<Data> {
     match (section.get("file"), ["x", "y", "values"].iter().find_map(|key| section.get(key))) {
         (Some(_), Some(own)) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
-            let found = table_file::read(&base_dir.join(file.text()?));
+            let found = table_file::read(&folder.join(file.text()?));
             found.map_err(|findings| findings.into_iter().for_each(|new| file.add(new))).ok()
         }
         (None, Some(_)) => inline(section),
