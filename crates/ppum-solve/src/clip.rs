@@ -1,6 +1,7 @@
 //! Points, segments and cracks against boxes.
 
 use ppum::crack::Crack;
+use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// True if `p` lies in the open box.
@@ -8,16 +9,55 @@ pub(crate) fn inside(open: &Rect, p: Vec2) -> bool {
     p.x > open.min.x && p.x < open.max.x && p.y > open.min.y && p.y < open.max.y
 }
 
-/// Length of a crack inside an open box; a segment along the box's border does not count.
-pub(crate) fn length_inside(crack: &Crack, open: &Rect) -> f64 {
-    crack.points.windows(2).map(|s| segment_inside(s[0], s[1], open)).sum()
+/// Length of a crack inside an open box and outside of holes; a segment along the box's border does
+/// not count.
+pub(crate) fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
+    let length = |s: &[Vec2]| match clipped(s[0], s[1], open) {
+        Some(range) => solid_part(s[0], s[1], range, holes) * (s[1] - s[0]).length(),
+        None => 0.0,
+    };
+    crack.points.windows(2).map(length).sum()
+}
+
+/// Part of a range of a segment's parameter that lies outside of holes.
+fn solid_part(a: Vec2, b: Vec2, [from, to]: [f64; 2], holes: &[Hole]) -> f64 {
+    let crossings = holes.iter().flat_map(|hole| rim_crossings(a, b, hole));
+    let mut breaks: Vec<f64> = crossings.filter(|t| *t > from && *t < to).collect();
+    breaks.extend([from, to]);
+    breaks.sort_by(f64::total_cmp);
+    let is_solid = |t: f64| !holes.iter().any(|hole| hole.contains(a + (b - a) * t));
+    let parts = breaks.windows(2).filter(|t| is_solid(0.5 * (t[0] + t[1])));
+    parts.map(|t| t[1] - t[0]).sum()
+}
+
+/// The parameters, 0 at `a` and 1 at `b`, at which the line through two points meets a rim.
+pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
+    let d = b - a;
+    match *hole {
+        Hole::Circle { center, radius } => {
+            let middle = (center - a).dot(d) / d.dot(d);
+            let height = d.cross(center - a) / d.length();
+            let half = ((radius - height) * (radius + height)).sqrt() / d.length();
+            if half > 0.0 { vec![middle - half, middle + half] } else { Vec::new() }
+        }
+        Hole::Polygon { .. } => {
+            let crossing = |[p, q]: [Vec2; 2]| {
+                let (s, t) = (d.cross(p - a), d.cross(q - a));
+                (s * t <= 0.0 && s != t).then(|| {
+                    let on = p + (q - p) * (s / (s - t));
+                    (on - a).dot(d) / d.dot(d)
+                })
+            };
+            hole.sides().filter_map(crossing).collect()
+        }
+    }
 }
 
 /// Number of connected parts of a crack inside an open box.
 pub(crate) fn runs_inside(crack: &Crack, open: &Rect) -> usize {
     let (mut runs, mut goes_on) = (0, false);
     for pair in crack.points.windows(2) {
-        let Some((_, to)) = part_inside(pair[0], pair[1], open) else {
+        let Some([_, to]) = clipped(pair[0], pair[1], open) else {
             goes_on = false;
             continue;
         };
@@ -29,12 +69,11 @@ pub(crate) fn runs_inside(crack: &Crack, open: &Rect) -> usize {
 
 /// Length of a segment inside an open box.
 pub(crate) fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
-    part_inside(a, b, open).map_or(0.0, |(from, to)| (to - from) * (b - a).length())
+    clipped(a, b, open).map_or(0.0, |[from, to]| (to - from) * (b - a).length())
 }
 
-/// The part of a segment inside an open box, as parameters from 0 at `a` to 1 at `b`; by clipping (Liang
-/// & Barsky 1984).
-fn part_inside(a: Vec2, b: Vec2, open: &Rect) -> Option<(f64, f64)> {
+/// The range of a segment's parameter inside an open box.
+fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
     let d = b - a;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (start, step, lo, hi) in
@@ -49,7 +88,7 @@ fn part_inside(a: Vec2, b: Vec2, open: &Rect) -> Option<(f64, f64)> {
             (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
         }
     }
-    (from < to).then_some((from, to))
+    (to > from).then_some([from, to])
 }
 
 /// True if a part of a segment lies inside an open box or on its border.
@@ -83,7 +122,7 @@ mod tests {
         let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         let runs = |points: &[[f64; 2]]| {
             let points = points.iter().map(|&p| p.into()).collect();
-            runs_inside(&crack(points, &domain), &unit)
+            runs_inside(&crack(points, &domain.into()), &unit)
         };
         assert_eq!(runs(&[[-1.0, 0.5], [2.0, 0.6]]), 1);
         assert_eq!(runs(&[[-1.0, 0.5], [0.4, 0.5], [2.0, 0.6]]), 1, "a kink inside");

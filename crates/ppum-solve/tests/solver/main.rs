@@ -3,6 +3,7 @@
 mod awkward;
 mod examples;
 mod formulas;
+mod holes;
 mod intensity;
 mod kernels;
 mod physics;
