@@ -54,9 +54,9 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Level(level) => Cover::uniform(problem.domain, *level as u8),
-        Cells::Grid(cells) => Cover::grid(problem.domain, *cells),
-        Cells::Points(points) => Cover::scattered(problem.domain, [1, 1], points.clone()),
+        Cells::Level(level) => Cover::uniform(problem.domain.bounds, *level as u8),
+        Cells::Grid(cells) => Cover::grid(problem.domain.bounds, *cells),
+        Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
     }
 }
 
@@ -77,7 +77,7 @@ impl Need {
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
-        let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
+        let room = Room::among_cracks(&problem.cracks, &problem.domain.bounds, id).radius;
         let largest = (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share);
         Self { tip: crack.end_point(id.end), largest, apart }
     }

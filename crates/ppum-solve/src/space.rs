@@ -186,7 +186,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         intensities: Vec::new(),
         history: Vec::new(),
     };
-    inspect(&step, &problem.domain, &problem.tables)?;
+    inspect(&step, &problem.domain.bounds, &problem.tables)?;
     Ok(step)
 }
 

@@ -88,7 +88,7 @@ impl<'p> Given<'p> {
         cell: usize,
     ) -> BorderPiece<'_> {
         let BoundaryCondition { edge, from, to, components } = self.condition;
-        let ends = [from, to].map(|&s| edge.point(&problem.domain, s));
+        let ends = [from, to].map(|&s| edge.point(&problem.domain.bounds, s));
         let rect = &space.partition.cell[cell];
         let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
         let mut held = [false; 2];

@@ -13,19 +13,20 @@ use std::sync::Arc;
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::domain::{Domain, LocalDomain};
 use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
 use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
-use crate::vec2::{Rect, Vec2};
+use crate::vec2::Vec2;
 
 /// A field of a dataset at one step, ready to be evaluated.
 #[derive(Debug)]
 pub struct Field<'d> {
     /// The domain; outside nothing is defined.
-    pub domain: Rect,
+    pub domain: &'d Domain,
     /// The equation the field solves.
     pub equation: &'d Equation,
     /// Quantities the dataset names.
@@ -103,7 +104,7 @@ impl<'d> Field<'d> {
         let supports: Vec<_> =
             (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
         Ok(Self {
-            domain: dataset.domain,
+            domain: &dataset.domain,
             equation: &dataset.equation,
             quantities: &dataset.quantities,
             tables: &dataset.tables,
@@ -150,6 +151,7 @@ impl<'d> Field<'d> {
         LocalField {
             field: self,
             anchor,
+            domain: self.domain.at(anchor),
             functions: self.functions.at(&self.step.cracks, anchor),
             patches: Vec::new(),
         }
@@ -169,6 +171,7 @@ pub struct LocalField<'f> {
     pub field: &'f Field<'f>,
     /// The anchor.
     pub anchor: Vec2,
+    domain: LocalDomain,
     functions: LocalFunctions<'f>,
     patches: Vec<u32>,
 }
@@ -192,8 +195,7 @@ impl<'f> LocalField<'f> {
     /// True if `anchor + offset` lies in the closed domain; exact also where the sum would round.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
-        let (lo, hi) = (self.field.domain.min - self.anchor, self.field.domain.max - self.anchor);
-        Rect::new(lo, hi).contains(offset)
+        self.domain.contains(offset)
     }
 
     /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).

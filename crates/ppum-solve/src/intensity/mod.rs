@@ -94,7 +94,7 @@ pub fn intensities(
     space: &Space<'_>,
     loads: Loads<'_>,
 ) -> Vec<Outcome> {
-    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(space, &dataset.domain, tip));
+    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(space, &dataset.domain.bounds, tip));
     let mut tips: Vec<_> = tips.collect();
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
         return Vec::new();
