@@ -154,7 +154,7 @@ fn tip_field(page: &mut Page) -> anyhow::Result<()> {
     }
     let mut dataset = shown.expect("there are plates");
     dataset.title = "The field of a tip: mode I".into();
-    page.picture("tip-field", &dataset, dataset.domain)
+    page.picture("tip-field", &dataset, dataset.domain.bounds)
 }
 
 fn laplace(page: &mut Page) -> anyhow::Result<()> {
@@ -174,5 +174,5 @@ fn laplace(page: &mut Page) -> anyhow::Result<()> {
     }
     let [_, mut middle, _] = solved;
     middle.title = "Laplace's equation on a slit square".into();
-    page.picture("slit", &middle, middle.domain)
+    page.picture("slit", &middle, middle.domain.bounds)
 }

@@ -186,7 +186,7 @@ pub(crate) fn slanted_cracks() -> Vec<Plate> {
             Plate {
                 name: format!("{degrees}°"),
                 problem: pulled(domain, cells, &[&crack]),
-                cells,
+                covers: Covers::Grid(cells),
                 scale: root(0.5),
                 known: vec![known("F_I", 1, 0, first), known("F_II", 1, 1, second)],
             }
