@@ -186,6 +186,8 @@ struct Solution {
     unknowns: usize,
     /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
+    /// Unknowns that depend on others.
+    dependent: usize,
     /// Pieces of the plate.
     pieces: usize,
     /// Rigid motions of pieces that nothing holds.
@@ -211,6 +213,7 @@ impl Solver<'_> {
             dropped: basis.dropped().collect(),
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
+            dependent: solver.dependent.len(),
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
         })
@@ -290,12 +293,13 @@ impl Solution {
         let total = values.iter().sum();
         step.attributes.push(Attribute { name: "cut-off".into(), values });
         let record = |name: &str, value| Record { name: name.into(), value, unit: String::new() };
-        step.history = vec![
+        step.history.extend([
             record("unknowns", self.unknowns as f64),
             record("cut-off", total),
             record("residual", self.residual),
+            record("dependent", self.dependent as f64),
             record("pieces", self.pieces as f64),
             record("free motions", self.free_motions as f64),
-        ];
+        ]);
     }
 }
