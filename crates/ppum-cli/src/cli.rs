@@ -4,7 +4,7 @@ use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{demo, formula, info, probe, render, sif, solve};
+use crate::commands::{bench, demo, formula, info, probe, render, sif, solve};
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
 /// result exactly at every pixel.
@@ -35,6 +35,7 @@ pub(crate) enum Command {
     Probe(probe::Args),
     Render(render::Args),
     Formula(formula::Args),
+    Bench(bench::Args),
 }
 
 impl Command {
@@ -48,6 +49,7 @@ impl Command {
             Self::Probe(args) => args.run(out),
             Self::Render(args) => args.run(out),
             Self::Formula(args) => args.run(out),
+            Self::Bench(args) => args.run(out),
         }
     }
 }
