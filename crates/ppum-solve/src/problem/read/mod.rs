@@ -23,7 +23,7 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::{Problem, Solver, SolverKind, scopes};
+use super::{BorderPart, Problem, Solver, SolverKind, scopes};
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
@@ -65,7 +65,11 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
     Ok(Problem { title, text: Some(text.to_owned()), ..problem })
 }
 
-/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it.
+/// What is said where a bracket is open; every line that follows is then read as a part of the array.
+const IN_ARRAY: &str = "missing comma between array elements";
+
+/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it, and
+/// nothing after an open bracket.
 fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
     let mut seen = Vec::new();
     for error in errors {
@@ -74,6 +78,9 @@ fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
         if !seen.contains(&line) {
             seen.push(line);
             report.at(offset, format!("the file is no valid TOML here: {}", error.message()));
+        }
+        if error.message().starts_with(IN_ARRAY) {
+            break;
         }
     }
 }
@@ -165,7 +172,11 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     let equation = equation(root, kind, &scope);
     let quantities = quantities(root, &equation, &tables);
     let given = boundary::Data { scope: &scope, exact: exact.as_deref() };
-    let boundary = boundary(root, kind, domain, &given);
+    let mut boundary = boundary(root, kind, domain, &given);
+    if cracks.is_empty() && root.mentions("crack") {
+        // none could be read: what is said of them cannot be judged
+        boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
+    }
     let domain = Domain { bounds: domain?, holes: holes? };
     Some(Problem {
         title: title.to_owned(),

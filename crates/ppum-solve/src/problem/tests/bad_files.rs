@@ -13,7 +13,7 @@ struct Case {
     expected: Vec<String>,
 }
 
-/// Cases begin with `==`; lines with `-` are replaced by those with `+`, the others are findings.
+/// Cases begin with `==`; in each, lines with `-` are replaced by those with `+`, the others are findings.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for text in CASES.split("== ").skip(1) {
@@ -41,8 +41,9 @@ fn every_mistake_is_told_in_full() {
     assert!(cases.len() >= 60, "{} cases", cases.len());
     let wrong = cases.iter().filter_map(|case| {
         let text = edited(PLATE, &case.old.join("\n"), &case.new.join("\n"));
-        let found: Vec<_> =
-            findings(&text).iter().map(|f| f.replace("dir/plate.toml:", "")).collect();
+        let error = parse(&text).err();
+        let found = error.iter().flat_map(ProblemError::findings);
+        let found: Vec<_> = found.map(|f| f.to_string().replace("dir/plate.toml:", "")).collect();
         (found != case.expected).then(|| format!("== {}\n{}\n", case.title, found.join("\n")))
     });
     let wrong: Vec<_> = wrong.collect();
