@@ -10,6 +10,7 @@ use ppum::dataset::{Dataset, Equation};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
+use ppum_format::damage::{object_headers, seal};
 use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
 use ppum_testkit::random::Random;
 
@@ -230,61 +231,13 @@ fn position(bytes: &[u8], pattern: &[u8]) -> usize {
     bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
 }
 
-/// Makes the checksum of an object header right again.
-fn seal(bytes: &mut [u8], header: &std::ops::Range<usize>) {
-    let sum = lookup3(&bytes[header.start..header.end - 4]);
-    bytes[header.end - 4..header.end].copy_from_slice(&sum.to_le_bytes());
-}
-
-/// The version 2 object headers of a file whose checksum is where it should be.
-fn object_headers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
-    let starts = bytes.windows(4).enumerate().filter(|(_, w)| *w == b"OHDR").map(|(at, _)| at);
-    starts
-        .filter_map(|start| {
-            (start + 10..bytes.len().min(start + 5000)).find_map(|end| {
-                let stored = bytes.get(end..end + 4)?.try_into().ok()?;
-                let is_end = lookup3(&bytes[start..end]) == u32::from_le_bytes(stored);
-                is_end.then_some(start..end + 4)
-            })
-        })
-        .collect()
-}
-
-/// Jenkins' lookup3 `hashlittle` (2006, public domain) with seed 0: the checksum of HDF5 metadata.
-fn lookup3(key: &[u8]) -> u32 {
-    let word = |block: &[u8], k: usize| {
-        (0..4)
-            .fold(0u32, |w, b| w | u32::from(block.get(4 * k + b).copied().unwrap_or(0)) << (8 * b))
-    };
-    let start = 0xdead_beef_u32.wrapping_add(key.len() as u32);
-    let mut s = [start; 3];
-    let blocks: Vec<&[u8]> = key.chunks(12).collect();
-    for (n, block) in blocks.iter().enumerate() {
-        for (k, value) in s.iter_mut().enumerate() {
-            *value = value.wrapping_add(word(block, k));
-        }
-        if n + 1 < blocks.len() {
-            mix(&mut s);
-        } else {
-            finish(&mut s);
-        }
-    }
-    s[2]
-}
-
-fn mix(s: &mut [u32; 3]) {
-    // (subtracted from, subtracted, rotation, added to)
-    for (k, rotation) in [4, 6, 8, 16, 19, 4].into_iter().enumerate() {
-        let (a, c, b) = (k % 3, (k + 2) % 3, (k + 1) % 3);
-        s[a] = s[a].wrapping_sub(s[c]) ^ s[c].rotate_left(rotation);
-        s[c] = s[c].wrapping_add(s[b]);
-    }
-}
-
-fn finish(s: &mut [u32; 3]) {
-    for (k, rotation) in [14, 11, 25, 16, 4, 14, 24].into_iter().enumerate() {
-        let (target, from) = ((k + 2) % 3, (k + 1) % 3);
-        s[target] = (s[target] ^ s[from]).wrapping_sub(s[from].rotate_left(rotation));
+/// What `examples/fuzz_files.rs` has found: an error, or a dataset.
+#[test]
+fn files_that_were_found_are_survived() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/hostile");
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries {
+        let _ = read(&entry.unwrap().path());
     }
 }
 
