@@ -89,7 +89,7 @@ class Field:
     def __init__(self, file, step=0, field=0, numbers=Double):
         assert text(file.attrs["format"]) == "ppum" and file.attrs["format_version"][0] == 1
         self.n, self.real = numbers, numbers.real
-        self.min, self.max = file["domain"].attrs["min"], file["domain"].attrs["max"]
+        self.read_domain(file["domain"])
         self.tables = self.read_tables(file)
         self.read_equation(file)
         group = file[f"steps/{step:04}"]
@@ -105,6 +105,37 @@ class Field:
 
     def formula(self, formula, variables):
         return Formula(formula, variables, self.tables, self.n)
+
+    def read_domain(self, group):
+        self.min, self.max = group.attrs["min"], group.attrs["max"]
+        self.holes, kind = [], text(group.attrs["kind"])
+        assert kind in ("box", "box-with-holes")
+        if kind == "box-with-holes":
+            holes = group["holes"]
+            offsets, points = holes["offsets"][()], holes["points"][()]
+            parts = [points[a:b] for a, b in zip(offsets, offsets[1:])]
+            self.holes = list(zip(texts(holes["kind"]), parts, holes["radius"][()]))
+
+    def contains(self, p):
+        """True if a point, given by numbers of the field, lies in the box and in no hole."""
+        box = all(self.real(self.min[k]) <= p[k] <= self.real(self.max[k]) for k in range(2))
+        return box and not any(self.in_hole(p, *hole) for hole in self.holes)
+
+    def in_hole(self, p, kind, points, radius):
+        corners = [[p[k] - self.real(c[k]) for k in range(2)] for c in points]
+        if kind == "circle":
+            ((x, y),) = corners
+            return x * x + y * y < self.real(radius) ** 2
+        assert kind == "polygon"
+        inside = False
+        for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
+            # twice the area of the triangle of the side and the point
+            area = ax * by - ay * bx
+            if area == 0 and ax * bx + ay * by <= 0:
+                return False
+            if (ay > 0) != (by > 0):
+                inside ^= (area > 0) == (by > 0)
+        return inside
 
     def read_tables(self, file):
         tables = file.get("tables", {}).values()
@@ -149,10 +180,8 @@ class Field:
 
     def evaluate(self, x, y, side=1):
         """[(value, d/dx, d/dy), …], one a component; `side` is +1 or -1 and decides on a crack."""
-        p, inside = (self.real(x), self.real(y)), True
-        for k in range(2):
-            inside &= self.real(self.min[k]) <= p[k] <= self.real(self.max[k])
-        if not inside:
+        p = self.real(x), self.real(y)
+        if not self.contains(p):
             return [(math.nan,) * 3] * len(self.components)
         self.side, self.cache = side, {}
         total, values = Jet(0), [Jet(0)] * len(self.components)

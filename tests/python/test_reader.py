@@ -46,6 +46,13 @@ def files():
 
 
 def points(field, distances, count=25):
+    """Those of `anywhere` that lie in the domain."""
+    for anchor, offset in anywhere(field, distances, count):
+        if field.contains([field.real(float(a)) + field.real(float(b)) for a, b in zip(anchor, offset)]):
+            yield anchor, offset
+
+
+def anywhere(field, distances, count):
     """(anchor, offset): random points, points close to tips and kinks, and middles of cracks."""
     random = np.random.default_rng(1)
     for point in field.min + (field.max - field.min) * random.random((count, 2)):
@@ -85,7 +92,7 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 1]
+            assert list(file.attrs["format_version"]) == [1, 2]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert checksum(file) == text(file.attrs["sha256"])
 
@@ -202,6 +209,29 @@ def test_outside_the_domain_is_nan():
     with h5py.File(files()[0]) as file:
         field = Field(file)
         assert all(math.isnan(v) for jet in field.evaluate(field.max[0] + 1e-9, 0) for v in jet)
+
+
+def test_holes_are_cut_out_sharply():
+    """In the middle of rims and at corners, beside them by 1e-2 … 1e-14."""
+    outcomes = set()
+    for path in files()[1::2]:
+        with h5py.File(path) as file:
+            field = Field(file, numbers=Extended)
+            random, asked = np.random.default_rng(2), []
+            for kind, corners, radius in field.holes:
+                if kind == "circle":
+                    angles = random.random(20) * 2 * math.pi
+                    anchors = [corners[0] + radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
+                else:
+                    anchors = [*corners, *(corners + np.roll(corners, 1, axis=0)) / 2]
+                for anchor in anchors:
+                    for distance in (1e-2, 1e-6, 1e-14):
+                        asked.append((anchor, distance * (random.random(2) - 0.5), 1))
+            for (anchor, offset, _), numbers in zip(asked, program(path, asked), strict=True):
+                p = [field.real(c) for c in exact_sum(anchor, offset)]
+                assert math.isnan(numbers[0]) != field.contains(p)
+                outcomes.add((float(abs(offset).max()) < 1e-13, math.isnan(numbers[0])))
+    assert len(outcomes) == 4
 
 
 def test_a_file_of_version_1_0_is_read():

@@ -8,13 +8,14 @@ use ppum::dataset::{
     Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Record, Ring,
     Step, TipIntensity,
 };
+use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
 use crate::content::{Array, Content, Values};
 use crate::error::ReadError;
-use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES};
+use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
 use functions::functions;
 use group::{Group, numbered, optional};
 use tables::{Scopes, tables};
@@ -56,9 +57,31 @@ pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
     })
 }
 
-fn domain(group: &mut Group) -> Read<Rect> {
-    expect_kind(group, "box")?;
-    Ok(Rect::new(group.attribute_point("min")?, group.attribute_point("max")?))
+fn domain(group: &mut Group) -> Read<Domain> {
+    let kind: String = group.attribute("kind")?;
+    let with_holes = group.word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], &kind, "@kind")?;
+    let bounds = Rect::new(group.attribute_point("min")?, group.attribute_point("max")?);
+    let holes = if with_holes { holes(&mut group.group("holes"))? } else { Vec::new() };
+    Ok(Domain { bounds, holes })
+}
+
+fn holes(group: &mut Group) -> Read<Vec<Hole>> {
+    let kinds = group.vector::<String>("kind")?;
+    let points = group.points("points")?;
+    let parts = group.offsets("offsets", kinds.len(), points.len())?;
+    let radii = group.column::<f64>("radius", kinds.len())?;
+    let rows = kinds.iter().zip(parts).zip(radii);
+    rows.map(|((kind, part), radius)| {
+        let is_circle = group.word(&[(true, CIRCLE), (false, POLYGON)], kind, "kind")?;
+        match (is_circle, &points[part]) {
+            (true, &[center]) => Ok(Hole::Circle { center, radius }),
+            (true, other) => {
+                Err(group.error("offsets", format!("a circle has 1 point, not {}", other.len())))
+            }
+            (false, points) => Ok(Hole::Polygon { points: points.to_vec() }),
+        }
+    })
+    .collect()
 }
 
 fn expect_kind(group: &mut Group, expected: &'static str) -> Read<()> {

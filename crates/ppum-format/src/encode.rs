@@ -6,6 +6,7 @@ use ppum::crack::{Crack, TipId};
 use ppum::dataset::{
     Dataset, Equation, FieldData, NamedQuantity, Partition, Record, Step, TipIntensity,
 };
+use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2};
@@ -14,7 +15,9 @@ use ppum::weight::WeightFunction;
 use crate::MAX_TABLE_VALUES;
 use crate::content::{Array, Content, Element, Values, join};
 use crate::error::WriteError;
-use crate::names::{CRACK_ENDS, ENDS, STRESS_STATES, Words, word};
+use crate::names::{
+    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES, Words, word,
+};
 
 type Written = Result<(), WriteError>;
 
@@ -30,10 +33,7 @@ pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
     if let Some(problem) = &dataset.problem {
         root.array("problem", Array::scalar(problem.clone()));
     }
-    let mut domain = root.group("domain");
-    domain.attribute("kind", Array::scalar("box".to_owned()));
-    domain.attribute("min", Array::vector(<[f64; 2]>::from(dataset.domain.min)));
-    domain.attribute("max", Array::vector(<[f64; 2]>::from(dataset.domain.max)));
+    domain(&mut root.group("domain"), &dataset.domain);
     equation(&mut root.group("equation"), &dataset.equation)?;
     tables(&mut root, &dataset.tables)?;
     quantities(&mut root.group("quantities"), &dataset.quantities);
@@ -41,6 +41,28 @@ pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
         step(&mut root.group(&format!("steps/{k:04}")), s)?;
     }
     Ok(content)
+}
+
+fn domain(group: &mut Group, domain: &Domain) {
+    let kind = if domain.holes.is_empty() { PLAIN_BOX } else { BOX_WITH_HOLES };
+    group.attribute("kind", Array::scalar(kind.to_owned()));
+    group.attribute("min", Array::vector(<[f64; 2]>::from(domain.bounds.min)));
+    group.attribute("max", Array::vector(<[f64; 2]>::from(domain.bounds.max)));
+    if !domain.holes.is_empty() {
+        holes(&mut group.group("holes"), &domain.holes);
+    }
+}
+
+fn holes(group: &mut Group, holes: &[Hole]) {
+    let rows = holes.iter().map(|hole| match hole {
+        Hole::Circle { center, radius } => (CIRCLE, *radius, std::slice::from_ref(center)),
+        Hole::Polygon { points } => (POLYGON, 0.0, points.as_slice()),
+    });
+    let points = rows.clone().flat_map(|(_, _, points)| points);
+    group.vector("kind", rows.clone().map(|(kind, ..)| kind.to_owned()));
+    group.array("points", Array::rows(points.map(|&p| <[f64; 2]>::from(p))));
+    group.array("offsets", offsets(rows.clone().map(|(_, _, points)| points.len())));
+    group.vector("radius", rows.map(|(_, radius, _)| radius));
 }
 
 /// A place in the file to put arrays into.

@@ -14,6 +14,14 @@ pub(crate) const CRACK_ENDS: &Words<CrackEnd> =
 
 pub(crate) const ENDS: &Words<End> = &[(End::Start, "start"), (End::Last, "last")];
 
+/// Kinds of the domain: readers of files before 1.2 know the first alone.
+pub(crate) const PLAIN_BOX: &str = "box";
+pub(crate) const BOX_WITH_HOLES: &str = "box-with-holes";
+
+/// Kinds of holes.
+pub(crate) const CIRCLE: &str = "circle";
+pub(crate) const POLYGON: &str = "polygon";
+
 /// The word of a value, if the format has one.
 pub(crate) fn word<T: PartialEq>(words: &Words<T>, value: T) -> Option<&'static str> {
     words.iter().find(|(v, _)| *v == value).map(|(_, word)| *word)

@@ -217,7 +217,7 @@ fn damage_that_no_checksum_finds() {
         }
         if let Ok(read) = from_bytes(damaged) {
             readable += 1;
-            let center = read.domain.center();
+            let center = read.domain.bounds.center();
             if let Ok(field) = Field::new(&read, 0) {
                 let mut out = vec![Jet::constant(0.0); field.components()];
                 field.at(center).evaluate::<2>(Vec2::ZERO, Side::Above, &mut out);

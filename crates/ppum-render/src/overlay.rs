@@ -1,4 +1,4 @@
-//! Passes over a picture: cracks and the cells of the cover.
+//! Passes over a picture: cracks, rims of holes and the cells of the cover.
 //!
 //! Lines are placed through offsets from the view's centre, so they are where the field has them at
 //! any zoom: an oblique line through a view 1e-12 of the domain wide is drawn by its distance from the
@@ -6,6 +6,7 @@
 
 use ppum::crack::{Crack, tips};
 use ppum::dataset::Partition;
+use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::image::{Image, Mask, Rgba};
@@ -17,6 +18,7 @@ const SEAM: Rgba = [255, 255, 255, 150];
 /// Widths and radii in pixels of a picture 768 pixels high.
 const CRACK_WIDTH: f64 = 1.8;
 const TIP_RADIUS: f64 = 3.0;
+const RIM_WIDTH: f64 = 1.0;
 const SEAM_WIDTH: f64 = 1.0;
 const BORDER_WIDTH: f64 = 1.0;
 /// Opacity of cell borders.
@@ -50,6 +52,50 @@ pub fn cracks(image: &mut Image, view: &View, cracks: &[Crack]) {
         }
         image.paint(&mask, color);
     }
+}
+
+/// Draws the rims of holes as thin lines.
+///
+/// # Panics
+/// If the picture does not have the view's size.
+pub fn rims(image: &mut Image, view: &View, holes: &[Hole]) {
+    let width = RIM_WIDTH * line_scale(image.size);
+    let mut mask = Mask::new(image.size);
+    for hole in holes {
+        if let Hole::Circle { center, radius } = hole {
+            for chord in arc(view, *center, *radius).windows(2) {
+                mask.line(chord[0], chord[1], width);
+            }
+        }
+        for [a, b] in hole.sides() {
+            if let Some([a, b]) = visible_part(view, a, b) {
+                mask.line(a, b, width);
+            }
+        }
+    }
+    image.paint(&mask, CRACK);
+}
+
+/// Points of the part of a circle in or near the view, in continuous pixel coordinates.
+fn arc(view: &View, center: Vec2, radius: f64) -> Vec<Vec2> {
+    let from = view.center - center;
+    let far = from.length();
+    let toward = if far > 0.0 { from / far } else { vec2(1.0, 0.0) };
+    let reach = 2.0 * view.half().length();
+    if (far - radius).abs() > reach {
+        return Vec::new();
+    }
+    // Chords that leave the arc by less than a tenth of a pixel.
+    let half_angle = 2.0 * (reach / radius).min(1.0).asin();
+    let step = (0.8 * view.pixel_size() / radius).sqrt();
+    let count = (half_angle / step).ceil().max(4.0) as i32;
+    let at = |k: i32| {
+        let angle = half_angle * f64::from(k) / f64::from(count);
+        // The point minus the nearest one of the circle, without cancellation.
+        let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
+        view.pixel_of_offset(toward * (radius - far) + beside * radius)
+    };
+    (-count..=count).map(at).collect()
 }
 
 /// Draws the borders of the cover's cells, light on dark colours and dark on light ones.
@@ -164,6 +210,32 @@ mod tests {
         assert_eq!(image.pixel(50, 50), CRACK);
         assert_eq!(image.pixel(10, 50), CRACK);
         assert_eq!(image.pixel(60, 50), GREY);
+    }
+
+    /// The pixels whose centres lie near the rim are dark, those a pixel away are not; also where the arc is the border of a view 1e-12 wide.
+    #[test]
+    fn rims_of_holes_are_in_place() {
+        let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 };
+        let corners = [[0.5, 0.25], [0.875, 0.75], [0.0, 1.0]].map(Vec2::from);
+        let polygon = Hole::Polygon { points: corners.to_vec() };
+        for (hole, center, width) in [
+            (&circle, vec2(0.4, 0.3), 1.5),
+            (&circle, vec2(0.875, 0.75), 1e-12),
+            (&polygon, vec2(0.4, 0.6), 1.5),
+            (&polygon, vec2(0.875, 0.75), 1e-12),
+        ] {
+            let view = View::new(center, width, [101, 101]).unwrap();
+            let mut image = Image::filled(view.pixels, GREY);
+            rims(&mut image, &view, std::slice::from_ref(hole));
+            for (column, row) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
+                // A world coordinate is rounded to a fiftieth of the smallest pixel.
+                let distance = hole.rim_distance(center + view.offset(column, row));
+                let pixels = distance / view.pixel_size();
+                let is_dark = image.pixel(column, row)[0] < 72;
+                assert!(pixels < 1.1 || !is_dark, "{hole:?} {width} {column} {row}");
+                assert!(pixels > 0.3 || is_dark, "{hole:?} {width} {column} {row}");
+            }
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod synthetic;
 
 use cpu_time::ThreadTime;
 use ppum::dataset::Dataset;
+use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity, QuantityError, Source};
 use ppum::real::Scalar;
@@ -178,6 +179,32 @@ fn views_partly_and_wholly_outside() {
     let away = View::new(vec2(9.0, 0.0), 1.0, [33, 17]).unwrap();
     let raster = render::<f32>(&field, &away, &Quantity::VonMises).unwrap();
     assert!(raster.values.iter().all(|v| v.is_nan()));
+}
+
+/// Holes inside, over the border and over each other, from afar and at a rim with a zoom of 1e12.
+#[test]
+fn holes_are_nan_where_the_reference_has_them() {
+    let mut dataset = dataset(&Recipe::default());
+    let (min, size) = (domain().min, domain().size());
+    let at = |x: f64, y: f64| min + vec2(x * size.x, y * size.y);
+    let round = Hole::Circle { center: at(0.3, 0.4), radius: 0.125 };
+    let notch = Hole::Circle { center: at(1.0, 0.6), radius: 0.2 };
+    let points = vec![at(0.2, 0.5), at(0.6, 0.45), at(0.4, 0.6), at(0.5, 0.9)];
+    dataset.domain.holes = vec![round, notch, Hole::Polygon { points }];
+    agree(&dataset, &whole([131, 97]), &SOME);
+    let field = Field::new(&dataset, 0).unwrap();
+    let rim = at(0.3, 0.4) - vec2(0.075, 0.1);
+    for (center, zoom) in [(rim, 1.0), (rim, 1e12), (at(0.2, 0.5), 1e12), (at(0.55, 0.45), 30.0)] {
+        let view = view(center, zoom);
+        let ours = render::<f64>(&field, &view, &Quantity::VonMises).unwrap();
+        let theirs = reference(&field, &view, &Quantity::VonMises).unwrap();
+        let holes = |raster: &Raster<f64>| -> Vec<bool> {
+            raster.values.iter().map(|v| v.is_nan()).collect()
+        };
+        let found = holes(&ours);
+        assert_eq!(found, holes(&theirs), "{center:?} {zoom}");
+        assert!(found.contains(&true) && found.contains(&false), "{center:?} {zoom}");
+    }
 }
 
 /// Zooms by factors up to 1e12 to a tip, to a kink and to the middle of an oblique crack.

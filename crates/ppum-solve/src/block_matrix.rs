@@ -93,6 +93,12 @@ impl BlockMatrix {
         self.offsets[self.pattern.len()]
     }
 
+    /// Number of patches.
+    #[must_use]
+    pub(crate) fn n_blocks(&self) -> usize {
+        self.pattern.len()
+    }
+
     /// Unknowns of patch i.
     #[must_use]
     pub(crate) fn unknowns(&self, i: usize) -> std::ops::Range<usize> {

@@ -13,11 +13,12 @@ use crate::cell::{CellSystem, Data, square};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pencil::largest_eigenvalue;
+use crate::pieces::Pieces;
 use crate::quadrature::EdgeRule;
 use crate::shape::Shapes;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::vec2;
 
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
 const FACTOR: f64 = 2.0;
@@ -66,6 +67,7 @@ impl<'a> Border<'a> {
     pub(crate) fn add(
         &mut self,
         piece: &BorderPiece<'_>,
+        pieces: &Pieces,
         evaluator: &mut BasisEvaluator<'_>,
         shapes: &mut Shapes,
         system: &mut CellSystem,
@@ -82,8 +84,11 @@ impl<'a> Border<'a> {
                 for (load, held) in loads.iter_mut().zip(piece.held) {
                     *load = if held { 0.0 } else { *load };
                 }
-                system.add_load(&numbers, shapes, q, x, &loads[..components], weight);
-                system.add_held(x, piece.held, weight);
+                let loads = &loads[..components];
+                shapes.add_load(q, &numbers, loads, weight, &mut system.load);
+                let balance = &mut system.balance[pieces.behind(x, rule.normal)];
+                balance.add_load(x, loads, weight);
+                balance.add_held(x, piece.held, weight);
                 given.push(values.map(|v| v * weight.sqrt()));
             }
             shapes.scale(&rule.weights);
@@ -165,19 +170,6 @@ fn add_at(sum: &mut Mat<f64>, rows: &[usize], columns: &[usize], block: &Mat<f64
     for (b, &column) in columns.iter().enumerate() {
         for (a, &row) in rows.iter().enumerate() {
             sum[(row, column)] += block[(a, b)];
-        }
-    }
-}
-
-impl CellSystem {
-    /// Adds a point where values are given to what is known of the rigid motions.
-    fn add_held(&mut self, x: Vec2, held: [bool; 2], weight: f64) {
-        let motions = self.motions.at(x);
-        for (row, a) in self.held.iter_mut().zip(&motions) {
-            for (entry, b) in row.iter_mut().zip(&motions) {
-                let products = (0..2).filter(|&i| held[i]).map(|i| a[i] * b[i]);
-                *entry += weight * products.sum::<f64>();
-            }
         }
     }
 }

@@ -4,12 +4,14 @@
 //! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
 //! ```
 
+use crate::balance::Balance;
 use crate::basis::{BasisEvaluator, StableBasis};
+use crate::block_matrix::BlockMatrix;
 use crate::border::{Border, BorderPiece};
 use crate::eigen::EigenError;
 use crate::law::{Law, LawAt};
+use crate::pieces::Pieces;
 use crate::quadrature::Rule;
-use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use crate::shape::Shapes;
 use crate::space::Space;
 use faer::linalg::matmul::matmul;
@@ -28,13 +30,8 @@ pub(crate) struct CellSystem {
     pub(crate) matrix: Mat<f64>,
     /// Right-hand side.
     pub(crate) load: Vec<f64>,
-    /// Work of body forces and tractions on the rigid motions.
-    pub(crate) resultant: PerMotion,
-    /// ∫ of the loads' magnitude on the border and in the cell.
-    pub(crate) magnitude: f64,
-    /// ∫ m_k·m_l of the rigid motions over the border where values are given, held components only.
-    pub(crate) held: [PerMotion; MOTIONS],
-    pub(crate) motions: RigidMotions,
+    /// Supports and loads of each piece of the plate, as far as they are in the cell.
+    pub(crate) balance: Vec<Balance>,
 }
 
 /// The functions of a cell's patches, numbered patch after patch.
@@ -76,6 +73,23 @@ impl CellFunctions {
         (0..components).flat_map(|i| functions.clone().map(move |a| a * components + i)).collect()
     }
 
+    /// Adds numbers of the cell's unknowns, component i of function a at a · components + i, to those
+    /// of all unknowns.
+    pub(crate) fn add_to(
+        &self,
+        matrix: &BlockMatrix,
+        components: usize,
+        part: &[f64],
+        sum: &mut [f64],
+    ) {
+        for (k, &patch) in self.patches.iter().enumerate() {
+            let range = matrix.unknowns(patch as usize);
+            for (sum, &from) in sum[range].iter_mut().zip(&self.unknowns(k, components)) {
+                *sum += part[from];
+            }
+        }
+    }
+
     fn position(&self, patch: u32) -> usize {
         self.patches.binary_search(&patch).expect("a rule's patches meet its cell")
     }
@@ -86,7 +100,7 @@ pub(crate) struct CellAssembler<'s> {
     space: &'s Space<'s>,
     basis: &'s StableBasis,
     law: &'s Law<'s>,
-    motions: RigidMotions,
+    pieces: &'s Pieces,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
@@ -96,10 +110,10 @@ impl<'s> CellAssembler<'s> {
         space: &'s Space<'s>,
         basis: &'s StableBasis,
         law: &'s Law<'s>,
-        motions: RigidMotions,
+        pieces: &'s Pieces,
     ) -> Self {
         let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
-        Self { space, basis, law, motions, evaluator, shapes }
+        Self { space, basis, law, pieces, evaluator, shapes }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -118,10 +132,7 @@ impl<'s> CellAssembler<'s> {
         let mut system = CellSystem {
             matrix: square(n * components),
             load: vec![0.0; n * components],
-            resultant: [0.0; MOTIONS],
-            magnitude: 0.0,
-            held: [[0.0; MOTIONS]; MOTIONS],
-            motions: self.motions,
+            balance: Balance::of(self.pieces, components),
             functions,
         };
         let products = || Products { xx: square(n), xy: square(n), yy: square(n) };
@@ -135,7 +146,13 @@ impl<'s> CellAssembler<'s> {
         if !border.is_empty() {
             let mut on_border = Border::new(self.law, n * components);
             for piece in border {
-                on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
+                on_border.add(
+                    piece,
+                    self.pieces,
+                    &mut self.evaluator,
+                    &mut self.shapes,
+                    &mut system,
+                );
             }
             on_border.finish(&mut system)?;
         }
@@ -156,7 +173,9 @@ impl<'s> CellAssembler<'s> {
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
                 let x = rule.anchor + offset;
                 let values = source(x);
-                system.add_load(&numbers, shapes, q, x, &values[..self.law.components], weight);
+                let values = &values[..self.law.components];
+                shapes.add_load(q, &numbers, values, weight, &mut system.load);
+                system.balance[self.pieces.of(x)].add_load(x, values, weight);
             }
         }
         if self.law.is_uniform() {
@@ -185,28 +204,6 @@ impl CellSystem {
         let rows = self.functions.unknowns(k, components);
         let columns = self.functions.unknowns(l, components);
         Mat::from_fn(rows.len(), columns.len(), |a, b| self.matrix[(rows[a], columns[b])])
-    }
-
-    /// Adds weight · N · values at point `q` to the load, and its resultant.
-    pub(crate) fn add_load(
-        &mut self,
-        numbers: &[usize],
-        shapes: &Shapes,
-        q: usize,
-        x: Vec2,
-        values: &[f64],
-        weight: f64,
-    ) {
-        for (k, &number) in numbers.iter().enumerate() {
-            let n = shapes.value[k * shapes.points + q];
-            for (i, value) in values.iter().enumerate() {
-                self.load[number * values.len() + i] += weight * value * n;
-            }
-        }
-        for (sum, motion) in self.resultant.iter_mut().zip(self.motions.at(x)) {
-            *sum += weight * motion.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
-        }
-        self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
     }
 }
 

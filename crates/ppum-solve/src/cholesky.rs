@@ -123,7 +123,7 @@ impl<'a> Cholesky<'a> {
     }
 
     /// x ← (L Lᵀ)⁻¹ x, permutations included.
-    fn apply_inverse(&self, x: &mut [f64]) {
+    pub(crate) fn apply_inverse(&self, x: &mut [f64]) {
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut buffer = MemBuffer::new(scratch);
         let n = x.len();

@@ -240,7 +240,7 @@ impl<'p> Patch<'p> {
         Self {
             cracks: &problem.cracks,
             support,
-            open: support.intersection(&problem.domain),
+            open: support.intersection(&problem.domain.bounds),
             shortest: LEAST_CUT * half.x.min(half.y),
         }
     }

@@ -1,113 +1,220 @@
-//! Supports: which rigid motions the boundary values leave free, whether the loads allow it, and
-//! the penalty that fixes them.
+//! Plates and pieces of plates that nothing holds: of all solutions, which differ by rigid motions,
+//! the one without any on average.
+//!
+//! ```text
+//! ∫ u·m_k dA = 0 over the piece, for each of its free motions m_k
+//! ```
+//!
+//! The condition couples all unknowns of a piece. So the system first gets a penalty on the unknowns of
+//! one patch, which is exact for balanced loads whatever its size. Solutions for the same functionals
+//! as loads are the rigid motions themselves, in whatever functions, and they are subtracted.
 
+use crate::balance::Balance;
 use crate::basis::{BasisEvaluator, StableBasis};
-use crate::eigen::{EigenError, SymmetricEigen};
-use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
+use crate::batch::in_batches;
+use crate::block_matrix::BlockMatrix;
+use crate::cell::CellFunctions;
+use crate::cholesky::{Cholesky, CholeskyError};
+use crate::pieces::Pieces;
+use crate::rigid::{PerMotion, RigidMotions};
 use crate::shape::Shapes;
 use crate::space::Space;
-use crate::system::System;
 use faer::Mat;
+use faer::linalg::solvers::{DenseSolveCore, Solve};
 
-/// Part of the largest eigenvalue below which a motion counts as free.
-const FREE: f64 = 1e-10;
-
-/// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.
-const BALANCE: f64 = 1e-6;
-
-/// The loads move a plate that is not held.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "the loads do not balance and nothing holds the plate against them: a resultant of {resultant:.6e} \
-     remains of loads of {magnitude:.6e} in all; hold a component of the displacement on an edge, or \
-     balance the tractions"
-)]
-pub struct UnbalancedError {
-    /// Work of the loads on the free rigid motion, with unit displacement.
-    pub resultant: f64,
-    /// ∫ of the magnitude of all loads.
-    pub magnitude: f64,
+/// A free motion of a piece.
+struct Motion {
+    piece: usize,
+    motions: RigidMotions,
+    motion: PerMotion,
+    /// Index in [`Gauge::patches`].
+    group: usize,
 }
 
-/// The rigid motions that no boundary value holds, as combinations of the basic ones.
-pub(crate) fn free_motions(
-    system: &System,
-    motions: &RigidMotions,
-) -> Result<Vec<PerMotion>, EigenError> {
-    let n = motions.count();
-    let held = Mat::from_fn(n, n, |a, b| system.held[a][b]);
-    let eigen = SymmetricEigen::new(held.as_ref())?;
-    let largest = eigen.values.first().copied().unwrap_or(0.0);
-    let free = (0..n).filter(|&k| eigen.values[k] <= FREE * largest);
-    Ok(free
-        .map(|k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 }))
-        .collect())
+/// The free motions of all pieces and the functionals that fix them.
+pub(crate) struct Gauge {
+    motions: Vec<Motion>,
+    /// Of each motion, ∫ N·m over its piece, in the order of the system.
+    moments: Vec<Vec<f64>>,
+    /// Of each piece that is free, the patch whose unknowns get the penalty.
+    patches: Vec<usize>,
 }
 
-/// Checks that the loads do no work on the free motions.
-///
-/// # Errors
-/// Loads that do.
-pub(crate) fn check_balance(system: &System, free: &[PerMotion]) -> Result<(), UnbalancedError> {
-    for motion in free {
-        let work: f64 = motion.iter().zip(&system.resultant).map(|(m, r)| m * r).sum();
-        if work.abs() > BALANCE * system.magnitude {
-            return Err(UnbalancedError { resultant: work, magnitude: system.magnitude });
+impl Gauge {
+    /// The gauge of the free motions of pieces, given the unknowns of the matrix.
+    ///
+    /// Cost: where there are free motions, one more pass over the cells.
+    pub(crate) fn new(
+        space: &Space<'_>,
+        basis: &StableBasis,
+        pieces: &Pieces,
+        balances: &[Balance],
+        free: &[Vec<PerMotion>],
+        matrix: &BlockMatrix,
+    ) -> Self {
+        let mut motions = Vec::new();
+        let mut groups = 0;
+        for (piece, (balance, free)) in balances.iter().zip(free).enumerate() {
+            let of_piece = |&motion: &PerMotion| Motion {
+                piece,
+                motions: balance.motions,
+                motion,
+                group: groups,
+            };
+            motions.extend(free.iter().map(of_piece));
+            groups += usize::from(!free.is_empty());
+        }
+        let mut gauge = Self { moments: Vec::new(), motions, patches: Vec::new() };
+        if groups > 0 {
+            gauge.moments = gauge.integrate(space, basis, pieces, matrix);
+            gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
+        }
+        gauge
+    }
+
+    /// Number of free motions.
+    pub(crate) fn len(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// Adds γ Σ_k r_k r_kᵀ, r_k the part of a functional on the unknowns of one patch.
+    pub(crate) fn add_penalty(&self, matrix: &mut BlockMatrix) {
+        for (group, &patch) in self.patches.iter().enumerate() {
+            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
+            let length = rows.iter().copied().flatten().fold(0.0f64, |m, v| m.max(v * v));
+            let stiffness = matrix.block(patch, patch).expect("a patch is coupled to itself");
+            let n = stiffness.nrows();
+            let gamma = (0..n).map(|k| stiffness[(k, k)]).fold(0.0, f64::max) / length;
+            let entry = |a, b| gamma * rows.iter().map(|r| r[a] * r[b]).sum::<f64>();
+            let block = Mat::from_fn(n, n, entry);
+            matrix.add_block(patch, patch, block.as_ref());
         }
     }
-    Ok(())
-}
 
-/// Adds γ Σ_k r_k r_kᵀ to the matrix, r_k(u) = ∫ φ_i v_i·m_k over the cell of one patch i, for each
-/// free motion m_k. It moves the free motions only: exact for balanced loads, whatever γ > 0. One
-/// patch, so that no patches are coupled that do not meet.
-pub(crate) fn gauge(
-    system: &mut System,
-    space: &Space<'_>,
-    basis: &StableBasis,
-    motions: &RigidMotions,
-    free: &[PerMotion],
-) {
-    if free.is_empty() {
-        return;
+    /// Subtracts the rigid motions that the penalty has left in a solution.
+    ///
+    /// # Errors
+    /// Those of the linear solver.
+    pub(crate) fn center(
+        &self,
+        solver: &Cholesky<'_>,
+        matrix: &BlockMatrix,
+        solution: &mut [f64],
+    ) -> Result<(), CholeskyError> {
+        if self.motions.is_empty() {
+            return Ok(());
+        }
+        let loads = self.loads(matrix);
+        let rough = solve_all(solver, &loads)?;
+        // Loads of motions that have one mean each: those of one patch look much alike, and the
+        // rounding of their differences would be seen in strains.
+        let loads = combined(&loads, &self.means(&rough).partial_piv_lu().inverse());
+        let rigid = solve_all(solver, &loads)?;
+        let parts = self.means(&rigid).partial_piv_lu().solve(self.means(&[&*solution]));
+        for (k, rigid) in rigid.iter().enumerate() {
+            solution.iter_mut().zip(rigid).for_each(|(u, r)| *u -= parts[(k, 0)] * r);
+        }
+        Ok(())
     }
-    // the patch with the fewest functions: away from cracks, where nothing is nearly dependent
-    let patch =
-        (0..space.sizes.len()).min_by_key(|&p| space.sizes[p]).expect("a cover has a patch");
-    let moments = moments(space, basis, patch, motions, free);
-    let length = moments.iter().flatten().fold(0.0f64, |m, v| m.max(v * v));
-    let stiffness = system.matrix.block(patch, patch).expect("a patch is coupled to itself");
-    let n = stiffness.nrows();
-    let gamma = (0..n).map(|k| stiffness[(k, k)]).fold(0.0, f64::max) / length;
-    let block = Mat::from_fn(n, n, |a, b| gamma * moments.iter().map(|r| r[a] * r[b]).sum::<f64>());
-    system.matrix.add_block(patch, patch, block.as_ref());
-}
 
-/// r_k over the unknowns of a patch, component-major.
-fn moments(
-    space: &Space<'_>,
-    basis: &StableBasis,
-    patch: usize,
-    motions: &RigidMotions,
-    free: &[PerMotion],
-) -> Vec<Vec<f64>> {
-    let (components, size) = (motions.components(), basis.sizes[patch]);
-    let (mut evaluator, mut shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
-    let mut moments = vec![vec![0.0; size * components]; free.len()];
-    for rule in space.quadrature(0).cell(&space.partition.cell[patch], &space.coverers[patch]) {
-        evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut shapes);
-        let before = rule.patches.iter().take_while(|&&p| p != patch as u32);
-        let first: usize = before.map(|&p| basis.sizes[p as usize]).sum();
-        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
-            let basic = motions.at(rule.anchor + offset);
-            for (moment, motion) in moments.iter_mut().zip(free) {
-                for (row, sum) in moment.iter_mut().enumerate() {
-                    let (i, a) = (row / size, first + row % size);
-                    let m: f64 = (0..MOTIONS).map(|k| motion[k] * basic[k][i]).sum();
-                    *sum += weight * m * shapes.value[a * shapes.points + q];
+    /// The functionals of the penalty as right-hand sides: their solutions are rigid motions.
+    fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+        let load = |(motion, moments): (&Motion, &Vec<f64>)| {
+            let mut load = vec![0.0; moments.len()];
+            let range = matrix.unknowns(self.patches[motion.group]);
+            load[range.clone()].copy_from_slice(&moments[range]);
+            load
+        };
+        self.motions.iter().zip(&self.moments).map(load).collect()
+    }
+
+    /// ∫ u·m_l of some u: a row for each motion, a column for each u.
+    fn means<U: AsRef<[f64]>>(&self, all: &[U]) -> Mat<f64> {
+        let (rows, columns) = (self.moments.len(), all.len());
+        Mat::from_fn(rows, columns, |l, k| dot(&self.moments[l], all[k].as_ref()))
+    }
+
+    /// The functionals of one group on the unknowns of a patch.
+    fn parts<'g>(
+        &'g self,
+        group: usize,
+        patch: usize,
+        matrix: &BlockMatrix,
+    ) -> impl Iterator<Item = &'g [f64]> {
+        let range = matrix.unknowns(patch);
+        let all = self.motions.iter().zip(&self.moments);
+        all.filter(move |(motion, _)| motion.group == group)
+            .map(move |(_, moments)| &moments[range.clone()])
+    }
+
+    /// The patch on which the motions of a group are largest and least alike.
+    fn firmest(&self, group: usize, matrix: &BlockMatrix) -> usize {
+        let volume = |patch: usize| {
+            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
+            Mat::from_fn(rows.len(), rows.len(), |k, l| dot(rows[k], rows[l])).determinant()
+        };
+        let all = (0..matrix.n_blocks()).map(|patch| (patch, volume(patch)));
+        all.fold((0, 0.0), |best, new| if new.1 > best.1 { new } else { best }).0
+    }
+
+    /// ∫ N·m over the pieces of the motions, cell by cell.
+    fn integrate(
+        &self,
+        space: &Space<'_>,
+        basis: &StableBasis,
+        pieces: &Pieces,
+        matrix: &BlockMatrix,
+    ) -> Vec<Vec<f64>> {
+        let quadrature = space.quadrature(0);
+        let components = if self.motions[0].motions.count() == 1 { 1 } else { 2 };
+        let mut moments = vec![vec![0.0; matrix.n_unknowns()]; self.motions.len()];
+        in_batches(
+            space.partition.len(),
+            || (BasisEvaluator::new(space, basis), Shapes::default()),
+            |(evaluator, shapes), cell| {
+                let functions = CellFunctions::new(space, basis, cell);
+                let mut parts = vec![vec![0.0; functions.len() * components]; self.motions.len()];
+                for rule in quadrature.cell(&space.partition.cell[cell], &space.coverers[cell]) {
+                    evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+                    let numbers = functions.numbers(&rule.patches);
+                    for (q, (&offset, &weight)) in
+                        rule.offsets.iter().zip(&rule.weights).enumerate()
+                    {
+                        let x = rule.anchor + offset;
+                        let piece = pieces.of(x);
+                        for (part, motion) in parts.iter_mut().zip(&self.motions) {
+                            if motion.piece == piece {
+                                let m = motion.motions.combined(&motion.motion, x);
+                                shapes.add_load(q, &numbers, &m[..components], weight, part);
+                            }
+                        }
+                    }
                 }
-            }
-        }
+                (functions, parts)
+            },
+            |_, (functions, parts)| {
+                for (sum, part) in moments.iter_mut().zip(&parts) {
+                    functions.add_to(matrix, components, part, sum);
+                }
+            },
+        );
+        moments
     }
-    moments
+}
+
+fn solve_all(solver: &Cholesky<'_>, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CholeskyError> {
+    loads.iter().map(|load| Ok(solver.solve(load)?.unknowns)).collect()
+}
+
+/// Combinations of vectors, with the factors of each in a column.
+fn combined(vectors: &[Vec<f64>], factors: &Mat<f64>) -> Vec<Vec<f64>> {
+    let entry = |k: usize, row: usize| {
+        vectors.iter().enumerate().map(|(j, vector)| factors[(j, k)] * vector[row]).sum()
+    };
+    let rows = vectors.first().map_or(0, Vec::len);
+    (0..vectors.len()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

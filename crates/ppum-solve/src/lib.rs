@@ -37,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod balance;
 mod basis;
 mod batch;
 mod block_matrix;
@@ -52,9 +53,9 @@ pub mod intensity;
 pub mod law;
 pub mod norms;
 mod pencil;
+mod pieces;
 pub mod problem;
 pub mod quadrature;
-#[cfg(test)]
 mod random;
 mod refine;
 mod rigid;
@@ -62,5 +63,6 @@ pub mod shape;
 mod smoothness;
 pub mod solve;
 pub mod space;
+mod spectrum;
 mod system;
 mod transform;

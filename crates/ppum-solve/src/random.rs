@@ -1,4 +1,4 @@
-//! Reproducible pseudo-random numbers for tests and measurements.
+//! Reproducible pseudo-random numbers: start vectors, and data of tests.
 
 /// The generator SplitMix64: Steele, Lea, Flood, "Fast splittable pseudorandom number
 /// generators", OOPSLA 2014.

@@ -1,9 +1,11 @@
 //! The cover of a problem, refined by itself where crack tips need it.
 //!
 //! No patch may hold two tips, or a tip and a kink of its crack; the cells at a tip are at most a
-//! quarter of the crack length belonging to it. Enrichment does the rest: grading toward a tip
-//! gains nothing once the singular functions are there.
+//! quarter of the crack length belonging to it, and half the room that its stress intensity is found
+//! in. Enrichment does the rest: grading toward a tip gains nothing once the singular functions are
+//! there.
 
+use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, TipId, tips};
@@ -11,6 +13,13 @@ use ppum::vec2::{Rect, Vec2};
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
 const DEEPEST: usize = 16;
+
+/// Largest cells at a tip, in parts of the crack length belonging to it.
+const LARGEST: f64 = 0.25;
+
+/// Cells at a tip that are not refined further for little room around it, in the same measure: tips
+/// nearly at the border would ask for cells without end.
+const SMALLEST: f64 = 1.0 / 256.0;
 
 /// The cover of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -45,9 +54,9 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Level(level) => Cover::uniform(problem.domain, *level as u8),
-        Cells::Grid(cells) => Cover::grid(problem.domain, *cells),
-        Cells::Points(points) => Cover::scattered(problem.domain, [1, 1], points.clone()),
+        Cells::Level(level) => Cover::uniform(problem.domain.bounds, *level as u8),
+        Cells::Grid(cells) => Cover::grid(problem.domain.bounds, *cells),
+        Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
     }
 }
 
@@ -68,7 +77,9 @@ impl Need {
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
-        Self { tip: crack.end_point(id.end), largest: share / 4.0, apart }
+        let room = Room::among_cracks(&problem.cracks, &problem.domain.bounds, id).radius;
+        let largest = (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share);
+        Self { tip: crack.end_point(id.end), largest, apart }
     }
 
     fn asks(&self, cell: &Rect, alpha: f64) -> bool {

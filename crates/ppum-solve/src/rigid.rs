@@ -1,6 +1,6 @@
 //! Rigid motions: the kernel of the operator, which supports or a gauge must remove.
 
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Vec2;
 
 /// Most rigid motions a field can have.
 pub(crate) const MOTIONS: usize = 3;
@@ -8,23 +8,20 @@ pub(crate) const MOTIONS: usize = 3;
 /// One number a rigid motion.
 pub(crate) type PerMotion = [f64; MOTIONS];
 
-/// Two translations and the rotation about the domain's centre, in units of the domain's size; for
-/// one component the constant.
-#[derive(Clone, Copy, Debug)]
+/// Two translations and the rotation about a centre, in units of a size; for one component the
+/// constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RigidMotions {
-    center: Vec2,
-    size: f64,
+    /// Centre of the rotation.
+    pub(crate) center: Vec2,
+    /// Distance from the centre at which the rotation moves points by 1.
+    pub(crate) size: f64,
     components: usize,
 }
 
 impl RigidMotions {
-    pub(crate) fn new(domain: &Rect, components: usize) -> Self {
-        Self { center: domain.center(), size: domain.size().length(), components }
-    }
-
-    /// Components of the field.
-    pub(crate) fn components(&self) -> usize {
-        self.components
+    pub(crate) fn new(center: Vec2, size: f64, components: usize) -> Self {
+        Self { center, size, components }
     }
 
     /// Number of motions.
@@ -39,5 +36,11 @@ impl RigidMotions {
             1 => [[1.0, 0.0], [0.0; 2], [0.0; 2]],
             _ => [[1.0, 0.0], [0.0, 1.0], [-d.y, d.x]],
         }
+    }
+
+    /// A combination of the motions at x.
+    pub(crate) fn combined(&self, motion: &PerMotion, x: Vec2) -> [f64; 2] {
+        let basic = self.at(x);
+        [0, 1].map(|i| (0..MOTIONS).map(|k| motion[k] * basic[k][i]).sum())
     }
 }

@@ -61,6 +61,24 @@ impl Shapes {
         MatRef::from_row_major_slice(part, functions.len(), self.points)
     }
 
+    /// Adds weight · N · values at point `q` to a load over the functions of a cell, of which `numbers`
+    /// are those of the rows; component i of function a is entry a · components + i.
+    pub(crate) fn add_load(
+        &self,
+        q: usize,
+        numbers: &[usize],
+        values: &[f64],
+        weight: f64,
+        load: &mut [f64],
+    ) {
+        for (k, &number) in numbers.iter().enumerate() {
+            let n = self.value[k * self.points + q];
+            for (i, value) in values.iter().enumerate() {
+                load[number * values.len() + i] += weight * value * n;
+            }
+        }
+    }
+
     fn set(&mut self, function: usize, point: usize, jet: Jet<f64>) {
         let at = function * self.points + point;
         (self.value[at], self.dx[at], self.dy[at]) = (jet.v, jet.x, jet.y);

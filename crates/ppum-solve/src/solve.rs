@@ -1,15 +1,18 @@
 //! From a problem to a dataset.
 
+use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
-use crate::gauge::{UnbalancedError, check_balance, free_motions, gauge};
-use crate::intensity::intensities;
+use crate::gauge::Gauge;
+use crate::intensity::{Loads, intensities};
 use crate::law::Law;
+use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
-use crate::rigid::RigidMotions;
+use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
-use crate::system::{assemble, source_at};
+pub use crate::spectrum::Spectrum;
+use crate::system::{System, assemble, source_at};
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
@@ -110,12 +113,25 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     Ok(dataset)
 }
 
+/// The extreme eigenvalues of the system of a problem, to a thousandth: the condition number of its
+/// discretisation. Costs as much as a solution, and up to a hundred solves with the factor.
+///
+/// # Errors
+/// See [`SolveError`].
+pub fn spectrum(problem: &Problem) -> Result<Spectrum, SolveError> {
+    let step = discretise(problem)?;
+    let solver = Solver { problem, step: &step };
+    let Assembled { system, .. } =
+        solver.assemble(&solver.space()?, &mut Clock::new(), &mut |_| {})?;
+    Ok(Spectrum::new(&system.matrix, &Cholesky::new(&system.matrix)?)?)
+}
+
 fn dataset(problem: &Problem, step: Step) -> Dataset {
     Dataset {
         title: problem.title.clone(),
         program: concat!("ppum ", env!("CARGO_PKG_VERSION")).into(),
         problem: problem.text.clone(),
-        domain: problem.domain,
+        domain: problem.domain.clone(),
         equation: problem.equation.clone(),
         quantities: problem.quantities.clone(),
         tables: problem.tables.clone(),
@@ -126,7 +142,9 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
 fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
     let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)?;
     let force = |x: Vec2| source_at(problem, x);
-    Ok(intensities(dataset, &Field::new(dataset, 0)?, &space, Some(&force)))
+    let loads = Loads { force: Some(&force), faces: None };
+    let found = intensities(dataset, &Field::new(dataset, 0)?, &space, loads);
+    Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
 }
 
 /// Times phases.
@@ -163,6 +181,10 @@ struct Solution {
     unknowns: usize,
     /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
+    /// Pieces of the plate.
+    pieces: usize,
+    /// Rigid motions of pieces that nothing holds.
+    free_motions: usize,
 }
 
 impl Solver<'_> {
@@ -172,34 +194,72 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Solution, SolveError> {
         let components = self.problem.components();
-        let Problem { equation, tables, .. } = self.problem;
-        let mut space = Space::new(self.step, equation, tables)?;
-        if !self.problem.solver.kernels {
-            let cracks = self.step.cracks.len();
-            space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
-        }
-        let law = Law::new(&self.problem.equation);
-        let motions = RigidMotions::new(&self.problem.domain, components);
-        let total = space.partition.len();
-        report(Progress { phase: Phase::Basis, done: 0, total: 1 });
-        let basis = StableBasis::new(&space).map_err(SolveError::Basis)?;
-        clock.lap(Phase::Basis);
-        let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, &space, &basis, &law, motions, &mut tell)?;
-        let free = free_motions(&system, &motions)?;
-        check_balance(&system, &free)?;
-        gauge(&mut system, &space, &basis, &motions, &free);
-        clock.lap(Phase::Assembly);
+        let space = self.space()?;
+        let Assembled { basis, pieces, system, gauge } = self.assemble(&space, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solution = Cholesky::new(&system.matrix)?.solve(&system.load)?;
+        let solver = Cholesky::new(&system.matrix)?;
+        let mut solution = solver.solve(&system.load)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
             coefficients: basis.plain(&space, &solution.unknowns, components),
             dropped: basis.dropped().collect(),
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
+            pieces: pieces.all().len(),
+            free_motions: gauge.len(),
         })
     }
+
+    fn space(&self) -> Result<Space<'_>, SolveError> {
+        let Problem { equation, tables, .. } = self.problem;
+        let mut space = Space::new(self.step, equation, tables)?;
+        if !self.problem.solver.kernels {
+            let cracks = self.step.cracks.len();
+            space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
+        }
+        Ok(space)
+    }
+
+    fn assemble(
+        &self,
+        space: &Space<'_>,
+        clock: &mut Clock,
+        report: &mut dyn FnMut(Progress),
+    ) -> Result<Assembled, SolveError> {
+        let law = Law::new(&self.problem.equation);
+        let pieces = Pieces::new(self.problem.domain.bounds, &[], &self.problem.cracks);
+        let total = space.partition.len();
+        report(Progress { phase: Phase::Basis, done: 0, total: 1 });
+        let basis = StableBasis::new(space).map_err(SolveError::Basis)?;
+        clock.lap(Phase::Basis);
+        let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
+        let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
+        let free = free_motions(&system.balance, &pieces)?;
+        let gauge = Gauge::new(space, &basis, &pieces, &system.balance, &free, &system.matrix);
+        gauge.add_penalty(&mut system.matrix);
+        clock.lap(Phase::Assembly);
+        Ok(Assembled { basis, pieces, system, gauge })
+    }
+}
+
+/// The system in the stable basis, with the penalty of the gauge.
+struct Assembled {
+    basis: StableBasis,
+    pieces: Pieces,
+    system: System,
+    gauge: Gauge,
+}
+
+/// The free motions of each piece, after a check that the loads leave them alone.
+fn free_motions(balances: &[Balance], pieces: &Pieces) -> Result<Vec<Vec<PerMotion>>, SolveError> {
+    let several = pieces.all().len() > 1;
+    let of_piece = |(balance, piece): (&Balance, &Piece)| {
+        let free = balance.free()?;
+        balance.check(&free, several.then_some(piece.inside))?;
+        Ok(free)
+    };
+    balances.iter().zip(pieces.all()).map(of_piece).collect()
 }
 
 impl Solution {
@@ -229,6 +289,8 @@ impl Solution {
             record("unknowns", self.unknowns as f64),
             record("cut-off", total),
             record("residual", self.residual),
+            record("pieces", self.pieces as f64),
+            record("free motions", self.free_motions as f64),
         ];
     }
 }

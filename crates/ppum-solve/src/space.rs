@@ -16,8 +16,8 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
 use std::sync::Arc;
 
-/// Accuracy of the quadrature of products of partition functions with weights given by formulas, as
-/// [`Orders::for_degree`] has it with splines.
+/// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
+/// linear weights.
 const WEIGHT_ACCURACY: f64 = 1e-5;
 
 /// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
@@ -43,6 +43,7 @@ pub struct Space<'d> {
     /// difference of large ones. Zero for all other functions.
     pub shifts: Vec<f64>,
     smoothness: Smoothness,
+    orders: Orders,
 }
 
 impl<'d> Space<'d> {
@@ -67,6 +68,7 @@ impl<'d> Space<'d> {
             found
         });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
+        let smoothness = Smoothness::new(step, data, equation, tables)?;
         Ok(Self {
             partition,
             step,
@@ -75,7 +77,8 @@ impl<'d> Space<'d> {
             coverers: coverers.collect(),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),
-            smoothness: Smoothness::new(step, data, equation, tables)?,
+            orders: orders(partition, smoothness.degree()),
+            smoothness,
         })
     }
 
@@ -84,21 +87,11 @@ impl<'d> Space<'d> {
     #[must_use]
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
         let geometry = self.smoothness.geometry(self.partition, &self.step.cracks);
-        Quadrature::new(geometry, self.orders(self.degree() + extra))
-    }
-
-    fn orders(&self, degree: usize) -> Orders {
-        let weight = &self.partition.weight;
-        if !matches!(weight, WeightFunction::Formula(_)) {
-            return Orders::for_degree(degree);
-        }
-        let (half, cell) = (self.partition.half[0], &self.partition.cell[0]);
-        let value = |xi: f64| {
-            let [value, slope, _] = weight.spline(xi);
-            [value, slope]
+        let orders = match extra {
+            0 => self.orders,
+            _ => orders(self.partition, self.degree() + extra),
         };
-        let stretch = 2.0 * half.x / cell.size().x;
-        Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
+        Quadrature::new(geometry, orders)
     }
 
     /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
@@ -117,6 +110,21 @@ impl<'d> Space<'d> {
     pub fn n_polynomials(&self, patch: usize) -> usize {
         block_size(self.data, self.data.blocks(patch).start)
     }
+}
+
+/// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
+fn orders(partition: &Partition, degree: usize) -> Orders {
+    let weight = &partition.weight;
+    if *weight == WeightFunction::Linear {
+        return Orders::for_degree(degree);
+    }
+    let (half, cell) = (partition.half[0], &partition.cell[0]);
+    let value = |xi: f64| {
+        let [value, slope, _] = weight.spline(xi);
+        [value, slope]
+    };
+    let stretch = 2.0 * half.x / cell.size().x;
+    Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
 }
 
 fn block_size(data: &FieldData, block: usize) -> usize {
@@ -178,7 +186,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         intensities: Vec::new(),
         history: Vec::new(),
     };
-    inspect(&step, &problem.domain, &problem.tables)?;
+    inspect(&step, &problem.domain.bounds, &problem.tables)?;
     Ok(step)
 }
 

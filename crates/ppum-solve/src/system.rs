@@ -1,5 +1,6 @@
 //! The whole system in the stable basis, summed over the cells.
 
+use crate::balance::Balance;
 use crate::basis::StableBasis;
 use crate::batch::in_batches;
 use crate::block_matrix::{BlockMatrix, BlockPattern};
@@ -7,9 +8,9 @@ use crate::border::BorderPiece;
 use crate::cell::{CellAssembler, CellSystem, Data};
 use crate::eigen::EigenError;
 use crate::law::Law;
+use crate::pieces::Pieces;
 use crate::problem::{BoundaryCondition, Condition, Problem};
 use crate::quadrature::Quadrature;
-use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use crate::space::Space;
 use ppum::vec2::Vec2;
 
@@ -18,12 +19,8 @@ pub(crate) struct System {
     pub(crate) matrix: BlockMatrix,
     /// Right-hand side, in the order of the matrix.
     pub(crate) load: Vec<f64>,
-    /// ∫ m_k·m_l over the border where values are given.
-    pub(crate) held: [PerMotion; MOTIONS],
-    /// Work of the loads on the rigid motions.
-    pub(crate) resultant: PerMotion,
-    /// ∫ of the magnitude of the loads.
-    pub(crate) magnitude: f64,
+    /// Supports and loads of each piece of the plate.
+    pub(crate) balance: Vec<Balance>,
 }
 
 /// Assembles the system of a problem on a space. `progress` is told the cells that are done.
@@ -35,11 +32,11 @@ pub(crate) fn assemble(
     space: &Space<'_>,
     basis: &StableBasis,
     law: &Law<'_>,
-    motions: RigidMotions,
+    pieces: &Pieces,
     progress: &mut dyn FnMut(usize),
 ) -> Result<System, EigenError> {
     let quadrature = space.quadrature(0);
-    let mut system = System::new(space, basis, law.components);
+    let mut system = System::new(space, basis, pieces, law.components);
     let source = |x: Vec2| source_at(problem, x);
     let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
     let source: Option<Data<'_>> = has_source.then_some(&source);
@@ -47,7 +44,7 @@ pub(crate) fn assemble(
     let mut failed = None;
     in_batches(
         space.partition.len(),
-        || CellAssembler::new(space, basis, law, motions),
+        || CellAssembler::new(space, basis, law, pieces),
         |assembler, cell| {
             let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
             let rules = quadrature.cell(rect, coverers);
@@ -91,7 +88,7 @@ impl<'p> Given<'p> {
         cell: usize,
     ) -> BorderPiece<'_> {
         let BoundaryCondition { edge, from, to, components } = self.condition;
-        let ends = [from, to].map(|&s| edge.point(&problem.domain, s));
+        let ends = [from, to].map(|&s| edge.point(&problem.domain.bounds, s));
         let rect = &space.partition.cell[cell];
         let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
         let mut held = [false; 2];
@@ -117,26 +114,21 @@ fn values(from: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 impl System {
-    fn new(space: &Space<'_>, basis: &StableBasis, components: usize) -> Self {
+    fn new(space: &Space<'_>, basis: &StableBasis, pieces: &Pieces, components: usize) -> Self {
         let sizes: Vec<_> = basis.sizes.iter().map(|n| n * components).collect();
         let matrix = BlockMatrix::new(&sizes, pattern(space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
             matrix,
-            held: [[0.0; MOTIONS]; MOTIONS],
-            resultant: [0.0; MOTIONS],
-            magnitude: 0.0,
+            balance: Balance::of(pieces, components),
         }
     }
 
     fn add(&mut self, part: &CellSystem, components: usize) {
+        part.functions.add_to(&self.matrix, components, &part.load, &mut self.load);
         let patches = &part.functions.patches;
         for (k, &p) in patches.iter().enumerate() {
             let p = p as usize;
-            let start = self.matrix.unknowns(p).start;
-            for (row, &from) in part.functions.unknowns(k, components).iter().enumerate() {
-                self.load[start + row] += part.load[from];
-            }
             for (l, &q) in patches.iter().enumerate().skip(k) {
                 // both meet the cell, but not each other
                 if !self.matrix.couples(p, q as usize) {
@@ -146,11 +138,7 @@ impl System {
                 self.matrix.add_block(p, q as usize, block.as_ref());
             }
         }
-        for (row, part) in self.held.iter_mut().zip(&part.held) {
-            row.iter_mut().zip(part).for_each(|(sum, v)| *sum += v);
-        }
-        self.resultant.iter_mut().zip(part.resultant).for_each(|(sum, v)| *sum += v);
-        self.magnitude += part.magnitude;
+        self.balance.iter_mut().zip(&part.balance).for_each(|(sum, part)| sum.add(part));
     }
 }
 

@@ -17,7 +17,7 @@ const ARROWS: [(&str, &[&str]); 6] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 8] = [
+const DOORS: [(&str, &str); 9] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
@@ -25,6 +25,7 @@ const DOORS: [(&str, &str); 8] = [
     ("hdf5-pure", "ppum-format"),
     ("naga", "ppum-testkit"),
     ("png", "ppum-render"),
+    ("spade", "ppum-solve"),
     ("toml", "ppum-solve"),
 ];
 

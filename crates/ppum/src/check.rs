@@ -3,6 +3,7 @@
 //! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
 
+mod domain;
 mod formulas;
 
 use std::collections::BTreeSet;
@@ -39,7 +40,7 @@ impl Dataset {
     ///
     /// The first violation, with its place.
     pub fn check(&self) -> Checked {
-        check_box("domain", &self.domain)?;
+        domain::check(&self.domain)?;
         formulas::check(self)?;
         if let Some((name, problem)) = self.equation.mistake(&self.domain) {
             return fail(&format!("equation.{name}"), problem);
@@ -376,7 +377,7 @@ mod tests {
             title: "one patch".into(),
             program: "test".into(),
             problem: None,
-            domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)),
+            domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)).into(),
             equation: Equation::elasticity(Material {
                 young: 1.0,
                 poisson: 0.3,
@@ -389,7 +390,7 @@ mod tests {
     }
 
     /// The place of the error after one change of a good dataset.
-    fn place_after(change: impl FnOnce(&mut Dataset)) -> String {
+    pub(super) fn place_after(change: impl FnOnce(&mut Dataset)) -> String {
         let mut data = dataset();
         change(&mut data);
         data.check().expect_err("the change must be found").place
@@ -402,8 +403,8 @@ mod tests {
 
     #[test]
     fn domain_material_and_steps() {
-        assert_eq!(place_after(|d| d.domain.max.x = 0.0), "domain");
-        assert_eq!(place_after(|d| d.domain.max.x = f64::INFINITY), "domain");
+        assert_eq!(place_after(|d| d.domain.bounds.max.x = 0.0), "domain");
+        assert_eq!(place_after(|d| d.domain.bounds.max.x = f64::INFINITY), "domain");
         assert_eq!(place_after(|d| d.equation = Equation::poisson(0.0)), {
             "equation.conductivity"
         });

@@ -14,6 +14,7 @@
 use std::sync::Arc;
 
 use crate::crack::{Crack, TipId};
+use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::formula::Table;
 use crate::function::Function;
@@ -30,8 +31,8 @@ pub struct Dataset {
     pub program: String,
     /// The problem file's text, if there was one.
     pub problem: Option<String>,
-    /// The box Ω. Outside it nothing is defined.
-    pub domain: Rect,
+    /// The box minus holes Ω. Outside it nothing is defined.
+    pub domain: Domain,
     /// What was solved; decides which quantities have a meaning.
     pub equation: Equation,
     /// Quantities the dataset names, beside the built-in ones.
@@ -80,7 +81,8 @@ pub struct Partition {
     pub origin: Vec<Vec2>,
     /// Scale of the polynomial coordinates ξ, positive.
     pub scale: Vec<Vec2>,
-    /// The leaf cell C_i that generated the patch; the cells tile the domain.
+    /// The leaf cell C_i that generated the patch; the cells tile the domain's box, but
+    /// for cells in holes, which may be missing.
     pub cell: Vec<Rect>,
     /// Level of the cell in its tree, 0 at the root.
     pub level: Vec<u8>,

@@ -1,8 +1,9 @@
 //! The equation behind a field and its material, the same everywhere or given by formulas.
 
+use crate::domain::Domain;
 use crate::expression::Expression;
 use crate::real::Real;
-use crate::vec2::{Rect, Vec2, vec2};
+use crate::vec2::{Vec2, vec2};
 
 /// Intervals in each direction of the points at which formulas of a material are looked at.
 const LOOKS: u32 = 64;
@@ -94,17 +95,18 @@ impl Equation {
     }
 
     /// What is wrong with the constants, if anything is: the name of the first that is impossible and
-    /// why. Constants are looked at once, formulas at a grid of points of the domain.
+    /// why. Constants are looked at once, formulas at the points of a grid
+    /// that lie in the domain.
     #[must_use]
-    pub fn mistake(&self, domain: &Rect) -> Option<(&'static str, String)> {
+    pub fn mistake(&self, domain: &Domain) -> Option<(&'static str, String)> {
         if self.is_uniform() {
-            return self.mistake_at(domain.center());
+            return self.mistake_at(domain.bounds.center());
         }
         let at = |k: u32| f64::from(k) / f64::from(LOOKS);
-        let size = domain.size();
-        let point = |j, i| domain.min + vec2(at(i) * size.x, at(j) * size.y);
-        let mut points = (0..=LOOKS).flat_map(|j| (0..=LOOKS).map(move |i| point(j, i)));
-        points.find_map(|p| {
+        let (corner, size) = (domain.bounds.min, domain.bounds.size());
+        let point = |j, i| corner + vec2(at(i) * size.x, at(j) * size.y);
+        let points = (0..=LOOKS).flat_map(|j| (0..=LOOKS).map(move |i| point(j, i)));
+        points.filter(|&p| domain.contains(p)).find_map(|p| {
             let place = format!(" at [{}, {}]", p.x, p.y);
             self.mistake_at(p).map(|(name, message)| (name, message + &place))
         })

@@ -13,19 +13,20 @@ use std::sync::Arc;
 use crate::box_tree::BoxTree;
 use crate::crack::Side;
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::domain::{Domain, LocalDomain};
 use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable, GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
 use crate::quantity::Vocabulary;
 use crate::real::{Job, Real, Scalar};
-use crate::vec2::{Rect, Vec2};
+use crate::vec2::Vec2;
 
 /// A field of a dataset at one step, ready to be evaluated.
 #[derive(Debug)]
 pub struct Field<'d> {
     /// The domain; outside nothing is defined.
-    pub domain: Rect,
+    pub domain: &'d Domain,
     /// The equation the field solves.
     pub equation: &'d Equation,
     /// Quantities the dataset names.
@@ -103,7 +104,7 @@ impl<'d> Field<'d> {
         let supports: Vec<_> =
             (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
         Ok(Self {
-            domain: dataset.domain,
+            domain: &dataset.domain,
             equation: &dataset.equation,
             quantities: &dataset.quantities,
             tables: &dataset.tables,
@@ -150,6 +151,7 @@ impl<'d> Field<'d> {
         LocalField {
             field: self,
             anchor,
+            domain: self.domain.at(anchor),
             functions: self.functions.at(&self.step.cracks, anchor),
             patches: Vec::new(),
         }
@@ -169,6 +171,7 @@ pub struct LocalField<'f> {
     pub field: &'f Field<'f>,
     /// The anchor.
     pub anchor: Vec2,
+    domain: LocalDomain,
     functions: LocalFunctions<'f>,
     patches: Vec<u32>,
 }
@@ -192,8 +195,7 @@ impl<'f> LocalField<'f> {
     /// True if `anchor + offset` lies in the closed domain; exact also where the sum would round.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
-        let (lo, hi) = (self.field.domain.min - self.anchor, self.field.domain.max - self.anchor);
-        Rect::new(lo, hi).contains(offset)
+        self.domain.contains(offset)
     }
 
     /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).
@@ -246,6 +248,21 @@ impl<'f> LocalField<'f> {
         out: &mut [Jet<f64>],
     ) {
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
+    }
+
+    /// Evaluates at many points over a given list of patches, which must hold all that cover one of
+    /// them: like [`evaluate_into`](Self::evaluate_into), without looking for patches and borders.
+    ///
+    /// # Panics
+    /// If `out` is shorter than points × components.
+    pub fn evaluate_over<const D: usize>(
+        &self,
+        offsets: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        out: &mut [Jet<f64>],
+    ) {
+        f64::dispatch(Over::<D> { local: self, offsets, side, patches, out });
     }
 
     /// Evaluates over a given list of patches, which must hold all that cover the point.
@@ -443,18 +460,36 @@ impl<const D: usize> Job<f64> for Many<'_, '_, D> {
         let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
         for (points, out) in chunks {
             let patches = self.local.covering_any(points);
-            let [xs, ys] = transposed(points);
-            let offset = [zero.load(&xs), zero.load(&ys)];
-            self.local.over_patches::<R, D>(offset, self.side, &patches, &mut lanes);
-            for (component, jet) in lanes.iter().enumerate() {
-                scatter(jet, |k, jet| {
-                    if let Some(&point) = points.get(k) {
-                        let inside = self.local.contains(point);
-                        out[k * components + component] = if inside { jet } else { NOWHERE };
-                    }
-                });
+            self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
+            for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
+                if !self.local.contains(point) {
+                    out.fill(NOWHERE);
+                }
             }
             self.local.patches = patches;
+        }
+    }
+}
+
+/// [`LocalField::evaluate_over`] on lanes.
+struct Over<'a, 'f, const D: usize> {
+    local: &'a LocalField<'f>,
+    offsets: &'a [Vec2],
+    side: Side,
+    patches: &'a [u32],
+    out: &'a mut [Jet<f64>],
+}
+
+impl<const D: usize> Job<f64> for Over<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) {
+        let components = self.local.field.components();
+        let mut lanes = vec![Jet::constant(zero); components];
+        let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
+        for (points, out) in chunks {
+            self.local.at_once::<R, D>(points, self.side, self.patches, &mut lanes, out);
         }
     }
 }
@@ -485,6 +520,29 @@ fn scatter<R: Real<Scalar = f64>>(jet: &Jet<R>, mut f: impl FnMut(usize, Jet<f64
 }
 
 impl LocalField<'_> {
+    /// Evaluates at no more points than there are lanes; `lanes` holds one vector a component.
+    #[inline(always)]
+    fn at_once<R: Real<Scalar = f64>, const D: usize>(
+        &self,
+        points: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        lanes: &mut [Jet<R>],
+        out: &mut [Jet<f64>],
+    ) {
+        let components = lanes.len();
+        let [xs, ys] = transposed(points);
+        let offset = [lanes[0].v.load(&xs), lanes[0].v.load(&ys)];
+        self.over_patches::<R, D>(offset, side, patches, lanes);
+        for (component, jet) in lanes.iter().enumerate() {
+            scatter(jet, |k, jet| {
+                if k < points.len() {
+                    out[k * components + component] = jet;
+                }
+            });
+        }
+    }
+
     /// The patches that cover at least one of the points, ascending.
     fn covering_any(&mut self, offsets: &[Vec2]) -> Vec<u32> {
         let mut patches = std::mem::take(&mut self.patches);

@@ -54,7 +54,7 @@
 //!     title: "A slope".into(),
 //!     program: "by hand".into(),
 //!     problem: None,
-//!     domain,
+//!     domain: domain.into(),
 //!     equation: Equation::poisson(1.0),
 //!     quantities: Vec::new(),
 //!     tables: Vec::new(),
@@ -127,7 +127,7 @@
 //!     title: "Opening of an edge crack".into(),
 //!     program: "tour".into(),
 //!     problem: None,
-//!     domain,
+//!     domain: domain.into(),
 //!     equation: Equation::elasticity(material),
 //!     quantities: Vec::new(),
 //!     tables: Vec::new(),
@@ -178,7 +178,8 @@
 //! # Scope and simplifications
 //!
 //! - Two dimensions, boxes as patches, even functions of |ξ| as weights, polynomials up to degree
-//!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box.
+//!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box minus
+//!   circles and polygons.
 //! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`), no
 //!   pictures (`ppum-render`), no threads.
 //! - Borders of cells and patches belong to the right and upper side; on a crack the left side of its
@@ -193,9 +194,11 @@
 
 pub mod box_tree;
 pub mod check;
+mod compensated;
 pub mod cover;
 pub mod crack;
 pub mod dataset;
+pub mod domain;
 pub mod equation;
 pub mod expression;
 pub mod field;

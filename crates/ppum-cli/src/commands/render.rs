@@ -179,7 +179,7 @@ impl Args {
         style: &Style,
     ) -> anyhow::Result<Picture> {
         ensure!(
-            view.rect().overlaps(&field.domain),
+            view.rect().overlaps(&field.domain.bounds),
             "the view shows nothing of the domain; `ppum info` says where that is"
         );
         Ok(match self.precision {
@@ -198,6 +198,9 @@ impl Args {
         let view = picture.view;
         if self.overlay.contains(&Overlay::Patches) {
             overlay::patches(&mut picture.image, &view, &field.step.partition);
+        }
+        if self.figure || self.overlay.contains(&Overlay::Cracks) {
+            overlay::rims(&mut picture.image, &view, &field.domain.holes);
         }
         if self.figure {
             let size = self.size.unwrap_or(DEFAULT_SIZE);

@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail};
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::field::Field;
 use ppum::vec2::Vec2;
-use ppum_solve::intensity::intensities;
+use ppum_solve::intensity::{Loads, intensities};
 use ppum_solve::problem::{Expression, Problem};
 use ppum_solve::space::Space;
 use serde::Serialize;
@@ -101,7 +101,9 @@ fn computed(
         values.iter_mut().zip(force).for_each(|(value, f)| *value = f.value(x));
         values
     };
-    Ok(intensities(dataset, &field, &space, Some(&at)))
+    let loads = Loads { force: Some(&at), faces: None };
+    let found = intensities(dataset, &field, &space, loads);
+    Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
 }
 
 /// The force inside the plate, which the interaction integral needs.

@@ -18,7 +18,7 @@ fn json_has_the_documented_shape() {
         keys(&info),
         ["domain", "equation", "file", "program", "quantities", "steps", "tables", "title"]
     );
-    assert_eq!(info["domain"], json!({ "min": [-1.0, -1.0], "max": [1.0, 1.0] }));
+    assert_eq!(info["domain"], json!({ "min": [-1.0, -1.0], "max": [1.0, 1.0], "holes": [] }));
     let elasticity =
         json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
     assert_eq!(info["equation"], elasticity);

@@ -60,8 +60,9 @@ fn unknown_words_are_named() {
         let (group, name) = key.split_once('@').unwrap();
         assert!(error.contains(group) && error.contains(name) && error.contains(word), "{error}");
     }
-    for key in ["cracks/ends", "functions/kind", "functions/frame", "intensities/end"] {
-        let key = format!("steps/0000/{key}");
+    let step = ["cracks/ends", "functions/kind", "functions/frame", "intensities/end"];
+    let keys = step.map(|key| format!("steps/0000/{key}")).into_iter();
+    for key in keys.chain(["domain/holes/kind".into()]) {
         let mut damaged = content();
         let Values::Text(words) = &mut damaged.get_mut(&key).unwrap().values else {
             panic!("{key} holds words")
@@ -74,8 +75,9 @@ fn unknown_words_are_named() {
 
 #[test]
 fn lists_that_do_not_divide_are_named() {
-    for key in ["cracks/offsets", "functions/parameter_offsets", "intensities/ring_offsets"] {
-        let key = format!("steps/0000/{key}");
+    let step = ["cracks/offsets", "functions/parameter_offsets", "intensities/ring_offsets"];
+    let keys = step.map(|key| format!("steps/0000/{key}")).into_iter();
+    for key in keys.chain(["domain/holes/offsets".into()]) {
         for change in [
             |v: &mut Vec<u64>| v[0] = 1,
             |v: &mut Vec<u64>| *v.last_mut().unwrap() += 1,
@@ -241,7 +243,7 @@ fn plain_files_differ_from_version_1_0_in_the_version_alone() {
     checksum::verify(&mut old).expect("undamaged");
     let mut new = encode::content(&dataset(old.clone()).expect("a dataset")).expect("valid");
     assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));
-    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 1])));
+    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 2])));
     assert_eq!(old, new);
 }
 
@@ -291,4 +293,26 @@ fn the_checksum_is_optional_but_must_be_right() {
     assert!(checksum::verify(&mut sealed.clone()).is_ok());
     sealed.insert("@title".into(), Array::scalar("another".to_owned()));
     assert!(matches!(checksum::verify(&mut sealed), Err(ReadError::Checksum { .. })));
+}
+
+#[test]
+fn a_domain_with_holes_is_of_another_kind() {
+    assert_eq!(content()["domain@kind"], Array::scalar("box-with-holes".to_owned()));
+    let plain = encode::content(&everything::dataset(2)).unwrap();
+    assert_eq!(plain["domain@kind"], Array::scalar("box".to_owned()));
+    assert!(!plain.keys().any(|key| key.starts_with("domain/")), "objects of 1.2 where not needed");
+}
+
+#[test]
+fn holes_that_make_no_sense_are_named() {
+    let circles_all = |c: &mut Content| {
+        put(c, "domain/holes/kind", Array::vector(["circle"; 3].map(str::to_owned)));
+    };
+    let complaint = complaint_after(circles_all);
+    assert!(
+        complaint.contains("domain/holes/offsets") && complaint.contains("not 4"),
+        "{complaint}"
+    );
+    let flat = |c: &mut Content| put(c, "domain/holes/radius", Array::vector([0.0; 3]));
+    assert!(complaint_after(flat).contains("domain.holes[0].radius"));
 }

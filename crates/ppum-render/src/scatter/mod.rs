@@ -131,12 +131,13 @@ impl<'f, T: Sample> Scene<'f, T> {
             |scratch, (band, out)| {
                 T::dispatch(Band::<'_, '_, T, D> { scene: self, band, scratch, out: &mut *out });
                 self.clear_outside(band * ROWS, out);
+                self.clear_holes(band * ROWS, out);
             },
         );
         Raster::new(self.view.pixels, values)
     }
 
-    /// Sets the pixels outside the domain to NaN.
+    /// Sets the pixels outside the domain's box to NaN.
     fn clear_outside(&self, first_row: usize, out: &mut [T]) {
         let [columns, rows] = &self.plan.inside;
         let nan = T::from_f64(f64::NAN);
@@ -146,6 +147,23 @@ impl<'f, T: Sample> Scene<'f, T> {
                 line[columns.end..].fill(nan);
             } else {
                 line.fill(nan);
+            }
+        }
+    }
+
+    /// Sets the pixels in holes to NaN.
+    fn clear_holes(&self, first_row: usize, out: &mut [T]) {
+        let width = self.view.pixels[0] as usize;
+        for seen in &self.plan.holes {
+            let rows = seen.rows.start.max(first_row)..seen.rows.end.min(first_row + ROWS);
+            for row in rows {
+                let line = &mut out[(row - first_row) * width..][..width];
+                for column in seen.columns.clone() {
+                    let offset = self.view.offset(column as u32, row as u32);
+                    if seen.hole.contains(offset) {
+                        line[column] = T::from_f64(f64::NAN);
+                    }
+                }
             }
         }
     }

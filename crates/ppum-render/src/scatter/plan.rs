@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use ppum::dataset::FieldData;
+use ppum::domain::{Hole, LocalHole};
 use ppum::field::Field;
 use ppum::function::Slot;
 use ppum::quantity::Quantity;
@@ -67,7 +68,17 @@ pub(super) struct Plan<'f> {
     pub(super) coefficients: Vec<&'f [f64]>,
     /// Pixels inside the domain.
     pub(super) inside: [Range<usize>; 2],
+    /// The holes in sight.
+    pub(super) holes: Vec<HolePixels>,
     tiles: Tiles,
+}
+
+/// A hole seen from the view's centre, and the columns and rows of pixels that may lie in it.
+#[derive(Debug)]
+pub(super) struct HolePixels {
+    pub(super) hole: LocalHole,
+    pub(super) columns: Range<usize>,
+    pub(super) rows: Range<usize>,
 }
 
 impl<'f> Plan<'f> {
@@ -81,7 +92,8 @@ impl<'f> Plan<'f> {
             patches: Vec::with_capacity(visible.len()),
             blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
-            inside: pixels.inside(&field.domain),
+            inside: pixels.inside(&field.domain.bounds),
+            holes: pixels.holes(&field.domain.holes),
             tiles: Tiles::default(),
         };
         for &index in &visible {
@@ -212,7 +224,19 @@ impl<'v> Pixels<'v> {
         start.min(count)..end.min(count).max(start.min(count))
     }
 
-    /// The columns and rows whose pixels lie in the closed domain, by the reference's own test.
+    /// The holes in sight.
+    fn holes(&self, holes: &[Hole]) -> Vec<HolePixels> {
+        let seen = holes.iter().map(|hole| {
+            let bounds = hole.bounds();
+            let relative = Rect::new(bounds.min - self.anchor, bounds.max - self.anchor);
+            let [columns, rows] =
+                self.covered(&relative).map(|range| range.start as usize..range.end as usize);
+            HolePixels { hole: hole.at(self.anchor), columns, rows }
+        });
+        seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
+    }
+
+    /// The columns and rows whose pixels lie in the closed box, by the reference's own test.
     fn inside(&self, domain: &Rect) -> [Range<usize>; 2] {
         let (lo, hi) = (domain.min - self.anchor, domain.max - self.anchor);
         let [nx, ny] = self.view.pixels;

@@ -138,7 +138,7 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
         title: "synthetic".into(),
         program: "test".into(),
         problem: None,
-        domain: domain(),
+        domain: domain().into(),
         equation,
         quantities: Vec::new(),
         tables: Vec::new(),

@@ -33,7 +33,7 @@ fn problem() -> Problem {
 /// The patches of a problem that have a function of this name, by the lower left corner of their
 /// cells, with the degrees.
 fn having(problem: &Problem, name: &str) -> Vec<([i32; 2], u8)> {
-    let cover = Cover::grid(problem.domain, [8, 8]).expect("a cover");
+    let cover = Cover::grid(problem.domain.bounds, [8, 8]).expect("a cover");
     let partition = cover.partition(1.5, WeightFunction::Linear).expect("a partition");
     let all = Enrichments::new(problem);
     let function = all.table.iter().position(|f| f.name == name).expect("a function") as u32;

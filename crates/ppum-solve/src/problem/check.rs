@@ -1,6 +1,7 @@
 //! What the values of a problem must obey, whether it was read from a file or built in code.
 
 use ppum::dataset::{Equation, MAX_DEGREE};
+use ppum::domain::Domain;
 use ppum::vec2::Rect;
 
 use super::cracks::check_cracks;
@@ -47,14 +48,15 @@ pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
     found.extend(check_discretization(problem));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
+    let bounds = &problem.domain.bounds;
     let domain = check_domain(&problem.domain);
     if domain.is_empty() {
-        found.extend(check_points(&problem.discretization.cells, &problem.domain));
-        found.extend(check_order(&problem.discretization.order, &problem.domain));
-        found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_points(&problem.discretization.cells, bounds));
+        found.extend(check_order(&problem.discretization.order, bounds));
+        found.extend(check_cracks(&problem.cracks, bounds));
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
-        found.extend(check_boundary(&problem.boundary, &problem.domain));
+        found.extend(check_boundary(&problem.boundary, bounds));
     }
     found.extend(domain);
     found
@@ -85,8 +87,8 @@ pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
 /// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-fn check_domain(domain: &Rect) -> Vec<Violation> {
-    let size = domain.size();
+fn check_domain(domain: &Domain) -> Vec<Violation> {
+    let size = domain.bounds.size();
     let axes = [("x", size.x), ("y", size.y)];
     let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
     let message = |(axis, size): (&str, f64)| {
@@ -102,7 +104,10 @@ fn check_domain(domain: &Rect) -> Vec<Violation> {
         };
         Violation::new(Key::new("domain").name("max"), message)
     };
-    wrong.map(message).collect()
+    let holes = (!domain.holes.is_empty()).then(|| {
+        Violation::new(Key::new("domain"), "holes are not in this version; leave them out")
+    });
+    wrong.map(message).chain(holes).collect()
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
@@ -114,7 +119,7 @@ fn check_tables(problem: &Problem) -> Option<Violation> {
     Some(Violation::new(Key::new("table").index(count - 1).name("name"), error.to_string()))
 }
 
-fn check_equation(equation: &Equation, domain: &Rect) -> Vec<Violation> {
+fn check_equation(equation: &Equation, domain: &Domain) -> Vec<Violation> {
     let mistake = equation.mistake(domain).map(|(name, message)| {
         Violation::new(Key::new("material").name(name), format!("`{name}` {message}"))
     });

@@ -143,7 +143,7 @@ fn bad_functions(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
 }
 
 fn bad_site(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
-    let domain = &problem.domain;
+    let domain = &problem.domain.bounds;
     let message = |text: &str| text.to_owned();
     match new.site {
         Site::World => None,

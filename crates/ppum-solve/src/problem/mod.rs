@@ -50,8 +50,9 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::{Equation, Material, NamedQuantity};
+use ppum::domain::Domain;
 use ppum::formula::Table;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Vec2;
 
 pub use boundary::{BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
@@ -66,8 +67,8 @@ pub use table_file::read_table;
 pub struct Problem {
     /// One line that names the problem; may be empty.
     pub title: String,
-    /// The box Ω.
-    pub domain: Rect,
+    /// The box minus holes Ω.
+    pub domain: Domain,
     /// The equation with its material.
     pub equation: Equation,
     /// The cracks.
@@ -147,18 +148,26 @@ impl Problem {
 
     /// A problem of elasticity on a box, as yet without cracks, loads and supports.
     #[must_use]
-    pub fn elasticity(domain: Rect, material: Material, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::elasticity(material), discretization)
+    pub fn elasticity(
+        domain: impl Into<Domain>,
+        material: Material,
+        discretization: Discretization,
+    ) -> Self {
+        Self::new(domain.into(), Equation::elasticity(material), discretization)
     }
 
     /// A Poisson problem with conductivity κ on a box, as yet without cracks, sources and
     /// conditions.
     #[must_use]
-    pub fn poisson(domain: Rect, conductivity: f64, discretization: Discretization) -> Self {
-        Self::new(domain, Equation::poisson(conductivity), discretization)
+    pub fn poisson(
+        domain: impl Into<Domain>,
+        conductivity: f64,
+        discretization: Discretization,
+    ) -> Self {
+        Self::new(domain.into(), Equation::poisson(conductivity), discretization)
     }
 
-    fn new(domain: Rect, equation: Equation, discretization: Discretization) -> Self {
+    fn new(domain: Domain, equation: Equation, discretization: Discretization) -> Self {
         Self {
             title: String::new(),
             domain,
@@ -180,14 +189,14 @@ impl Problem {
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let points = points.iter().copied().map(Vec2::from).collect();
-        self.cracks.push(crack(points, &self.domain));
+        self.cracks.push(crack(points, &self.domain.bounds));
         self
     }
 
     /// The problem with conditions on a whole edge, one a component.
     #[must_use]
     pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
-        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain, components));
+        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));
         self
     }
 

@@ -53,13 +53,12 @@ impl Polygon {
 
     /// True if `p` lies in the closed polygon, up to rounding.
     pub(super) fn touches(&self, p: Vec2) -> bool {
-        let slack = TOUCH * self.diameter();
-        self.edges().all(|(a, b)| (a - p).cross(b - p) >= -slack * (b - a).length())
+        self.distance(p) <= TOUCH * self.diameter()
     }
 
     /// Distance of `p` to the polygon, zero inside.
     pub(super) fn distance(&self, p: Vec2) -> f64 {
-        if self.touches(p) {
+        if self.edges().all(|(a, b)| (a - p).cross(b - p) >= 0.0) {
             return 0.0;
         }
         self.edges().map(|(a, b)| segment_distance(a, b, p)).fold(f64::INFINITY, f64::min)
@@ -154,5 +153,13 @@ mod tests {
         assert_eq!(square().distance(vec2(1.0, 0.5)), 0.0);
         assert_eq!(square().distance(vec2(4.0, 5.0)), 5.0);
         assert!(!square().touches(vec2(1.0 + 1e-12, 0.5)));
+    }
+
+    /// Beyond the sharp end of a sliver all sides are as near as rounding.
+    #[test]
+    fn a_sliver_does_not_touch_what_lies_beyond_its_end() {
+        let sliver = Polygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-13)]);
+        assert!(sliver.touches(vec2(0.0, 0.0)) && sliver.touches(vec2(0.5, 1e-15)));
+        assert!(!sliver.touches(vec2(-0.01, 0.0)));
     }
 }

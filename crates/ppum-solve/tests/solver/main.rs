@@ -2,9 +2,13 @@
 
 mod examples;
 mod formulas;
+mod intensity;
 mod kernels;
 mod physics;
+mod pieces;
 mod plates;
+mod positions;
 mod problem_files;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod weights;

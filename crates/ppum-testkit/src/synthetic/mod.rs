@@ -148,7 +148,7 @@ impl Recipe {
             title: "synthetic".into(),
             program: "ppum-testkit".into(),
             problem: None,
-            domain: self.domain,
+            domain: self.domain.into(),
             equation,
             quantities: Vec::new(),
             tables: Vec::new(),

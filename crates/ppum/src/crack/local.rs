@@ -5,6 +5,7 @@
 //! 10⁻¹² of the domain wide has no noise, at a tip, at a kink or in the middle of an oblique crack.
 
 use super::{Crack, End, Side};
+use crate::compensated::cross;
 use crate::real::Real;
 use crate::vec2::Vec2;
 
@@ -33,7 +34,7 @@ struct LocalSegment {
 impl LocalSegment {
     fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
         let (tangent, length) = ((b - a).unit(), (b - a).length());
-        let distance = exact_cross(a, b, anchor) / length;
+        let distance = cross(a, b, anchor) / length;
         Self { tangent, distance, lo: tangent.dot(a - anchor), hi: tangent.dot(b - anchor) }
     }
 
@@ -48,28 +49,6 @@ impl LocalSegment {
         let [x, y] = offset;
         x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y) * y)
     }
-}
-
-/// (b − a) × (p − a), correctly rounded but for a last bit: products and differences are carried
-/// with their rounding errors (Dekker 1971, Shewchuk 1997).
-fn exact_cross(a: Vec2, b: Vec2, p: Vec2) -> f64 {
-    let product = |u: (f64, f64), v: (f64, f64)| {
-        let high = u.0 * v.0;
-        let low = u.0.mul_add(v.0, -high) + (u.0 * v.1 + u.1 * v.0);
-        (high, low)
-    };
-    let (ux, uy) = (two_difference(b.x, a.x), two_difference(b.y, a.y));
-    let (vx, vy) = (two_difference(p.x, a.x), two_difference(p.y, a.y));
-    let (left, right) = (product(ux, vy), product(uy, vx));
-    let (high, low) = two_difference(left.0, right.0);
-    high + (low + (left.1 - right.1))
-}
-
-/// a − b as its rounded value and the rounding error.
-fn two_difference(a: f64, b: f64) -> (f64, f64) {
-    let d = a - b;
-    let bb = a - d;
-    (d, (a - (d + bb)) + (bb - b))
 }
 
 impl LocalCrack {
@@ -279,9 +258,9 @@ mod tests {
     #[test]
     fn cross_product_of_nearly_collinear_points() {
         let (a, b) = (vec2(0.1, 0.1), vec2(0.7, 0.7));
-        assert_eq!(exact_cross(a, b, vec2(0.3, 0.3)), 0.0);
+        assert_eq!(cross(a, b, vec2(0.3, 0.3)), 0.0);
         let up = vec2(0.3, 0.3 + f64::EPSILON / 4.0);
-        assert!((exact_cross(a, b, up) / (0.6 * (up.y - 0.3)) - 1.0).abs() < 1e-15);
+        assert!((cross(a, b, up) / (0.6 * (up.y - 0.3)) - 1.0).abs() < 1e-15);
     }
 
     #[test]

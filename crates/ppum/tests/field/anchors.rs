@@ -14,12 +14,12 @@ fn anchored_equals_absolute() {
         let dataset = Recipe { extra: Vec::new(), ..Recipe::random(seed) }.dataset();
         let field = compiled(&dataset);
         let (mut absolute, mut random) = (field.at(Vec2::ZERO), Random(seed));
-        let around = Rect::around(dataset.domain.center(), vec2(2.0, 2.0));
+        let around = Rect::around(dataset.domain.bounds.center(), vec2(2.0, 2.0));
         for _ in 0..20 {
             let anchor = random.point(&around);
             let mut local = field.at(anchor);
             for _ in 0..20 {
-                let p = random.point(&dataset.domain);
+                let p = random.point(&dataset.domain.bounds);
                 let (size, r) = (patch_size(field.step, p), distance_to_cracks(field.step, p));
                 if r < 1e-3 * size || near_border(&dataset.steps[0].partition, p) {
                     continue;
@@ -52,10 +52,10 @@ fn values_and_gradients_against_extended_precision() {
         let (field, extended) = (compiled(&dataset), Extended::new(&dataset, 0));
         let mut random = Random(seed);
         for _ in 0..20 {
-            let anchor = random.point(&dataset.domain);
+            let anchor = random.point(&dataset.domain.bounds);
             let mut local = field.at(anchor);
             for _ in 0..10 {
-                let offset = random.point(&dataset.domain) - anchor;
+                let offset = random.point(&dataset.domain.bounds) - anchor;
                 let p = anchor + offset;
                 let Some(u) = evaluate::<1>(&mut local, offset, Side::Above) else { continue };
                 if near_border(&dataset.steps[0].partition, p) {

@@ -36,8 +36,8 @@ fn difference(
 /// A point where the field is smooth all around, and the radius in which it is.
 fn smooth_place(field: &Field<'_>, random: &mut Random) -> (Vec2, f64) {
     loop {
-        let p = random.point(&field.domain);
-        let border = (p - field.domain.min).min(field.domain.max - p);
+        let p = random.point(&field.domain.bounds);
+        let border = (p - field.domain.bounds.min).min(field.domain.bounds.max - p);
         let kinks = distance_to_kinks(field.step, p).min(border.x).min(border.y);
         let size = patch_size(field.step, p);
         let cracks = distance_to_cracks(field.step, p);
@@ -90,7 +90,7 @@ fn fewer_derivatives_agree() {
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         for _ in 0..100 {
-            let p = random.point(&dataset.domain);
+            let p = random.point(&dataset.domain.bounds);
             let two = inside::<2>(&mut local, p, Side::Above);
             let one = inside::<1>(&mut local, p, Side::Above);
             let zero = inside::<0>(&mut local, p, Side::Above);

@@ -36,7 +36,8 @@ fn lanes_equal_single_points() {
         let dataset = Recipe::random(seed).dataset();
         let field = compiled(&dataset);
         let mut random = Random(seed);
-        let around = Rect::around(dataset.domain.center(), dataset.domain.size() * 0.6);
+        let around =
+            Rect::around(dataset.domain.bounds.center(), dataset.domain.bounds.size() * 0.6);
         let anchor = random.point(&around);
         let points: Vec<_> = (0..1003).map(|_| random.point(&around) - anchor).collect();
         for side in [Side::Above, Side::Below] {
@@ -86,7 +87,7 @@ fn functions_of_other_patches_do_no_harm() {
     }
     let field = compiled(&dataset);
     let mut random = Random(5);
-    let points: Vec<_> = (0..400).map(|_| random.point(&dataset.domain)).collect();
+    let points: Vec<_> = (0..400).map(|_| random.point(&dataset.domain.bounds)).collect();
     compare::<2>(&field, Vec2::ZERO, &points, Side::Above);
 }
 
@@ -95,7 +96,7 @@ fn outside_there_is_nothing() {
     let dataset = Recipe::default().dataset();
     let field = compiled(&dataset);
     let mut local = field.at(Vec2::ZERO);
-    let (min, max) = (dataset.domain.min, dataset.domain.max);
+    let (min, max) = (dataset.domain.bounds.min, dataset.domain.bounds.max);
     let mises = Quantity::parse("von-mises", &field).unwrap();
     let up = |x: f64| x + x.abs() * f64::EPSILON;
     for (p, inside) in [

@@ -31,7 +31,7 @@ fn functions_sum_to_one_and_their_derivatives_to_zero() {
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(7));
         for _ in 0..200 {
-            let p = random.point(&dataset.domain);
+            let p = random.point(&dataset.domain.bounds);
             let mut sum = Jet::constant(0.0);
             // Where one patch is alone, all terms are zero but for rounding.
             let length = patch_size(field.step, p);
@@ -65,7 +65,7 @@ fn the_patches_found_are_those_that_cover() {
         };
         let mut points: Vec<_> = (0..partition.len()).flat_map(corner).collect();
         points.retain(|&p| dataset.domain.contains(p));
-        points.extend((0..200).map(|_| random.point(&dataset.domain)));
+        points.extend((0..200).map(|_| random.point(&dataset.domain.bounds)));
         for p in points {
             let (mut found, expected) = (Vec::new(), covering(&field, p));
             field.tree.query_point(p, &mut found);
@@ -81,11 +81,11 @@ fn the_patches_found_are_those_that_cover() {
 fn quantities_of_the_partition() {
     for dataset in datasets() {
         let field = compiled(&dataset);
-        let (mut local, mut random) = (field.at(dataset.domain.min), Random(9));
+        let (mut local, mut random) = (field.at(dataset.domain.bounds.min), Random(9));
         let named = |name: &str| Quantity::parse(name, &field).unwrap();
         for _ in 0..50 {
-            let p = random.point(&dataset.domain);
-            let offset = p - dataset.domain.min;
+            let p = random.point(&dataset.domain.bounds);
+            let offset = p - dataset.domain.bounds.min;
             let patches = covering(&field, p);
             let weights = patches.iter().map(|&i| {
                 let xi = p - field.step.partition.center[i];

@@ -12,7 +12,7 @@ use ppum_testkit::synthetic::Recipe;
 /// The same at random points of the domain, to the last bit.
 fn assert_same(a: &Dataset, b: &Dataset) {
     assert_eq!(a.check(), Ok(()));
-    let (mut random, domain) = (Random(11), a.domain);
+    let (mut random, domain) = (Random(11), a.domain.bounds);
     let (a, b) = (compiled(a), compiled(b));
     for _ in 0..50 {
         let at = random.point(&domain);

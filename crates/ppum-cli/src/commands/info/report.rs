@@ -5,6 +5,7 @@ use std::fmt;
 
 use ppum::crack::{Crack, CrackEnd, tips};
 use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, StressState};
+use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
 use ppum::quantity::{Quantity, names};
@@ -32,6 +33,27 @@ pub(super) struct Report {
 pub(super) struct Domain {
     pub(super) min: [f64; 2],
     pub(super) max: [f64; 2],
+    pub(super) holes: Vec<HoleRow>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(super) enum HoleRow {
+    Circle { center: [f64; 2], radius: f64 },
+    Polygon { points: Vec<[f64; 2]> },
+}
+
+impl From<&Hole> for HoleRow {
+    fn from(hole: &Hole) -> Self {
+        match hole {
+            Hole::Circle { center, radius } => {
+                Self::Circle { center: (*center).into(), radius: *radius }
+            }
+            Hole::Polygon { points } => {
+                Self::Polygon { points: points.iter().copied().map(Vec2::into).collect() }
+            }
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -142,7 +164,7 @@ impl Report {
             file,
             title: dataset.title.clone(),
             program: dataset.program.clone(),
-            domain: Domain { min: dataset.domain.min.into(), max: dataset.domain.max.into() },
+            domain: domain(&dataset.domain),
             equation: equation(&dataset.equation),
             quantities: formulas::quantities(dataset),
             tables: formulas::tables(dataset),
@@ -180,6 +202,14 @@ impl StepReport {
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
         })
+    }
+}
+
+fn domain(domain: &ppum::domain::Domain) -> Domain {
+    Domain {
+        min: domain.bounds.min.into(),
+        max: domain.bounds.max.into(),
+        holes: domain.holes.iter().map(HoleRow::from).collect(),
     }
 }
 

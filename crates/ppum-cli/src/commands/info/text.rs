@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ppum::formula::one_line;
 
 use super::formulas::{QuantityRow, TableRow};
-use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, Report, StepReport};
+use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, HoleRow, Report, StepReport};
 use crate::families::Family;
 use crate::number::{count, point, trimmed};
 use crate::tips::table;
@@ -20,6 +20,7 @@ pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     page.line("equation", &equation(&report.equation))?;
     let [min, max] = [report.domain.min, report.domain.max].map(point);
     page.line("domain", &format!("{min} to {max}"))?;
+    page.lines("holes", report.domain.holes.iter().map(hole))?;
     page.lines("tables", report.tables.iter().map(table_row))?;
     page.lines("defined", report.quantities.iter().map(quantity))?;
     for step in &report.steps {
@@ -84,6 +85,18 @@ fn functions(families: &[Family]) -> Vec<String> {
 fn quantity(row: &QuantityRow) -> String {
     let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
     format!("{}{unit} = {}", row.name, one_line(&row.formula))
+}
+
+fn hole(row: &HoleRow) -> String {
+    match row {
+        HoleRow::Circle { center, radius } => {
+            format!("circle around {}, radius {}", point(*center), trimmed(*radius))
+        }
+        HoleRow::Polygon { points } => {
+            let points: Vec<_> = points.iter().copied().map(point).collect();
+            format!("polygon {}", points.join(" – "))
+        }
+    }
 }
 
 fn table_row(row: &TableRow) -> String {

@@ -50,12 +50,12 @@ impl Window {
             return Ok(View::new(center, width, pixels)?);
         }
         if let Some(tip) = self.tip {
-            let whole = View::fit(field.domain, pixels)?;
+            let whole = View::fit(field.domain.bounds, pixels)?;
             let width = whole.width / self.zoom.unwrap_or(DEFAULT_ZOOM);
             return Ok(View::new(tip_position(field, tip)?, width, pixels)?);
         }
         let whole = if may_shrink { View::hug } else { View::fit };
-        Ok(whole(field.domain, pixels)?)
+        Ok(whole(field.domain.bounds, pixels)?)
     }
 }
 

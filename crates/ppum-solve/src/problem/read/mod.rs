@@ -156,7 +156,7 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let domain = domain?;
     Some(Problem {
         title: title.to_owned(),
-        domain,
+        domain: domain.into(),
         equation,
         cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),
         boundary,

@@ -1,6 +1,7 @@
-//! Overlaps of weights that are no splines.
+//! Overlaps of weights that are not linear.
 
 use super::*;
+use ppum::library::WEIGHTS;
 
 /// exp(1 − 1/(1 − ξ²)), a function with all derivatives.
 fn bump(xi: f64) -> [f64; 2] {
@@ -124,4 +125,26 @@ fn discs_have_the_points_that_the_weight_needs() {
     assert_eq!(points(Orders { overlap: 8, ..default }), (few, alone));
     let (more, same) = points(Orders { overlap: 16, ..default });
     assert!(more > few && same == alone);
+}
+
+/// The rule of the solver on a graded cover, and the default, which is right for linear weights only.
+#[test]
+fn all_weights_of_the_library_are_integrated() {
+    let accuracy = 1e-5;
+    for entry in &WEIGHTS {
+        let weight = WeightFunction::from_library(entry.name).expect("of the library");
+        let case = Case::new(graded(&mut Random(4), weight.clone()), Vec::new(), Vec::new());
+        let fine = energy(&case, Orders { parts: 4, ..Orders::uniform(16) });
+        let error = |orders: Orders| (energy(&case, orders) / fine - 1.0).abs();
+        let (orders, _) =
+            Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), accuracy);
+        let (own, default) = (error(orders), error(Orders::for_degree(2)));
+        println!("{}: {own:.1e}, by default {default:.1e}", entry.name);
+        assert!(own < accuracy, "{}: {own}", entry.name);
+        assert!(
+            default > 100.0 * own || weight == WeightFunction::Linear,
+            "{}: {default}",
+            entry.name
+        );
+    }
 }

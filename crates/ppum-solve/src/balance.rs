@@ -1,0 +1,168 @@
+//! What holds a piece of the plate and what loads it: the rigid motions that nothing holds, and
+//! whether the loads are in equilibrium there.
+
+use crate::eigen::{EigenError, SymmetricEigen};
+use crate::pieces::{Piece, Pieces};
+use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
+use faer::Mat;
+use ppum::vec2::{Vec2, vec2};
+use std::fmt;
+
+/// Part of the largest eigenvalue below which a motion counts as free.
+const FREE: f64 = 1e-10;
+
+/// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.
+const BALANCE: f64 = 1e-6;
+
+/// Loads that move a piece of the plate which nothing holds against them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnbalancedError {
+    /// A point of the piece, if the cracks cut the plate into several.
+    pub piece: Option<Vec2>,
+    /// Force that remains, only components that nothing holds; of a potential the flow.
+    pub force: Vec2,
+    /// Moment that remains, zero if the rotation is held; `None` for a potential.
+    pub moment: Option<f64>,
+    /// Point the moment is about.
+    pub about: Vec2,
+    /// ∫ of the magnitude of all loads on the piece.
+    pub magnitude: f64,
+}
+
+impl std::error::Error for UnbalancedError {}
+
+impl fmt::Display for UnbalancedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.piece {
+            Some(p) => {
+                write!(
+                    f,
+                    "the cracks cut the plate, and the loads on the piece around ({}, {})",
+                    p.x, p.y
+                )?;
+            }
+            None => write!(f, "the loads")?,
+        }
+        write!(f, " do not balance and nothing holds the plate against them: ")?;
+        match self.moment {
+            Some(moment) => write!(
+                f,
+                "a force of ({:.6e}, {:.6e}) and a moment of {moment:.6e} about ({}, {}) remain",
+                self.force.x, self.force.y, self.about.x, self.about.y
+            )?,
+            None => write!(f, "a flow of {:.6e} remains", self.force.x)?,
+        }
+        let remedy = match self.moment {
+            Some(_) => {
+                "hold a component of the displacement on an edge of it, or balance the tractions"
+            }
+            None => "give values on an edge of it, or balance the fluxes",
+        };
+        write!(f, " of loads of {:.6e} in all; {remedy}", self.magnitude)
+    }
+}
+
+/// Supports and loads of one piece, as far as they have been added.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Balance {
+    pub(crate) motions: RigidMotions,
+    /// ∫ m_k·m_l of the rigid motions over the border where values are given, held components only.
+    held: [PerMotion; MOTIONS],
+    /// Work of body forces and tractions on the rigid motions.
+    resultant: PerMotion,
+    /// ∫ of the loads' magnitude on the border and inside.
+    magnitude: f64,
+}
+
+impl Balance {
+    /// One balance a piece, all empty.
+    pub(crate) fn of(pieces: &Pieces, components: usize) -> Vec<Self> {
+        let empty = |piece: &Piece| Self {
+            motions: RigidMotions::new(piece.centroid, piece.area.sqrt(), components),
+            held: [[0.0; MOTIONS]; MOTIONS],
+            resultant: [0.0; MOTIONS],
+            magnitude: 0.0,
+        };
+        pieces.all().iter().map(empty).collect()
+    }
+
+    /// Adds a point where loads act.
+    pub(crate) fn add_load(&mut self, x: Vec2, values: &[f64], weight: f64) {
+        for (sum, motion) in self.resultant.iter_mut().zip(self.motions.at(x)) {
+            *sum += weight * motion.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
+        }
+        self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
+    }
+
+    /// Adds a point where values of some components are given.
+    pub(crate) fn add_held(&mut self, x: Vec2, held: [bool; 2], weight: f64) {
+        let motions = self.motions.at(x);
+        for (row, a) in self.held.iter_mut().zip(&motions) {
+            for (entry, b) in row.iter_mut().zip(&motions) {
+                let products = (0..2).filter(|&i| held[i]).map(|i| a[i] * b[i]);
+                *entry += weight * products.sum::<f64>();
+            }
+        }
+    }
+
+    /// Adds what another part of the plate has of the same piece.
+    pub(crate) fn add(&mut self, part: &Self) {
+        for (row, part) in self.held.iter_mut().zip(&part.held) {
+            row.iter_mut().zip(part).for_each(|(sum, v)| *sum += v);
+        }
+        self.resultant.iter_mut().zip(part.resultant).for_each(|(sum, v)| *sum += v);
+        self.magnitude += part.magnitude;
+    }
+
+    /// The rigid motions that no boundary value holds, as combinations of the basic ones.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub(crate) fn free(&self) -> Result<Vec<PerMotion>, EigenError> {
+        let n = self.motions.count();
+        let held = Mat::from_fn(n, n, |a, b| self.held[a][b]);
+        let eigen = SymmetricEigen::new(held.as_ref())?;
+        let largest = eigen.values.first().copied().unwrap_or(0.0);
+        let free = (0..n).filter(|&k| eigen.values[k] <= FREE * largest);
+        let motion = |k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 });
+        Ok(free.map(motion).collect())
+    }
+
+    /// What remains of the loads on free motions, as a part of their magnitude.
+    pub(crate) fn imbalance(&self, free: &[PerMotion]) -> f64 {
+        let remaining = self.remaining(free).iter().fold(0.0f64, |m, r| m.max(r.abs()));
+        if remaining > 0.0 { remaining / self.magnitude } else { 0.0 }
+    }
+
+    /// Checks that the loads do no work on the free motions.
+    ///
+    /// # Errors
+    /// Loads that do; `piece` is a point of the piece, if there are several.
+    pub(crate) fn check(
+        &self,
+        free: &[PerMotion],
+        piece: Option<Vec2>,
+    ) -> Result<(), UnbalancedError> {
+        if self.imbalance(free) <= BALANCE {
+            return Ok(());
+        }
+        let [x, y, turn] = self.remaining(free);
+        Err(UnbalancedError {
+            piece,
+            force: vec2(x, y),
+            moment: (self.motions.count() > 1).then_some(turn * self.motions.size),
+            about: self.motions.center,
+            magnitude: self.magnitude,
+        })
+    }
+
+    /// The part of the resultant that free motions see.
+    fn remaining(&self, free: &[PerMotion]) -> PerMotion {
+        let mut sum = [0.0; MOTIONS];
+        for motion in free {
+            let work: f64 = motion.iter().zip(&self.resultant).map(|(m, r)| m * r).sum();
+            sum.iter_mut().zip(motion).for_each(|(sum, m)| *sum += work * m);
+        }
+        sum
+    }
+}

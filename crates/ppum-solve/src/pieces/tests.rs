@@ -1,0 +1,97 @@
+use super::*;
+use crate::problem::crack;
+
+fn bounds() -> Rect {
+    Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
+}
+
+fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> Pieces {
+    let along =
+        |points: &&[[f64; 2]]| crack(points.iter().copied().map(Vec2::from).collect(), &bounds());
+    Pieces::new(bounds(), holes, &cracks.iter().map(along).collect::<Vec<_>>())
+}
+
+fn square(center: Vec2, half: f64) -> Vec<Vec2> {
+    let at = |x: f64, y: f64| center + vec2(x, y) * half;
+    vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
+}
+
+#[test]
+fn tips_cut_nothing() {
+    let found = pieces(&[], &[&[[-1.0, 0.0], [0.5, 0.0]], &[[0.0, 0.5], [0.3, 0.7]]]);
+    assert_eq!(found.all(), [Piece { area: 4.0, centroid: Vec2::ZERO, inside: Vec2::ZERO }]);
+    assert_eq!(found.of(vec2(0.3, 0.3)), 0);
+}
+
+/// Three strips between kinked cracks from border to border; their areas and centroids are known.
+#[test]
+fn cracks_from_border_to_border() {
+    let found =
+        pieces(&[], &[&[[-1.0, 0.25], [0.0, 0.75], [1.0, 0.25]], &[[-1.0, -0.5], [1.0, -0.5]]]);
+    let above = found.of(vec2(0.0, 0.9));
+    let middle = found.of(vec2(0.0, 0.6));
+    let below = found.of(vec2(0.9, -0.9));
+    let mut all = [above, middle, below];
+    let area = |k: usize| found.all()[k].area;
+    assert!((area(above) - 1.0).abs() < 1e-14 && (area(below) - 1.0).abs() < 1e-14);
+    assert!((area(middle) - 2.0).abs() < 1e-14);
+    assert!((found.all()[below].centroid - vec2(0.0, -0.75)).length() < 1e-14);
+    all.sort_unstable();
+    assert_eq!(all, [0, 1, 2]);
+    // the border of each, seen from outside, down to the corner between crack and border
+    assert_eq!(found.behind(vec2(-1.0, 0.25 + 1e-7), vec2(-1.0, 0.0)), above);
+    assert_eq!(found.behind(vec2(-1.0, 0.25 - 1e-7), vec2(-1.0, 0.0)), middle);
+    // the faces of a crack
+    assert_eq!(found.behind(vec2(0.3, -0.5), vec2(0.0, -1.0)), middle);
+    assert_eq!(found.behind(vec2(0.3, -0.5), vec2(0.0, 1.0)), below);
+}
+
+/// Cracks at many slopes and places: one that ends on the border cuts it whatever its numbers are.
+#[test]
+fn any_slope_cuts() {
+    let mut random = crate::random::Random::new(3);
+    for _ in 0..300 {
+        let [from, kink_x, kink_y, to] = std::array::from_fn(|_| random.signed() * 0.999);
+        let found = pieces(&[], &[&[[-1.0, from], [kink_x, kink_y], [1.0, to]]]);
+        assert_eq!(found.all().len(), 2, "{from} {kink_x} {kink_y} {to}");
+        let total: f64 = found.all().iter().map(|piece| piece.area).sum();
+        assert!((total - 4.0).abs() < 1e-12);
+        assert_ne!(found.of(vec2(kink_x, kink_y + 1e-6)), found.of(vec2(kink_x, kink_y - 1e-6)));
+    }
+}
+
+/// A hole and cracks from it to the borders cut; one crack alone does not.
+#[test]
+fn holes_and_cracks() {
+    let hole = square(vec2(0.1, 0.0), 0.25);
+    let left: &[[f64; 2]] = &[[-1.0, 0.1], [-0.1, 0.1]];
+    let right: &[[f64; 2]] = &[[0.3, -0.2], [1.0, 0.7]];
+    let mouths = |cracks: &[&[[f64; 2]]]| {
+        let along = |points: &&[[f64; 2]]| Crack {
+            points: points.iter().copied().map(Vec2::from).collect(),
+            ends: [CrackEnd::Mouth; 2],
+        };
+        let cracks: Vec<_> = cracks.iter().map(along).collect();
+        Pieces::new(bounds(), std::slice::from_ref(&hole), &cracks)
+    };
+    assert_eq!(mouths(&[left]).all().len(), 1);
+    let found = mouths(&[left, right]);
+    let total: f64 = found.all().iter().map(|piece| piece.area).sum();
+    assert_eq!(found.all().len(), 2);
+    assert!((total - 3.75).abs() < 1e-12, "{total}");
+    assert_ne!(found.of(vec2(-0.5, 0.5)), found.of(vec2(-0.5, -0.5)));
+    assert_eq!(found.of(vec2(-0.5, 0.5)), found.of(vec2(0.1, 0.3)));
+}
+
+/// A bar of holes from border to border cuts without any crack; holes that reach over the border are
+/// notches.
+#[test]
+fn holes_alone() {
+    let bar = vec![vec2(-2.0, -0.1), vec2(2.0, -0.1), vec2(2.0, 0.1), vec2(-2.0, 0.1)];
+    let found = pieces(std::slice::from_ref(&bar), &[]);
+    let areas: Vec<_> = found.all().iter().map(|piece| piece.area).collect();
+    assert!(areas.len() == 2 && areas.iter().all(|a| (a - 1.8).abs() < 1e-12), "{areas:?}");
+    let notch = pieces(&[square(vec2(-1.0, 0.0), 0.5)], &[]);
+    assert_eq!(notch.all().len(), 1);
+    assert!((notch.all()[0].area - 3.5).abs() < 1e-12);
+}

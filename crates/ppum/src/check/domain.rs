@@ -1,0 +1,72 @@
+//! What a dataset's domain must be.
+
+use super::{Checked, check_box, check_number, check_points, require};
+use crate::domain::{Domain, Hole};
+
+/// Most circles and corners of polygons that holes may have together: whether a point lies in a hole
+/// asks all of them.
+const MAX_RIMS: usize = 1 << 14;
+
+pub(super) fn check(domain: &Domain) -> Checked {
+    check_box("domain", &domain.bounds)?;
+    let rims = domain.holes.iter().map(|hole| match hole {
+        Hole::Circle { .. } => 1,
+        Hole::Polygon { points } => points.len(),
+    });
+    let count: usize = rims.sum();
+    require(count <= MAX_RIMS, "domain.holes", || {
+        format!("{count} circles and corners of polygons are more than {MAX_RIMS}")
+    })?;
+    for (k, hole) in domain.holes.iter().enumerate() {
+        check_hole(&format!("domain.holes[{k}]"), hole)?;
+    }
+    Ok(())
+}
+
+fn check_hole(place: &str, hole: &Hole) -> Checked {
+    match hole {
+        Hole::Circle { center, radius } => {
+            check_points(&format!("{place}.center"), &[*center])?;
+            check_number(&format!("{place}.radius"), *radius)?;
+            require(*radius > 0.0, &format!("{place}.radius"), || {
+                format!("{radius} is not positive")
+            })
+        }
+        Hole::Polygon { points } => {
+            check_points(&format!("{place}.points"), points)?;
+            require(points.len() >= 3, place, || {
+                format!("has {} points, a polygon needs three or more", points.len())
+            })?;
+            let double = hole.sides().position(|[a, b]| a == b);
+            require(double.is_none(), &format!("{place}.points[{}]", double.unwrap_or(0)), || {
+                "is equal to the next point; leave one out".into()
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::place_after;
+    use super::*;
+    use crate::vec2::vec2;
+
+    #[test]
+    fn holes() {
+        let circle = |x, radius| Hole::Circle { center: vec2(x, 0.5), radius };
+        let polygon = |points: &[[f64; 2]]| Hole::Polygon {
+            points: points.iter().copied().map(Into::into).collect(),
+        };
+        for (hole, place) in [
+            (circle(0.5, 0.0), "domain.holes[1].radius"),
+            (circle(0.5, f64::INFINITY), "domain.holes[1].radius"),
+            (circle(f64::NAN, 0.1), "domain.holes[1].center[0]"),
+            (polygon(&[[0.0, 0.0], [1.0, 0.0]]), "domain.holes[1]"),
+            (polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]]), "domain.holes[1].points[2]"),
+            (polygon(&[[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]]), "domain.holes[1].points[1]"),
+            (polygon(&vec![[0.0, 0.0]; MAX_RIMS]), "domain.holes"),
+        ] {
+            assert_eq!(place_after(|d| d.domain.holes = vec![circle(0.5, 0.25), hole]), place);
+        }
+    }
+}

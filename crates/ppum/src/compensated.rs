@@ -1,0 +1,41 @@
+//! Differences and products that carry their rounding errors (Dekker 1971, Shewchuk 1997).
+
+use crate::vec2::Vec2;
+
+/// A number as the sum of a rounded value and its rounding error.
+type Pair = (f64, f64);
+
+/// a − b.
+fn difference(a: f64, b: f64) -> Pair {
+    let d = a - b;
+    let bb = a - d;
+    (d, (a - (d + bb)) + (bb - b))
+}
+
+/// u v.
+fn product(u: Pair, v: Pair) -> Pair {
+    let high = u.0 * v.0;
+    (high, u.0.mul_add(v.0, -high) + (u.0 * v.1 + u.1 * v.0))
+}
+
+/// a − b of pairs.
+fn minus(a: Pair, b: Pair) -> Pair {
+    let (high, low) = difference(a.0, b.0);
+    (high, low + (a.1 - b.1))
+}
+
+/// (b − a) × (p − a), correctly rounded but for a last bit.
+pub(crate) fn cross(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+    let (ux, uy) = (difference(b.x, a.x), difference(b.y, a.y));
+    let (vx, vy) = (difference(p.x, a.x), difference(p.y, a.y));
+    let (high, low) = minus(product(ux, vy), product(uy, vx));
+    high + low
+}
+
+/// |p − center|² − radius², correctly rounded but for a last bit.
+pub(crate) fn circle(center: Vec2, radius: f64, p: Vec2) -> f64 {
+    let (dx, dy) = (difference(p.x, center.x), difference(p.y, center.y));
+    let (yy, rr) = (product(dy, dy), product((radius, 0.0), (radius, 0.0)));
+    let (high, low) = minus(minus(product(dx, dx), rr), (-yy.0, -yy.1));
+    high + low
+}
