@@ -167,7 +167,7 @@ fn evaluate(dataset: &Dataset, random: &mut Random) {
             let Ok(field) = Field::named(dataset, step, &data.name) else { continue };
             let mut jets = vec![Jet::constant(0.0); field.components()];
             for side in [Side::Above, Side::Below] {
-                let mut local = field.at(random.point(&dataset.domain));
+                let mut local = field.at(random.point(&dataset.domain.bounds));
                 local.evaluate::<2>(Vec2::ZERO, side, &mut jets);
                 local.evaluate_into::<1>(&[Vec2::ZERO], side, &mut jets);
             }

@@ -10,6 +10,8 @@ mod probe;
 mod readme;
 mod render;
 mod replacements;
+mod sample;
+mod shell;
 mod sif;
 mod solve;
 

@@ -9,11 +9,12 @@ type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
 /// A copy with one to three arrays changed; none if the file cannot be read, or the result not written.
 pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
     let mut content = hdf5::from_bytes(file.to_vec()).ok()?;
-    if content.values().any(|array| matches!(array.values, Values::Other(_))) {
+    if content.is_empty() || content.values().any(|array| matches!(array.values, Values::Other(_)))
+    {
         return None;
     }
     let mut what = Vec::new();
-    for _ in 0..=below(3) {
+    for _ in 0..=below(content.len().min(3)) {
         what.extend(change(&mut content, below));
     }
     let is_sealed = below(4) > 0;
@@ -27,6 +28,7 @@ pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
     Some(Damaged { bytes, what: what.join(", "), is_sealed })
 }
 
+/// One array changed; there is one at least.
 fn change(content: &mut Content, below: Below) -> Option<String> {
     let names: Vec<String> = content.keys().cloned().collect();
     let name = names[below(names.len())].clone();
