@@ -9,7 +9,7 @@
 //! into slivers gets the larger value it needs (Griebel & Schweitzer 2003).
 
 use crate::basis::BasisEvaluator;
-use crate::cell::{CellSystem, Data, square};
+use crate::cell::{CellSystem, square};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pencil::largest_eigenvalue;
@@ -18,10 +18,13 @@ use crate::quadrature::EdgeRule;
 use crate::shape::Shapes;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
-use ppum::vec2::vec2;
+use ppum::vec2::{Vec2, vec2};
 
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
 const FACTOR: f64 = 2.0;
+
+/// Data given on a border: position, normal out of the material → values, one a component.
+pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
 
 /// A piece of a cell's border with what is given on it.
 pub(crate) struct BorderPiece<'a> {
@@ -29,7 +32,7 @@ pub(crate) struct BorderPiece<'a> {
     /// Components whose value is given.
     pub(crate) held: [bool; 2],
     /// The given values; tractions where not held (zero where free).
-    pub(crate) values: Data<'a>,
+    pub(crate) values: BorderData<'a>,
 }
 
 /// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
@@ -79,14 +82,14 @@ impl<'a> Border<'a> {
             let mut given = Vec::with_capacity(rule.offsets.len());
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
                 let x = rule.anchor + offset;
-                let values = (piece.values)(x);
+                let values = (piece.values)(x, rule.normals[q]);
                 let mut loads = values;
                 for (load, held) in loads.iter_mut().zip(piece.held) {
                     *load = if held { 0.0 } else { *load };
                 }
                 let loads = &loads[..components];
                 shapes.add_load(q, &numbers, loads, weight, &mut system.load);
-                let balance = &mut system.balance[pieces.behind(x, rule.normal)];
+                let balance = &mut system.balance[pieces.behind(x, rule.normals[q])];
                 balance.add_load(x, loads, weight);
                 balance.add_held(x, piece.held, weight);
                 given.push(values.map(|v| v * weight.sqrt()));
@@ -142,7 +145,7 @@ impl<'a> Border<'a> {
         let laws: Vec<_> = rule.offsets.iter().map(|&o| self.law.at(rule.anchor + o)).collect();
         Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
             let at = (row / c) * shapes.points + q;
-            laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normal)
+            laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q])
         })
     }
 

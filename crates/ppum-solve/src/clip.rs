@@ -1,6 +1,7 @@
 //! Points, segments and cracks against boxes.
 
 use ppum::crack::Crack;
+use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// True if `p` lies in the open box.
@@ -8,13 +9,57 @@ pub(crate) fn inside(open: &Rect, p: Vec2) -> bool {
     p.x > open.min.x && p.x < open.max.x && p.y > open.min.y && p.y < open.max.y
 }
 
-/// Length of a crack inside an open box; a segment along the box's border does not count.
-pub(crate) fn length_inside(crack: &Crack, open: &Rect) -> f64 {
-    crack.points.windows(2).map(|s| segment_inside(s[0], s[1], open)).sum()
+/// Length of a crack inside an open box and outside of holes; a segment along the box's border does
+/// not count.
+pub(crate) fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
+    let length = |s: &[Vec2]| match clipped(s[0], s[1], open) {
+        Some(range) => solid_part(s[0], s[1], range, holes) * (s[1] - s[0]).length(),
+        None => 0.0,
+    };
+    crack.points.windows(2).map(length).sum()
+}
+
+/// Part of a range of a segment's parameter that lies outside of holes.
+fn solid_part(a: Vec2, b: Vec2, [from, to]: [f64; 2], holes: &[Hole]) -> f64 {
+    let crossings = holes.iter().flat_map(|hole| rim_crossings(a, b, hole));
+    let mut breaks: Vec<f64> = crossings.filter(|t| *t > from && *t < to).collect();
+    breaks.extend([from, to]);
+    breaks.sort_by(f64::total_cmp);
+    let is_solid = |t: f64| !holes.iter().any(|hole| hole.contains(a + (b - a) * t));
+    let parts = breaks.windows(2).filter(|t| is_solid(0.5 * (t[0] + t[1])));
+    parts.map(|t| t[1] - t[0]).sum()
+}
+
+/// The parameters, 0 at `a` and 1 at `b`, at which the line through two points meets a rim.
+pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
+    let d = b - a;
+    match *hole {
+        Hole::Circle { center, radius } => {
+            let middle = (center - a).dot(d) / d.dot(d);
+            let height = d.cross(center - a) / d.length();
+            let half = ((radius - height) * (radius + height)).sqrt() / d.length();
+            if half > 0.0 { vec![middle - half, middle + half] } else { Vec::new() }
+        }
+        Hole::Polygon { .. } => {
+            let crossing = |[p, q]: [Vec2; 2]| {
+                let (s, t) = (d.cross(p - a), d.cross(q - a));
+                (s * t <= 0.0 && s != t).then(|| {
+                    let on = p + (q - p) * (s / (s - t));
+                    (on - a).dot(d) / d.dot(d)
+                })
+            };
+            hole.sides().filter_map(crossing).collect()
+        }
+    }
 }
 
 /// Length of a segment inside an open box, by clipping its parameter range (Liang & Barsky 1984).
 pub(crate) fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
+    clipped(a, b, open).map_or(0.0, |[from, to]| (to - from) * (b - a).length())
+}
+
+/// The range of a segment's parameter inside an open box.
+fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
     let d = b - a;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (start, step, lo, hi) in
@@ -22,14 +67,14 @@ pub(crate) fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
     {
         if step == 0.0 {
             if start <= lo || start >= hi {
-                return 0.0;
+                return None;
             }
         } else {
             let (s, t) = ((lo - start) / step, (hi - start) / step);
             (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
         }
     }
-    (to - from).max(0.0) * d.length()
+    (to > from).then_some([from, to])
 }
 
 /// True if a part of a segment lies inside an open box or on its border.

@@ -3,7 +3,8 @@
 //! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
 //! them, the degree of the polynomials that multiply them.
 //!
-//! A crack cuts a patch *through* when it meets the open box of the patch and has no tip inside it;
+//! A crack cuts a patch *through* when it meets the open box of the patch outside of holes and has no
+//! tip inside it;
 //! then the patch gets the side of the crack times its polynomials (a jump). A patch with a tip
 //! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
 //! part of such a patch is cut but holds no jump, and without them the r^{3/2} term of the solution
@@ -16,6 +17,7 @@ use crate::clip::{distance, inside, length_inside, segment_inside};
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::Partition;
+use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -227,6 +229,7 @@ fn functions(new: &LocalEnrichment, place: &Place) -> Vec<Function> {
 /// A patch as the rules see it.
 struct Patch<'p> {
     cracks: &'p [Crack],
+    holes: &'p [Hole],
     support: Rect,
     /// The support inside the domain, as an open box.
     open: Rect,
@@ -239,6 +242,7 @@ impl<'p> Patch<'p> {
         let (support, half) = (partition.support(patch), partition.half[patch]);
         Self {
             cracks: &problem.cracks,
+            holes: &problem.domain.holes,
             support,
             open: support.intersection(&problem.domain.bounds),
             shortest: LEAST_CUT * half.x.min(half.y),
@@ -276,7 +280,7 @@ impl<'p> Patch<'p> {
     }
 
     fn is_cut(&self, crack: &Crack) -> bool {
-        length_inside(crack, &self.open) > self.shortest
+        length_inside(crack, &self.open, self.holes) > self.shortest
     }
 
     fn nearest_tip(&self, crack: &Crack) -> Option<End> {

@@ -3,6 +3,7 @@
 use crate::smoothness::divergence;
 use ppum::crack::Side;
 use ppum::dataset::Step;
+use ppum::domain::Domain;
 use ppum::formula::Table;
 use ppum::function::{
     FunctionError, FunctionKind, FunctionTable, GROUP, LocalFunctions, Slot, WESTERGAARD,
@@ -67,7 +68,7 @@ pub enum InspectError {
 /// The first that is not finite, or that no patch has.
 pub(crate) fn inspect(
     step: &Step,
-    domain: &Rect,
+    domain: &Domain,
     tables: &[Arc<Table>],
 ) -> Result<(), InspectError> {
     let own: Vec<_> = (0..).zip(&step.functions).filter(|(_, f)| is_own(&f.kind)).collect();
@@ -84,16 +85,18 @@ pub(crate) fn inspect(
         return Err(InspectError::Nowhere { name: function.name.clone() });
     }
     for patch in 0..step.partition.len() {
-        let part = step.partition.support(patch).intersection(domain);
+        let part = step.partition.support(patch).intersection(&domain.bounds);
         let seen = table.at(&step.cracks, part.center());
         for block in data.blocks(patch) {
             let index = data.block_function[block];
             let function = &step.functions[index as usize];
-            if let Some(point) = divergent[index as usize].filter(|&p| part.contains(p)) {
+            if let Some(point) =
+                divergent[index as usize].filter(|&p| part.contains(p) && domain.contains(p))
+            {
                 return Err(InspectError::Diverges { name: function.name.clone(), point });
             }
             if is_own(&function.kind) {
-                look(&seen, index, &function.name, &part)?;
+                look(&seen, index, &function.name, &part, domain)?;
             }
         }
     }
@@ -111,11 +114,15 @@ fn look(
     function: u32,
     name: &str,
     part: &Rect,
+    domain: &Domain,
 ) -> Result<(), InspectError> {
     let Slot::Jet { group, entry } = seen.table().of(function) else { return Ok(()) };
     let size = part.size();
     for (s, t) in LOOKS.into_iter().flat_map(|s| LOOKS.map(|t| (s, t))) {
         let point = part.min + vec2(s * size.x, t * size.y);
+        if !domain.contains(point) {
+            continue;
+        }
         let offset = point - part.center();
         let mut jets = [Jet::constant(0.0); GROUP];
         seen.evaluate::<f64, 1>(group as usize, [offset.x, offset.y], Side::Above, &mut jets);

@@ -7,11 +7,13 @@
 //! triangles that meet across an edge that is none of these belong to one piece. Predicates are
 //! exact, so a crack that ends on the border cuts it, however the cells lie.
 
-use ppum::crack::{Crack, CrackEnd};
+use ppum::crack::{Crack, CrackEnd, End};
+use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
 use spade::handles::{FaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
 use spade::{Triangulation as _, mitigate_underflow};
+use std::f64::consts::TAU;
 
 /// Parts of the box of less than this area are rounding.
 const LEAST_AREA: f64 = 1e-12;
@@ -32,6 +34,35 @@ pub(crate) struct Pieces {
     map: Option<(Mesh, Vec<Option<usize>>)>,
 }
 
+/// The corners of a rim.
+fn ring(hole: &Hole) -> Vec<Vec2> {
+    let turn = |k: u32| TAU * f64::from(k) / f64::from(CORNERS);
+    match hole {
+        Hole::Circle { center, radius } => {
+            (0..CORNERS).map(|k| *center + vec2(turn(k).cos(), turn(k).sin()) * *radius).collect()
+        }
+        Hole::Polygon { points } => points.clone(),
+    }
+}
+
+/// A crack whose ends at holes are continued into them.
+fn into_holes(crack: &Crack, domain: &Domain) -> Crack {
+    let size = INTO_POLYGON * domain.bounds.size().length();
+    let mut points = crack.points.clone();
+    for (end, at) in [(End::Start, 0), (End::Last, points.len() - 1)] {
+        let p = points[at];
+        let reached =
+            domain.holes.iter().find(|hole| hole.contains(p) || hole.rim_distance(p) < size);
+        let length = match reached {
+            Some(Hole::Circle { radius, .. }) => INTO_CIRCLE * radius,
+            Some(Hole::Polygon { .. }) => size,
+            None => 0.0,
+        };
+        points[at] = p + crack.growth_direction(end) * length;
+    }
+    Crack { points, ends: crack.ends }
+}
+
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
@@ -43,7 +74,22 @@ pub(crate) struct Piece {
     pub(crate) inside: Vec2,
 }
 
+/// Corners of the polygon that stands for a round rim.
+const CORNERS: u32 = 256;
+
+/// How far a crack that ends on a rim is continued into the hole, so that it surely meets the
+/// polygon: in radii of a round hole, and in sizes of the box.
+const INTO_CIRCLE: f64 = 0.1;
+const INTO_POLYGON: f64 = 1e-6;
+
 impl Pieces {
+    /// The pieces of a domain without its cracks. Round rims are replaced by inscribed polygons.
+    pub(crate) fn of_domain(domain: &Domain, cracks: &[Crack]) -> Self {
+        let rings: Vec<_> = domain.holes.iter().map(ring).collect();
+        let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, domain)).collect();
+        Self::new(domain.bounds, &rings, &cracks)
+    }
+
     /// The pieces of a box without holes (polygons) and cracks.
     ///
     /// Cracks of which at most one end lies on the border do not cut anything.

@@ -5,10 +5,12 @@
 //! in. Enrichment does the rest: grading toward a tip gains nothing once the singular functions are
 //! there.
 
+use crate::clip::rim_crossings;
 use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
 use ppum::cover::{Cover, CoverError};
-use ppum::crack::{Crack, TipId, tips};
+use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
+use ppum::domain::Domain;
 use ppum::vec2::{Rect, Vec2};
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
@@ -20,6 +22,9 @@ const LARGEST: f64 = 0.25;
 /// Cells at a tip that are not refined further for little room around it, in the same measure: tips
 /// nearly at the border would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
+
+/// Lengths below this part of the domain's size are rounding of the end of a crack on a rim.
+const BEYOND: f64 = 1e-8;
 
 /// The cover of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -42,7 +47,10 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
     if !problem.discretization.refine {
         return Ok(cover);
     }
-    let needs: Vec<_> = tips(&problem.cracks).map(|tip| Need::new(problem, tip)).collect();
+    let needs: Vec<_> = tips(&problem.cracks)
+        .map(|tip| Need::new(problem, tip))
+        .chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)))
+        .collect();
     let alpha = problem.discretization.overlap;
     for _ in 0..DEEPEST {
         if cover.refine(|cell, _| needs.iter().any(|need| need.asks(&cell, alpha)))? == 0 {
@@ -77,7 +85,7 @@ impl Need {
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
-        let room = Room::among_cracks(&problem.cracks, &problem.domain.bounds, id).radius;
+        let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
         let largest = (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share);
         Self { tip: crack.end_point(id.end), largest, apart }
     }
@@ -88,6 +96,29 @@ impl Need {
             && (cell.size().x.max(cell.size().y) > self.largest
                 || self.apart.iter().any(|&p| patch.contains(p)))
     }
+}
+
+/// What the ends of a crack at holes ask: the side of the crack, which jumps on its straight extension
+/// too, must not be among the functions beyond the hole.
+fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
+    let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
+    let at_hole = ends.filter_map(|(end, kind)| {
+        let p = crack.end_point(end);
+        let reach = crack.growth_direction(end) * problem.domain.bounds.size().length();
+        let beyond =
+            (kind == CrackEnd::Mouth).then(|| behind_holes(p, reach, &problem.domain))??;
+        Some(Need { tip: p, largest: f64::INFINITY, apart: vec![beyond] })
+    });
+    at_hole.collect()
+}
+
+/// Where the way from the end of a crack at a hole comes out of it into the plate again.
+fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
+    let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
+    let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();
+    all.sort_by(f64::total_cmp);
+    let out = all.into_iter().find(|t| domain.contains(from + way * (t + BEYOND)))?;
+    Some(from + way * out)
 }
 
 fn length(crack: &Crack) -> f64 {

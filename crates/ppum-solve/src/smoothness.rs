@@ -17,6 +17,7 @@ mod traits;
 use crate::quadrature::{Geometry, Kink, Singular};
 use ppum::crack::Crack;
 use ppum::dataset::{Equation, FieldData, Partition, Step};
+use ppum::domain::Hole;
 use ppum::formula::Table;
 use ppum::function::{Function, FunctionError};
 use ppum::vec2::Vec2;
@@ -93,8 +94,10 @@ impl Smoothness {
         &'a self,
         partition: &'a Partition,
         cracks: &'a [Crack],
+        holes: &'a [Hole],
     ) -> Geometry<'a> {
         Geometry {
+            holes,
             singular: &self.singular,
             patch_singular: &self.patch_singular,
             kinks: &self.kinks,

@@ -5,14 +5,15 @@ use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
-use crate::intensity::{Loads, intensities};
+use crate::intensity::{FaceLoad, Loads, intensities};
 use crate::law::Law;
 use crate::pieces::{Piece, Pieces};
-use crate::problem::Problem;
+use crate::problem::{BorderPart, BoundaryCondition, Problem};
 use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
-use crate::system::{System, assemble, source_at};
+use crate::system::{System, assemble, face_load, source_at};
+use ppum::crack::Side;
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
@@ -140,9 +141,13 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
 }
 
 fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipIntensity>, FieldError> {
-    let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)?;
+    let space = Space::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)?;
     let force = |x: Vec2| source_at(problem, x);
-    let loads = Loads { force: Some(&force), faces: None };
+    let face = |crack: u32, side: Side, x: Vec2| face_load(problem, crack as usize, side, x);
+    let is_crack = |c: &BoundaryCondition| matches!(c.on, BorderPart::Crack { .. });
+    let loaded = problem.boundary.iter().any(is_crack);
+    let faces: Option<FaceLoad<'_>> = if loaded { Some(&face) } else { None };
+    let loads = Loads { force: Some(&force), faces };
     let found = intensities(dataset, &Field::new(dataset, 0)?, &space, loads);
     Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
 }
@@ -212,8 +217,8 @@ impl Solver<'_> {
     }
 
     fn space(&self) -> Result<Space<'_>, SolveError> {
-        let Problem { equation, tables, .. } = self.problem;
-        let mut space = Space::new(self.step, equation, tables)?;
+        let Problem { domain, equation, tables, .. } = self.problem;
+        let mut space = Space::new(self.step, domain, equation, tables)?;
         if !self.problem.solver.kernels {
             let cracks = self.step.cracks.len();
             space.functions = FunctionTable::of_formulas(&self.step.functions, cracks, tables)?;
@@ -228,7 +233,7 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Assembled, SolveError> {
         let law = Law::new(&self.problem.equation);
-        let pieces = Pieces::new(self.problem.domain.bounds, &[], &self.problem.cracks);
+        let pieces = Pieces::of_domain(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(space).map_err(SolveError::Basis)?;

@@ -5,14 +5,16 @@ use crate::enrichment::{Block, Enrichments};
 use crate::inspect::{InspectError, inspect};
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
-use crate::quadrature::{Kink, Orders, Quadrature};
+use crate::quadrature::{Geometry, Kink, Orders, Quadrature, Rule};
 use crate::refine::{RefineError, cover};
 use crate::smoothness::Smoothness;
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side};
 use ppum::dataset::{Attribute, Equation, FieldData, Partition, Step, monomials};
+use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
+use ppum::vec2::Rect;
 use ppum::weight::WeightFunction;
 use std::sync::Arc;
 
@@ -24,6 +26,8 @@ const WEIGHT_ACCURACY: f64 = 1e-5;
 /// over the same cells as the system.
 #[derive(Debug)]
 pub struct Space<'d> {
+    /// What is cut out of the cells.
+    pub holes: &'d [Hole],
     /// The partition of unity.
     pub partition: &'d Partition,
     /// The step.
@@ -47,7 +51,7 @@ pub struct Space<'d> {
 }
 
 impl<'d> Space<'d> {
-    /// The walks over the first field of a step.
+    /// The walks over the first field of a step on a domain.
     ///
     /// # Errors
     /// A function of the step that does not compile.
@@ -56,6 +60,7 @@ impl<'d> Space<'d> {
     /// If the step has no field.
     pub fn new(
         step: &'d Step,
+        domain: &'d Domain,
         equation: &Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
@@ -70,6 +75,7 @@ impl<'d> Space<'d> {
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
         let smoothness = Smoothness::new(step, data, equation, tables)?;
         Ok(Self {
+            holes: &domain.holes,
             partition,
             step,
             data,
@@ -86,7 +92,7 @@ impl<'d> Space<'d> {
     /// default, for errors.
     #[must_use]
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
-        let geometry = self.smoothness.geometry(self.partition, &self.step.cracks);
+        let geometry = self.smoothness.geometry(self.partition, &self.step.cracks, self.holes);
         let orders = match extra {
             0 => self.orders,
             _ => orders(self.partition, self.degree() + extra),
@@ -153,6 +159,9 @@ pub enum SpaceError {
     /// The cover.
     #[error(transparent)]
     Refine(#[from] RefineError),
+    /// Holes that leave nothing.
+    #[error("the holes swallow the whole domain; make them smaller")]
+    Nothing,
     /// The order formula.
     #[error(transparent)]
     Order(#[from] OrderError),
@@ -170,6 +179,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
         cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
+    let partition = solid_part(partition, &problem.domain.holes)?;
     let enrichments = Enrichments::new(problem);
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
@@ -186,8 +196,45 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         intensities: Vec::new(),
         history: Vec::new(),
     };
-    inspect(&step, &problem.domain.bounds, &problem.tables)?;
+    inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)
+}
+
+/// Cells of which holes leave no more than this part are dropped: it is rounding.
+const LEAST_PART: f64 = 1e-12;
+
+/// A partition without the cells in holes and their patches.
+fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceError> {
+    if holes.is_empty() {
+        return Ok(partition);
+    }
+    let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
+    let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
+    let is_solid = |(index, cell): (u32, &Rect)| {
+        let size = cell.size();
+        let touched = holes.iter().any(|hole| hole.bounds().overlaps(cell));
+        let area = |rules: Vec<Rule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
+        !touched || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
+    };
+    let solid: Vec<bool> = (0..).zip(&partition.cell).map(is_solid).collect();
+    if !solid.contains(&true) {
+        return Err(SpaceError::Nothing);
+    }
+    Ok(Partition {
+        center: kept(&partition.center, &solid),
+        half: kept(&partition.half, &solid),
+        origin: kept(&partition.origin, &solid),
+        scale: kept(&partition.scale, &solid),
+        cell: kept(&partition.cell, &solid),
+        level: kept(&partition.level, &solid),
+        point: kept(&partition.point, &solid),
+        ..partition
+    })
+}
+
+/// The entries that are kept.
+fn kept<T: Clone>(all: &[T], keep: &[bool]) -> Vec<T> {
+    all.iter().zip(keep).filter(|(_, keep)| **keep).map(|(entry, _)| entry.clone()).collect()
 }
 
 /// Order of the polynomials, number of blocks with a jump and with a tip function, of each patch.

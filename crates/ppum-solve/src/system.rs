@@ -9,10 +9,12 @@ use crate::cell::{CellAssembler, CellSystem, Data};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pieces::Pieces;
-use crate::problem::{BoundaryCondition, Condition, Problem};
-use crate::quadrature::Quadrature;
+use crate::problem::{BorderPart, BoundaryCondition, Problem};
+use crate::quadrature::{EdgeRule, Quadrature};
 use crate::space::Space;
-use ppum::vec2::Vec2;
+use ppum::crack::Side;
+use ppum::domain::segment_distance;
+use ppum::vec2::{Rect, Vec2};
 
 /// The assembled system.
 pub(crate) struct System {
@@ -63,21 +65,15 @@ pub(crate) fn assemble(
     failed.map_or(Ok(system), Err)
 }
 
-/// A boundary condition with its data as a function of position.
+/// A boundary condition with its data as a function of position and normal.
 struct Given<'p> {
     condition: &'p BoundaryCondition,
-    values: Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>,
+    values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
 }
 
 impl<'p> Given<'p> {
     fn new(condition: &'p BoundaryCondition) -> Self {
-        let value = move |x: Vec2| {
-            values(condition.components.iter().map(|component| match component {
-                Condition::Free => 0.0,
-                Condition::Dirichlet(g) | Condition::Neumann(g) => g.value(x),
-            }))
-        };
-        Self { condition, values: Box::new(value) }
+        Self { condition, values: Box::new(|x, normal| condition.values(x, normal)) }
     }
 
     fn piece(
@@ -87,18 +83,53 @@ impl<'p> Given<'p> {
         quadrature: &Quadrature<'_>,
         cell: usize,
     ) -> BorderPiece<'_> {
-        let BoundaryCondition { edge, from, to, components } = self.condition;
-        let ends = [from, to].map(|&s| edge.point(&problem.domain.bounds, s));
-        let rect = &space.partition.cell[cell];
-        let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
-        let mut held = [false; 2];
-        held.iter_mut().zip(components).for_each(|(held, c)| *held = is_held(c));
-        BorderPiece {
-            rules: quadrature.edge(rect, &space.coverers[cell], ends, edge.normal()),
-            held,
-            values: &*self.values,
+        let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+        let rules = border_rules(problem, self.condition.on, quadrature, rect, coverers);
+        BorderPiece { rules, held: self.condition.held(), values: &*self.values }
+    }
+}
+
+/// The rules on a part of the border in one cell.
+fn border_rules(
+    problem: &Problem,
+    on: BorderPart,
+    quadrature: &Quadrature<'_>,
+    rect: &Rect,
+    coverers: &[u32],
+) -> Vec<EdgeRule> {
+    match on {
+        BorderPart::Edge { edge, from, to } => {
+            let ends = [from, to].map(|s| edge.point(&problem.domain.bounds, s));
+            quadrature.edge(rect, coverers, ends, edge.normal())
+        }
+        BorderPart::Hole(hole) => quadrature.rim(rect, coverers, &problem.domain.holes[hole]),
+        BorderPart::Crack { crack, face } => {
+            let segments = problem.cracks[crack].points.windows(2).map(|s| [s[0], s[1]]);
+            let both = [Side::Above, Side::Below];
+            let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
+            let faces = sides.flat_map(|side| segments.clone().map(move |s| (s, side)));
+            faces.flat_map(|(s, side)| quadrature.face(rect, coverers, s, side)).collect()
         }
     }
+}
+
+/// The traction on a face of a crack at a point of it.
+pub(crate) fn face_load(problem: &Problem, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
+    let segments = problem.cracks[crack].points.windows(2);
+    let nearest = segments
+        .min_by(|s, t| segment_distance(s[0], s[1], x).total_cmp(&segment_distance(t[0], t[1], x)));
+    let Some(&[a, b]) = nearest else { return [0.0; 2] };
+    let left = (b - a).unit().left();
+    let normal = if side == Side::Above { -left } else { left };
+    let mut sum = [0.0; 2];
+    for condition in &problem.boundary {
+        let BorderPart::Crack { crack: other, face } = condition.on else { continue };
+        if other == crack && face.is_none_or(|face| face == side) {
+            let load = condition.values(x, normal);
+            sum.iter_mut().zip(load).for_each(|(sum, t)| *sum += t);
+        }
+    }
+    sum
 }
 
 /// The right-hand side of a problem at a point.

@@ -102,6 +102,14 @@ impl Hole {
         (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]])
     }
 
+    /// +1 for a circle and for polygons whose corners run counter-clockwise, −1 for others.
+    #[must_use]
+    pub fn orientation(&self) -> f64 {
+        let origin = self.bounds().min;
+        let twice: f64 = self.sides().map(|[a, b]| (a - origin).cross(b - origin)).sum();
+        if twice < 0.0 { -1.0 } else { 1.0 }
+    }
+
     /// Distance of `p` to the rim, on either side of it.
     #[must_use]
     pub fn rim_distance(&self, p: Vec2) -> f64 {
@@ -115,7 +123,8 @@ impl Hole {
 }
 
 /// Distance of `p` to the segment from `a` to `b`.
-fn segment_distance(a: Vec2, b: Vec2, p: Vec2) -> f64 {
+#[must_use]
+pub fn segment_distance(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     let (d, q) = (b - a, p - a);
     let s = (q.dot(d) / d.dot(d)).clamp(0.0, 1.0);
     (q - d * s).length()

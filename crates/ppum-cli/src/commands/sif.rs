@@ -94,8 +94,8 @@ fn computed(
     force: &[Expression],
 ) -> anyhow::Result<Vec<TipIntensity>> {
     let field = Field::new(dataset, step)?;
-    let space =
-        Space::new(field.step, field.equation, field.tables).context("functions of the field")?;
+    let space = Space::new(field.step, field.domain, field.equation, field.tables)
+        .context("functions of the field")?;
     let at = |x: Vec2| {
         let mut values = [0.0; 2];
         values.iter_mut().zip(force).for_each(|(value, f)| *value = f.value(x));

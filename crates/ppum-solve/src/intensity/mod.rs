@@ -22,8 +22,9 @@ use crate::space::Space;
 use integral::{Interaction, RINGS, rings};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
+use ppum::domain::Domain;
 use ppum::field::Field;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Vec2;
 pub use room::{Obstacle, Room};
 
 /// Radii in parts of the tip's [`Room`]; the last one is preferred, its integral averages most.
@@ -94,7 +95,7 @@ pub fn intensities(
     space: &Space<'_>,
     loads: Loads<'_>,
 ) -> Vec<Outcome> {
-    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(space, &dataset.domain.bounds, tip));
+    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(space, &dataset.domain, tip));
     let mut tips: Vec<_> = tips.collect();
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
         return Vec::new();
@@ -123,7 +124,7 @@ pub fn factors(
 }
 
 impl Outcome {
-    fn new(space: &Space<'_>, domain: &Rect, tip: TipId) -> Self {
+    fn new(space: &Space<'_>, domain: &Domain, tip: TipId) -> Self {
         let at = space.step.cracks[tip.crack as usize].end_point(tip.end);
         let own = space.partition.cell.iter().filter(|cell| cell.contains(at));
         let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);

@@ -3,7 +3,8 @@
 use crate::quadrature::Kink;
 use crate::space::Space;
 use ppum::crack::{Crack, TipId};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::domain::Domain;
+use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
 /// Rays around a tip and steps along each on which curved interfaces are looked for.
@@ -49,7 +50,7 @@ impl Obstacle {
 
 impl Room {
     /// The room of a tip of a space's step on a domain.
-    pub(super) fn new(space: &Space<'_>, domain: &Rect, tip: TipId) -> Self {
+    pub(super) fn new(space: &Space<'_>, domain: &Domain, tip: TipId) -> Self {
         let cracks = &space.step.cracks;
         let p = cracks[tip.crack as usize].end_point(tip.end);
         let free = Self::among_cracks(cracks, domain, tip);
@@ -58,11 +59,13 @@ impl Room {
     }
 
     /// The room without regard of materials.
-    pub(crate) fn among_cracks(cracks: &[Crack], domain: &Rect, tip: TipId) -> Self {
+    pub(crate) fn among_cracks(cracks: &[Crack], domain: &Domain, tip: TipId) -> Self {
         let own = &cracks[tip.crack as usize];
         let p = own.end_point(tip.end);
-        let border = (p - domain.min).min(domain.max - p);
-        let border = Self { radius: border.x.min(border.y), end: Obstacle::Border };
+        let edges = (p - domain.bounds.min).min(domain.bounds.max - p);
+        let rims = domain.holes.iter().map(|hole| hole.rim_distance(p));
+        let border = rims.fold(edges.x.min(edges.y), f64::min);
+        let border = Self { radius: border, end: Obstacle::Border };
         let others = cracks.iter().enumerate().filter(|(k, _)| *k != tip.crack as usize);
         let others =
             others.map(|(k, c)| Self { radius: nearest(&c.points, p), end: Obstacle::Crack(k) });
@@ -116,10 +119,11 @@ fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
 mod tests {
     use super::*;
     use ppum::crack::{CrackEnd, End};
+    use ppum::vec2::Rect;
     use std::sync::Arc;
 
     fn room(cracks: &[Crack], crack: u32, end: End) -> (f64, Obstacle) {
-        let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+        let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)).into();
         let room = Room::among_cracks(cracks, &domain, TipId { crack, end });
         (room.radius, room.end)
     }

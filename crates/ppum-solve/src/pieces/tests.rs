@@ -6,8 +6,9 @@ fn bounds() -> Rect {
 }
 
 fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> Pieces {
-    let along =
-        |points: &&[[f64; 2]]| crack(points.iter().copied().map(Vec2::from).collect(), &bounds());
+    let along = |points: &&[[f64; 2]]| {
+        crack(points.iter().copied().map(Vec2::from).collect(), &bounds().into())
+    };
     Pieces::new(bounds(), holes, &cracks.iter().map(along).collect::<Vec<_>>())
 }
 

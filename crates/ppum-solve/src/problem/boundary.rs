@@ -1,5 +1,8 @@
-//! Conditions on the border of the box.
+//! Conditions on the border: edges of the box, rims of holes, faces of cracks.
 
+use std::fmt;
+
+use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use ppum::expression::Expression;
@@ -81,18 +84,81 @@ impl Edge {
     }
 }
 
-/// Conditions on a piece of an edge. Pieces may overlap where they speak of different components;
+/// A part of the border of the plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BorderPart {
+    /// A piece of an edge of the box; what lies in holes does not count.
+    Edge {
+        /// The edge.
+        edge: Edge,
+        /// Start of the piece in the edge's own coordinate, see [`Edge::range`].
+        from: f64,
+        /// End of the piece, larger than `from`.
+        to: f64,
+    },
+    /// The rim of a hole, by its index.
+    Hole(usize),
+    /// A face of a crack, or both.
+    Crack {
+        /// Index of the crack.
+        crack: usize,
+        /// The face of the material on this side; both if none is named.
+        face: Option<Side>,
+    },
+}
+
+impl BorderPart {
+    /// A whole edge.
+    #[must_use]
+    pub fn edge(edge: Edge, domain: &Rect) -> Self {
+        let [from, to] = edge.range(domain);
+        Self::Edge { edge, from, to }
+    }
+
+    /// The part that two have in common.
+    pub(super) fn common(&self, other: &Self) -> Option<Self> {
+        match (*self, *other) {
+            (Self::Edge { edge, from: a, to: b }, Self::Edge { edge: same, from: c, to: d }) => {
+                let (from, to) = (a.max(c), b.min(d));
+                (edge == same && from < to).then_some(Self::Edge { edge, from, to })
+            }
+            (Self::Hole(hole), Self::Hole(same)) => (hole == same).then_some(*self),
+            (Self::Crack { crack, face }, Self::Crack { crack: same, face: other }) => {
+                let apart = face.is_some() && other.is_some() && face != other;
+                let face = face.or(other);
+                (crack == same && !apart).then_some(Self::Crack { crack, face })
+            }
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for BorderPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Edge { edge, from, to } => {
+                write!(f, "the {} edge between {from} and {to}", edge.name())
+            }
+            Self::Hole(hole) => write!(f, "the rim of hole {hole}"),
+            Self::Crack { crack, face: None } => write!(f, "the faces of crack {crack}"),
+            Self::Crack { crack, face: Some(side) } => {
+                let side = if *side == Side::Above { "above" } else { "below" };
+                write!(f, "the face of crack {crack} {side} it")
+            }
+        }
+    }
+}
+
+/// Conditions on a part of the border. Parts may overlap where they speak of different components;
 /// a component of which nothing is said anywhere is free of traction (of flux).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCondition {
-    /// The edge.
-    pub edge: Edge,
-    /// Start of the piece in the edge's own coordinate, see [`Edge::range`].
-    pub from: f64,
-    /// End of the piece, larger than `from`.
-    pub to: f64,
+    /// Where.
+    pub on: BorderPart,
     /// One condition a component of the unknown field.
     pub components: Vec<Condition>,
+    /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
+    pub pressure: Option<Expression>,
 }
 
 /// The condition on one component of the unknown field.
@@ -107,10 +173,50 @@ pub enum Condition {
 }
 
 impl BoundaryCondition {
+    /// Conditions on a part of the border, one a component.
+    #[must_use]
+    pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
+        Self { on, components, pressure: None }
+    }
+
+    /// A pressure on a part of the border of an elastic plate.
+    #[must_use]
+    pub fn pressure(on: BorderPart, pressure: Expression) -> Self {
+        Self { on, components: vec![Condition::Free; 2], pressure: Some(pressure) }
+    }
+
     /// Conditions on a whole edge.
     #[must_use]
     pub fn on_edge(edge: Edge, domain: &Rect, components: Vec<Condition>) -> Self {
-        let [from, to] = edge.range(domain);
-        Self { edge, from, to, components }
+        Self::new(BorderPart::edge(edge, domain), components)
+    }
+
+    /// True if something is said of a component.
+    pub(super) fn says(&self, component: usize) -> bool {
+        self.pressure.is_some() || self.components[component] != Condition::Free
+    }
+
+    /// Of each component, whether its value is given.
+    pub(crate) fn held(&self) -> [bool; 2] {
+        let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
+        let mut held = [false; 2];
+        held.iter_mut().zip(&self.components).for_each(|(held, c)| *held = is_held(c));
+        held
+    }
+
+    /// The given values and tractions (fluxes) at a point with the normal out of the material, zero
+    /// where nothing is said.
+    pub(crate) fn values(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        if let Some(pressure) = &self.pressure {
+            return (-normal * pressure.value(x)).into();
+        }
+        let mut values = [0.0; 2];
+        for (value, component) in values.iter_mut().zip(&self.components) {
+            *value = match component {
+                Condition::Free => 0.0,
+                Condition::Dirichlet(g) | Condition::Neumann(g) => g.value(x),
+            };
+        }
+        values
     }
 }

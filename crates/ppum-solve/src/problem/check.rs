@@ -6,11 +6,12 @@ use ppum::vec2::Rect;
 
 use super::cracks::check_cracks;
 use super::enrichment::check_enrichments;
+use super::holes::check_holes;
 use super::key::Key;
 use super::quantities::check_quantities;
 use super::scopes;
 use super::{
-    BoundaryCondition, Cells, Condition, Discretization, Enrichment, LocalEnrichment, Order,
+    BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment, LocalEnrichment, Order,
     Problem,
 };
 
@@ -53,10 +54,10 @@ pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
     if domain.is_empty() {
         found.extend(check_points(&problem.discretization.cells, bounds));
         found.extend(check_order(&problem.discretization.order, bounds));
-        found.extend(check_cracks(&problem.cracks, bounds));
+        found.extend(check_cracks(&problem.cracks, &problem.domain));
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
-        found.extend(check_boundary(&problem.boundary, bounds));
+        found.extend(check_boundary(problem));
     }
     found.extend(domain);
     found
@@ -104,10 +105,8 @@ fn check_domain(domain: &Domain) -> Vec<Violation> {
         };
         Violation::new(Key::new("domain").name("max"), message)
     };
-    let holes = (!domain.holes.is_empty()).then(|| {
-        Violation::new(Key::new("domain"), "holes are not in this version; leave them out")
-    });
-    wrong.map(message).chain(holes).collect()
+    let box_is_wrong: Vec<_> = wrong.map(message).collect();
+    if box_is_wrong.is_empty() { check_holes(domain) } else { box_is_wrong }
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
@@ -233,11 +232,11 @@ fn check_order(order: &Order, domain: &Rect) -> Option<Violation> {
     wrong.next().map(|error| Violation::new(key, error.to_string()))
 }
 
-fn check_boundary(boundary: &[BoundaryCondition], domain: &Rect) -> Vec<Violation> {
+fn check_boundary(problem: &Problem) -> Vec<Violation> {
     let mut found = Vec::new();
-    for (index, condition) in boundary.iter().enumerate() {
-        found.extend(check_range(index, condition, domain));
-        let earlier = boundary[..index].iter().enumerate();
+    for (index, condition) in problem.boundary.iter().enumerate() {
+        found.extend(check_part(index, condition, problem));
+        let earlier = problem.boundary[..index].iter().enumerate();
         found.extend(earlier.filter_map(|(other, earlier)| {
             let message = contradiction(earlier, condition)?;
             Some(Violation::new(on(index), message).with_other(on(other)))
@@ -250,38 +249,61 @@ fn on(index: usize) -> Key {
     Key::new("boundary").index(index).name("on")
 }
 
-fn check_range(index: usize, condition: &BoundaryCondition, domain: &Rect) -> Option<Violation> {
-    let BoundaryCondition { edge, from, to, .. } = condition;
-    let [first, last] = edge.range(domain);
-    let message = if from >= to {
-        format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`")
-    } else if *from >= first && *to <= last {
-        return None;
-    } else {
-        let edge = edge.name();
-        format!(
-            "from {from} to {to} leaves the {edge} edge, which runs from {first} to {last}; stay inside"
-        )
+fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<Violation> {
+    let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
+    let message = match condition.on {
+        BorderPart::Edge { edge, from, to } => bad_range(edge, [from, to], &problem.domain.bounds)?,
+        BorderPart::Hole(hole) if hole >= holes => {
+            format!("there is no hole {hole}; {}", numbered(holes, "[[hole]]"))
+        }
+        BorderPart::Crack { crack, .. } if crack >= cracks => {
+            format!("there is no crack {crack}; {}", numbered(cracks, "[[crack]]"))
+        }
+        BorderPart::Crack { .. } if condition.held().contains(&true) => {
+            "the faces of a crack cannot be held; give them a traction or a pressure".to_owned()
+        }
+        _ => return None,
     };
     Some(Violation::new(on(index), message))
 }
 
+/// How many there are of something.
+fn numbered(count: usize, table: &str) -> String {
+    match count {
+        0 => format!("the problem has no {table}"),
+        1 => format!("the only {table} has the number 0"),
+        n => format!("the {table} are numbered from 0 to {}", n - 1),
+    }
+}
+
+fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
+    let [first, last] = edge.range(domain);
+    if from >= to {
+        return Some(format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`"));
+    }
+    let edge = edge.name();
+    (from < first || to > last).then(|| {
+        format!(
+            "from {from} to {to} leaves the {edge} edge, which runs from {first} to {last}; stay inside"
+        )
+    })
+}
+
 /// Two conditions that speak of the same component at the same place.
 fn contradiction(a: &BoundaryCondition, b: &BoundaryCondition) -> Option<String> {
-    let (from, to) = (a.from.max(b.from), a.to.min(b.to));
-    if a.edge != b.edge || from >= to {
-        return None;
-    }
-    let said = |condition: &Condition| *condition != Condition::Free;
-    let mut pairs = a.components.iter().zip(&b.components);
-    let component = pairs.position(|(a, b)| said(a) && said(b))?;
-    let what = match a.components.len() {
+    let place = a.on.common(&b.on)?;
+    let count = a.components.len().min(b.components.len());
+    let component = (0..count).find(|&k| a.says(k) && b.says(k))?;
+    let what = match count {
         1 => "the value or flux".to_owned(),
         _ => format!("the {} component", ["x", "y"][component]),
     };
-    let edge = a.edge.name();
+    let remedy = match place {
+        BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
+        _ => "leave",
+    };
     Some(format!(
-        "{what} on the {edge} edge is given twice between {from} and {to}; give each component once \
-         at each place: divide the edge by `from` and `to`, or leave a component \"free\""
+        "{what} on {place} is given twice; give each component once at each place: {remedy} a \
+         component \"free\""
     ))
 }

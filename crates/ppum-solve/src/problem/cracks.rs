@@ -1,6 +1,7 @@
 //! Cracks as a problem gives them: what their ends are, and where they may lie.
 
 use ppum::crack::{Crack, CrackEnd};
+use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
@@ -9,17 +10,31 @@ use super::key::Key;
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 
-/// A crack along a polyline: ends on the border of the box are mouths, ends inside are tips.
+/// A crack along a polyline: ends on the border of the box, and on the rim or inside of a hole (up to
+/// 10⁻⁹ of the domain's size), are mouths, all others tips.
 #[must_use]
-pub fn crack(points: Vec<Vec2>, domain: &Rect) -> Crack {
+pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
+    let touch = touch(&domain.bounds);
     let end = |point: Option<&Vec2>| match point {
-        Some(p) if edges_at(*p, domain, 0.0).next().is_some() => CrackEnd::Mouth,
+        Some(p) if edges_at(*p, &domain.bounds, 0.0).next().is_some() => CrackEnd::Mouth,
+        Some(p) if domain.holes.iter().any(|hole| reaches(hole, *p, touch)) => CrackEnd::Mouth,
         _ => CrackEnd::Tip,
     };
     let ends = [end(points.first()), end(points.last())];
     Crack { points, ends }
+}
+
+/// The length below which things touch.
+fn touch(bounds: &Rect) -> f64 {
+    let size = bounds.size();
+    TOUCH * size.x.max(size.y)
+}
+
+/// True if a point lies in a hole or on its rim.
+fn reaches(hole: &Hole, p: Vec2, touch: f64) -> bool {
+    hole.contains(p) || hole.rim_distance(p) <= touch
 }
 
 /// The edges no farther from `p` than `tolerance`.
@@ -29,13 +44,13 @@ fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge
 }
 
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
-pub(super) fn check_cracks(cracks: &[Crack], domain: &Rect) -> Vec<Violation> {
-    let size = domain.size();
-    let touch = TOUCH * size.x.max(size.y);
+pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<Violation> {
+    let touch = touch(&domain.bounds);
     let mut found = Vec::new();
     for (index, crack) in cracks.iter().enumerate() {
         let points = Key::new("crack").index(index).name("points");
-        let broken = check_crack(&crack.points, domain, touch, &points);
+        let mut broken = check_crack(&crack.points, &domain.bounds, touch, &points);
+        broken.extend(check_at_holes(crack, &domain.holes, touch, &points));
         let in_order = broken.is_empty();
         found.extend(broken);
         if in_order {
@@ -50,6 +65,15 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Rect) -> Vec<Violation> {
         }
     }
     found
+}
+
+/// Some of the crack lies in the material, and no tip too near to a rim to be meant.
+fn check_at_holes(crack: &Crack, holes: &[Hole], touch: f64, key: &Key) -> Option<Violation> {
+    let lost = |hole: &Hole| crack.points.iter().all(|p| reaches(hole, *p, touch));
+    let convex = |hole: &Hole| matches!(hole, Hole::Circle { .. });
+    let hole = holes.iter().position(|hole| convex(hole) && lost(hole))?;
+    let message = format!("the crack lies in hole {hole}; move it out, or leave it out");
+    Some(Violation::new(key.clone(), message))
 }
 
 fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Violation> {
@@ -143,6 +167,18 @@ fn hook(points: &[Vec2], domain: &Rect, touch: f64) -> Option<usize> {
     })
 }
 
+/// Two sides of a closed polygon that touch where they should not.
+pub(super) fn crosses_itself(sides: &[[Vec2; 2]], touch: f64) -> Option<(usize, usize)> {
+    let n = sides.len();
+    let meet = |i: usize, j: usize| match (j - i, n - (j - i)) {
+        (1, _) => folds_back(sides[i], sides[j], touch),
+        (_, 1) => folds_back(sides[j], sides[i], touch),
+        _ => distance(sides[i], sides[j]) <= touch,
+    };
+    let pairs = (1..n).flat_map(|j| (0..j).map(move |i| (i, j)));
+    pairs.into_iter().find(|&(i, j)| meet(i, j))
+}
+
 /// The first two segments of one crack that touch where they should not.
 fn self_touch(points: &[Vec2], touch: f64) -> Option<(usize, usize)> {
     let segments: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
@@ -218,7 +254,7 @@ mod tests {
     #[test]
     fn ends_on_the_border_are_mouths() {
         let domain = Rect::new(vec2(0.0, 0.0), vec2(2.0, 1.0));
-        let ends = |a: [f64; 2], b: [f64; 2]| crack(vec![a.into(), b.into()], &domain).ends;
+        let ends = |a: [f64; 2], b: [f64; 2]| crack(vec![a.into(), b.into()], &domain.into()).ends;
         assert_eq!(ends([0.5, 0.5], [1.0, 0.5]), [CrackEnd::Tip, CrackEnd::Tip]);
         assert_eq!(ends([0.0, 0.5], [1.0, 0.5]), [CrackEnd::Mouth, CrackEnd::Tip]);
         assert_eq!(ends([0.5, 0.5], [2.0, 1.0]), [CrackEnd::Tip, CrackEnd::Mouth]);

@@ -1,13 +1,13 @@
 //! Problems: what is to be solved, and how, from a problem file (TOML) or built in code.
 //!
-//! Find u on the box Ω with cracks Γ, faces free, such that
+//! Find u on the box minus holes Ω with cracks Γ, faces and rims free unless loaded, such that
 //!
 //! ```text
 //! elasticity:  −div σ(u) = f,  σ = 2μ ε(u) + λ tr ε(u) I        Poisson:  −div (κ ∇u) = f
 //! ```
 //!
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
-//! pieces of the border. `docs/problem-file.md` describes the file for users.
+//! parts of the border. `docs/problem-file.md` describes the file for users.
 //!
 //! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for a
 //! problem built in code [`Problem::check`] applies the same rules:
@@ -36,6 +36,7 @@ mod document;
 mod enrichment;
 mod error;
 mod expression;
+mod holes;
 mod key;
 mod points;
 pub(crate) mod quantities;
@@ -54,7 +55,7 @@ use ppum::domain::Domain;
 use ppum::formula::Table;
 use ppum::vec2::Vec2;
 
-pub use boundary::{BoundaryCondition, Condition, Edge};
+pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
@@ -185,11 +186,12 @@ impl Problem {
         }
     }
 
-    /// The problem with one more crack; its ends on the border become mouths, the others tips.
+    /// The problem with one more crack; its ends on the border, also on rims
+    /// and in holes, become mouths, the others tips.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let points = points.iter().copied().map(Vec2::from).collect();
-        self.cracks.push(crack(points, &self.domain.bounds));
+        self.cracks.push(crack(points, &self.domain));
         self
     }
 
@@ -197,6 +199,13 @@ impl Problem {
     #[must_use]
     pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
         self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));
+        self
+    }
+
+    /// The problem with a pressure on a part of the border.
+    #[must_use]
+    pub fn with_pressure(mut self, on: BorderPart, pressure: f64) -> Self {
+        self.boundary.push(BoundaryCondition::pressure(on, pressure.into()));
         self
     }
 

@@ -9,6 +9,7 @@ use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
 use super::{Kink, Level, Quadrature, Singular, TOLERANCE, corners, cutting_line};
+use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2};
 
 /// Values of a level function below this part of its size on a segment are zero.
@@ -16,6 +17,13 @@ const ZERO: f64 = 1e-14;
 
 /// Distances from the line of a segment below this part of its length count as zero.
 const ON_LINE: f64 = 1e-14;
+
+/// How far behind a border, in units of a cell, it is asked whether there is a hole.
+const INWARD: f64 = 1e-9;
+
+/// How far beside a crack the points of a face lie, in units of their distance to the anchor: more
+/// than rounding, less than any field tells.
+const BESIDE: f64 = 32.0 * f64::EPSILON;
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,15 +37,56 @@ pub struct EdgeRule {
     pub weights: Vec<f64>,
     /// The patches whose supports hold the points, ascending.
     pub patches: Vec<u32>,
-    /// Unit normal out of the material.
-    pub normal: Vec2,
+    /// Unit normals out of the material, one a point.
+    pub normals: Vec<Vec2>,
+}
+
+impl EdgeRule {
+    pub(super) fn empty(anchor: Vec2, patches: &[u32]) -> Self {
+        let (offsets, weights, normals) = (Vec::new(), Vec::new(), Vec::new());
+        Self { anchor, offsets, weights, patches: patches.to_vec(), normals }
+    }
+
+    pub(super) fn push(&mut self, offset: Vec2, weight: f64, normal: Vec2) {
+        self.offsets.push(offset);
+        self.weights.push(weight);
+        self.normals.push(normal);
+    }
 }
 
 impl Quadrature<'_> {
+    /// False if behind a point of a border, where the normal comes from, there is a hole.
+    pub(super) fn is_solid(&self, cell: &Rect, p: Vec2, normal: Vec2) -> bool {
+        let behind = p - normal * (INWARD * cell.size().length());
+        !self.geometry.holes.iter().any(|hole| hole.contains(behind))
+    }
+
+    /// [`edge`](Self::edge) along a face of a crack: the points lie a rounding inside the material, so
+    /// that fields are those of this side.
+    #[must_use]
+    pub fn face(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        ends: [Vec2; 2],
+        side: Side,
+    ) -> Vec<EdgeRule> {
+        let left = (ends[1] - ends[0]).unit().left();
+        let normal = if side == Side::Above { -left } else { left };
+        let mut rules = self.edge(cell, coverers, ends, normal);
+        for rule in &mut rules {
+            let line = normal.dot(ends[0] - rule.anchor).abs();
+            for offset in &mut rule.offsets {
+                *offset = *offset - normal * (BESIDE * (offset.length() + line));
+            }
+        }
+        rules
+    }
+
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
-    /// `normal` is the segment's unit normal out of the material: on a face of a crack it points into
-    /// the crack. A segment along a cell's border belongs to the cell that `normal` points out of.
+    /// `normal` is the segment's unit normal out of the material. Parts without material behind them count
+    /// for nothing. A segment along a cell's border belongs to the cell that `normal` points out of.
     /// `coverers` are the patches whose open supports meet the cell; more of them do no harm.
     #[must_use]
     pub fn edge(
@@ -158,7 +207,10 @@ impl Run<'_> {
             breaks = divided(breaks, self.quadrature.orders.parts);
         }
         for part in breaks.windows(2) {
-            self.add_smooth(part[0], part[1], patches, &singular);
+            let middle = self.line.foot + self.line.tangent * (0.5 * (part[0] + part[1]));
+            if self.quadrature.is_solid(self.cell, self.line.anchor + middle, self.line.normal) {
+                self.add_smooth(part[0], part[1], patches, &singular);
+            }
         }
     }
 
@@ -172,10 +224,12 @@ impl Run<'_> {
         };
         let straight = kinks.iter().filter_map(|kink| cutting_line(kink, self.cell));
         let lines = self.quadrature.segments_near(self.cell).chain(straight);
-        let curved = kinks.iter().flat_map(|kink| match kink {
-            Kink::Curve(level) => self.curve_crossings(lo, hi, &**level),
-            _ => Vec::new(),
+        let curved = kinks.iter().filter_map(|kink| match kink {
+            Kink::Curve(level) => Some(level),
+            _ => None,
         });
+        let curved = curved.chain(&self.quadrature.circles);
+        let curved = curved.flat_map(|level| self.curve_crossings(lo, hi, &**level));
         lines.filter_map(crossing).chain(curved).collect()
     }
 
@@ -261,16 +315,13 @@ impl Run<'_> {
         };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
         let at = self.rules.iter().position(same).unwrap_or_else(|| {
-            let (patches, normal) = (patches.to_vec(), self.line.normal);
-            let (offsets, weights) = (Vec::new(), Vec::new());
-            self.rules.push(EdgeRule { anchor, offsets, weights, patches, normal });
+            self.rules.push(EdgeRule::empty(anchor, patches));
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];
         for stretch in refined(stretches, &demand) {
             stretch.nodes(gauss, order, &mut |x, w| {
-                rule.offsets.push(x);
-                rule.weights.push(w);
+                rule.push(x, w, self.line.normal);
             });
         }
     }

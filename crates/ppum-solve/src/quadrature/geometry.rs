@@ -3,6 +3,7 @@
 use super::gauss::MAX_POINTS;
 use ppum::crack::Crack;
 use ppum::dataset::Partition;
+use ppum::domain::Hole;
 use ppum::vec2::Vec2;
 use std::fmt;
 use std::sync::Arc;
@@ -22,6 +23,8 @@ pub struct Geometry<'a> {
     pub partition: &'a Partition,
     /// The cracks: across their segments functions may jump.
     pub cracks: &'a [Crack],
+    /// Parts of the cells that are not integrated over.
+    pub holes: &'a [Hole],
     /// Points at which functions are singular: tips, corners.
     pub singular: &'a [Singular],
     /// Of each patch, the points at which one of its functions is singular, be the point inside the
@@ -48,6 +51,7 @@ impl<'a> Geometry<'a> {
         Self {
             partition,
             cracks,
+            holes: &[],
             singular: &[],
             patch_singular: &[],
             kinks: &[],

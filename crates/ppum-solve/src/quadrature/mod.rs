@@ -1,6 +1,6 @@
 //! Quadrature: where the solver looks at the fields.
 //!
-//! The leaf cells of a cover tile the domain. [`Quadrature::cell`] divides a cell into pieces on
+//! The leaf cells of a cover tile the domain's box. [`Quadrature::cell`] divides a cell into pieces on
 //! which all integrands of the method are smooth and gives each a Gauss rule:
 //!
 //! 1. rectangles with a constant set of covering patches;
@@ -12,11 +12,12 @@
 //!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to it
 //!    than their diameter;
 //! 5. cut along curved kinks, the pieces getting sides that follow the curve;
-//! 6. divided until rules resolve functions that may vary fast ([`Probes`]).
+//! 6. the same along the rims of holes, and what lies in a hole dropped;
+//! 7. divided until rules resolve functions that may vary fast ([`Probes`]).
 //!
 //! Points are an anchor plus offsets. Near a singular point the anchor is that point itself, so that
 //! the distance to it carries no rounding of the coordinates. [`Quadrature::edge`] does the same along
-//! segments, [`Quadrature::disc`] for the domain integrals of stress intensity.
+//! segments and faces of cracks, [`Quadrature::rim`] along the rims of holes, [`Quadrature::disc`] for the domain integrals of stress intensity.
 //!
 //! Nothing here knows fields, formulas or basis functions: [`Geometry`] says where something happens.
 
@@ -26,9 +27,11 @@ mod curve;
 mod edge;
 mod gauss;
 mod geometry;
+mod holes;
 mod orders;
 mod piece;
 mod polygon;
+mod rim;
 mod roots;
 mod singular;
 mod split;
@@ -44,8 +47,10 @@ pub use orders::Orders;
 use orders::Active;
 use polygon::{Polygon, line_side};
 use ppum::crack::Crack;
+use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use singular::Pieces;
+use std::sync::Arc;
 
 /// Lengths below this part of a cell are rounding.
 const TOLERANCE: f64 = 1e-12;
@@ -109,7 +114,10 @@ impl Rules {
 pub struct Quadrature<'a> {
     geometry: Geometry<'a>,
     orders: Orders,
+    /// Segments of cracks and sides of holes.
     segments: Vec<[Vec2; 2]>,
+    /// Round rims: at least as many as there are round holes.
+    circles: Vec<Arc<Level>>,
 }
 
 /// A disc around a point at which the integrand is singular.
@@ -124,8 +132,10 @@ impl<'a> Quadrature<'a> {
     #[must_use]
     pub fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
         let of_crack = |c: &Crack| c.points.windows(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
-        let segments = geometry.cracks.iter().flat_map(of_crack).collect();
-        Self { geometry, orders, segments }
+        let of_cracks = geometry.cracks.iter().flat_map(of_crack);
+        let segments = of_cracks.chain(geometry.holes.iter().flat_map(Hole::sides)).collect();
+        let circles = geometry.holes.iter().filter_map(holes::level).collect();
+        Self { geometry, orders, segments, circles }
     }
 
     /// The rules on a cell. `coverers` are the patches whose open supports meet the cell; more of
@@ -184,7 +194,7 @@ impl<'a> Quadrature<'a> {
         run.rules.0
     }
 
-    /// The crack segments that meet the closed box.
+    /// The segments of cracks and sides of holes that meet the closed box.
     fn segments_near(&self, rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
         self.segments.iter().copied().filter(|&[a, b]| meets(rect, a, b))
     }
@@ -224,6 +234,9 @@ impl Run<'_> {
             return;
         }
         let geometry = self.quadrature.geometry;
+        if holes::covered(geometry.holes, rect) {
+            return;
+        }
         let diameter = rect.size().length();
         let mut singular = self.singular_points(rect, patches);
         let nearest = singular.first().map_or(f64::INFINITY, |s| rect.distance(s.point));
@@ -233,7 +246,9 @@ impl Run<'_> {
 
         let kinks = geometry.active_kinks(patches);
         let active = geometry.active_probes(patches);
-        let curves = curves_near(&kinks, rect);
+        let mut curves = curves_near(&kinks, rect);
+        let circles = self.quadrature.circles.iter().map(Arc::as_ref);
+        curves.extend(circles.filter(|&level| curve::may_meet(level, rect)));
         let order = self.orders.choose(&Active {
             patches: patches.len(),
             distance: nearest / diameter,
@@ -249,6 +264,7 @@ impl Run<'_> {
             size: self.cell.size().length(),
             least: self.least,
             curves: &curves,
+            holes: &holes::near(geometry.holes, rect),
             probes: (geometry.probes, &active),
         };
         for polygon in polygons {
@@ -256,7 +272,7 @@ impl Run<'_> {
         }
     }
 
-    /// The rectangle cut by the lines of the crack segments that meet it and by straight kinks,
+    /// The rectangle cut by the lines of the segments that meet it and by straight kinks,
     /// relative to the anchor.
     fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
         let meeting = self.segments.iter().filter(|[a, b]| meets(rect, *a, *b)).copied();

@@ -17,8 +17,10 @@ use super::chart::{Apex, Chart, quadrilaterals};
 use super::curve::{Window, cut_all};
 use super::gauss::gauss;
 use super::geometry::{Level, Probes, Singular};
+use super::holes;
 use super::piece::Piece;
 use super::polygon::Polygon;
+use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
 
@@ -45,6 +47,8 @@ pub(super) struct Pieces<'r, 'c> {
     pub(super) least: f64,
     /// Curves across which integrands jump.
     pub(super) curves: &'r [&'c Level],
+    /// Holes that may meet the rectangle.
+    pub(super) holes: &'r [&'r Hole],
     /// Functions that have to be resolved: all, and the active ones.
     pub(super) probes: (&'r dyn Probes, &'r [u32]),
 }
@@ -94,7 +98,8 @@ impl Pieces<'_, '_> {
     }
 
     /// Adds the rules of pieces, divided until they resolve what they have to.
-    fn add_parts(&mut self, anchor: Vec2, parts: Vec<Piece<'_>>, curved: bool) {
+    fn add_parts(&mut self, anchor: Vec2, mut parts: Vec<Piece<'_>>, curved: bool) {
+        holes::remove(self.holes, anchor, &mut parts);
         let (probes, active) = self.probes;
         let points = self.order.saturating_sub(self.reserve).max(1);
         let demand = Demand { probes, active, anchor, curved, size: self.size, points };

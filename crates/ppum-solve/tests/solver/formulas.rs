@@ -11,7 +11,7 @@ use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::norms::norms;
 use ppum_solve::problem::{
-    BoundaryCondition, Cells, Condition, Discretization, Edge, Enrichment, Expression,
+    BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Enrichment, Expression,
     LocalEnrichment, Order, Problem, Region, Site,
 };
 use ppum_solve::solve::solve;
@@ -60,7 +60,8 @@ fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync + use
 /// same cover.
 fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
     let step = discretise(fine).expect("a space");
-    let space = Space::new(&step, &fine.equation, &fine.tables).expect("functions that compile");
+    let space = Space::new(&step, &fine.domain, &fine.equation, &fine.tables)
+        .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let [_, reference, difference] = norms(&field, &space, exact);
     difference.relative_to(&reference).0
@@ -290,8 +291,8 @@ fn changing_boundary() -> Problem {
     let site = Site::Point { at: vec2(0.0, 0.0), angle: 0.0 };
     problem.enrichments.push(LocalEnrichment::new(&["sqrt(r)*sin(theta/2)"], site));
     let zero = vec![Condition::Dirichlet(0.0.into())];
-    let lower = BoundaryCondition::on_edge(Edge::Bottom, &domain, zero);
-    problem.boundary.push(BoundaryCondition { from: 0.0, ..lower });
+    let lower = BorderPart::Edge { edge: Edge::Bottom, from: 0.0, to: 1.0 };
+    problem.boundary.push(BoundaryCondition::new(lower, zero));
     [Edge::Left, Edge::Right, Edge::Top].into_iter().fold(problem, Problem::with_exact_boundary)
 }
 

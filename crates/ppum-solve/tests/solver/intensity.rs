@@ -12,7 +12,8 @@ use ppum_testkit::exact::{CollinearCracks, ExactField as _, Williams};
 
 fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
     let step = &dataset.steps[0];
-    let space = Space::new(step, &dataset.equation, &dataset.tables).expect("functions");
+    let space =
+        Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
     intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads)
 }
 

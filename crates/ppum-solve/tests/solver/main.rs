@@ -2,6 +2,7 @@
 
 mod examples;
 mod formulas;
+mod holes;
 mod intensity;
 mod kernels;
 mod physics;

@@ -35,7 +35,7 @@ pub(crate) fn both(components: [Component; 2]) -> Both {
 
 /// Errors of the first field of the first step.
 pub(crate) fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Errors {
-    let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)
+    let space = Space::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let jets = |anchor: Vec2, offset: Vec2| {
@@ -51,7 +51,7 @@ pub(crate) fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -
 
 /// ∫ σ:∇u and ∫ |u|² of the first field.
 pub(crate) fn squares(dataset: &Dataset) -> (f64, f64) {
-    let space = Space::new(&dataset.steps[0], &dataset.equation, &dataset.tables)
+    let space = Space::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let zero = |_: Vec2, _: Vec2| [Jet::constant(0.0); 2];

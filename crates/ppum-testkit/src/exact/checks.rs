@@ -26,13 +26,36 @@ fn oblique_crack(material: Material) -> CrackInPlane {
         .with_remote([0.7, 1.0, 0.6])
 }
 
+fn round_hole(material: Material) -> RoundHole {
+    let hole = RoundHole::new(material, vec2(0.05, -0.04), 0.12);
+    hole.with_remote([0.7, 1.0, 0.6]).with_pressure(0.4)
+}
+
+/// The rim carries the pressure and nothing else, and the hoop stress is Kirsch's.
+#[test]
+fn rim_of_a_round_hole() {
+    for k in 0..24 {
+        let angle = f64::from(k) * PI / 12.0 + 0.1;
+        let n = vec2(angle.cos(), angle.sin());
+        let [xx, yy, xy] = round_hole(STRAIN).stress(vec2(0.05, -0.04) + n * 0.12);
+        let traction = vec2(xx * n.x + xy * n.y, xy * n.x + yy * n.y);
+        assert!((traction + n * 0.4).length() < 1e-14);
+        let plain = RoundHole::new(STRESS, Vec2::ZERO, 2.0).with_remote([0.0, 1.0, 0.0]);
+        let [xx, yy, xy] = plain.stress(n * 2.0);
+        let t = n.left();
+        let hoop = xx * t.x * t.x + 2.0 * xy * t.x * t.y + yy * t.y * t.y;
+        assert!((hoop - 1.0 - 2.0 * (2.0 * angle).cos()).abs() < 1e-14);
+    }
+}
+
 fn elastic_fields() -> Vec<Box<dyn ElasticField>> {
     [STRAIN, STRESS]
         .into_iter()
-        .flat_map(|material| -> [Box<dyn ElasticField>; 3] {
+        .flat_map(|material| -> [Box<dyn ElasticField>; 4] {
             [
                 Box::new(many_terms(material)),
                 Box::new(oblique_crack(material)),
+                Box::new(round_hole(material)),
                 Box::new(Smooth { material }),
             ]
         })

@@ -6,12 +6,14 @@
 
 mod collinear;
 mod in_plane;
+mod round_hole;
 mod slit;
 mod smooth;
 mod williams;
 
 pub use collinear::CollinearCracks;
 pub use in_plane::CrackInPlane;
+pub use round_hole::RoundHole;
 pub use slit::Slit;
 pub use smooth::Smooth;
 pub use williams::Williams;

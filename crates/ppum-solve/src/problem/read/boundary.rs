@@ -1,11 +1,12 @@
 //! The tables `[[boundary]]`.
 
+use ppum::crack::Side;
 use ppum::formula::Scope;
 use ppum::vec2::{Rect, vec2};
 
-use super::super::boundary::{BoundaryCondition, Condition, Edge};
+use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use super::super::document::{Section, Value};
-use super::{Kind, Later, Words, all, components};
+use super::{Kind, Words, all, components};
 use ppum::expression::Expression;
 
 /// What conditions may use.
@@ -25,29 +26,83 @@ pub(super) fn boundary(
     let domain = domain.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let condition = |section: Section<'_>| {
         let Words { unknown, neumann, .. } = kind.words();
-        let section = section.only(&["on", unknown, neumann], kind.foreign());
-        let place = section.require("on", "on = \"top\"").and_then(|value| piece(&value, &domain));
+        let known: &[_] = match kind {
+            Kind::Elasticity => &["on", unknown, neumann, "pressure", "symmetry"],
+            Kind::Poisson => &["on", unknown, neumann],
+        };
+        let section = section.only(known, kind.foreign());
+        let on = section.require("on", "on = \"top\"").and_then(|value| part(&value, &domain));
+        if section.mentions("pressure") || section.mentions("symmetry") {
+            return special(&section, on, kind, data);
+        }
         let components = conditions(&section, kind, data);
-        let (edge, [from, to]) = place?;
-        Some(BoundaryCondition { edge, from, to, components: components? })
+        Some(BoundaryCondition::new(on?, components?))
     };
     all(root.sections("boundary").into_iter().map(condition)).unwrap_or_default()
 }
 
-/// A piece of an edge: its name, or a table.
-fn piece(value: &Value<'_>, domain: &Rect) -> Option<(Edge, [f64; 2])> {
+/// A pressure, or symmetry, which say all components.
+fn special(
+    section: &Section<'_>,
+    on: Option<BorderPart>,
+    kind: Kind,
+    data: &Data<'_>,
+) -> Option<BoundaryCondition> {
+    let Words { unknown, neumann, .. } = kind.words();
+    let keys = ["pressure", "symmetry", unknown, neumann];
+    let given: Vec<_> = keys.into_iter().filter(|key| section.mentions(key)).collect();
+    if let [first, second, ..] = given[..] {
+        let what = format!("says all components, and so does `{second}`; write two [[boundary]]");
+        return section.get(first)?.error(&what);
+    }
+    if section.mentions("pressure") {
+        let pressure = section.get("pressure")?.expression(data.scope)?;
+        return Some(BoundaryCondition::pressure(on?, pressure));
+    }
+    let value = section.get("symmetry")?;
+    if !value.boolean()? {
+        return value.error("is false, which says nothing; leave this [[boundary]] out");
+    }
+    let BorderPart::Edge { edge, .. } = on? else {
+        return value.error("is for edges of the domain; give a displacement or a traction here");
+    };
+    let normal = edge.normal();
+    let condition = |along: f64| match along == 0.0 {
+        true => Condition::Free,
+        false => Condition::Dirichlet(0.0.into()),
+    };
+    Some(BoundaryCondition::new(on?, vec![condition(normal.x), condition(normal.y)]))
+}
+
+/// A part of the border: the name of an edge, or a table.
+fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
     let edges = Edge::ALL.map(|edge| (edge.name(), edge));
     let Some(section) = value.as_section("`on`") else {
-        let edge = value.choice(&edges)?;
-        return Some((edge, edge.range(domain)));
+        return Some(BorderPart::edge(value.choice(&edges)?, domain));
     };
-    let section = section
-        .only(&["edge", "from", "to"], &["hole", "crack"].map(|key| (key, Later(&["edge"]))));
-    let edge = section.require("edge", "edge = \"top\"")?.choice(&edges)?;
-    let [first, last] = edge.range(domain);
-    let limit = |key, whole| section.get(key).map_or(Some(whole), |value| value.number());
-    let (from, to) = (limit("from", first), limit("to", last));
-    Some((edge, [from?, to?]))
+    let kinds = ["edge", "hole", "crack"].into_iter().filter(|key| section.mentions(key));
+    match kinds.collect::<Vec<_>>()[..] {
+        ["hole"] => {
+            let section = section.only(&["hole"], &[]);
+            Some(BorderPart::Hole(section.get("hole")?.whole()? as usize))
+        }
+        ["crack"] => {
+            let section = section.only(&["crack", "face"], &[]);
+            let sides = [("above", Some(Side::Above)), ("below", Some(Side::Below))];
+            let face = section.get("face").map_or(Some(None), |value| value.choice(&sides));
+            let crack = section.get("crack")?.whole()? as usize;
+            Some(BorderPart::Crack { crack, face: face? })
+        }
+        ["edge"] | [] => {
+            let section = section.only(&["edge", "from", "to"], &[]);
+            let edge = section.require("edge", "edge = \"top\"")?.choice(&edges)?;
+            let [first, last] = edge.range(domain);
+            let limit = |key, whole| section.get(key).map_or(Some(whole), |value| value.number());
+            let (from, to) = (limit("from", first), limit("to", last));
+            Some(BorderPart::Edge { edge, from: from?, to: to? })
+        }
+        _ => value.error("names several parts of the border; write one [[boundary]] for each"),
+    }
 }
 
 /// The conditions of one `[[boundary]]`, which may give some components of u and others of the

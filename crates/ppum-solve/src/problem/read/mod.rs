@@ -6,12 +6,14 @@
 mod boundary;
 mod discretization;
 mod enrichment;
+mod hole;
 mod quantity;
 mod table;
 
 use std::path::Path;
 
 use ppum::dataset::{Elasticity, Equation, Material, StressState};
+use ppum::domain::Domain;
 use ppum::formula::Scope;
 use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
@@ -25,6 +27,7 @@ use super::{Problem, Solver, SolverKind, scopes};
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
+use hole::holes;
 use ppum::expression::Expression;
 use quantity::quantities;
 use table::tables;
@@ -144,6 +147,7 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let discretization = discretization(root, base_dir, &tables);
     let solver = solver(root);
     let cracks = cracks(root);
+    let holes = holes(root);
     let names = enrichment::Names { cracks: cracks.len(), tables: &tables };
     let enrichments = enrichments(root, &names);
     let kind = kind?;
@@ -153,12 +157,12 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
     let quantities = quantities(root, &equation, &tables);
     let given = boundary::Data { scope: &scope, exact: exact.as_deref() };
     let boundary = boundary(root, kind, domain, &given);
-    let domain = domain?;
+    let domain = Domain { bounds: domain?, holes: holes? };
     Some(Problem {
         title: title.to_owned(),
-        domain: domain.into(),
-        equation,
         cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),
+        domain,
+        equation,
         boundary,
         source,
         exact: exact.unwrap_or_default(),
@@ -173,9 +177,9 @@ fn problem(root: Section<'_>, base_dir: &Path) -> Option<Problem> {
 
 /// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
 fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
-    let mut known = vec!["title", "domain", "equation", "material", "crack", "boundary"];
+    let mut known = vec!["title", "domain", "equation", "material", "crack", "hole", "boundary"];
     known.extend(["exact", "discretization", "solver", "table", "enrichment", "quantity"]);
-    let mut remedies = ["hole", "adaptivity", "growth"].map(|key| (key, Later(&[]))).to_vec();
+    let mut remedies = ["adaptivity", "growth"].map(|key| (key, Later(&[]))).to_vec();
     match kind {
         Some(kind) => {
             known.push(kind.words().source);

@@ -1,6 +1,7 @@
 //! Problem files: good ones mean what they say, bad ones are reported where they are wrong.
 
 mod formulas;
+mod holes;
 
 use std::path::Path;
 
@@ -123,9 +124,9 @@ fn membrane() {
     assert_eq!(problem.exact[0].text(), "x + y");
     assert_eq!(problem.discretization.cells, Cells::Grid([8, 4]));
     let [left, top] = problem.boundary.as_slice() else { panic!("two conditions") };
-    assert_eq!((left.edge, left.from, left.to), (Edge::Left, 0.0, 1.0));
+    assert_eq!(left.on, BorderPart::Edge { edge: Edge::Left, from: 0.0, to: 1.0 });
     assert_eq!(left.components, [Condition::Dirichlet(problem.exact[0].clone())]);
-    assert_eq!((top.edge, top.from, top.to), (Edge::Top, 0.5, 2.0));
+    assert_eq!(top.on, BorderPart::Edge { edge: Edge::Top, from: 0.5, to: 2.0 });
     assert!(matches!(top.components.as_slice(), [Condition::Neumann(_)]));
 }
 
@@ -217,7 +218,7 @@ fn bad_tables_and_keys() {
                 2,
                 "`growth` in the problem file is not supported yet",
             ),
-            ("level = 4", "level = 4\n[[hole]]", 19, 3, "not supported yet in this version"),
+            ("level = 4", "level = 4\n[[growth]]", 19, 3, "not supported yet in this version"),
             ("level = 4", "level = 4\n[adaptivity]", 19, 2, "not supported yet in this version"),
             ("level = 4", "level = 4\n[source]", 19, 2, "write `body_force` instead"),
             ("traction", "flux", 16, 1, "write `traction` instead"),
@@ -301,7 +302,7 @@ fn bad_types_and_words() {
                 "there is no [exact]; add it with `displacement`",
             ),
             ("[0.0, \"1 + x^2\"]", "\"exact\"", 16, 12, "cannot be \"exact\"; write its formula"),
-            ("\"top\"", "{ crack = 0 }", 15, 8, "`crack` in `on` is not supported yet"),
+            ("\"top\"", "{ crack = 1 }", 15, 6, "the only [[crack]] has the number 0"),
             (
                 "[[-0.5, 0.0], [0.5, 0.0]]",
                 "[[-0.5, 0.0], 0.5]",
@@ -399,7 +400,7 @@ fn bad_values() {
                 "\"bottom\"",
                 15,
                 6,
-                "the x component on the bottom edge is given twice between -1",
+                "the x component on the bottom edge between -1 and 1 is given twice",
             ),
             ("\"top\"", "\"bottom\"", 15, 6, "(the other is on line 12)"),
             (

@@ -46,7 +46,7 @@ fn edges_have_exact_moments() {
                 let exact = (hi.powi(k + 1) - lo.powi(k + 1)) / f64::from(k + 1);
                 assert_near(sum, exact, 1e-13, &format!("{normal:?}, moment {k}"));
             }
-            assert!(rules.iter().all(|r| r.normal == normal));
+            assert!(rules.iter().all(|r| r.normals.iter().all(|n| *n == normal)));
             assert!(rules.iter().all(|r| {
                 r.offsets.iter().all(|&x| ((r.anchor + x).dot(normal) - 1.0).abs() < 1e-15)
             }));

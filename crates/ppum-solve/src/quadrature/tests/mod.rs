@@ -3,6 +3,7 @@
 mod cells;
 mod curves;
 mod edges;
+mod holes;
 mod layers;
 mod lines;
 mod powers;

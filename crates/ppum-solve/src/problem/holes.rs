@@ -1,0 +1,94 @@
+//! What holes may be, and where they may lie.
+
+use ppum::domain::{Domain, Hole};
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use super::check::Violation;
+use super::cracks::{TOUCH, crosses_itself};
+use super::key::Key;
+use crate::clip::meets;
+
+/// Most circles and corners of polygons together, as in a dataset.
+const MAX_RIMS: usize = 1 << 14;
+
+/// All rules broken by the holes of a domain whose box is in order.
+pub(super) fn check_holes(domain: &Domain) -> Vec<Violation> {
+    let size = domain.bounds.size();
+    let touch = TOUCH * size.x.max(size.y);
+    let rims = domain.holes.iter().map(|hole| hole.sides().count().max(1));
+    if rims.sum::<usize>() > MAX_RIMS {
+        let message = format!(
+            "the holes have more than {MAX_RIMS} circles and corners together; leave some out"
+        );
+        return vec![Violation::new(Key::new("hole"), message)];
+    }
+    let check = |(index, hole): (usize, &Hole)| {
+        let (key, message) = match hole {
+            Hole::Circle { center, radius } => bad_circle(*center, *radius, &domain.bounds, touch)?,
+            Hole::Polygon { points } => {
+                ("points", bad_polygon(points, hole, &domain.bounds, touch)?)
+            }
+        };
+        Some(Violation::new(Key::new("hole").index(index).name(key), message))
+    };
+    domain.holes.iter().enumerate().filter_map(check).collect()
+}
+
+fn bad_circle(
+    center: Vec2,
+    radius: f64,
+    bounds: &Rect,
+    touch: f64,
+) -> Option<(&'static str, String)> {
+    let message = if !center.is_finite() {
+        return Some(("center", "the centre is not finite".to_owned()));
+    } else if !(radius > 0.0 && radius.is_finite()) {
+        format!("`radius` is {radius}, but must be positive and finite")
+    } else if radius <= touch {
+        format!("`radius` is {radius}, too small to be seen in this domain; leave the hole out")
+    } else if bounds.distance(center) >= radius {
+        MISSES.to_owned()
+    } else if corners(bounds).iter().all(|&p| (p - center).length() <= radius) {
+        SWALLOWS.to_owned()
+    } else {
+        return None;
+    };
+    Some(("radius", message))
+}
+
+const MISSES: &str = "the hole misses the domain; move it in, or leave it out";
+const SWALLOWS: &str = "the hole swallows the whole domain; make it smaller";
+
+fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Option<String> {
+    if points.len() < 3 {
+        return Some("a polygon needs at least three points; add `[x, y]`".to_owned());
+    }
+    if !points.iter().all(|p| p.is_finite()) {
+        return Some("a point is not finite".to_owned());
+    }
+    let sides: Vec<_> = hole.sides().collect();
+    if let Some(k) = sides.iter().position(|[a, b]| (*b - *a).length() <= touch) {
+        return Some(format!("the points {k} and the next one are equal; remove one of them"));
+    }
+    if let Some((first, second)) = crosses_itself(&sides, touch) {
+        return Some(format!(
+            "the polygon crosses or touches itself: its sides {first} and {second} meet; give its \
+             corners in order, once each"
+        ));
+    }
+    let met = sides.iter().any(|side| meets(*side, bounds));
+    let swallows = hole.contains(bounds.center()) && !sides.iter().any(|s| crosses_box(*s, bounds));
+    match (swallows, met) {
+        (true, _) => Some(SWALLOWS.to_owned()),
+        (false, false) => Some(MISSES.to_owned()),
+        _ => None,
+    }
+}
+
+fn crosses_box(side: [Vec2; 2], bounds: &Rect) -> bool {
+    crate::clip::segment_inside(side[0], side[1], bounds) > 0.0
+}
+
+fn corners(b: &Rect) -> [Vec2; 4] {
+    [b.min, vec2(b.max.x, b.min.y), b.max, vec2(b.min.x, b.max.y)]
+}

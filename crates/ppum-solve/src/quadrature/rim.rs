@@ -1,0 +1,183 @@
+//! Rules along the rims of holes.
+
+use super::edge::EdgeRule;
+use super::gauss::{MAX_POINTS, gauss};
+use super::orders::Active;
+use super::roots::{sign_changes, tame};
+use super::split::{breaks, component, divided, kinks};
+use super::{Kink, Quadrature, Singular, TOLERANCE, cutting_line};
+use ppum::domain::Hole;
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::TAU;
+
+/// Longest part of an arc that gets one rule, in radians. A polynomial of degree 2p of the position
+/// is smooth there: with the points added below its integral is exact to rounding.
+const LONGEST: f64 = 0.4;
+
+/// Gauss points more than along a straight line, for sines and cosines.
+const EXTRA_POINTS: usize = 3;
+
+/// Most bisections of an arc toward a singular point.
+const DEPTH: usize = 40;
+
+impl Quadrature<'_> {
+    /// Rules on the part of a hole's rim that belongs to a cell; empty if none does. Normals point
+    /// into the hole.
+    #[must_use]
+    pub fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
+        if !closed_meet(cell, &hole.bounds()) {
+            return Vec::new();
+        }
+        match *hole {
+            Hole::Circle { center, radius } => {
+                self.arcs(cell, coverers, &Circle { center, radius })
+            }
+            Hole::Polygon { .. } => {
+                let turn = hole.orientation();
+                let side = |[a, b]: [Vec2; 2]| {
+                    self.edge(cell, coverers, [a, b], (b - a).unit().left() * turn)
+                };
+                hole.sides().flat_map(side).collect()
+            }
+        }
+    }
+
+    fn arcs(&self, cell: &Rect, coverers: &[u32], circle: &Circle) -> Vec<EdgeRule> {
+        let mut rules = Vec::new();
+        let all = self.turns(cell, coverers, circle);
+        for ends in all.windows(2).filter(|ends| ends[1] - ends[0] > TOLERANCE) {
+            let normal = circle.normal(0.5 * (ends[0] + ends[1]));
+            let middle = circle.center - normal * circle.radius;
+            if !cell.contains(middle) || !self.is_solid(cell, middle, normal) {
+                continue;
+            }
+            let support = |i: &u32| self.geometry.partition.support(*i as usize);
+            let covers = |i: &u32| support(i).contains(middle);
+            let mut patches: Vec<u32> = coverers.iter().copied().filter(covers).collect();
+            patches.sort_unstable();
+            let mut rule = EdgeRule::empty(cell.center(), &patches);
+            let parts = ((ends[1] - ends[0]) / LONGEST).ceil() as usize;
+            let parts = if patches.len() > 1 { parts * self.orders.parts } else { parts };
+            let singular = self.geometry.singular_points(&patches);
+            for part in divided(ends.to_vec(), parts).windows(2) {
+                self.add_arc(circle, [part[0], part[1]], &singular, DEPTH, &mut rule);
+            }
+            rules.push(rule);
+        }
+        rules
+    }
+
+    /// Angles at which something happens in a cell, from 0 to 2π.
+    fn turns(&self, cell: &Rect, coverers: &[u32], circle: &Circle) -> Vec<f64> {
+        let geometry = &self.geometry;
+        let boxes = coverers.iter().map(|&i| geometry.partition.support(i as usize));
+        let boxes: Vec<Rect> = boxes.chain([*cell]).collect();
+        let mut turns = Vec::new();
+        for axis in 0..2 {
+            let borders = boxes.iter().flat_map(|b| [b.min, b.max].map(|p| component(p, axis)));
+            let kinks = kinks(geometry.partition, coverers, axis);
+            for at in borders.chain(kinks) {
+                turns.extend(circle.turns_at(axis, at));
+            }
+        }
+        let active = geometry.active_kinks(coverers);
+        let straight = active.iter().filter_map(|kink| cutting_line(kink, cell));
+        for [a, b] in self.segments_near(cell).chain(straight) {
+            turns.extend(circle.turns_on(a, b));
+        }
+        let curved = active.iter().filter_map(|kink| match kink {
+            Kink::Curve(level) => Some(level),
+            _ => None,
+        });
+        turns.sort_by(f64::total_cmp);
+        let known = breaks(0.0, TAU, turns.clone(), TOLERANCE);
+        for level in curved.chain(&self.circles) {
+            // Its own rim is zero but for rounding.
+            let size = circle.radius * circle.radius;
+            let at = |turn: f64| {
+                let value = tame(level(circle.at(turn)));
+                if value.abs() <= TOLERANCE * size { 0.0 } else { value }
+            };
+            turns.extend(known.windows(2).flat_map(|ends| sign_changes(&at, ends[0], ends[1])));
+        }
+        breaks(0.0, TAU, turns, TOLERANCE)
+    }
+
+    fn add_arc(
+        &self,
+        circle: &Circle,
+        [from, to]: [f64; 2],
+        singular: &[Singular],
+        depth: usize,
+        rule: &mut EdgeRule,
+    ) {
+        let middle = 0.5 * (from + to);
+        let length = circle.radius * (to - from);
+        let distance = |at: &Singular| (circle.at(middle) - at.point).length() - 0.5 * length;
+        let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
+        if nearest < length && depth > 0 {
+            for half in [[from, middle], [middle, to]] {
+                self.add_arc(circle, half, singular, depth - 1, rule);
+            }
+            return;
+        }
+        let order = self.orders.choose(&Active {
+            patches: rule.patches.len(),
+            distance: nearest / length,
+            kinks: self.geometry.has_kinks(&rule.patches),
+            probes: !self.geometry.active_probes(&rule.patches).is_empty(),
+        });
+        for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
+            let normal = circle.normal(turn);
+            let offset = (circle.center - rule.anchor) - normal * circle.radius;
+            rule.push(offset, weight * circle.radius, normal);
+        }
+    }
+}
+
+/// True if two closed boxes have a point in common.
+fn closed_meet(a: &Rect, b: &Rect) -> bool {
+    let common = a.intersection(b);
+    common.min.x <= common.max.x && common.min.y <= common.max.y
+}
+
+/// A round rim.
+struct Circle {
+    center: Vec2,
+    radius: f64,
+}
+
+impl Circle {
+    /// Out of the material: to the centre.
+    fn normal(&self, turn: f64) -> Vec2 {
+        -vec2(turn.cos(), turn.sin())
+    }
+
+    fn at(&self, turn: f64) -> Vec2 {
+        self.center - self.normal(turn) * self.radius
+    }
+
+    /// The angles at which a coordinate has a value.
+    fn turns_at(&self, axis: usize, at: f64) -> impl Iterator<Item = f64> + use<> {
+        let part = (at - component(self.center, axis)) / self.radius;
+        let turns = match axis {
+            0 => [part.acos(), -part.acos()],
+            _ => [part.asin(), 0.5 * TAU - part.asin()],
+        };
+        turns.into_iter().filter(|turn| turn.is_finite()).map(positive)
+    }
+
+    /// The angles at which the line through two points is met.
+    fn turns_on(&self, a: Vec2, b: Vec2) -> impl Iterator<Item = f64> + use<> {
+        let along = (b - a).unit();
+        let height = along.left().dot(a - self.center) / self.radius;
+        let foot = along.left().y.atan2(along.left().x);
+        let turns = [foot + height.acos(), foot - height.acos()];
+        turns.into_iter().filter(|turn| turn.is_finite()).map(positive)
+    }
+}
+
+/// The same direction between 0 and 2π.
+fn positive(turn: f64) -> f64 {
+    turn.rem_euclid(TAU)
+}
