@@ -48,21 +48,21 @@ type Change = fn(&mut Vec<u8>, &mut dyn FnMut(usize) -> usize);
 const FORGED: &str = "forged header";
 
 const CHANGES: [(&str, Change); 9] = [
-    ("bits", bits),
-    ("run of bytes", run),
+    ("bits", |bytes, below| bits(bytes, below)),
+    ("run of bytes", |bytes, below| run(bytes, below)),
     ("truncated", truncated),
-    ("swapped blocks", swapped),
-    ("copied block", copied),
+    ("swapped blocks", |bytes, below| swapped(bytes, below)),
+    ("copied block", |bytes, below| copied(bytes, below)),
     ("inserted bytes", inserted),
-    ("numbers", number),
-    ("text that is not UTF-8", not_utf8),
-    (FORGED, forge::forged),
+    ("numbers", |bytes, below| number(bytes, below)),
+    ("text that is not UTF-8", |bytes, below| not_utf8(bytes, below)),
+    (FORGED, |bytes, below| forge::forged(bytes, below)),
 ];
 
 /// Bytes that mean something extreme.
 const EXTREMES: [u8; 6] = [0x00, 0x01, 0x7f, 0x80, 0xfe, 0xff];
 
-fn bits(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn bits(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     for _ in 0..=below(8) {
         let at = below(bytes.len());
         bytes[at] ^= 1 << below(8);
@@ -79,7 +79,7 @@ fn range(
     start..bytes.len().min(start + 1 + below(longest))
 }
 
-fn run(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn run(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let range = range(bytes, 64, below);
     let fill = EXTREMES[below(EXTREMES.len())];
     bytes[range].fill(fill);
@@ -89,7 +89,7 @@ fn truncated(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
     bytes.truncate(1 + below(bytes.len()));
 }
 
-fn swapped(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn swapped(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let (a, b) = (below(bytes.len()), below(bytes.len()));
     let (a, b) = (a.min(b), a.max(b));
     let length = (b - a).min(bytes.len() - b).min(1 << below(12));
@@ -97,7 +97,7 @@ fn swapped(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
     left[a..a + length].swap_with_slice(&mut right[..length]);
 }
 
-fn copied(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn copied(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let from = range(bytes, 4096, below);
     let to = below(bytes.len() - from.len() + 1);
     bytes.copy_within(from, to);
@@ -109,7 +109,7 @@ fn inserted(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
 }
 
 /// Sizes and addresses stand at even places.
-fn number(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn number(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let number = match below(7) {
         0 => u64::MAX,
         1 => 1 << 63,
@@ -128,7 +128,7 @@ fn number(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
 }
 
 /// One byte in a run of letters.
-fn not_utf8(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+fn not_utf8(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let start = below(bytes.len());
     let letters = bytes[start..].windows(4).position(|w| w.iter().all(u8::is_ascii_alphanumeric));
     if let Some(at) = letters {

@@ -34,9 +34,9 @@ fn values_of_a_known_field() {
     let line = lab.run("sample plate.h5 --line 0,0,3,1 --count 4 -q u,du_dy,error");
     assert!(line.starts_with("s,x,y,side,u,du_dy,error\n"), "{line}");
     let line = columns(&line);
-    for k in 0..4 {
+    for (k, &s) in line["s"].iter().enumerate() {
         let (x, y) = (line["x"][k], line["y"][k]);
-        assert!((x - k as f64).abs() < 1e-15 && (line["s"][k] - x.hypot(y)).abs() < 1e-15);
+        assert!((x - k as f64).abs() < 1e-15 && (s - x.hypot(y)).abs() < 1e-15);
         assert_eq!(line["side"][k], 0.0);
         if k == 3 {
             assert!(line["u"][k].is_nan() && line["du_dy"][k].is_nan(), "outside");
@@ -76,7 +76,7 @@ fn along_a_crack() {
     assert!(text.starts_with(names), "{text}");
     let crack = columns(&text);
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + b.abs());
-    for k in 0..9 {
+    for (k, &told) in crack["s"].iter().enumerate() {
         let s = 0.1 * k as f64;
         // a 3-4-5 triangle, then the x axis
         let (tangent, at) = if s < 0.5 {
@@ -85,7 +85,7 @@ fn along_a_crack() {
             ([1.0, 0.0], [s - 0.5, 0.0])
         };
         let [x, y] = [crack["x"][k], crack["y"][k]];
-        assert!(near(crack["s"][k], s) && near(x, at[0]) && near(y, at[1]), "{k}: {x} {y}");
+        assert!(near(told, s) && near(x, at[0]) && near(y, at[1]), "{k}: {x} {y}");
         let [jx, jy] = ["x", "y"].map(|c| {
             let [above, below] =
                 ["above", "below"].map(|side| crack[format!("u{c}_{side}").as_str()][k]);

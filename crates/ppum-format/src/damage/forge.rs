@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// Extreme bytes in a header, its checksum recomputed.
-pub(super) fn forged(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+pub(super) fn forged(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let headers = object_headers(bytes);
     if headers.is_empty() {
         return super::number(bytes, below);
