@@ -1,16 +1,22 @@
-//! Direct solution of K u = f by the sparse Cholesky factorisation P K Pᵀ = L Lᵀ.
+//! Direct solution of K u = f by the sparse Cholesky factorisation P D K D Pᵀ = L Lᵀ, D = diag(K)^−½.
+//!
+//! Shape functions of several patches can be dependent where those of each patch are not: on a strip
+//! between two cracks that lies in the overlap of two rows of patches all of φ_1 P + φ_2 Q vanishes
+//! for P = φ_2 R, Q = −φ_1 R, which are polynomials there. Pivots then vanish, and the unknowns they
+//! belong to are left out: K is semi-definite, f consistent, and any solution is the same field. Whether
+//! f is consistent is seen from the residual of the whole system. Only then the factorisation is L D Lᵀ.
 //!
 //! The fill-reducing permutation P is approximate minimum degree, the factorisation supernodal and
 //! sequential: `docs/decisions/0001-ordering.md` has the measurements behind both choices.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltError as PivotError;
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
+    SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::{LltError, SupernodalThreshold};
 use faer::sparse::{FaerError, SparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
@@ -20,6 +26,20 @@ use crate::block_matrix::BlockMatrix;
 /// after the stable transformation the fraction is at least the reciprocal condition number, seen
 /// between 1e−3 and 1e−7; an exactly singular one leaves about 1e−16.
 const PIVOT_LIMIT: f64 = 1e-13;
+
+/// Pivots up to this fraction of K_kk are replaced in a matrix that has vanishing ones: functions that
+/// are dependent up to rounding come with others that nearly are.
+const LEFT_OUT_BELOW: f64 = 1e-10;
+
+/// Most steps of iterative refinement.
+const REFINEMENTS: usize = 2;
+
+/// What a vanishing pivot is replaced by: its unknown becomes zero, and the rest does not see it.
+const LEFT_OUT: f64 = 1e40;
+
+/// Relative residual up to which a load is consistent with a semi-definite matrix. Seen are 1e−12 to
+/// 1e−7, where pivots just above the limit are left; loads on a piece that nothing holds leave 1.
+const CONSISTENT: f64 = 1e-6;
 
 /// A system that cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -66,38 +86,53 @@ pub(crate) struct LinearSolution {
     pub(crate) relative_residual: f64,
 }
 
-/// The factorisation of a symmetric positive definite matrix, for any number of right-hand sides.
+/// The factorisation of a symmetric positive semi-definite matrix, for any number of right-hand sides.
 #[derive(Debug)]
 pub(crate) struct Cholesky<'a> {
     matrix: &'a BlockMatrix,
+    /// D
+    scale: Vec<f64>,
     symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
+    factor: Factor,
+    /// Unknowns that are left out, because they depend on others.
+    pub(crate) dependent: Vec<usize>,
+}
+
+/// The values of a factorisation, in the order of the symbolic one.
+#[derive(Debug)]
+enum Factor {
+    /// L Lᵀ of a definite matrix.
+    Definite(Vec<f64>),
+    /// L D Lᵀ of a semi-definite one, vanishing pivots replaced by [`LEFT_OUT`].
+    Semidefinite(Vec<f64>),
 }
 
 impl<'a> Cholesky<'a> {
     /// Factorises `matrix`.
     ///
     /// # Errors
-    /// A matrix that is not positive definite to rounding, or too large for the memory.
+    /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for the memory.
     pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, CholeskyError> {
-        let lower = matrix.lower_triangle();
-        let no_memory = CholeskyError::OutOfMemory { unknowns: matrix.n_unknowns() };
-        let symbolic = analyse(&lower).map_err(|_| no_memory)?;
-        let factor = factorise(&symbolic, &lower).map_err(|error| match error {
-            LltError::Numeric(PivotError::NonPositivePivot { index }) => {
-                not_positive_definite(matrix, original_index(&symbolic, index))
-            }
-            LltError::Generic(_) => no_memory,
-        })?;
-        let cholesky = Self { matrix, symbolic, factor };
-        cholesky.check_pivots(&lower)?;
+        let mut lower = matrix.lower_triangle();
+        let scale = inverse_root_diagonal(matrix, &lower)?;
+        multiply(&mut lower, &scale);
+        let unknowns = matrix.n_unknowns();
+        let no_memory = |_: FaerError| CholeskyError::OutOfMemory { unknowns };
+        let symbolic = analyse(&lower).map_err(no_memory)?;
+        let values = definite(&symbolic, &lower).map_err(no_memory)?;
+        let factor = match values {
+            Some(values) => Factor::Definite(values),
+            None => Factor::Semidefinite(semidefinite(&symbolic, &lower).map_err(no_memory)?),
+        };
+        let mut cholesky = Self { matrix, scale, symbolic, factor, dependent: Vec::new() };
+        cholesky.dependent = cholesky.replaced_pivots()?;
         Ok(cholesky)
     }
 
-    /// Solves K u = f with one step of iterative refinement.
+    /// Solves K u = f with up to two steps of iterative refinement.
     ///
     /// # Errors
-    /// A right-hand side that is not finite.
+    /// A right-hand side that is not finite, or that no u fits because K is singular.
     ///
     /// # Panics
     /// If `f` has not one entry for each unknown.
@@ -108,12 +143,26 @@ impl<'a> Cholesky<'a> {
         }
         let mut unknowns = f.to_vec();
         self.apply_inverse(&mut unknowns);
-        let mut correction = self.residual(f, &unknowns);
-        self.apply_inverse(&mut correction);
-        unknowns.iter_mut().zip(&correction).for_each(|(u, c)| *u += c);
-        let residual = norm(&self.residual(f, &unknowns));
+        let mut rest = self.residual(f, &unknowns);
+        for _ in 0..REFINEMENTS {
+            let mut correction = rest.clone();
+            self.apply_inverse(&mut correction);
+            correction.iter_mut().zip(&unknowns).for_each(|(c, u)| *c += u);
+            let left = self.residual(f, &correction);
+            // rounding can feed what is nearly free
+            if norm(&left) >= norm(&rest) {
+                break;
+            }
+            (unknowns, rest) = (correction, left);
+        }
+        let residual = norm(&rest);
         let relative_residual = if residual == 0.0 { 0.0 } else { residual / norm(f) };
-        Ok(LinearSolution { unknowns, relative_residual })
+        match self.dependent.first() {
+            Some(&u) if relative_residual > CONSISTENT => {
+                Err(not_positive_definite(self.matrix, u))
+            }
+            _ => Ok(LinearSolution { unknowns, relative_residual }),
+        }
     }
 
     /// f − K u.
@@ -122,37 +171,60 @@ impl<'a> Cholesky<'a> {
         f.iter().zip(product).map(|(f, ku)| f - ku).collect()
     }
 
-    /// x ← (L Lᵀ)⁻¹ x, permutations included.
+    /// x ← D (L Lᵀ)⁻¹ D x, permutations included.
     pub(crate) fn apply_inverse(&self, x: &mut [f64]) {
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut buffer = MemBuffer::new(scratch);
         let n = x.len();
-        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(x, n, 1),
-            Par::Seq,
-            MemStack::new(&mut buffer),
-        );
+        x.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);
+        let column = MatMut::from_column_major_slice_mut(x, n, 1);
+        let stack = MemStack::new(&mut buffer);
+        match &self.factor {
+            Factor::Definite(values) => LltRef::new(&self.symbolic, values)
+                .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
+            Factor::Semidefinite(values) => LdltRef::new(&self.symbolic, values)
+                .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
+        }
+        x.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);
     }
 
-    /// Refuses pivots that are positive by chance of rounding only.
-    fn check_pivots(&self, lower: &SparseColMat<usize, f64>) -> Result<(), CholeskyError> {
-        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
-            return Ok(()); // only the empty system is not supernodal
-        };
-        let factor = SupernodalLltRef::new(symbolic, &self.factor);
-        for supernode in (0..symbolic.n_supernodes()).map(|s| factor.supernode(s)) {
-            let block = supernode.val();
-            for k in 0..block.ncols() {
-                let u = original_index(&self.symbolic, supernode.start() + k);
-                // The diagonal is the first entry of its column of the lower triangle.
-                let diagonal = lower.val_of_col(u)[0];
-                if block[(k, k)].powi(2) <= PIVOT_LIMIT * diagonal {
-                    return Err(not_positive_definite(self.matrix, u));
-                }
+    /// The unknowns whose pivots were replaced, ascending.
+    fn replaced_pivots(&self) -> Result<Vec<usize>, CholeskyError> {
+        let Factor::Semidefinite(values) = &self.factor else { return Ok(Vec::new()) };
+        let mut replaced = Vec::new();
+        for (k, pivot) in diagonal(&self.symbolic, values).into_iter().enumerate() {
+            let u = original_index(&self.symbolic, k);
+            if !pivot.is_finite() {
+                return Err(not_positive_definite(self.matrix, u));
             }
+            // other pivots are at most 1, the diagonal
+            replaced.extend((pivot > 2.0).then_some(u));
         }
-        Ok(())
+        replaced.sort_unstable();
+        Ok(replaced)
+    }
+}
+
+/// D = diag(K)^−½.
+fn inverse_root_diagonal(
+    matrix: &BlockMatrix,
+    lower: &SparseColMat<usize, f64>,
+) -> Result<Vec<f64>, CholeskyError> {
+    // The diagonal is the first entry of its column of the lower triangle.
+    let root = |u: usize| match lower.val_of_col(u)[0] {
+        d if d > 0.0 && d.is_finite() => Ok(d.sqrt().recip()),
+        _ => Err(not_positive_definite(matrix, u)),
+    };
+    (0..matrix.n_unknowns()).map(root).collect()
+}
+
+/// K ← D K D.
+fn multiply(lower: &mut SparseColMat<usize, f64>, scale: &[f64]) {
+    let (symbolic, values) = lower.parts_mut();
+    for (u, &d) in scale.iter().enumerate() {
+        for k in symbolic.col_range(u) {
+            values[k] *= d * scale[symbolic.row_idx()[k]];
+        }
     }
 }
 
@@ -164,29 +236,74 @@ fn analyse(lower: &SparseColMat<usize, f64>) -> Result<SymbolicCholesky<usize>, 
     factorize_symbolic_cholesky(lower.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
 }
 
-/// The values of L, in the order of the symbolic factorisation.
-fn factorise(
+/// The values of L of a matrix with ones on its diagonal, in the order of the symbolic factorisation;
+/// none if a pivot vanishes.
+fn definite(
     symbolic: &SymbolicCholesky<usize>,
     lower: &SparseColMat<usize, f64>,
-) -> Result<Vec<f64>, LltError> {
-    let no_memory = LltError::Generic(FaerError::OutOfMemory);
-    let mut factor = Vec::new();
-    factor.try_reserve_exact(symbolic.len_val()).map_err(|_| no_memory)?;
-    factor.resize(symbolic.len_val(), 0.0);
+) -> Result<Option<Vec<f64>>, FaerError> {
+    let mut values = room(symbolic.len_val())?;
     let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| no_memory)?;
-    symbolic
-        .factorize_numeric_llt(
-            &mut factor,
-            lower.as_ref(),
-            Side::Lower,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut buffer),
-            Default::default(),
-        )
-        .map_err(LltError::Numeric)?;
-    Ok(factor)
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
+    let done = symbolic.factorize_numeric_llt(
+        &mut values,
+        lower.as_ref(),
+        Side::Lower,
+        Default::default(),
+        Par::Seq,
+        MemStack::new(&mut buffer),
+        Default::default(),
+    );
+    let positive = |&root: &f64| root * root > PIVOT_LIMIT;
+    let definite = done.is_ok() && diagonal(symbolic, &values).iter().all(positive);
+    Ok(definite.then_some(values))
+}
+
+/// The values of L D Lᵀ with replaced pivots; none is finite from where one is not.
+fn semidefinite(
+    symbolic: &SymbolicCholesky<usize>,
+    lower: &SparseColMat<usize, f64>,
+) -> Result<Vec<f64>, FaerError> {
+    let mut values = room(symbolic.len_val())?;
+    let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
+    let positive = vec![1; lower.ncols()];
+    let replace = LdltRegularization {
+        dynamic_regularization_signs: Some(&positive),
+        dynamic_regularization_delta: LEFT_OUT,
+        dynamic_regularization_epsilon: LEFT_OUT_BELOW,
+    };
+    let done = symbolic.factorize_numeric_ldlt(
+        &mut values,
+        lower.as_ref(),
+        Side::Lower,
+        replace,
+        Par::Seq,
+        MemStack::new(&mut buffer),
+        Default::default(),
+    );
+    // small pivots are replaced, so that only a value that is not finite can be an error
+    if done.is_err() {
+        values.fill(f64::NAN);
+    }
+    Ok(values)
+}
+
+fn room(len: usize) -> Result<Vec<f64>, FaerError> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).map_err(|_| FaerError::OutOfMemory)?;
+    values.resize(len, 0.0);
+    Ok(values)
+}
+
+/// The diagonal of a factor, in the order of elimination.
+fn diagonal(symbolic: &SymbolicCholesky<usize>, values: &[f64]) -> Vec<f64> {
+    let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else {
+        return Vec::new(); // only the empty system is not supernodal
+    };
+    let factor = SupernodalLltRef::new(symbolic, values);
+    let blocks = (0..symbolic.n_supernodes()).map(|s| factor.supernode(s).val());
+    blocks.flat_map(|block| (0..block.ncols()).map(move |k| block[(k, k)])).collect()
 }
 
 /// The unknown that is eliminated as number `k`.
@@ -303,9 +420,52 @@ mod tests {
 
     #[test]
     fn a_free_chain_is_singular() {
-        assert!(Cholesky::new(&chain(20, 1.0, 2.0)).is_ok());
-        let error = Cholesky::new(&chain(20, 1.0, 1.0)).unwrap_err();
+        assert!(Cholesky::new(&chain(20, 1.0, 2.0)).unwrap().dependent.is_empty());
+        let matrix = chain(20, 1.0, 1.0);
+        let free = Cholesky::new(&matrix).unwrap();
+        assert_eq!(free.dependent.len(), 1);
+        let error = free.solve(&[1.0; 60]).unwrap_err();
         assert!(matches!(error, CholeskyError::NotPositiveDefinite { .. }), "{error}");
+        // balanced loads stretch it
+        let mut load = [0.0; 60];
+        (load[3], load[50]) = (-1.0, 1.0);
+        let solution = free.solve(&load).unwrap();
+        assert!((solution.unknowns[50] - solution.unknowns[3] - 47.0).abs() < 1e-10);
+        assert!(solution.relative_residual < 1e-13);
+    }
+
+    /// Unknowns that say the same as others are left out, and the field is the same.
+    #[test]
+    fn dependent_unknowns_are_left_out() {
+        let matrix = dominant(6);
+        let (n, pattern) = (matrix.n_unknowns(), grid(6));
+        // each patch once more: K ⊗ [1 1; 1 1]
+        let sizes: Vec<_> = (0..36).map(|i| 2 * matrix.unknowns(i).len()).collect();
+        let mut twice = BlockMatrix::new(&sizes, pattern.clone());
+        for i in 0..36 {
+            for j in pattern.row(i).iter().map(|&j| j as usize) {
+                let block = matrix.block(i, j).expect("coupled");
+                let (rows, columns) = (block.nrows(), block.ncols());
+                let all =
+                    Mat::from_fn(2 * rows, 2 * columns, |a, b| block[(a % rows, b % columns)]);
+                twice.add_block(i, j, all.as_ref());
+            }
+        }
+        let factor = Cholesky::new(&twice).unwrap();
+        assert_eq!(factor.dependent.len(), n);
+        let exact: Vec<f64> = (0..n).map(|u| (u as f64).cos()).collect();
+        let load = matrix.multiply(&exact);
+        let both = |part: &dyn Fn(usize) -> Vec<f64>| (0..36).flat_map(part).collect::<Vec<f64>>();
+        let load = both(&|i| [&load[matrix.unknowns(i)]; 2].concat());
+        let found = factor.solve(&load).unwrap();
+        assert!(found.relative_residual < 1e-14, "{}", found.relative_residual);
+        for i in 0..36 {
+            let (first, size) = (twice.unknowns(i).start, matrix.unknowns(i).len());
+            for (a, u) in matrix.unknowns(i).enumerate() {
+                let sum = found.unknowns[first + a] + found.unknowns[first + size + a];
+                assert!((sum - exact[u]).abs() < 1e-12);
+            }
+        }
     }
 
     #[test]

@@ -53,7 +53,21 @@ pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
     }
 }
 
-/// Length of a segment inside an open box, by clipping its parameter range (Liang & Barsky 1984).
+/// Number of connected parts of a crack inside an open box.
+pub(crate) fn runs_inside(crack: &Crack, open: &Rect) -> usize {
+    let (mut runs, mut goes_on) = (0, false);
+    for pair in crack.points.windows(2) {
+        let Some([_, to]) = clipped(pair[0], pair[1], open) else {
+            goes_on = false;
+            continue;
+        };
+        runs += usize::from(!goes_on);
+        goes_on = to == 1.0 && inside(open, pair[1]);
+    }
+    runs
+}
+
+/// Length of a segment inside an open box.
 pub(crate) fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
     clipped(a, b, open).map_or(0.0, |[from, to]| (to - from) * (b - a).length())
 }
@@ -95,4 +109,27 @@ pub(crate) fn distance([a, b]: [Vec2; 2], rect: &Rect) -> f64 {
         (p - a - along * s).length()
     });
     of_corners.chain([rect.distance(a), rect.distance(b)]).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::crack;
+
+    #[test]
+    fn runs_of_a_crack_in_a_box() {
+        let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0));
+        let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+        let runs = |points: &[[f64; 2]]| {
+            let points = points.iter().map(|&p| p.into()).collect();
+            runs_inside(&crack(points, &domain.into()), &unit)
+        };
+        assert_eq!(runs(&[[-1.0, 0.5], [2.0, 0.6]]), 1);
+        assert_eq!(runs(&[[-1.0, 0.5], [0.4, 0.5], [2.0, 0.6]]), 1, "a kink inside");
+        assert_eq!(runs(&[[0.2, 2.0], [0.4, -1.0], [0.6, 2.0]]), 2, "a kink below");
+        assert_eq!(runs(&[[0.2, 2.0], [0.4, 0.1], [0.6, 2.0]]), 1, "a kink inside");
+        assert_eq!(runs(&[[0.2, 2.0], [0.2, 0.5], [3.0, 0.5], [3.0, 0.2], [-1.0, 0.2]]), 2);
+        assert_eq!(runs(&[[-1.0, 0.0], [2.0, 0.0]]), 0, "along the border");
+        assert_eq!(runs(&[[-1.0, 0.5], [0.0, 0.5], [-1.0, 0.6]]), 0, "up to the border");
+    }
 }

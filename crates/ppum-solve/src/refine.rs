@@ -1,23 +1,33 @@
-//! The cover of a problem, refined by itself where crack tips need it.
+//! The cover of a problem, refined by itself where cracks need it.
 //!
-//! No patch may hold two tips, or a tip and a kink of its crack; the cells at a tip are at most a
-//! quarter of the crack length belonging to it, and half the room that its stress intensity is found
-//! in. Enrichment does the rest: grading toward a tip gains nothing once the singular functions are
-//! there.
+//! - No patch holds two tips, or a tip and a kink of its crack.
+//! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
+//!   half the room that its stress intensity is found in.
+//! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
+//!   the side, for the three or more parts it is cut into, two of which would be glued together.
+//!
+//! Enrichment does the rest: grading toward a tip gains nothing once the singular functions are there.
 
-use crate::clip::rim_crossings;
+use crate::clip::{rim_crossings, runs_inside};
 use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
+use ppum::dataset::Partition;
 use ppum::domain::Domain;
 use ppum::vec2::{Rect, Vec2};
+
+/// Part of a crack's length below which cells are not divided to part its runs.
+const LEAST_GAP: f64 = 1.0 / 128.0;
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
 const DEEPEST: usize = 16;
 
-/// Largest cells at a tip, in parts of the crack length belonging to it.
+/// Largest cells around a tip, in parts of the crack length belonging to it.
 const LARGEST: f64 = 0.25;
+
+/// Radius around a tip, in the same measure, within which cells are that small.
+const NEAR: f64 = 0.75;
 
 /// Cells at a tip that are not refined further for little room around it, in the same measure: tips
 /// nearly at the border would ask for cells without end.
@@ -51,9 +61,17 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
         .map(|tip| Need::new(problem, tip))
         .chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)))
         .collect();
+    let bent: Vec<_> = problem.cracks.iter().filter(|crack| crack.points.len() > 2).collect();
     let alpha = problem.discretization.overlap;
     for _ in 0..DEEPEST {
-        if cover.refine(|cell, _| needs.iter().any(|need| need.asks(&cell, alpha)))? == 0 {
+        let asks = |cell: Rect, _| {
+            let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
+            needs.iter().any(|need| need.asks(&cell, &patch))
+                || bent.iter().any(|crack| {
+                    is_crossed_twice(crack, &cell, &patch.intersection(&problem.domain.bounds))
+                })
+        };
+        if cover.refine(asks)? == 0 {
             return Ok(cover);
         }
     }
@@ -62,16 +80,52 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Level(level) => Cover::uniform(problem.domain.bounds, *level as u8),
+        Cells::Level(level) => uniform(problem.domain.bounds, *level),
         Cells::Grid(cells) => Cover::grid(problem.domain.bounds, *cells),
         Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
     }
 }
 
+/// 4^level equal cells, none more than twice as long as wide unless the domain is longer than that
+/// allows: 4^k root cells along a long domain, each halved level − k times.
+fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
+    let size = domain.size();
+    let k = (0.5 * (size.x / size.y).log2().abs() - 0.5).ceil().max(0.0);
+    let k = (k as u32).min(level);
+    let roots = 1 << (2 * k);
+    let roots = if size.x > size.y { [roots, 1] } else { [1, roots] };
+    let mut cover = Cover::grid(domain, roots)?;
+    let deepest = (level - k) as u8;
+    while cover.refine(|_, level| level < deepest)? > 0 {}
+    Ok(cover)
+}
+
+/// Number of patches that still hold several runs of one crack: two of the parts they are cut into are
+/// glued together.
+pub(crate) fn n_crossed_twice(problem: &Problem, partition: &Partition) -> usize {
+    let part = |patch: usize| partition.support(patch).intersection(&problem.domain.bounds);
+    let is_crossed = |patch: &usize| {
+        let part = part(*patch);
+        problem.cracks.iter().any(|crack| crack.points.len() > 2 && runs_inside(crack, &part) > 1)
+    };
+    (0..partition.len()).filter(is_crossed).count()
+}
+
+/// True if a patch, as far as the domain reaches, holds several runs of a crack and is large enough to be
+/// divided.
+fn is_crossed_twice(crack: &Crack, cell: &Rect, patch: &Rect) -> bool {
+    let size = cell.size();
+    size.x.max(size.y) > LEAST_GAP * length(crack) && runs_inside(crack, patch) > 1
+}
+
 /// What one tip asks of the cells around it.
 struct Need {
     tip: Vec2,
+    /// Largest cells at the tip, and near it.
     largest: f64,
+    ample: f64,
+    /// Radius of what is near.
+    near: f64,
     /// Other tips, and the kinks of its own crack.
     apart: Vec<Vec2>,
 }
@@ -86,15 +140,20 @@ impl Need {
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
         let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
-        let largest = (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share);
-        Self { tip: crack.end_point(id.end), largest, apart }
+        Self {
+            tip: crack.end_point(id.end),
+            largest: (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share),
+            ample: LARGEST * share,
+            near: NEAR * share,
+            apart,
+        }
     }
 
-    fn asks(&self, cell: &Rect, alpha: f64) -> bool {
-        let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
-        patch.contains(self.tip)
-            && (cell.size().x.max(cell.size().y) > self.largest
-                || self.apart.iter().any(|&p| patch.contains(p)))
+    fn asks(&self, cell: &Rect, patch: &Rect) -> bool {
+        let size = cell.size().x.max(cell.size().y);
+        (patch.distance(self.tip) < self.near && size > self.ample)
+            || (patch.contains(self.tip)
+                && (size > self.largest || self.apart.iter().any(|&p| patch.contains(p))))
     }
 }
 
@@ -107,7 +166,13 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
         let reach = crack.growth_direction(end) * problem.domain.bounds.size().length();
         let beyond =
             (kind == CrackEnd::Mouth).then(|| behind_holes(p, reach, &problem.domain))??;
-        Some(Need { tip: p, largest: f64::INFINITY, apart: vec![beyond] })
+        Some(Need {
+            tip: p,
+            largest: f64::INFINITY,
+            ample: f64::INFINITY,
+            near: 0.0,
+            apart: vec![beyond],
+        })
     });
     at_hole.collect()
 }

@@ -196,6 +196,8 @@ struct Solution {
     unknowns: usize,
     /// ‖f − K u‖ / ‖f‖ in the stable basis.
     residual: f64,
+    /// Unknowns that depend on others.
+    dependent: usize,
     /// Pieces of the plate.
     pieces: usize,
     /// Rigid motions of pieces that nothing holds.
@@ -221,6 +223,7 @@ impl Solver<'_> {
             dropped: basis.dropped().collect(),
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
+            dependent: solver.dependent.len(),
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
         })
@@ -243,7 +246,7 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Assembled, SolveError> {
         let law = Law::new(&self.problem.equation);
-        let pieces = Pieces::of_domain(&self.problem.domain, &self.problem.cracks);
+        let pieces = Pieces::new(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let basis = StableBasis::new(space).map_err(SolveError::Basis)?;
@@ -300,12 +303,13 @@ impl Solution {
         let total = values.iter().sum();
         step.attributes.push(Attribute { name: "cut-off".into(), values });
         let record = |name: &str, value| Record { name: name.into(), value, unit: String::new() };
-        step.history = vec![
+        step.history.extend([
             record("unknowns", self.unknowns as f64),
             record("cut-off", total),
             record("residual", self.residual),
+            record("dependent", self.dependent as f64),
             record("pieces", self.pieces as f64),
             record("free motions", self.free_motions as f64),
-        ];
+        ]);
     }
 }

@@ -6,11 +6,11 @@ use crate::inspect::{InspectError, inspect};
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Kink, Orders, Quadrature, Rule};
-use crate::refine::{RefineError, cover};
+use crate::refine::{RefineError, cover, n_crossed_twice};
 use crate::smoothness::Smoothness;
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side};
-use ppum::dataset::{Attribute, Equation, FieldData, Partition, Step, monomials};
+use ppum::dataset::{Attribute, Equation, FieldData, Partition, Record, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
@@ -186,6 +186,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         let degree = set.order.at(partition.center[patch])? as u8;
         blocks.push(enrichments.blocks(&partition, patch, degree));
     }
+    let crossed = n_crossed_twice(problem, &partition) as f64;
     let step = Step {
         load: 1.0,
         cracks: problem.cracks.clone(),
@@ -194,7 +195,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         functions: enrichments.table,
         partition,
         intensities: Vec::new(),
-        history: Vec::new(),
+        history: vec![Record { name: "crossed twice".into(), value: crossed, unit: String::new() }],
     };
     inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)

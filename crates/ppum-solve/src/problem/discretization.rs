@@ -11,7 +11,7 @@ use ppum::expression::Expression;
 pub struct Discretization {
     /// The base cover.
     pub cells: Cells,
-    /// Refine where tips need it; false keeps the base cover.
+    /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
     /// Degree of the local polynomials.
     pub order: Order,
@@ -31,7 +31,7 @@ pub struct Discretization {
 /// The base cover's cells.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cells {
-    /// 4^level equal cells.
+    /// 4^level equal cells, as near to squares as halving allows.
     Level(u32),
     /// Equal cells, this many along x and y.
     Grid([u32; 2]),

@@ -1,5 +1,6 @@
 //! The solver against exact solutions and independent reference values.
 
+mod awkward;
 mod examples;
 mod formulas;
 mod holes;
