@@ -4,7 +4,9 @@ use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{completions, demo, formula, info, man, probe, render, sample, sif, solve};
+use crate::commands::{
+    bench, completions, demo, formula, info, man, probe, render, sample, sif, solve,
+};
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
 /// result exactly at every pixel.
@@ -37,6 +39,7 @@ pub(crate) enum Command {
     Sample(sample::Args),
     Render(render::Args),
     Formula(formula::Args),
+    Bench(bench::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
@@ -53,6 +56,7 @@ impl Command {
             Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),
             Self::Formula(args) => args.run(out),
+            Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out),
             Self::Man(args) => args.run(out),
         }

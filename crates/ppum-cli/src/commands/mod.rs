@@ -1,5 +1,6 @@
 //! One command each: its arguments and what it prints.
 
+pub(crate) mod bench;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod formula;

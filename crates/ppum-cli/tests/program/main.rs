@@ -1,6 +1,7 @@
 //! The program as its users meet it: from a problem file to results and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
+mod bench;
 mod damage;
 mod demo;
 mod errors;
