@@ -6,6 +6,7 @@ use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
 use crate::law::Law;
+use crate::norms::energy;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
 use crate::rigid::PerMotion;
@@ -14,7 +15,7 @@ pub use crate::spectrum::Spectrum;
 use crate::system::{System, assemble};
 use crate::warnings::judge;
 use ppum::dataset::{Attribute, Dataset, Record, Step};
-use ppum::field::FieldError;
+use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
 use std::time::Instant;
 
@@ -105,10 +106,12 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
     let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
+    let value = stored_energy(&dataset)?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
     step.warnings = warnings;
+    step.history.push(Record { name: "energy".into(), value, unit: String::new() });
     step.history.extend(clock.records);
     Ok(dataset)
 }
@@ -137,6 +140,13 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
         tables: problem.tables.clone(),
         steps: vec![step],
     }
+}
+
+/// Energy of the solution.
+fn stored_energy(dataset: &Dataset) -> Result<f64, FieldError> {
+    let Dataset { steps, domain, equation, tables, .. } = dataset;
+    let space = Space::new(&steps[0], domain, equation, tables)?;
+    Ok(energy(&Field::new(dataset, 0)?, &space))
 }
 
 /// Times phases.

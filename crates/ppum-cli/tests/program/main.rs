@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 mod bench;
+mod damage;
 mod demo;
 mod errors;
 mod formula;
@@ -10,6 +11,8 @@ mod probe;
 mod readme;
 mod render;
 mod replacements;
+mod sample;
+mod shell;
 mod sif;
 mod solve;
 
