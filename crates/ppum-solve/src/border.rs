@@ -6,7 +6,8 @@
 //!
 //! Γ is where values are given, component by component. β = 2 λ_max of the cell's own pencil
 //! ∫_Γ |σ(N) n|² against K: β > λ_max is just what keeps the system positive definite, and a cell cut
-//! into slivers gets the larger value it needs (Griebel & Schweitzer 2003).
+//! into slivers gets the larger value it needs (Griebel & Schweitzer 2003). Where it is much larger, the
+//! basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
 
 use crate::basis::BasisEvaluator;
 use crate::cell::{CellSystem, square};
@@ -51,6 +52,8 @@ pub(crate) struct Border<'a> {
     traction_load: Vec<f64>,
     /// True once a value is given.
     held: bool,
+    /// The largest λ + 2μ, or conductivity, where values are given.
+    stiffness: f64,
 }
 
 impl<'a> Border<'a> {
@@ -63,6 +66,7 @@ impl<'a> Border<'a> {
             value_load: vec![0.0; unknowns],
             traction_load: vec![0.0; unknowns],
             held: false,
+            stiffness: 0.0,
         }
     }
 
@@ -140,9 +144,13 @@ impl<'a> Border<'a> {
     }
 
     /// Component i of σ(N e_j) n, rows (function, j), columns points.
-    fn tractions(&self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
+    fn tractions(&mut self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
         let c = self.law.components;
         let laws: Vec<_> = rule.offsets.iter().map(|&o| self.law.at(rule.anchor + o)).collect();
+        for (law, &n) in laws.iter().zip(&rule.normals) {
+            let across = (0..c).map(|j| law.traction(j, j, n, n));
+            self.stiffness = across.fold(self.stiffness, f64::max);
+        }
         Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
             let at = (row / c) * shapes.points + q;
             laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q])
@@ -158,6 +166,7 @@ impl<'a> Border<'a> {
             return Ok(());
         }
         let beta = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
+        system.penalty = beta / self.stiffness;
         system.matrix -= &self.consistency;
         system.matrix -= self.consistency.transpose();
         system.matrix += faer::Scale(beta) * &self.mass;

@@ -12,7 +12,7 @@ use crate::problem::{BorderPart, BoundaryCondition, Problem};
 use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
-use crate::system::{System, assemble, face_load, source_at};
+use crate::system::{System, assemble, face_load, slivers, source_at};
 use ppum::crack::Side;
 use ppum::dataset::{Attribute, Dataset, Record, Step, TipIntensity};
 use ppum::field::{Field, FieldError};
@@ -188,6 +188,8 @@ struct Solution {
     residual: f64,
     /// Unknowns that depend on others.
     dependent: usize,
+    /// The largest Nitsche's β in units of stiffness over cell width.
+    nitsche: f64,
     /// Pieces of the plate.
     pieces: usize,
     /// Rigid motions of pieces that nothing holds.
@@ -214,6 +216,7 @@ impl Solver<'_> {
             unknowns: space.sizes.iter().sum::<usize>() * components,
             residual: solution.relative_residual,
             dependent: solver.dependent.len(),
+            nitsche: system.nitsche,
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
         })
@@ -239,7 +242,9 @@ impl Solver<'_> {
         let pieces = Pieces::of_domain(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
-        let basis = StableBasis::new(space).map_err(SolveError::Basis)?;
+        let mut basis = StableBasis::new(space).map_err(SolveError::Basis)?;
+        let slivers = slivers(self.problem, space, &basis, &law, &pieces)?;
+        basis.damp(space, &slivers)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
         let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
@@ -298,6 +303,7 @@ impl Solution {
             record("cut-off", total),
             record("residual", self.residual),
             record("dependent", self.dependent as f64),
+            record("nitsche", self.nitsche),
             record("pieces", self.pieces as f64),
             record("free motions", self.free_motions as f64),
         ]);
