@@ -13,12 +13,11 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use spade::handles::{FaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
 use spade::{Triangulation as _, mitigate_underflow};
-use std::f64::consts::TAU;
 
 /// Parts of the box of less than this area are rounding.
 const LEAST_AREA: f64 = 1e-12;
 
-/// How far into the material a point of the border is moved to see whose it is, in sizes of the box.
+/// How far points of the border are moved to be inside, in sizes of the box.
 const INWARD: f64 = 1e-9;
 
 type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -34,35 +33,6 @@ pub(crate) struct Pieces {
     map: Option<(Mesh, Vec<Option<usize>>)>,
 }
 
-/// The corners of a rim.
-fn ring(hole: &Hole) -> Vec<Vec2> {
-    let turn = |k: u32| TAU * f64::from(k) / f64::from(CORNERS);
-    match hole {
-        Hole::Circle { center, radius } => {
-            (0..CORNERS).map(|k| *center + vec2(turn(k).cos(), turn(k).sin()) * *radius).collect()
-        }
-        Hole::Polygon { points } => points.clone(),
-    }
-}
-
-/// A crack whose ends at holes are continued into them.
-fn into_holes(crack: &Crack, domain: &Domain) -> Crack {
-    let size = INTO_POLYGON * domain.bounds.size().length();
-    let mut points = crack.points.clone();
-    for (end, at) in [(End::Start, 0), (End::Last, points.len() - 1)] {
-        let p = points[at];
-        let reached =
-            domain.holes.iter().find(|hole| hole.contains(p) || hole.rim_distance(p) < size);
-        let length = match reached {
-            Some(Hole::Circle { radius, .. }) => INTO_CIRCLE * radius,
-            Some(Hole::Polygon { .. }) => size,
-            None => 0.0,
-        };
-        points[at] = p + crack.growth_direction(end) * length;
-    }
-    Crack { points, ends: crack.ends }
-}
-
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
@@ -74,42 +44,28 @@ pub(crate) struct Piece {
     pub(crate) inside: Vec2,
 }
 
-/// Corners of the polygon that stands for a round rim.
-const CORNERS: u32 = 256;
-
-/// How far a crack that ends on a rim is continued into the hole, so that it surely meets the
-/// polygon: in radii of a round hole, and in sizes of the box.
-const INTO_CIRCLE: f64 = 0.1;
-const INTO_POLYGON: f64 = 1e-6;
-
 impl Pieces {
-    /// The pieces of a domain without its cracks. Round rims are replaced by inscribed polygons.
-    pub(crate) fn of_domain(domain: &Domain, cracks: &[Crack]) -> Self {
-        let rings: Vec<_> = domain.holes.iter().map(ring).collect();
-        let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, domain)).collect();
-        Self::new(domain.bounds, &rings, &cracks)
-    }
-
-    /// The pieces of a box without holes (polygons) and cracks.
+    /// The pieces of a domain without cracks.
     ///
-    /// Cracks of which at most one end lies on the border do not cut anything.
-    pub(crate) fn new(bounds: Rect, holes: &[Vec<Vec2>], cracks: &[Crack]) -> Self {
+    /// In a box cracks of which at most one end lies on the border do not cut anything.
+    pub(crate) fn new(domain: &Domain, cracks: &[Crack]) -> Self {
+        let bounds = domain.bounds;
         let cuts = |crack: &Crack| !crack.ends.contains(&CrackEnd::Tip);
         let all_of_it = || Self { bounds, all: vec![Piece::of_box(&bounds)], map: None };
-        if holes.is_empty() && !cracks.iter().any(cuts) {
+        if domain.holes.is_empty() && !cracks.iter().any(cuts) {
             return all_of_it();
         }
+        let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, &bounds)).collect();
+        let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
-        triangulate(&bounds, holes, cracks)
-            .map_or_else(|_| all_of_it(), |mesh| Self::of_mesh(bounds, holes, mesh))
+        triangulate(&domain, &cracks)
+            .map_or_else(|_| all_of_it(), |mesh| Self::of_mesh(&domain, mesh))
     }
 
-    fn of_mesh(bounds: Rect, holes: &[Vec<Vec2>], mesh: Mesh) -> Self {
-        let inside = |face: &Face<'_>| {
-            let p = from_unit(&bounds, face.center());
-            bounds.contains(p) && !holes.iter().any(|hole| holds(hole, p))
-        };
-        let material: Vec<bool> = mesh.inner_faces().map(|face| inside(&face)).collect();
+    fn of_mesh(domain: &Domain, mesh: Mesh) -> Self {
+        let bounds = domain.bounds;
+        let inside = |face: Face<'_>| domain.contains(from_unit(&bounds, face.center()));
+        let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
         let mut piece_of = vec![None; material.len()];
         let mut all = Vec::new();
         for face in mesh.inner_faces() {
@@ -177,28 +133,38 @@ impl Piece {
     }
 }
 
-/// The triangulation of the box in units of its sides, so that its border stays straight.
-fn triangulate(
-    bounds: &Rect,
-    holes: &[Vec<Vec2>],
-    cracks: &[Crack],
-) -> Result<Mesh, InsertionError> {
-    let mut mesh = Mesh::new();
-    let (lo, hi) = (bounds.min, bounds.max);
-    let border = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
-    for ring in std::iter::once(border.as_slice()).chain(holes.iter().map(Vec::as_slice)) {
-        let sides = ring.iter().zip(ring.iter().cycle().skip(1));
-        sides.into_iter().try_for_each(|(a, b)| add_edge(&mut mesh, bounds, *a, *b))?;
+/// The points of a crack, its mouths on rims moved into their holes by more than rounding.
+fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
+    let on_border = |p: Vec2| {
+        p.x == bounds.min.x || p.x == bounds.max.x || p.y == bounds.min.y || p.y == bounds.max.y
+    };
+    let mut points = crack.points.clone();
+    let last = points.len() - 1;
+    for (end, at, kind) in [(End::Start, 0, crack.ends[0]), (End::Last, last, crack.ends[1])] {
+        if kind == CrackEnd::Mouth && !on_border(points[at]) {
+            let farther = crack.growth_direction(end) * (INWARD * bounds.size().length());
+            points[at] = points[at] + farther;
+        }
     }
-    for segment in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
-        add_edge(&mut mesh, bounds, segment[0], segment[1])?;
+    points
+}
+
+/// The triangulation of the box in units of its sides, so that its border stays straight. Holes are
+/// polygons.
+fn triangulate(domain: &Domain, cracks: &[Vec<Vec2>]) -> Result<Mesh, InsertionError> {
+    let mut mesh = Mesh::new();
+    let border = rims::border(&domain.bounds).into_iter();
+    let rims = domain.holes.iter().flat_map(Hole::sides);
+    let cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
+    for segment in border.chain(rims).chain(cracks) {
+        add_edge(&mut mesh, &domain.bounds, segment)?;
     }
     Ok(mesh)
 }
 
-fn add_edge(mesh: &mut Mesh, bounds: &Rect, a: Vec2, b: Vec2) -> Result<(), InsertionError> {
-    let from = mesh.insert(to_unit(bounds, a))?;
-    let to = mesh.insert(to_unit(bounds, b))?;
+fn add_edge(mesh: &mut Mesh, bounds: &Rect, ends: [Vec2; 2]) -> Result<(), InsertionError> {
+    let [from, to] = ends.map(|p| mesh.insert(to_unit(bounds, p)));
+    let (from, to) = (from?, to?);
     if from != to {
         mesh.add_constraint_and_split(from, to, |p| p);
     }
@@ -256,14 +222,6 @@ fn from_unit(bounds: &Rect, p: Point2<f64>) -> Vec2 {
     bounds.min + vec2(p.x * bounds.size().x, p.y * bounds.size().y)
 }
 
-/// True if a point lies in a polygon: a ray from it crosses the sides an odd number of times.
-fn holds(polygon: &[Vec2], p: Vec2) -> bool {
-    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let crossed = |(a, b): &(&Vec2, &Vec2)| {
-        (a.y > p.y) != (b.y > p.y) && (p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y))
-    };
-    sides.filter(crossed).count() % 2 == 1
-}
-
+mod rims;
 #[cfg(test)]
 mod tests;

@@ -239,7 +239,7 @@ impl Solver<'_> {
         report: &mut dyn FnMut(Progress),
     ) -> Result<Assembled, SolveError> {
         let law = Law::new(&self.problem.equation);
-        let pieces = Pieces::of_domain(&self.problem.domain, &self.problem.cracks);
+        let pieces = Pieces::new(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let mut basis = StableBasis::new(space).map_err(SolveError::Basis)?;

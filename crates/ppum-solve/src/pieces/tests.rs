@@ -1,15 +1,29 @@
 use super::*;
 use crate::problem::crack;
+use ppum::domain::Hole;
 
 fn bounds() -> Rect {
     Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
+}
+
+fn domain(holes: &[Vec<Vec2>]) -> Domain {
+    let holes = holes.iter().map(|points| Hole::Polygon { points: points.clone() }).collect();
+    Domain { bounds: bounds(), holes }
+}
+
+fn mouths(domain: &Domain, cracks: &[&[[f64; 2]]]) -> Pieces {
+    let along = |points: &&[[f64; 2]]| Crack {
+        points: points.iter().copied().map(Vec2::from).collect(),
+        ends: [CrackEnd::Mouth; 2],
+    };
+    Pieces::new(domain, &cracks.iter().map(along).collect::<Vec<_>>())
 }
 
 fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> Pieces {
     let along = |points: &&[[f64; 2]]| {
         crack(points.iter().copied().map(Vec2::from).collect(), &bounds().into())
     };
-    Pieces::new(bounds(), holes, &cracks.iter().map(along).collect::<Vec<_>>())
+    Pieces::new(&domain(holes), &cracks.iter().map(along).collect::<Vec<_>>())
 }
 
 fn square(center: Vec2, half: f64) -> Vec<Vec2> {
@@ -67,14 +81,7 @@ fn holes_and_cracks() {
     let hole = square(vec2(0.1, 0.0), 0.25);
     let left: &[[f64; 2]] = &[[-1.0, 0.1], [-0.1, 0.1]];
     let right: &[[f64; 2]] = &[[0.3, -0.2], [1.0, 0.7]];
-    let mouths = |cracks: &[&[[f64; 2]]]| {
-        let along = |points: &&[[f64; 2]]| Crack {
-            points: points.iter().copied().map(Vec2::from).collect(),
-            ends: [CrackEnd::Mouth; 2],
-        };
-        let cracks: Vec<_> = cracks.iter().map(along).collect();
-        Pieces::new(bounds(), std::slice::from_ref(&hole), &cracks)
-    };
+    let mouths = |cracks: &[&[[f64; 2]]]| mouths(&domain(std::slice::from_ref(&hole)), cracks);
     assert_eq!(mouths(&[left]).all().len(), 1);
     let found = mouths(&[left, right]);
     let total: f64 = found.all().iter().map(|piece| piece.area).sum();
@@ -95,4 +102,38 @@ fn holes_alone() {
     let notch = pieces(&[square(vec2(-1.0, 0.0), 0.5)], &[]);
     assert_eq!(notch.all().len(), 1);
     assert!((notch.all()[0].area - 3.5).abs() < 1e-12);
+}
+
+/// A chain of round holes cuts if they overlap, by however little. The first one reaches the border.
+#[test]
+fn chains_of_holes() {
+    let hole = |x: f64, radius| Hole::Circle { center: vec2(x, 0.1), radius };
+    let chain = |radius| Domain {
+        bounds: bounds(),
+        holes: vec![hole(-0.8, radius), hole(-0.4, radius), hole(0.0, radius), hole(0.4, radius)],
+    };
+    let right: &[[f64; 2]] = &[[0.55, 0.1], [1.0, 0.3]];
+    assert_eq!(mouths(&chain(0.2 + 1e-9), &[right]).all().len(), 2);
+    assert_eq!(mouths(&chain(0.2 - 1e-9), &[right]).all().len(), 1);
+}
+
+/// Two cracks from a round hole to opposite sides, at any angle and place.
+#[test]
+fn cracks_from_a_round_hole() {
+    let mut random = crate::random::Random::new(11);
+    for _ in 0..300 {
+        let center = vec2(random.signed(), random.signed()) * 0.3;
+        let radius = 0.1 + 0.2 * random.signed().abs();
+        let around = Domain { bounds: bounds(), holes: vec![Hole::Circle { center, radius }] };
+        let rim = |to: Vec2| center + (to - center).unit() * radius;
+        let [left, right] = [vec2(-1.0, random.signed()), vec2(1.0, random.signed())];
+        let cracks = [[left.into(), rim(left).into()], [rim(right).into(), right.into()]];
+        let found = mouths(&around, &[&cracks[0], &cracks[1]]);
+        assert_eq!(found.all().len(), 2, "{center:?} {radius} {left:?} {right:?}");
+        assert_eq!(mouths(&around, &[&cracks[0]]).all().len(), 1);
+        // in the middle of the crack, on both sides of it
+        let middle = (left + rim(left)) * 0.5;
+        let normal = (left - center).unit().left();
+        assert_ne!(found.behind(middle, normal), found.behind(middle, -normal));
+    }
 }

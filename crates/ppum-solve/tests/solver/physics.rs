@@ -4,10 +4,10 @@
 //! it is used.
 
 use crate::studies::exact_fields::{
-    MATERIAL, OBLIQUE, SLIT_SQUARES, SQUARE, STUDY, Strip, TIP_ENERGIES, discretization, held,
-    slit, smooth, tip_energy,
+    MATERIAL, OBLIQUE, SLIT_SQUARES, SQUARE, STUDY, Strip, TipPlate, discretization, held,
+    slit_plate, smooth, tip_energies, tip_points,
 };
-use crate::studies::support::{errors, solved};
+use crate::studies::support::{errors, solved, squares};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Edge, Expression, Problem};
 
@@ -102,20 +102,25 @@ fn a_fixed_zone_restores_the_rate() {
     }
 }
 
-/// Strain energy of the pure tip field on [−1,1]², plane strain, E = 1, ν = 0.3, K = 1.
+/// Strain energy, displacements and stresses of the pure tip field on [−1,1]², both states and modes.
 #[test]
-fn strain_energy_of_the_tip_field() {
-    let found = [tip_energy(1.0, 0.0), tip_energy(0.0, 1.0)];
-    for (found, expected) in found.into_iter().zip(TIP_ENERGIES) {
-        println!("energy {found:.12}, expected {expected}");
-        assert!((found / expected - 1.0).abs() < 1e-6, "{found}");
+fn values_of_the_tip_field() {
+    for plate in TipPlate::ALL {
+        let solution = plate.solve(2);
+        for known in tip_energies(&plate).into_iter().chain(tip_points(&plate)) {
+            let error = known.error(&solution);
+            println!("{}, {}: {error:.1e}", plate.name(), known.name);
+            // references have ten digits
+            assert!(error.abs() < 2e-9, "{}, {}: {error}", plate.name(), known.name);
+        }
     }
 }
 
 /// √r sin(θ/2) on the slit square: ‖∇u‖² and ‖u‖².
 #[test]
 fn poisson_on_a_slit() {
-    for (found, expected) in slit(4, 2).into_iter().zip(SLIT_SQUARES) {
+    let found = <[f64; 2]>::from(squares(&solved(&slit_plate(4, 2))));
+    for (found, expected) in found.into_iter().zip(SLIT_SQUARES) {
         println!("{found:.9}, expected {expected}");
         assert!((found / expected - 1.0).abs() < 1e-5, "{found}");
     }

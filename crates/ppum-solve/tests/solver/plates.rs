@@ -2,7 +2,7 @@
 
 use crate::studies::plates::{
     Plate, centre_crack, centre_cracks, collinear_cracks, edge_cracks, end_shear, kinked_in_plane,
-    slanted_cracks,
+    slanted_cracks, stacked_cracks,
 };
 use crate::studies::release::kinked_crack;
 use crate::studies::support::unknowns;
@@ -63,6 +63,11 @@ fn two_collinear_cracks() {
 #[test]
 fn kinked_crack_in_the_plane() {
     check(&kinked_in_plane(), 1, 5e-3);
+}
+
+#[test]
+fn two_stacked_cracks() {
+    check(&stacked_cracks(), 0, 5e-3);
 }
 
 /// Irwin's relation at the tip of a kinked crack.

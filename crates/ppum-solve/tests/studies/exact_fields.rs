@@ -1,7 +1,7 @@
 //! Exact fields, given on the whole border of a plate.
 
 use super::support::{self, Errors, errors, solved};
-use ppum::dataset::{Material, StressState};
+use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Discretization, Edge, Enrichment, Expression, Order, Problem};
 use ppum_testkit::exact::{ExactField, Slit, Smooth, Williams};
@@ -63,9 +63,13 @@ impl TipProblem {
 
     /// The problem that has this field as its solution.
     pub(crate) fn problem(&self, field: &Williams, set: Discretization) -> Problem {
+        self.problem_of(MATERIAL, field, set)
+    }
+
+    fn problem_of(&self, material: Material, field: &Williams, set: Discretization) -> Problem {
         let back = self.tip.x - self.domain.min.x;
         let mouth = vec2(self.domain.min.x, self.tip.y - back * self.angle.tan());
-        let plate = Problem::elasticity(self.domain, MATERIAL, set);
+        let plate = Problem::elasticity(self.domain, material, set);
         held(plate.with_crack(&[mouth.into(), self.tip.into()]), field.formulas())
     }
 
@@ -153,25 +157,102 @@ pub(crate) const STUDY: [StudyRow; 9] = [
     row(3, Enrichment::Zone, 1, [2.42e-3, 5.81e-4, 1.27e-4]),
 ];
 
-/// ½ ∫ σ:ε over [−1, 1]² of the pure tip field, tip at the centre, every patch enriched.
-pub(crate) fn tip_energy(k1: f64, k2: f64) -> f64 {
-    let crack = TipProblem { domain: SQUARE, tip: Vec2::ZERO, angle: 0.0 };
-    let mut set = discretization(Cells::Level(3), 2);
-    set.enrichment_radius = Some(10.0);
-    let field = crack.field().with_intensities(k1, k2);
-    support::strain_energy(&solved(&crack.problem(&field, set)))
+/// The pure tip field K = 1 in one mode on [−1, 1]², tip at the centre, every patch enriched.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TipPlate {
+    state: StressState,
+    /// 0 for mode I, 1 for mode II.
+    mode: usize,
 }
 
-/// [`tip_energy`] in mode I and in mode II, for K = 1.
-pub(crate) const TIP_ENERGIES: [f64; 2] = [0.474129375227, 1.203559183268];
+impl TipPlate {
+    /// All states and modes.
+    pub(crate) const ALL: [Self; 4] = [
+        Self { state: StressState::PlaneStrain, mode: 0 },
+        Self { state: StressState::PlaneStrain, mode: 1 },
+        Self { state: StressState::PlaneStress, mode: 0 },
+        Self { state: StressState::PlaneStress, mode: 1 },
+    ];
 
-/// ‖∇u‖² and ‖u‖² of u = √r sin(θ/2) on the slit square.
-pub(crate) fn slit(level: u32, order: usize) -> [f64; 2] {
+    /// State and mode in words.
+    pub(crate) fn name(&self) -> String {
+        let state = match self.state {
+            StressState::PlaneStrain => "plane strain",
+            StressState::PlaneStress => "plane stress",
+        };
+        format!("{state}, mode {}", ["I", "II"][self.mode])
+    }
+
+    /// The solution at order 2.
+    pub(crate) fn solve(&self, level: u32) -> Dataset {
+        let material = Material { state: self.state, ..MATERIAL };
+        let crack = TipProblem { domain: SQUARE, tip: Vec2::ZERO, angle: 0.0 };
+        let mut set = discretization(Cells::Level(level), 2);
+        set.enrichment_radius = Some(10.0);
+        let [k1, k2] = if self.mode == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
+        let field = Williams::new(material, Vec2::ZERO, vec2(1.0, 0.0)).with_intensities(k1, k2);
+        solved(&crack.problem_of(material, &field, set))
+    }
+}
+
+/// A value that is known of a [`TipPlate`].
+pub(crate) struct TipValue {
+    /// What it is.
+    pub(crate) name: String,
+    /// Its value.
+    pub(crate) value: f64,
+    found: Box<dyn Fn(&Dataset) -> f64>,
+}
+
+impl TipValue {
+    /// Relative error of a solution.
+    pub(crate) fn error(&self, dataset: &Dataset) -> f64 {
+        (self.found)(dataset) / self.value - 1.0
+    }
+}
+
+/// The strain energy ½ ∫ σ:ε.
+pub(crate) fn tip_energies(plate: &TipPlate) -> Option<TipValue> {
+    let known = match plate.state {
+        StressState::PlaneStrain => [0.474129375227, 1.203559183268],
+        StressState::PlaneStress => [0.575127348648, 1.304557156689],
+    };
+    Some(TipValue {
+        name: "strain energy".into(),
+        value: known[plate.mode],
+        found: Box::new(support::strain_energy),
+    })
+}
+
+/// Displacements and stresses at (0.3, 0.4).
+pub(crate) fn tip_points(plate: &TipPlate) -> Vec<TipValue> {
+    let displacements = match (plate.state, plate.mode) {
+        (StressState::PlaneStrain, 0) => [0.3936086734, 0.1968043367],
+        (StressState::PlaneStrain, _) => [0.7216159013, -0.1312028911],
+        (StressState::PlaneStress, 0) => [0.4844414442, 0.2422207221],
+        (StressState::PlaneStress, _) => [0.7670322867, -0.2220356619],
+    };
+    let stresses = match plate.mode {
+        0 => [0.2825908425, 0.7266621663, 0.0403701204],
+        _ => [-0.5449966248, 0.0403701204, 0.2825908425],
+    };
+    let names = ["ux", "uy", "sxx", "syy", "sxy"];
+    let values = displacements.into_iter().chain(stresses);
+    let value = |(name, value): (&'static str, f64)| TipValue {
+        name: format!("{name} at (0.3, 0.4)"),
+        value,
+        found: Box::new(move |dataset| support::quantity(dataset, name, vec2(0.3, 0.4))),
+    };
+    names.into_iter().zip(values).map(value).collect()
+}
+
+/// u = √r sin(θ/2) on the slit square.
+pub(crate) fn slit_plate(level: u32, order: usize) -> Problem {
     let mut set = discretization(Cells::Level(level), order);
     set.enrichment_radius = Some(0.4);
     let plate = Problem::poisson(SQUARE, 1.0, set).with_crack(&[[-1.0, 0.0], [0.0, 0.0]]);
-    support::squares(&solved(&held(plate, Slit.formulas()))).into()
+    held(plate, Slit.formulas())
 }
 
-/// The values of [`slit`].
+/// ‖∇u‖² and ‖u‖² of [`slit_plate`].
 pub(crate) const SLIT_SQUARES: [f64; 2] = [1.762747174039, 1.530391432928];

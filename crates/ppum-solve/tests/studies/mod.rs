@@ -1,4 +1,4 @@
-//! Problems whose answers are known. The tests hold the solver to them; `examples/validation` prints
+//! Problems whose answers are known. The tests hold the solver to them; the example `validation` of ppum-cli prints
 //! what they give.
 
 pub(crate) mod exact_fields;

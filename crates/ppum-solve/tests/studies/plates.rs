@@ -3,7 +3,7 @@
 
 use super::support::solved;
 use ppum::dataset::{Dataset, Material, StressState};
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Expression, Order, Problem};
 use ppum_testkit::exact::CollinearCracks;
 use std::f64::consts::PI;
@@ -15,12 +15,46 @@ pub(crate) struct Plate {
     pub(crate) name: String,
     /// The problem, on the coarsest of three covers.
     problem: Problem,
-    /// Cells of that cover.
-    cells: [u32; 2],
+    /// Its covers.
+    covers: Covers,
     /// K is divided by this.
     scale: f64,
     /// What is known.
     pub(crate) known: Vec<Known>,
+}
+
+/// Covers, each with cells half as large as the one before.
+#[derive(Clone, Copy, Debug)]
+enum Covers {
+    /// Grids; the cells of the first one.
+    Grid([u32; 2]),
+    /// Cells of size 1 in |x|, |y| < 4, of twice the size to twice as far, and so on to the border of a
+    /// square plate of this half-width, a power of two.
+    Rings(f64),
+}
+
+impl Covers {
+    fn cells(self, level: u32) -> Cells {
+        match self {
+            Self::Grid(cells) => Cells::Grid(cells.map(|n| n << level)),
+            Self::Rings(half_width) => {
+                let start = (4.0, 0.5f64.powi(level as i32));
+                let rings = std::iter::successors(Some(start), |(half, size)| {
+                    (*half < half_width).then_some((2.0 * half, 2.0 * size))
+                });
+                Cells::Points(rings.flat_map(|(half, size)| ring(half, size)).collect())
+            }
+        }
+    }
+}
+
+/// The centres of the cells of one size: all for the first ring, else those outside half its width.
+fn ring(half: f64, size: f64) -> Vec<Vec2> {
+    let n = (2.0 * half / size) as u32;
+    let at = |k: u32| (f64::from(k) + 0.5) * size - half;
+    let all = (0..n * n).map(|k| vec2(at(k % n), at(k / n)));
+    let first = half <= 4.0;
+    all.filter(|p| first || p.x.abs().max(p.y.abs()) > 0.5 * half).collect()
 }
 
 /// A known stress intensity factor.
@@ -49,7 +83,7 @@ impl Plate {
     /// Solves the plate with every cell divided into 2^level × 2^level.
     pub(crate) fn solve(&self, level: u32) -> Solved {
         let mut problem = self.problem.clone();
-        problem.discretization.cells = Cells::Grid(self.cells.map(|n| n << level));
+        problem.discretization.cells = self.covers.cells(level);
         let dataset = solved(&problem);
         let intensities = &dataset.steps[0].intensities;
         let value = |known: &Known| {
@@ -91,7 +125,7 @@ pub(crate) fn centre_crack(a: f64, height: f64, value: f64) -> Plate {
     Plate {
         name: format!("a/W = {a}, H/W = {height}"),
         problem: pulled(domain, cells, &[&[[-a, 0.0], [a, 0.0]]]),
-        cells,
+        covers: Covers::Grid(cells),
         scale: root(a),
         known: vec![known("F_I", 1, 0, value)],
     }
@@ -133,7 +167,7 @@ pub(crate) fn edge_cracks() -> Vec<Plate> {
         Plate {
             name: format!("a/W = {a}, H/W = {height}"),
             problem: pulled(domain, cells, &[&[[0.0, 0.0], [a, 0.0]]]),
-            cells,
+            covers: Covers::Grid(cells),
             scale: root(a),
             known: vec![known("F_I", 0, 0, value)],
         }
@@ -152,7 +186,7 @@ pub(crate) fn slanted_cracks() -> Vec<Plate> {
             Plate {
                 name: format!("{degrees}°"),
                 problem: pulled(domain, cells, &[&crack]),
-                cells,
+                covers: Covers::Grid(cells),
                 scale: root(0.5),
                 known: vec![known("F_I", 1, 0, first), known("F_II", 1, 1, second)],
             }
@@ -160,22 +194,27 @@ pub(crate) fn slanted_cracks() -> Vec<Plate> {
         .into()
 }
 
-/// Edge crack under end shear: W = 7, L = 16, a = 3.5, ν = 0.25, bottom clamped.
+/// Edge crack under end shear with ν = 0.25.
 pub(crate) fn end_shear() -> Plate {
+    end_shear_at(0.25, [34.0425413592, 4.5369400294])
+}
+
+/// Edge crack under end shear: W = 7, L = 16, a = 3.5, bottom clamped; K_I and K_II of Poisson's ratio.
+pub(crate) fn end_shear_at(poisson: f64, [first, second]: [f64; 2]) -> Plate {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(7.0, 16.0));
-    let material = Material { young: 3e7, poisson: 0.25, state: StressState::PlaneStrain };
+    let material = Material { young: 3e7, poisson, state: StressState::PlaneStrain };
     let cells = [7, 16];
     let clamp = || Condition::Dirichlet(Expression::number(0.0));
     let set = Discretization::new(Cells::Grid(cells));
     Plate {
-        name: "end shear".into(),
+        name: format!("ν = {poisson}"),
         problem: Problem::elasticity(domain, material, set)
             .with_crack(&[[0.0, 8.0], [3.5, 8.0]])
             .with_boundary(Edge::Bottom, vec![clamp(), clamp()])
             .with_boundary(Edge::Top, traction(1.0.into(), 0.0.into())),
-        cells,
+        covers: Covers::Grid(cells),
         scale: 1.0,
-        known: vec![known("K_I", 0, 0, 34.0425413592), known("K_II", 0, 1, 4.5369400294)],
+        known: vec![known("K_I", 0, 0, first), known("K_II", 0, 1, second)],
     }
 }
 
@@ -202,7 +241,7 @@ pub(crate) fn collinear_cracks() -> Plate {
     Plate {
         name: "collinear cracks".into(),
         problem,
-        cells,
+        covers: Covers::Grid(cells),
         scale: root(0.8),
         known: vec![known("F_I outer", 3, 0, outer), known("F_I inner", 2, 0, inner)],
     }
@@ -213,19 +252,38 @@ pub(crate) fn collinear_cracks() -> Plate {
 pub(crate) fn kinked_in_plane() -> Plate {
     let (s, c) = 15f64.to_radians().sin_cos();
     let domain = Rect::new(vec2(-64.0, -64.0), vec2(64.0, 64.0));
-    let cells = [8, 8];
-    let mut problem = pulled(domain, cells, &[&[[-1.0, 0.0], [1.0, 0.0], [1.0 + c, s]]]);
+    let mut problem = pulled(domain, [1, 1], &[&[[-1.0, 0.0], [1.0, 0.0], [1.0 + c, s]]]);
     problem.discretization.order = Order::Uniform(3);
     Plate {
         name: "kinked crack".into(),
         problem,
-        cells,
+        covers: Covers::Rings(64.0),
         scale: root(1.0),
         known: vec![
             known("F_I kinked end", 1, 0, 1.1520),
             known("F_II kinked end", 1, 1, 0.3178),
             known("F_I other end", 0, 0, 1.2148),
             known("F_II other end", 0, 1, -0.0226),
+        ],
+    }
+}
+
+/// Two cracks of half-length 1 at distance 2, one above the other, order 3, in a plate of half-width 256
+/// that stands for the infinite plane.
+pub(crate) fn stacked_cracks() -> Plate {
+    let domain = Rect::new(vec2(-256.0, -256.0), vec2(256.0, 256.0));
+    let mut problem =
+        pulled(domain, [1, 1], &[&[[-1.0, 1.0], [1.0, 1.0]], &[[-1.0, -1.0], [1.0, -1.0]]]);
+    problem.discretization.order = Order::Uniform(3);
+    Plate {
+        name: "stacked cracks".into(),
+        problem,
+        covers: Covers::Rings(256.0),
+        scale: root(1.0),
+        known: vec![
+            known("F_I upper, right", 1, 0, 0.843_080_1),
+            known("F_II upper, right", 1, 1, -0.061_096_5),
+            known("F_II lower, right", 3, 1, 0.061_096_5),
         ],
     }
 }

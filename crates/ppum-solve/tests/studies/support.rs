@@ -1,8 +1,10 @@
 //! Solving, and norms of what was found.
 
+use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use ppum_solve::norms::norms;
 use ppum_solve::problem::Problem;
@@ -62,6 +64,13 @@ pub(crate) fn squares(dataset: &Dataset) -> (f64, f64) {
 /// Strain energy ½ ∫ σ:ε.
 pub(crate) fn strain_energy(dataset: &Dataset) -> f64 {
     0.5 * squares(dataset).0
+}
+
+/// A quantity of the first field at a point.
+pub(crate) fn quantity(dataset: &Dataset, name: &str, at: Vec2) -> f64 {
+    let field = Field::new(dataset, 0).expect("a field");
+    let quantity = Quantity::parse(name, &field).expect("a quantity");
+    quantity.at(&mut field.at(at), Vec2::ZERO, Side::Above)
 }
 
 /// Coefficients of the first field.

@@ -1,0 +1,34 @@
+//! Pictures of solutions.
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::vec2::Rect;
+use ppum_render::figure::{Labels, figure, plot_area};
+use ppum_render::picture::{Picture, Style};
+use ppum_render::png;
+use ppum_render::scale::Scale;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use std::path::Path;
+
+const SIZE: [u32; 2] = [640, 480];
+
+/// Draws the stress (the gradient of a potential) of a solution in a window, on a logarithmic scale.
+pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Result<()> {
+    let field = Field::new(dataset, 0)?;
+    let name = if field.components() == 2 { "von-mises" } else { "gradient" };
+    let quantity = Quantity::parse(name, &field)?;
+    let view = View::hug(window, plot_area(SIZE)?)?;
+    let style = Style { scale: Scale::Log, ..Style::default() };
+    let picture = Picture::bare(&render::<f64>(&field, &view, &quantity)?, &view, &style)?;
+    let labels = Labels {
+        title: dataset.title.clone(),
+        quantity: quantity.symbol(&field.data.components),
+        ..Labels::default()
+    };
+    let texts = picture.description(&dataset.title, "", name);
+    let image = figure(&picture, &labels, &field.step.cracks, SIZE)?;
+    png::write(path, &image, &texts)?;
+    Ok(())
+}
