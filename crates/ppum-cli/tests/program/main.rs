@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 mod demo;
+mod determinism;
 mod errors;
 mod formula;
 mod info;
