@@ -234,6 +234,26 @@ def test_holes_are_cut_out_sharply():
     assert len(outcomes) == 4
 
 
+def test_numpy_reads_samples():
+    """A grid as NPY: the values are those of the independent reader."""
+    path, output = files()[0], FOLDER / "grid.npy"
+    command = ["cargo", "run", "-q", "-p", "ppum-cli", "--", "sample", path, "--grid", "7x5"]
+    command += ["-q", "gradient,if(x > 0, 1, 2)", "-o", output]
+    done = subprocess.run(list(map(str, command)), cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    grid = np.load(output)
+    assert grid.shape == (5, 7)
+    assert grid.dtype.names == ("x", "y", "side", "gradient", "if(x > 0, 1, 2)")
+    with h5py.File(path) as file:
+        field = Field(file)
+        for row in grid.reshape(-1):
+            x, y = row["x"], row["y"]
+            exact = field.quantity("gradient", x, y)
+            assert abs(row["gradient"] - exact) <= 1e-9 * abs(exact), (x, y)
+            assert row["if(x > 0, 1, 2)"] == (1 if x > 0 else 2)
+    assert (grid["x"][0] == grid["x"][4]).all() and (np.diff(grid["y"][:, 0]) > 0).all()
+
+
 def test_a_file_of_version_1_0_is_read():
     with h5py.File(OLD) as file:
         assert list(file.attrs["format_version"]) == [1, 0]

@@ -16,9 +16,14 @@ pub(crate) fn point(text: &str) -> Result<Vec2, String> {
 
 /// `X0,Y0,X1,Y1`: two opposite corners.
 pub(crate) fn corners(text: &str) -> Result<Rect, String> {
-    let [x0, y0, x1, y1] = numbers(text).ok_or("write four finite numbers: X0,Y0,X1,Y1")?;
-    let (a, b) = (Vec2::from([x0, y0]), Vec2::from([x1, y1]));
+    let [a, b] = ends(text)?;
     Ok(Rect::new(a.min(b), a.max(b)))
+}
+
+/// `X0,Y0,X1,Y1`: two points.
+pub(crate) fn ends(text: &str) -> Result<[Vec2; 2], String> {
+    let [x0, y0, x1, y1] = numbers(text).ok_or("write four finite numbers: X0,Y0,X1,Y1")?;
+    Ok([Vec2::from([x0, y0]), Vec2::from([x1, y1])])
 }
 
 /// `WxH`: columns and rows.

@@ -4,7 +4,9 @@ use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{demo, formula, info, probe, render, sif, solve};
+use crate::commands::{
+    bench, completions, demo, formula, info, man, probe, render, sample, sif, solve,
+};
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
 /// result exactly at every pixel.
@@ -21,6 +23,7 @@ Examples:
   ppum solve plate.toml                      solve a problem; writes plate.h5
   ppum sif plate.h5                          stress intensity factors of all tips
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
+  ppum sample plate.h5 --crack 0 -o crack.csv    numbers for plots, here along a crack
   ppum render plate.h5 -o plate.png --figure
   ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
@@ -33,8 +36,12 @@ pub(crate) enum Command {
     Info(info::Args),
     Sif(sif::Args),
     Probe(probe::Args),
+    Sample(sample::Args),
     Render(render::Args),
     Formula(formula::Args),
+    Bench(bench::Args),
+    Completions(completions::Args),
+    Man(man::Args),
 }
 
 impl Command {
@@ -46,8 +53,12 @@ impl Command {
             Self::Info(args) => args.run(out),
             Self::Sif(args) => args.run(out),
             Self::Probe(args) => args.run(out),
+            Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),
             Self::Formula(args) => args.run(out),
+            Self::Bench(args) => args.run(out),
+            Self::Completions(args) => args.run(out),
+            Self::Man(args) => args.run(out),
         }
     }
 }

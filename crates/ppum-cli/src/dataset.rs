@@ -8,7 +8,7 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_format::ReadError;
 
-use crate::given::Given;
+use crate::given::{Given, parts};
 
 /// Reads a dataset; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
@@ -31,4 +31,22 @@ pub(crate) fn quantity(field: &Field<'_>, given: &str) -> anyhow::Result<Quantit
     let quantity = given.explain(Quantity::parse(&given.text, field))?;
     quantity.check(field)?;
     Ok(quantity)
+}
+
+/// Stresses that are told if nothing is asked for.
+const STRESSES: [&str; 4] = ["sxx", "syy", "sxy", "von-mises"];
+
+/// Quantities under the names and formulas of lists as they were given; by default the components, and of
+/// elasticity the stresses.
+pub(crate) fn quantities(
+    field: &Field<'_>,
+    given: &[String],
+) -> anyhow::Result<Vec<(String, Quantity)>> {
+    let stresses = field.equation.elastic().is_some().then_some(STRESSES);
+    let stresses = stresses.into_iter().flatten().map(str::to_owned);
+    let names: Vec<_> = match given {
+        [] => field.data.components.iter().cloned().chain(stresses).collect(),
+        given => given.iter().flat_map(|list| parts(list)).map(str::to_owned).collect(),
+    };
+    names.into_iter().map(|name| Ok((name.clone(), quantity(field, &name)?))).collect()
 }

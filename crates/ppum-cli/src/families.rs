@@ -1,5 +1,7 @@
 //! The functions of a step in few words: `westergaard 1–4 at 6 tips` for 24 of them.
 
+use std::collections::BTreeMap;
+
 use ppum::dataset::FieldData;
 use ppum::function::{Declared, Frame, Function, FunctionKind};
 
@@ -95,16 +97,21 @@ struct Group<'f> {
 
 fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
+    // by name and formula, which hardly ever do not tell the groups apart
+    let mut known: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
     for (number, (function, &blocks)) in functions.iter().zip(blocks).enumerate() {
         let (stem, kind) = (function.stem(), &function.kind);
-        match groups.iter_mut().find(|g| g.stem == stem && is_moved(g.kinds[0], kind)) {
-            Some(group) => {
+        let like = known.entry((stem, parts(kind).map_or("", |(text, ..)| text))).or_default();
+        match like.iter().copied().find(|&k| is_moved(groups[k].kinds[0], kind)) {
+            Some(k) => {
+                let group = &mut groups[k];
                 group.names.push(&function.name);
                 group.kinds.push(kind);
                 group.numbers.push(number);
                 group.blocks += blocks;
             }
             None => {
+                like.push(groups.len());
                 let (names, kinds, numbers) = (vec![&*function.name], vec![kind], vec![number]);
                 groups.push(Group { stem, names, kinds, numbers, blocks });
             }

@@ -10,15 +10,26 @@ use crate::error::ReadError;
 /// Name of the root attribute that holds the checksum as 64 hexadecimal digits.
 const NAME: &str = "@sha256";
 
-/// Adds the checksum to the content.
+/// True if the content has a checksum.
+pub(crate) fn is_sealed(content: &Content) -> bool {
+    content.contains_key(NAME)
+}
+
+/// Takes the checksum out of the content, if it has one.
+pub(crate) fn remove(content: &mut Content) -> Option<Array> {
+    content.remove(NAME)
+}
+
+/// Adds the checksum to the content, or makes it right.
 pub(crate) fn seal(content: &mut Content) {
+    remove(content);
     let sum = digest(content).expect("what is written has types of the format only");
     content.insert(NAME.into(), Array::scalar(sum));
 }
 
 /// Takes the checksum out of the content and compares. A content without one is fine.
 pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
-    let Some(stored) = content.remove(NAME) else { return Ok(()) };
+    let Some(stored) = remove(content) else { return Ok(()) };
     let Values::Text(stored) = stored.values else {
         return Err(ReadError::object(NAME, "expected a string of 64 hexadecimal digits"));
     };

@@ -81,6 +81,36 @@ impl ReadError {
     pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
         Self::Object { object: object.to_owned(), problem: problem.into() }
     }
+
+    /// The same with the texts of the file that it quotes cut: they may be of any length.
+    pub(crate) fn shortened(mut self) -> Self {
+        match &mut self {
+            Self::Object { object, problem } => [object, problem].into_iter().for_each(shorten),
+            Self::Checksum { stored, .. } => shorten(stored),
+            Self::Invalid(CheckError { place, problem, .. }) => {
+                [place, problem].into_iter().for_each(shorten);
+            }
+            Self::Hdf5 { message } => shorten(message),
+            Self::Newer { source, .. } => {
+                let inner = std::mem::replace(&mut **source, Self::NotADataset);
+                **source = inner.shortened();
+            }
+            Self::Io { .. } | Self::NotADataset | Self::TooNew { .. } => {}
+        }
+        self
+    }
+}
+
+/// Longest text of an error, in characters: a formula's mistake with two lines of it fits.
+const LONGEST: usize = 700;
+
+/// Cuts the middle out of a long text.
+fn shorten(text: &mut String) {
+    let place = |k: usize| text.char_indices().nth(k).map(|(at, _)| at);
+    let last = text.chars().count().saturating_sub(LONGEST / 2);
+    if let (Some(_), Some(from), Some(to)) = (place(LONGEST), place(LONGEST / 2), place(last)) {
+        text.replace_range(from..to, " … ");
+    }
 }
 
 /// Why a dataset could not be written. What stood at the path before still stands there.

@@ -1,7 +1,7 @@
 //! Datasets as files: reading, and writing that replaces a file completely or not at all.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write as _};
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -15,8 +15,25 @@ use crate::error::{ReadError, WriteError};
 ///
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn read(path: &Path) -> Result<Dataset, ReadError> {
-    let bytes = fs::read(path).map_err(|e| ReadError::io(path, e))?;
+    let bytes = bytes(path).map_err(|e| ReadError::io(path, e))?;
     crate::from_bytes(bytes)
+}
+
+/// Signature at the start of an HDF5 file, or after a block of 512, 1024 or 2048 bytes of the user's.
+const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
+const PLACES: [usize; 4] = [0, 512, 1024, 2048];
+
+/// The bytes of a file; of one that is no HDF5 file, and may have no end, the first.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = File::open(path)?;
+    let mut bytes = Vec::new();
+    let head = (PLACES[3] + SIGNATURE.len()) as u64;
+    (&mut file).take(head).read_to_end(&mut bytes)?;
+    let begins = |&at: &usize| bytes.get(at..).is_some_and(|rest| rest.starts_with(SIGNATURE));
+    if PLACES.iter().any(begins) {
+        file.read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// Writes a dataset to a file, completely or not at all.

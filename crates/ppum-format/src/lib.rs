@@ -19,6 +19,7 @@
 
 mod checksum;
 mod content;
+pub mod damage;
 mod decode;
 mod encode;
 mod error;
@@ -61,6 +62,10 @@ pub fn to_bytes(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
 ///
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
+    decoded(bytes).map_err(ReadError::shortened)
+}
+
+fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
     let mut content = hdf5::from_bytes(bytes)?;
     let minor = decode::check_version(&content)?;
     checksum::verify(&mut content)?;

@@ -6,10 +6,13 @@ mod everything;
 use std::fs;
 
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Equation};
+use ppum::dataset::{Attribute, Dataset, Equation};
 use ppum::field::Field;
+use ppum::function::{Frame, Function, FunctionKind};
 use ppum::jet::Jet;
+use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
+use ppum_format::damage::{object_headers, seal};
 use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
 use ppum_testkit::random::Random;
 
@@ -50,6 +53,84 @@ fn files_of_version_1_0_are_read() {
     }
     let again = from_bytes(to_bytes(&old).unwrap()).unwrap();
     assert!(same(&again, &old));
+}
+
+/// A file of version 1.1 as the program of that time solved it: u = x + 2y with the conductivity 2 + x
+/// from a table, a weight, a function and quantities by formulas. The solver is right to 1e-11.
+#[test]
+fn files_of_version_1_1_are_read() {
+    let old = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let names: Vec<_> = old.quantities.iter().map(|q| q.name.as_str()).collect();
+    assert_eq!((old.tables.len(), names), (1, vec!["flux-x", "twice"]));
+    let step = &old.steps[0];
+    assert_eq!(step.partition.weight.name(), "formula");
+    let FunctionKind::Formula { text, parameters, declared, .. } = &step.functions[1].kind else {
+        panic!("a formula")
+    };
+    assert_eq!(
+        (text.as_str(), parameters.as_slice()),
+        ("sin(a*x)*table(k, y)", &[("a".into(), 2.0)][..])
+    );
+    assert_eq!(declared.singular, [Vec2::ZERO]);
+    let field = Field::new(&old, 0).unwrap();
+    for p in [vec2(0.3, 0.4), vec2(1.5, 0.9), vec2(0.5, 0.25), vec2(2.0, 0.0)] {
+        let at = |q: &str| {
+            Quantity::parse(q, &field).unwrap().at(&mut field.at(p), Vec2::ZERO, Side::Above)
+        };
+        let flux = -(2.0 + p.x);
+        for (name, exact) in [("u", p.x + 2.0 * p.y), ("flux-x", flux), ("twice", 2.0 * flux + 3.0)]
+        {
+            assert!((at(name) - exact).abs() < 1e-9, "{name} at {p:?}: {}", at(name));
+        }
+    }
+    let again = from_bytes(to_bytes(&old).unwrap()).unwrap();
+    assert!(same(&again, &old));
+}
+
+/// The same dataset as the file of version 1.0, written by h5py: other layouts, texts of variable length.
+#[test]
+fn files_of_h5py_are_read() {
+    let own = from_bytes(include_bytes!("data/version-1.0.h5").to_vec()).unwrap();
+    let files: [&[u8]; 2] =
+        [include_bytes!("data/h5py-earliest.h5"), include_bytes!("data/h5py-v110.h5")];
+    for bytes in files {
+        assert!(same(&from_bytes(bytes.to_vec()).unwrap(), &own));
+    }
+}
+
+/// What compresses far better than fields do is stored plain: a reader bounds what a file expands to.
+#[test]
+fn what_is_written_can_be_read() {
+    let mut data = dataset(4);
+    data.steps.truncate(1);
+    let patches = data.steps[0].partition.len();
+    let values = |k: usize| Attribute { name: format!("a{k}"), values: vec![0.0; patches] };
+    let count = (80 << 20) / (8 * patches);
+    data.steps[0].attributes = (0..count).map(values).collect();
+    let bytes = to_bytes(&data).unwrap();
+    assert!(bytes.len() > 64 << 20, "{} bytes", bytes.len());
+    assert!(from_bytes(bytes).unwrap().steps[0].attributes.len() == count);
+}
+
+/// Each function of its own, in time in proportion to their number.
+#[test]
+fn many_functions_are_read() {
+    let mut data = dataset(2);
+    data.steps.truncate(1);
+    let text = |k: usize| format!("sin({k}*x)");
+    let function = |k: usize| Function {
+        name: format!("wave {k}"),
+        kind: FunctionKind::formula(&text(k), Frame::World),
+    };
+    data.steps[0].functions.extend((0..10_000).map(function));
+    let back = from_bytes(to_bytes(&data).unwrap()).unwrap();
+    assert!(same(&back, &data));
+    let long = format!("x{}", "+ sin(x)".repeat(8_000));
+    let kind = FunctionKind::formula(&long, Frame::World);
+    let many = vec![Function { name: "long".into(), kind }; 100];
+    data.steps[0].functions.extend(many);
+    let error = to_bytes(&data).unwrap_err().to_string();
+    assert!(error.contains("functions[") && error.contains("at most 4194304 may be"), "{error}");
 }
 
 #[test]
@@ -230,61 +311,13 @@ fn position(bytes: &[u8], pattern: &[u8]) -> usize {
     bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
 }
 
-/// Makes the checksum of an object header right again.
-fn seal(bytes: &mut [u8], header: &std::ops::Range<usize>) {
-    let sum = lookup3(&bytes[header.start..header.end - 4]);
-    bytes[header.end - 4..header.end].copy_from_slice(&sum.to_le_bytes());
-}
-
-/// The version 2 object headers of a file whose checksum is where it should be.
-fn object_headers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
-    let starts = bytes.windows(4).enumerate().filter(|(_, w)| *w == b"OHDR").map(|(at, _)| at);
-    starts
-        .filter_map(|start| {
-            (start + 10..bytes.len().min(start + 5000)).find_map(|end| {
-                let stored = bytes.get(end..end + 4)?.try_into().ok()?;
-                let is_end = lookup3(&bytes[start..end]) == u32::from_le_bytes(stored);
-                is_end.then_some(start..end + 4)
-            })
-        })
-        .collect()
-}
-
-/// Jenkins' lookup3 `hashlittle` (2006, public domain) with seed 0: the checksum of HDF5 metadata.
-fn lookup3(key: &[u8]) -> u32 {
-    let word = |block: &[u8], k: usize| {
-        (0..4)
-            .fold(0u32, |w, b| w | u32::from(block.get(4 * k + b).copied().unwrap_or(0)) << (8 * b))
-    };
-    let start = 0xdead_beef_u32.wrapping_add(key.len() as u32);
-    let mut s = [start; 3];
-    let blocks: Vec<&[u8]> = key.chunks(12).collect();
-    for (n, block) in blocks.iter().enumerate() {
-        for (k, value) in s.iter_mut().enumerate() {
-            *value = value.wrapping_add(word(block, k));
-        }
-        if n + 1 < blocks.len() {
-            mix(&mut s);
-        } else {
-            finish(&mut s);
-        }
-    }
-    s[2]
-}
-
-fn mix(s: &mut [u32; 3]) {
-    // (subtracted from, subtracted, rotation, added to)
-    for (k, rotation) in [4, 6, 8, 16, 19, 4].into_iter().enumerate() {
-        let (a, c, b) = (k % 3, (k + 2) % 3, (k + 1) % 3);
-        s[a] = s[a].wrapping_sub(s[c]) ^ s[c].rotate_left(rotation);
-        s[c] = s[c].wrapping_add(s[b]);
-    }
-}
-
-fn finish(s: &mut [u32; 3]) {
-    for (k, rotation) in [14, 11, 25, 16, 4, 14, 24].into_iter().enumerate() {
-        let (target, from) = ((k + 2) % 3, (k + 1) % 3);
-        s[target] = (s[target] ^ s[from]).wrapping_sub(s[from].rotate_left(rotation));
+/// What `examples/fuzz_files.rs` has found: an error, or a dataset.
+#[test]
+fn files_that_were_found_are_survived() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/hostile");
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries {
+        let _ = read(&entry.unwrap().path());
     }
 }
 

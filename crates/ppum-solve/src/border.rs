@@ -8,6 +8,10 @@
 //! ∫_Γ |σ(N) n|² against K: β > λ_max is just what keeps the system positive definite, and a cell cut
 //! into slivers gets the larger value it needs (Griebel & Schweitzer 2003). Where it is much larger, the
 //! basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
+//!
+//! Where Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
+//! through a short support, and β ∫_Γ N·N would be a soft spring. So β is C h/ℓ² at least, C the modulus,
+//! h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as the plate.
 
 use crate::basis::BasisEvaluator;
 use crate::cell::{CellSystem, square};
@@ -26,6 +30,10 @@ const FACTOR: f64 = 2.0;
 
 /// Data given on a border: position, normal out of the material → values, one a component.
 pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
+
+/// Largest ratio of cell to border that the spring of a short support grows with: it yields a
+/// thousandth then, and the condition number does not suffer.
+const STIFFEST: f64 = 1e3;
 
 /// A piece of a cell's border with what is given on it.
 pub(crate) struct BorderPiece<'a> {
@@ -50,10 +58,10 @@ pub(crate) struct Border<'a> {
     value_load: Vec<f64>,
     /// ∫ (σ(N) n)·g
     traction_load: Vec<f64>,
-    /// True once a value is given.
-    held: bool,
-    /// The largest λ + 2μ, or conductivity, where values are given.
-    stiffness: f64,
+    /// Length on which values are given.
+    length: f64,
+    /// Largest modulus there.
+    modulus: f64,
 }
 
 impl<'a> Border<'a> {
@@ -65,8 +73,8 @@ impl<'a> Border<'a> {
             mass: square(unknowns),
             value_load: vec![0.0; unknowns],
             traction_load: vec![0.0; unknowns],
-            held: false,
-            stiffness: 0.0,
+            length: 0.0,
+            modulus: 0.0,
         }
     }
 
@@ -116,7 +124,10 @@ impl<'a> Border<'a> {
         shapes: &Shapes,
         given: &[f64],
     ) {
-        self.held = true;
+        let length: f64 = rule.weights.iter().sum();
+        self.length += length / self.law.components as f64;
+        let modulus = |&o: &Vec2| self.law.at(rule.anchor + o).modulus(i);
+        self.modulus = rule.offsets.iter().map(modulus).fold(self.modulus, f64::max);
         let c = self.law.components;
         let tractions = self.tractions(i, rule, shapes);
         let n = shapes.functions;
@@ -144,29 +155,27 @@ impl<'a> Border<'a> {
     }
 
     /// Component i of σ(N e_j) n, rows (function, j), columns points.
-    fn tractions(&mut self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
+    fn tractions(&self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
         let c = self.law.components;
         let laws: Vec<_> = rule.offsets.iter().map(|&o| self.law.at(rule.anchor + o)).collect();
-        for (law, &n) in laws.iter().zip(&rule.normals) {
-            let across = (0..c).map(|j| law.traction(j, j, n, n));
-            self.stiffness = across.fold(self.stiffness, f64::max);
-        }
         Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
             let at = (row / c) * shapes.points + q;
             laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q])
         })
     }
 
-    /// Adds Nitsche's terms to a system whose stiffness is complete.
+    /// Adds Nitsche's terms to a system whose stiffness is complete; `size` is that of the cell.
     ///
     /// # Errors
     /// Entries that are not finite.
-    pub(crate) fn finish(self, system: &mut CellSystem) -> Result<(), EigenError> {
-        if !self.held {
+    pub(crate) fn finish(self, size: f64, system: &mut CellSystem) -> Result<(), EigenError> {
+        if self.length == 0.0 {
             return Ok(());
         }
-        let beta = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
-        system.penalty = beta / self.stiffness;
+        let needed = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
+        let ratio = (size / self.length).min(STIFFEST);
+        let beta = needed.max(self.modulus * ratio / self.length);
+        system.penalty = beta / self.modulus;
         system.matrix -= &self.consistency;
         system.matrix -= self.consistency.transpose();
         system.matrix += faer::Scale(beta) * &self.mass;

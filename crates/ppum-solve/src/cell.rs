@@ -157,7 +157,8 @@ impl<'s> CellAssembler<'s> {
                     &mut system,
                 );
             }
-            on_border.finish(&mut system)?;
+            let size = self.space.partition.cell[cell].size();
+            on_border.finish(size.x.max(size.y), &mut system)?;
         }
         Ok(system)
     }

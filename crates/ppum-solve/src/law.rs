@@ -116,6 +116,12 @@ impl LawAt {
         row(0) * n.x + row(1) * n.y
     }
 
+    /// The modulus of component i: the traction of a unit stretch along its axis, κ of a potential.
+    #[must_use]
+    pub fn modulus(&self, i: usize) -> f64 {
+        self.tensor[i][i][i][i]
+    }
+
     /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
     pub fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {

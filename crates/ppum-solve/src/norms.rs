@@ -37,33 +37,60 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
-    let law = Law::new(field.equation);
-    let quadrature = space.quadrature(EXTRA);
-    let cells = &space.partition.cell;
-    let parts: Vec<_> = (0..cells.len())
-        .into_par_iter()
-        .map(|c| {
-            let mut sums = [Norms::default(); 3];
-            for rule in quadrature.cell(&cells[c], &space.coverers[c]) {
-                let local = field.at(rule.anchor);
-                for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
-                    let mut u = [Jet::constant(0.0); 2];
-                    let law = law.at(rule.anchor + offset);
-                    let place = [offset.x, offset.y];
-                    local.over_patches::<f64, 1>(place, Side::Above, &rule.patches, &mut u);
-                    let e = exact(rule.anchor, offset);
-                    let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
-                    for (sum, v) in sums.iter_mut().zip([u, e, difference]) {
-                        sum.add(&law, &v, weight);
-                    }
-                }
-            }
-            sums
-        })
-        .collect();
+    let parts = over_cells(field, space, EXTRA, |sums: &mut [Norms; 3], at, u, weight| {
+        let e = exact(at.anchor, at.offset);
+        let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
+        for (sum, v) in sums.iter_mut().zip([*u, e, difference]) {
+            sum.add(&at.law, &v, weight);
+        }
+    });
     parts.into_iter().fold([Norms::default(); 3], |a, b| {
         std::array::from_fn(|k| Norms { energy: a[k].energy + b[k].energy, l2: a[k].l2 + b[k].l2 })
     })
+}
+
+/// Energy of a field, ½ ∫ σ:ε; for Poisson ½ ∫ κ |∇u|². With the points that systems are assembled with.
+///
+/// # Panics
+/// If the field is not of the step of `space`.
+#[must_use]
+pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
+    let add = |sum: &mut Norms, at: &Place, u: &[Jet<f64>; 2], weight| sum.add(&at.law, u, weight);
+    let parts = over_cells(field, space, 0, add);
+    parts.iter().map(|part| 0.5 * part.energy).sum()
+}
+
+/// A point of integration.
+struct Place {
+    anchor: Vec2,
+    offset: Vec2,
+    law: LawAt,
+}
+
+/// Sums over the points of each cell, cell by cell.
+fn over_cells<S: Default + Send>(
+    field: &Field<'_>,
+    space: &Space<'_>,
+    extra: usize,
+    add: impl Fn(&mut S, &Place, &[Jet<f64>; 2], f64) + Sync,
+) -> Vec<S> {
+    let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
+    let cells = &space.partition.cell;
+    let cell = |c: usize| {
+        let mut sum = S::default();
+        for rule in quadrature.cell(&cells[c], &space.coverers[c]) {
+            let local = field.at(rule.anchor);
+            for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
+                let mut u = [Jet::constant(0.0); 2];
+                let place = [offset.x, offset.y];
+                local.over_patches::<f64, 1>(place, Side::Above, &rule.patches, &mut u);
+                let law = law.at(rule.anchor + offset);
+                add(&mut sum, &Place { anchor: rule.anchor, offset, law }, &u, weight);
+            }
+        }
+        sum
+    };
+    (0..cells.len()).into_par_iter().map(cell).collect()
 }
 
 impl Norms {

@@ -7,6 +7,7 @@ use crate::eigen::EigenError;
 use crate::gauge::Gauge;
 use crate::intensity::{FaceLoad, Loads, intensities};
 use crate::law::Law;
+use crate::norms::energy;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::{BorderPart, BoundaryCondition, Problem};
 use crate::rigid::PerMotion;
@@ -113,9 +114,11 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
     let intensities = stress_intensity(problem, &dataset)?;
+    let value = stored_energy(&dataset)?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
     step.intensities = intensities;
+    step.history.push(Record { name: "energy".into(), value, unit: String::new() });
     step.history.extend(clock.records);
     Ok(dataset)
 }
@@ -156,6 +159,13 @@ fn stress_intensity(problem: &Problem, dataset: &Dataset) -> Result<Vec<TipInten
     let loads = Loads { force: Some(&force), faces };
     let found = intensities(dataset, &Field::new(dataset, 0)?, &space, loads);
     Ok(found.into_iter().filter_map(|outcome| outcome.factors).collect())
+}
+
+/// Energy of the solution.
+fn stored_energy(dataset: &Dataset) -> Result<f64, FieldError> {
+    let Dataset { steps, domain, equation, tables, .. } = dataset;
+    let space = Space::new(&steps[0], domain, equation, tables)?;
+    Ok(energy(&Field::new(dataset, 0)?, &space))
 }
 
 /// Times phases.

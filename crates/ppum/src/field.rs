@@ -56,6 +56,12 @@ pub enum FieldError {
         /// Number of steps.
         count: usize,
     },
+    /// The step has no field at all.
+    #[error("step {step} has no field: there is nothing to evaluate")]
+    NoField {
+        /// The step asked for.
+        step: usize,
+    },
     /// No such field.
     #[error("there is no field `{name}`; the step has {known}")]
     Name {
@@ -86,8 +92,11 @@ impl<'d> Field<'d> {
     /// # Errors
     /// See [`FieldError`].
     pub fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
-        let name = dataset.steps.get(step).and_then(|s| s.fields.first()).map(|f| f.name.as_str());
-        Self::named(dataset, step, name.unwrap_or_default())
+        let first = dataset.steps.get(step).map(|s| s.fields.first());
+        let Some(name) = first.map(|field| field.map(|f| f.name.as_str())) else {
+            return Self::named(dataset, step, "");
+        };
+        Self::named(dataset, step, name.ok_or(FieldError::NoField { step })?)
     }
 
     /// Compiles the field called `name`.

@@ -11,8 +11,7 @@ use serde::Serialize;
 use serde::ser::Serializer;
 
 use crate::arguments::point;
-use crate::dataset::{field, open, quantity};
-use crate::given::parts;
+use crate::dataset::{field, open, quantities};
 use crate::number::{Number, json};
 use crate::replacements::Replacements;
 use crate::sides::on_crack;
@@ -54,9 +53,6 @@ Examples:
   ppum probe plate.h5 --at 0.2,0.1 -q 'sxx + syy,max(s1, 0)'
   ppum probe plate.h5 --at 0.5,0 --offset 1e-12,1e-13  near a tip";
 
-/// Stresses that are printed if nothing is asked for.
-const STRESSES: [&str; 4] = ["sxx", "syy", "sxy", "von-mises"];
-
 /// Least and largest width of the column of names; longer ones push their values aside.
 const NAME: usize = 12;
 const LONG_NAME: usize = 40;
@@ -93,7 +89,7 @@ impl Args {
         let mut dataset = open(&self.file)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
-        let quantities = self.quantities(&field)?;
+        let quantities = quantities(&field, &self.quantity)?;
         let rows = self.at.iter().flat_map(|&at| self.rows(&field, &quantities, at));
         let points: Vec<_> = rows.collect();
         if self.json {
@@ -102,16 +98,6 @@ impl Args {
             points.iter().try_for_each(|row| row.write(out))?;
         }
         Ok(())
-    }
-
-    fn quantities(&self, field: &Field<'_>) -> anyhow::Result<Vec<(String, Quantity)>> {
-        let stresses = field.equation.elastic().is_some().then_some(STRESSES);
-        let stresses = stresses.into_iter().flatten().map(str::to_owned);
-        let names: Vec<_> = match self.quantity.as_slice() {
-            [] => field.data.components.iter().cloned().chain(stresses).collect(),
-            given => given.iter().flat_map(|list| parts(list)).map(str::to_owned).collect(),
-        };
-        names.into_iter().map(|name| Ok((name.clone(), quantity(field, &name)?))).collect()
     }
 
     /// One row, on a crack one for each side.

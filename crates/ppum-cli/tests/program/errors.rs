@@ -63,6 +63,19 @@ fn arguments_that_are_not_what_they_should_be() {
         ("render plate.h5 -o a.png --tip 0 --zoom 1e30", "double precision"),
         ("render plate.h5 -o a.png --backend gpu", "not in this version"),
         ("render plate.h5 -o nowhere/a.png", "nowhere"),
+        ("sample plate.h5", "--line"),
+        ("sample plate.h5 --line 0,0,1", "X0,Y0,X1,Y1"),
+        ("sample plate.h5 --line 0,0,0,0", "equal"),
+        ("sample plate.h5 --line 0,0,1,0 --count 1", "two points"),
+        ("sample plate.h5 --line 0,0,1,0 --grid 2x2", "cannot be used with"),
+        ("sample plate.h5 --grid 100000x100000", "at most"),
+        ("sample plate.h5 --grid 0x5", "no points"),
+        ("sample plate.h5 --crack 1", "1 crack,"),
+        ("sample plate.h5 --points plate.toml", "plate.toml:"),
+        ("sample plate.h5 --points none.csv", "none.csv"),
+        ("sample plate.h5 --crack 0 -q ux,ux", "two columns"),
+        ("sample plate.h5 --crack 0 -o a.txt", ".npy"),
+        ("sample plate.h5 --crack 0 -o nowhere/a.csv", "nowhere"),
         ("paint plate.h5", "paint"),
         ("", "Usage"),
     ] {
@@ -120,7 +133,7 @@ fn results_that_cannot_be_printed_are_a_failure() {
 #[test]
 fn help_goes_to_standard_output() {
     let lab = Lab::new();
-    for command in ["", "demo", "solve", "info", "sif", "probe", "render", "formula"] {
+    for command in ["", "demo", "solve", "info", "sif", "probe", "sample", "render", "formula"] {
         let text = lab.run(&format!("{command} --help"));
         assert!(text.contains("Examples:"), "{command}: {text}");
     }

@@ -204,7 +204,9 @@ fn tables_and_files() {
     let complaint = lab.fail("formula table(k,x) --table k=bad.csv");
     assert!(complaint.contains("bad.csv:2:1: ") && complaint.contains("increase"), "{complaint}");
     lab.write("f.txt", "x +\n (y\n");
-    assert!(lab.fail("formula @f.txt").starts_with("error: f.txt: line 3, column 1: unexpected"));
+    assert!(
+        lab.fail("formula @f.txt").starts_with("error: f.txt: line 3, column 1: the formula ends")
+    );
     assert!(lab.fail("formula @g.txt").contains("cannot read g.txt"));
 }
 

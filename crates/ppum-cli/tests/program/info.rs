@@ -1,6 +1,6 @@
 use serde_json::json;
 
-use crate::{CRACKED, LINEAR, Lab, keys, with_formulas};
+use crate::{CRACKED, LINEAR, Lab, keys, sound, with_formulas};
 
 #[test]
 fn tells_what_is_inside() {
@@ -23,7 +23,7 @@ fn json_has_the_documented_shape() {
         json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
     assert_eq!(info["equation"], elasticity);
     let step = &info["steps"][0];
-    let expected = "attributes cells cracks fields functions history intensities levels load \
+    let expected = "attributes cells cracks energy fields functions history intensities levels load \
                     orders patches points quantities step tips unknowns weight weight_breakpoints \
                     weight_formula";
     assert_eq!(keys(step).join(" "), expected);
@@ -85,6 +85,20 @@ fn formulas_are_told() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
+}
+
+/// ½ ∫ σ:ε and ½ ∫ κ |∇u|² of known solutions.
+#[test]
+fn the_energy_is_told() {
+    let energy = |problem: &str| {
+        let lab = Lab::solved(problem);
+        assert!(lab.run("info plate.h5").contains("energy "));
+        lab.json("info plate.h5")["steps"][0]["energy"].as_f64().unwrap()
+    };
+    // σ_yy = 1 in plane strain over an area of 4: ε_yy = (1 − ν²)/E
+    assert!((energy(&sound()) - 0.5 * 0.91 * 4.0).abs() < 1e-9);
+    // ∇u = (1, 2) over an area of 2
+    assert!((energy(LINEAR) - 5.0).abs() < 1e-9);
 }
 
 #[test]

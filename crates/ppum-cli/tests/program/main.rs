@@ -1,6 +1,8 @@
 //! The program as its users meet it: from a problem file to results and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
+mod bench;
+mod damage;
 mod demo;
 mod determinism;
 mod errors;
@@ -10,6 +12,8 @@ mod probe;
 mod readme;
 mod render;
 mod replacements;
+mod sample;
+mod shell;
 mod sif;
 mod solve;
 

@@ -188,6 +188,8 @@ impl<'a> Quadrature<'a> {
         split::rectangles(partition, orders.parts, cell, &sorted, &mut |rect, patches| {
             run.add(rect, patches);
         });
+        // Nothing is left where all pieces lie in holes.
+        run.rules.0.retain(|rule| !rule.offsets.is_empty());
         let mut singular: Vec<Vec2> = self.geometry.singular.iter().map(|s| s.point).collect();
         singular.extend(disc.map(|d| d.center));
         run.rules.0.iter().for_each(|rule| rule.check(&singular));

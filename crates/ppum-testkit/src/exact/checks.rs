@@ -27,7 +27,7 @@ fn oblique_crack(material: Material) -> CrackInPlane {
 }
 
 fn round_hole(material: Material) -> RoundHole {
-    let hole = RoundHole::new(material, vec2(0.05, -0.04), 0.12);
+    let hole = RoundHole::new(material, vec2(0.02, -0.04), 0.05);
     hole.with_remote([0.7, 1.0, 0.6]).with_pressure(0.4)
 }
 
@@ -37,7 +37,7 @@ fn rim_of_a_round_hole() {
     for k in 0..24 {
         let angle = f64::from(k) * PI / 12.0 + 0.1;
         let n = vec2(angle.cos(), angle.sin());
-        let [xx, yy, xy] = round_hole(STRAIN).stress(vec2(0.05, -0.04) + n * 0.12);
+        let [xx, yy, xy] = round_hole(STRAIN).stress(vec2(0.02, -0.04) + n * 0.05);
         let traction = vec2(xx * n.x + xy * n.y, xy * n.x + yy * n.y);
         assert!((traction + n * 0.4).length() < 1e-14);
         let plain = RoundHole::new(STRESS, Vec2::ZERO, 2.0).with_remote([0.0, 1.0, 0.0]);
@@ -237,7 +237,7 @@ fn stresses_are_in_equilibrium() {
         let smooth = Smooth { material: field.material() };
         for p in points() {
             let [xx, yy, xy] = [0, 1, 2].map(|k| gradient(|q| field.stress(q)[k], p));
-            let force = if i % 3 == 2 { smooth.body_force(p) } else { Vec2::ZERO };
+            let force = if i % 4 == 3 { smooth.body_force(p) } else { Vec2::ZERO };
             assert!((vec2(xx.x + xy.y, xy.x + yy.y) + force).length() < 1e-4, "field {i} {p:?}");
         }
     }

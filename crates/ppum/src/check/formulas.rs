@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
-use super::{CheckError, Checked, check_names, fail};
+use super::{CheckError, Checked, check_names, fail, require};
 use crate::dataset::{Dataset, NamedQuantity, Step};
 use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 use crate::function::{CompileError, FunctionTable};
@@ -14,9 +14,16 @@ use crate::weight::WeightFunction;
 /// Most quantities a dataset may name. Each is read with all before it, so time grows as the square.
 const MAX_QUANTITIES: usize = 256;
 
+/// Longest their formulas may be together, in bytes.
+const MAX_QUANTITY_TEXT: usize = 1 << 16;
+
+/// Most tables a dataset may have. Each formula knows all of them.
+const MAX_TABLES: usize = 256;
+
 /// Checks names of tables, then all formulas but those of quantities, which need checked fields.
 pub(super) fn check(dataset: &Dataset) -> Checked {
     let tables = &dataset.tables;
+    at_most("tables", tables.len(), MAX_TABLES, "tables")?;
     let plane = with_tables(&VARIABLES, tables)
         .and_then(|_| with_tables(&["x", "y"], tables))
         .map_err(|error| mistake("tables", &error))?;
@@ -27,6 +34,10 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
         check_step(step, tables, &plane).map_err(|e| e.inside(&format!("steps[{k}]")))?;
     }
     Ok(())
+}
+
+fn at_most(place: &str, count: usize, most: usize, of: &str) -> Checked {
+    require(count <= most, place, || format!("there are {count} {of}, but at most {most} may be"))
 }
 
 fn with_tables(variables: &[&str], tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
@@ -69,13 +80,9 @@ fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
 /// Checks the quantities that a dataset names: names of their own, and formulas of the first field of
 /// each step, which may use the quantities before them.
 pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
-    let count = dataset.quantities.len();
-    if count > MAX_QUANTITIES {
-        return fail(
-            "quantities",
-            format!("there are {count}, but at most {MAX_QUANTITIES} may be"),
-        );
-    }
+    at_most("quantities", dataset.quantities.len(), MAX_QUANTITIES, "quantities")?;
+    let bytes = dataset.quantities.iter().map(|quantity| quantity.text.len()).sum();
+    at_most("quantities", bytes, MAX_QUANTITY_TEXT, "bytes of formulas")?;
     check_names("quantities", dataset.quantities.iter().map(|quantity| &quantity.name))?;
     let mut seen = BTreeSet::new();
     for field in dataset.steps.iter().flat_map(|step| &step.fields) {
@@ -134,7 +141,7 @@ mod tests {
     use crate::check::tests::dataset;
     use crate::equation::{Elasticity, Equation, StressState};
     use crate::expression::Expression;
-    use crate::function::{Declared, Frame, FunctionKind};
+    use crate::function::{Declared, Frame, Function, FunctionKind};
 
     fn table(name: &str) -> Arc<Table> {
         Arc::new(Table::curve(name, vec![0.0, 1.0], vec![1.0, 2.0]).expect("a table"))
@@ -267,5 +274,31 @@ mod tests {
         assert_eq!(error.place, "quantities `twice`");
         data.quantities = (0..300).map(|k| quantity(&format!("q{k}"), "x")).collect();
         assert_eq!(data.check().expect_err("too many").place, "quantities");
+        data.quantities = vec![quantity("q", &"x +".repeat(30_000))];
+        assert_eq!(data.check().expect_err("too long").place, "quantities");
+    }
+
+    #[test]
+    fn formulas_have_limits_together() {
+        let error = error_after(|d| {
+            d.tables.extend((0..300).map(|k| table(&format!("t{k}"))));
+        });
+        assert_eq!(error.to_string(), "tables: there are 302 tables, but at most 256 may be");
+        // each has terms of its own
+        let long = |k: usize| -> String {
+            (0..500).map(|j| format!("sin({j}.{k}*x*y) + ")).chain(["x".to_owned()]).collect()
+        };
+        let error = error_after(|d| {
+            let function = |k| Function { name: "f".into(), kind: function(&long(k)) };
+            d.steps[0].functions.extend((0..200).map(function));
+        });
+        assert!(error.problem.contains("operations together"), "{error}");
+        let error = error_after(|d| {
+            let crack = d.steps[0].cracks[0].clone();
+            d.steps[0].cracks = vec![crack; 2000];
+            let function = |_| Function { name: "f".into(), kind: function("x") };
+            d.steps[0].functions.extend((0..600).map(function));
+        });
+        assert!(error.problem.contains("cracks, tables and parameters"), "{error}");
     }
 }

@@ -112,6 +112,9 @@ impl Problem {
     fn message(&self, found: &str) -> String {
         let quoted = if found.is_empty() { "the end".to_owned() } else { format!("`{found}`") };
         match self {
+            Self::Unexpected { expected } if found.is_empty() => {
+                format!("the formula ends here; expected {expected}")
+            }
             Self::Unexpected { expected } => format!("unexpected {quoted}; expected {expected}"),
             Self::UnknownName { suggestion } => {
                 format!("unknown name {quoted}{}", did_you_mean(suggestion.as_deref()))

@@ -56,6 +56,11 @@ impl Formulas {
         self.compiled.formulas.len()
     }
 
+    /// Number of operations with two derivatives.
+    pub(super) fn operations(&self) -> usize {
+        self.compiled.jets[2].n_operations()
+    }
+
     /// The functions seen from an anchor.
     pub(super) fn at(&self, cracks: &[Crack], anchor: Vec2) -> LocalFormulas<'_> {
         let used = |(crack, &used): (_, &bool)| used.then(|| LocalCrack::new(crack, anchor));

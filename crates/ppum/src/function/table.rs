@@ -68,7 +68,25 @@ pub enum CompileError {
     Scope(#[from] ScopeError),
     /// Its derivatives.
     Derivative(#[from] DerivativeError),
+    /// All functions together.
+    TooLarge(#[from] TooLarge),
 }
+
+/// The functions of a step are too many or too long to be kept and compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the functions up to this one have {count} {what} together; at most {most} may be")]
+pub struct TooLarge {
+    count: usize,
+    what: &'static str,
+    most: usize,
+}
+
+/// Bytes of all formulas of a table.
+const MAX_TEXT: usize = 1 << 22;
+/// Names that the formulas of a table know: cracks, tables and parameters, counted for each function.
+const MAX_NAMES: usize = 1 << 20;
+/// Operations of all different formulas of a table with two derivatives: a hundred megabytes.
+const MAX_OPERATIONS: usize = 1 << 20;
 
 impl FunctionTable {
     /// Compiles a table for a step with this number of cracks, whose formulas may read `tables`.
@@ -143,6 +161,53 @@ struct Compiler<'a> {
     sides: BTreeMap<u32, u32>,
     tips: BTreeMap<TipId, u32>,
     groups: Vec<Draft>,
+    /// Bytes of formulas, and names in their scopes.
+    text: usize,
+    names: usize,
+}
+
+fn limit(count: usize, what: &'static str, most: usize) -> Result<(), TooLarge> {
+    if count <= most { Ok(()) } else { Err(TooLarge { count, what, most }) }
+}
+
+/// Formulas that are compiled, found by their texts and parameters.
+#[derive(Default)]
+struct Known {
+    compiled: BTreeMap<String, Formulas>,
+    operations: usize,
+}
+
+impl Known {
+    /// The formulas in their frame, compiled if they are new. `function` is the first of them.
+    fn compile(
+        &mut self,
+        function: &Function,
+        formulas: Vec<Formula>,
+        frame: Frame,
+    ) -> Result<Formulas, CompileError> {
+        let key = key(function, &formulas);
+        let like = self.compiled.get(&key).and_then(|known| known.with_frame(&formulas, frame));
+        if let Some(known) = like {
+            return Ok(known);
+        }
+        let new = Formulas::new(formulas, frame)?;
+        self.operations += new.operations();
+        limit(self.operations, "operations", MAX_OPERATIONS)?;
+        self.compiled.insert(key, new.clone());
+        Ok(new)
+    }
+}
+
+/// Texts and parameters: formulas that differ have different ones.
+fn key(function: &Function, formulas: &[Formula]) -> String {
+    let parameters = match &function.kind {
+        FunctionKind::Formula { parameters, .. } => parameters.as_slice(),
+        _ => &[],
+    };
+    let texts = formulas.iter().map(|formula| format!("{}\0", formula.text()));
+    let parameters =
+        parameters.iter().map(|(name, value)| format!("{name}={:x}\0", value.to_bits()));
+    texts.chain(parameters).collect()
 }
 
 /// A group to be.
@@ -156,7 +221,8 @@ enum Draft {
 impl<'a> Compiler<'a> {
     fn new(cracks: usize, tables: &'a [Arc<Table>]) -> Self {
         let (sides, tips) = (BTreeMap::new(), BTreeMap::new());
-        Self { cracks, tables, kernels: false, sides, tips, groups: Vec::new() }
+        let groups = Vec::new();
+        Self { cracks, tables, kernels: false, sides, tips, groups, text: 0, names: 0 }
     }
 
     fn compile(mut self, functions: &[Function]) -> Result<FunctionTable, FunctionError> {
@@ -168,26 +234,26 @@ impl<'a> Compiler<'a> {
         for (index, function) in functions.iter().enumerate() {
             slots.push(self.slot(index, &function.kind).map_err(|e| error(index, e))?);
         }
-        let mut groups: Vec<Group> = Vec::with_capacity(self.groups.len());
+        let (mut known, mut groups) = (Known::default(), Vec::with_capacity(self.groups.len()));
         for draft in self.groups {
             groups.push(match draft {
                 Draft::Side(crack) => Group::Side(crack),
                 Draft::Westergaard(tip) => Group::Westergaard(tip),
                 Draft::Formulas(first, frame, formulas) => {
-                    let like = groups.iter().find_map(|group| match group {
-                        Group::Formulas(known) => known.with_frame(&formulas, frame),
-                        _ => None,
-                    });
-                    Group::Formulas(match like {
-                        Some(known) => known,
-                        None => {
-                            Formulas::new(formulas, frame).map_err(|e| error(first, e.into()))?
-                        }
-                    })
+                    let compiled = known.compile(&functions[first], formulas, frame);
+                    Group::Formulas(compiled.map_err(|e| error(first, e))?)
                 }
             });
         }
         Ok(FunctionTable { slots, groups })
+    }
+
+    /// Counts a formula and what it knows before it is read.
+    fn count(&mut self, text: &str, parameters: usize) -> Result<(), TooLarge> {
+        self.text += text.len();
+        self.names += self.cracks + self.tables.len() + parameters;
+        limit(self.text, "bytes of formulas", MAX_TEXT)?;
+        limit(self.names, "cracks, tables and parameters in formulas", MAX_NAMES)
     }
 
     fn slot(&mut self, index: usize, kind: &FunctionKind) -> Result<Slot, CompileError> {
@@ -205,6 +271,7 @@ impl<'a> Compiler<'a> {
                         self.slot_of(group, entry, || Draft::Westergaard(tip))
                     }
                     None => {
+                        self.count(text, parameters.len())?;
                         let scope = function_scope(parameters, self.cracks, self.tables)?;
                         self.formula(index, *frame, Formula::parse(text, &scope)?)
                     }

@@ -6,6 +6,7 @@
 //! Quantities have names, or are [formulas](QuantityFormula) of those that have.
 
 mod formula;
+mod many;
 mod tensors;
 
 use std::sync::Arc;
@@ -311,8 +312,7 @@ impl Quantity {
     /// The quantity at `anchor + offset`, the reference of every other evaluator; NaN outside the
     /// domain. On a crack the given side is taken.
     pub fn at(&self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> f64 {
-        let field = local.field;
-        let mut u = vec![Jet::constant(0.0); field.components()];
+        let mut u = vec![Jet::constant(0.0); local.field.components()];
         let inside = match self.source() {
             Source::Partition => return self.of_partition(local, offset).unwrap_or(f64::NAN),
             Source::Gradient => local.evaluate::<1>(offset, side, &mut u),
@@ -321,14 +321,7 @@ impl Quantity {
         if !inside {
             return f64::NAN;
         }
-        let point = local.anchor + offset;
-        let exact: Vec<_> = match self.source() {
-            Source::Exact => (0..u.len()).map(|c| field.exact(c, point)).collect(),
-            _ => Vec::new(),
-        };
-        let offset = [offset.x, offset.y];
-        let moduli = field.equation.moduli(local.anchor, offset);
-        self.of_field(&Sample { anchor: local.anchor, offset, moduli, jets: &u, exact: &exact })
+        self.of_values(local, offset, &u)
     }
 
     /// A quantity of the partition; `None` outside the domain and for other quantities.

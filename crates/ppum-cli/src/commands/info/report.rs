@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
 use crate::families::{Family, blocks, families};
-use crate::number::Number;
+use crate::number::{Number, trimmed};
 use crate::tips::Tip;
 
 #[derive(Debug, Serialize)]
@@ -83,7 +83,7 @@ impl From<&Expression> for Constant {
 impl fmt::Display for Constant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(value) => write!(f, "{value}"),
+            Self::Number(value) => f.write_str(&trimmed(*value)),
             Self::Formula(text) => f.write_str(text),
         }
     }
@@ -111,6 +111,8 @@ pub(super) struct StepReport {
     pub(super) quantities: Vec<String>,
     pub(super) attributes: Vec<String>,
     pub(super) unknowns: usize,
+    /// Energy of the solution, if the solver has told it.
+    pub(super) energy: Option<Number>,
     pub(super) history: Vec<HistoryRow>,
     pub(super) intensities: Vec<Tip>,
 }
@@ -199,6 +201,7 @@ impl StepReport {
             quantities: quantities(&field),
             attributes: attributes.iter().map(attribute).collect(),
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
+            energy: history.iter().find(|r| r.name == "energy").map(|r| Number(r.value)),
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
         })

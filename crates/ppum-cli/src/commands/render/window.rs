@@ -64,7 +64,7 @@ fn tip_position(field: &Field<'_>, number: usize) -> anyhow::Result<Vec2> {
     let n_tips = tips(cracks).count();
     ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
     let tip = tips(cracks).nth(number).with_context(|| {
-        format!("--tip {number}: there is {}, numbered from 0", count(n_tips, "tip", "tips"))
+        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
     })?;
     Ok(cracks[tip.crack as usize].end_point(tip.end))
 }

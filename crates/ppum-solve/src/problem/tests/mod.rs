@@ -320,7 +320,7 @@ fn bad_formulas() {
         PLATE,
         &[
             ("1 + x^2", "1 + xx^2", 16, 23, "unknown name `xx`"),
-            ("1 + x^2", "1 + ", 16, 23, "`traction` in [[boundary]]: unexpected the end"),
+            ("1 + x^2", "1 + ", 16, 23, "`traction` in [[boundary]]: the formula ends here"),
             ("1 + x^2", "r + 1", 16, 19, "unknown name `r`"),
             ("\"free\"", "\"fre\"", 13, 23, "unknown name `fre`"),
             (
@@ -334,7 +334,7 @@ fn bad_formulas() {
             ("\"1 + x^2\"", "\"\"\"1 +\n  x*z\"\"\"", 17, 5, "unknown name `z`"),
             ("\"1 + x^2\"", "'1 + z'", 16, 23, "unknown name `z`"),
             ("\"1 + x^2\"", "\"\\u0031 + z\"", 16, 18, "unknown name `z`"),
-            ("\"1 + x^2\"", "\"\"", 16, 19, "unexpected the end"),
+            ("\"1 + x^2\"", "\"\"", 16, 19, "the formula ends here"),
             ("2.5", "\"1 + s\"", 6, 14, "unknown name `s`"),
         ],
     );

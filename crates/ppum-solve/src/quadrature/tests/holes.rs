@@ -153,3 +153,16 @@ fn cracks_from_holes() {
         assert!(faces.iter().all(beside));
     }
 }
+
+/// Patches that meet a cell in a hole alone leave no rule without points.
+#[test]
+fn no_rule_is_empty() {
+    for hole in
+        [circle(-1.0, -1.0, 0.9), polygon(&[[-2.0, -2.0], [0.4, -2.0], [0.4, 0.4], [-2.0, 0.4]])]
+    {
+        let case = Case::new(uniform(2), vec![], vec![vec2(0.4, 0.4)]);
+        let (cells, rim) = with_holes(&case, &[hole]);
+        assert!(cells.iter().all(|rule| !rule.offsets.is_empty()));
+        assert!(rim.iter().all(|rule| !rule.offsets.is_empty()));
+    }
+}

@@ -101,7 +101,7 @@ fn messages_show_the_place() {
     );
     assert_eq!(
         error("x +").to_string(),
-        "line 1, column 4: unexpected the end; expected a number, a name or `(`\n  x +\n     ^"
+        "line 1, column 4: the formula ends here; expected a number, a name or `(`\n  x +\n     ^"
     );
     // columns are characters, not bytes, and a tab is as wide as any other
     let error = error("x\t· ¬y");

@@ -1,0 +1,139 @@
+//! `ppum bench`: what the solver takes on this machine.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use anyhow::Context as _;
+use ppum::dataset::{Dataset, Record};
+use ppum_solve::problem::{Cells, Problem};
+use ppum_solve::solve::solve;
+use serde::Serialize;
+
+use crate::number::json;
+use crate::threads;
+
+/// Measure the solver on this machine
+///
+/// Solves the centre crack at order 2 on covers of growing levels and tells the seconds and unknowns
+/// per second of each phase.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Last level; 7 has 212,560 unknowns and takes about 10 s and 2 GB
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(FIRST..=10))]
+    level: u32,
+    /// Print JSON, see docs/cli.md
+    #[arg(long)]
+    json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum bench
+  ppum bench --level 5 --threads 1
+  ppum bench --json | jq '.solver[-1].seconds'";
+
+/// First level.
+const FIRST: i64 = 4;
+
+const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
+
+#[derive(Debug, Serialize)]
+struct Report {
+    threads: usize,
+    solver: Vec<Run>,
+}
+
+/// One solution.
+#[derive(Debug, Serialize)]
+struct Run {
+    level: u32,
+    unknowns: u64,
+    phases: Vec<Phase>,
+    /// Seconds in all.
+    seconds: f64,
+    /// Most memory the program has held so far, in bytes, where the system tells.
+    peak_memory: Option<u64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Phase {
+    name: String,
+    seconds: f64,
+}
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        let levels = FIRST as u32..=self.level;
+        if self.json {
+            let (threads, solver) = threads::with(self.threads, || {
+                let runs = levels.map(Run::new).collect::<anyhow::Result<Vec<_>>>();
+                (rayon::current_num_threads(), runs)
+            })?;
+            json(out, &Report { threads, solver: solver? })?;
+            return Ok(());
+        }
+        for level in levels {
+            let (threads, run) =
+                threads::with(self.threads, || (rayon::current_num_threads(), Run::new(level)))?;
+            run?.print(threads, out)?;
+            out.flush()?;
+        }
+        Ok(())
+    }
+}
+
+impl Run {
+    fn new(level: u32) -> anyhow::Result<Self> {
+        let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
+        problem.discretization.cells = Cells::Level(level);
+        let dataset = solve(&problem, &mut |_| {})?;
+        let phases = phases(&dataset);
+        Ok(Self {
+            level,
+            unknowns: record(&dataset, "unknowns").context("the solver counts unknowns")? as u64,
+            seconds: phases.iter().map(|phase| phase.seconds).sum(),
+            phases,
+            peak_memory: peak_memory(),
+        })
+    }
+
+    fn print(&self, threads: usize, out: &mut dyn Write) -> anyhow::Result<()> {
+        let memory = self.peak_memory.map_or(String::new(), |bytes| {
+            format!(", at most {:.2} GB so far", bytes as f64 / 1e9)
+        });
+        let (level, unknowns) = (self.level, self.unknowns);
+        writeln!(out, "level {level}: {unknowns} unknowns, {threads} threads{memory}")?;
+        let mut line = |name: &str, seconds: f64| {
+            let rate = unknowns as f64 / seconds;
+            writeln!(out, "  {name:<10} {seconds:>8.3} s {rate:>11.0} unknowns/s")
+        };
+        self.phases.iter().try_for_each(|phase| line(&phase.name, phase.seconds))?;
+        line("in all", self.seconds)?;
+        Ok(())
+    }
+}
+
+fn history(dataset: &Dataset) -> impl Iterator<Item = &Record> {
+    dataset.steps.iter().flat_map(|step| &step.history)
+}
+
+fn record(dataset: &Dataset, name: &str) -> Option<f64> {
+    history(dataset).find(|record| record.name == name).map(|record| record.value)
+}
+
+fn phases(dataset: &Dataset) -> Vec<Phase> {
+    let timed = history(dataset).filter(|record| record.unit == "s");
+    timed.map(|record| Phase { name: record.name.clone(), seconds: record.value }).collect()
+}
+
+/// Linux: the high-water mark of resident memory.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
+}

@@ -1,0 +1,34 @@
+//! `ppum completions`: what shells need to complete commands and options.
+
+use std::io::Write;
+
+use clap::CommandFactory as _;
+use clap_complete::{Shell, generate};
+
+use crate::cli::Cli;
+
+/// Print completions for a shell
+///
+/// docs/cli.md says where each shell looks for them.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Shell
+    #[arg(value_name = "SHELL")]
+    shell: Shell,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum completions bash > ~/.local/share/bash-completion/completions/ppum
+  ppum completions zsh > ~/.zfunc/_ppum
+  ppum completions fish > ~/.config/fish/completions/ppum.fish";
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        let mut script = Vec::new();
+        generate(self.shell, &mut Cli::command(), "ppum", &mut script);
+        out.write_all(&script)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! `ppum sample`: exact values along lines and cracks, at lists of points and on grids, for plots.
+
+mod along;
+mod places;
+mod table;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::{bail, ensure};
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::vec2::Rect;
+
+use crate::arguments::{corners, ends, size};
+use crate::dataset::{field, open, quantities};
+use crate::replacements::Replacements;
+use places::{Place, evaluate};
+use table::{Column, Table};
+
+/// Write exact values along a line or a crack, at points or on a grid
+///
+/// A table as CSV or NPY (numpy), by the extension of the output. Of a point on a crack there are two
+/// rows, one for each side; a grid has the upper side alone.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+#[command(group = clap::ArgGroup::new("where").required(true))]
+pub(crate) struct Args {
+    /// Dataset
+    #[arg(value_name = "FILE.h5")]
+    file: PathBuf,
+    /// Along the line between two points
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = ends)]
+    #[arg(group = "where")]
+    line: Option<[ppum::vec2::Vec2; 2]>,
+    /// At the points of a text file: a line with x and y for each
+    #[arg(long, value_name = "P.csv", group = "where")]
+    points: Option<PathBuf>,
+    /// On a grid of columns and rows of points, borders included
+    #[arg(long, value_name = "NXxNY", value_parser = size, group = "where")]
+    grid: Option<[u32; 2]>,
+    /// Along a crack, numbered from 0: both sides, jumps and opening
+    #[arg(long, value_name = "K", group = "where")]
+    crack: Option<usize>,
+    /// Number of points along a line or crack [default: 201]
+    #[arg(long, value_name = "N", conflicts_with_all = ["points", "grid"])]
+    count: Option<usize>,
+    /// Box of the grid by two opposite corners [default: that of the domain]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = corners)]
+    #[arg(requires = "grid")]
+    view: Option<Rect>,
+    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: the components; for
+    /// elasticity also the stresses]
+    #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
+    quantity: Vec<String>,
+    #[command(flatten)]
+    replacements: Replacements,
+    /// Step of the series, from 0 [default: the last]
+    #[arg(long, value_name = "K")]
+    step: Option<usize>,
+    /// File to write, .csv or .npy [default: CSV to standard output]
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum sample plate.h5 --line -1,0.1,1,0.1 --count 500 -q uy,syy -o line.csv
+  ppum sample plate.h5 --crack 0 -o crack.csv
+  ppum sample plate.h5 --grid 400x300 -q von-mises -o field.npy
+  ppum sample plate.h5 --points gauges.csv -q 'exx,eyy,2*exy'";
+
+/// Points along a line or crack if nothing is said.
+const COUNT: usize = 201;
+
+/// Most points at a time: their table takes some gigabytes.
+const MOST: usize = 20_000_000;
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        let format = self.output.as_deref().map(table::Format::of).transpose()?;
+        let mut dataset = open(&self.file)?;
+        self.replacements.apply(&mut dataset, self.step)?;
+        let field = field(&dataset, self.step)?;
+        let quantities = quantities(&field, &self.quantity)?;
+        let table = self.table(&field, &quantities)?;
+        table.check_names()?;
+        match (&self.output, format) {
+            (Some(path), Some(format)) => {
+                table.save(path, format)?;
+                writeln!(out, "wrote {}: {}", path.display(), table.summary())?;
+            }
+            _ => table.write_csv(out)?,
+        }
+        Ok(())
+    }
+
+    fn table(&self, field: &Field<'_>, quantities: &[(String, Quantity)]) -> anyhow::Result<Table> {
+        let count = self.count.unwrap_or(COUNT);
+        ensure!(count >= 2, "--count {count}: a line has two points or more");
+        ensure!(count <= MOST, "--count {count}: at most {MOST} points at a time");
+        let cracks = &field.step.cracks;
+        if let Some(crack) = self.crack {
+            return along::table(field, quantities, crack, count);
+        }
+        if let Some([a, b]) = self.line {
+            ensure!(a != b, "--line: its two points are equal");
+            let (lengths, places) = places::line(cracks, a, b, count);
+            let table = listed(field, quantities, &places);
+            return Ok(table.with_first(Column::new("s", ""), lengths));
+        }
+        if let Some(path) = &self.points {
+            let points = places::read(path)?;
+            ensure!(points.len() <= MOST, "{}: more than {MOST} points", path.display());
+            return Ok(listed(field, quantities, &places::both_sides(cracks, &points)));
+        }
+        let Some([nx, ny]) = self.grid else { bail!("give --line, --points, --grid or --crack") };
+        let points = nx as usize * ny as usize;
+        ensure!(nx > 0 && ny > 0, "--grid {nx}x{ny}: has no points");
+        ensure!(points <= MOST, "--grid {nx}x{ny}: at most {MOST} points at a time");
+        let window = self.view.unwrap_or(field.domain.bounds);
+        let places = places::grid(cracks, window, [nx, ny]);
+        Ok(listed(field, quantities, &places).with_shape([ny as usize, nx as usize]))
+    }
+}
+
+/// A row for each place: position, side, quantities.
+fn listed(field: &Field<'_>, quantities: &[(String, Quantity)], places: &[Place]) -> Table {
+    let values = evaluate(field, quantities, places);
+    let of = |(name, quantity): &(String, Quantity)| Column::new(name, quantity.unit(field));
+    let head = ["x", "y", "side"].map(|name| Column::new(name, ""));
+    let columns = head.into_iter().chain(quantities.iter().map(of)).collect();
+    let mut rows = Vec::with_capacity(places.len() * (3 + quantities.len()));
+    for (place, values) in places.iter().zip(values.chunks(quantities.len())) {
+        let p = place.position();
+        rows.extend([p.x, p.y, place.mark]);
+        rows.extend(values);
+    }
+    Table::new(columns, rows)
+}

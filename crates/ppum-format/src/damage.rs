@@ -1,0 +1,137 @@
+//! Damaged copies of files, for tests of programs that read them.
+//!
+//! [`damaged`] changes the bytes of a file, or what they mean: an array of another type, shape or
+//! length, indices and offsets that lead nowhere, numbers that are none, words and formulas that are
+//! wrong, arrays of zeros that shrink to nothing, with the checksum missing, wrong or right again.
+
+mod content;
+mod forge;
+
+pub use forge::{object_headers, seal};
+
+/// A damaged file.
+#[derive(Clone, Debug)]
+pub struct Damaged {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// What was done, e.g. `truncated`.
+    pub what: String,
+    /// True if the checksum was made right again, or is not there: only the meaning can tell.
+    pub is_sealed: bool,
+}
+
+/// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n; the same
+/// numbers make the same damage.
+pub fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
+    if below(2) == 0
+        && let Some(damaged) = content::damaged(file, below)
+    {
+        return damaged;
+    }
+    let mut bytes = file.to_vec();
+    let change = CHANGES[below(CHANGES.len())];
+    for _ in 0..=below(3) {
+        (change.1)(&mut bytes, below);
+    }
+    let is_sealed = change.0 == FORGED || !has_checksum(&bytes);
+    Damaged { bytes, what: change.0.to_owned(), is_sealed }
+}
+
+/// True if something in the file is called like the attribute with the checksum.
+fn has_checksum(bytes: &[u8]) -> bool {
+    bytes.windows(7).any(|w| w == b"sha256\0")
+}
+
+type Change = fn(&mut Vec<u8>, &mut dyn FnMut(usize) -> usize);
+
+/// Kind of a damage that may hide the checksum.
+const FORGED: &str = "forged header";
+
+const CHANGES: [(&str, Change); 9] = [
+    ("bits", |bytes, below| bits(bytes, below)),
+    ("run of bytes", |bytes, below| run(bytes, below)),
+    ("truncated", truncated),
+    ("swapped blocks", |bytes, below| swapped(bytes, below)),
+    ("copied block", |bytes, below| copied(bytes, below)),
+    ("inserted bytes", inserted),
+    ("numbers", |bytes, below| number(bytes, below)),
+    ("text that is not UTF-8", |bytes, below| not_utf8(bytes, below)),
+    (FORGED, |bytes, below| forge::forged(bytes, below)),
+];
+
+/// Bytes that mean something extreme.
+const EXTREMES: [u8; 6] = [0x00, 0x01, 0x7f, 0x80, 0xfe, 0xff];
+
+fn bits(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    for _ in 0..=below(8) {
+        let at = below(bytes.len());
+        bytes[at] ^= 1 << below(8);
+    }
+}
+
+/// A random range of at most `longest` bytes.
+fn range(
+    bytes: &[u8],
+    longest: usize,
+    below: &mut dyn FnMut(usize) -> usize,
+) -> std::ops::Range<usize> {
+    let start = below(bytes.len());
+    start..bytes.len().min(start + 1 + below(longest))
+}
+
+fn run(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let range = range(bytes, 64, below);
+    let fill = EXTREMES[below(EXTREMES.len())];
+    bytes[range].fill(fill);
+}
+
+fn truncated(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+    bytes.truncate(1 + below(bytes.len()));
+}
+
+fn swapped(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let (a, b) = (below(bytes.len()), below(bytes.len()));
+    let (a, b) = (a.min(b), a.max(b));
+    let length = (b - a).min(bytes.len() - b).min(1 << below(12));
+    let (left, right) = bytes.split_at_mut(b);
+    left[a..a + length].swap_with_slice(&mut right[..length]);
+}
+
+fn copied(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let from = range(bytes, 4096, below);
+    let to = below(bytes.len() - from.len() + 1);
+    bytes.copy_within(from, to);
+}
+
+fn inserted(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
+    let (at, fill) = (below(bytes.len() + 1), EXTREMES[below(EXTREMES.len())]);
+    bytes.splice(at..at, vec![fill; 1 + below(40)]);
+}
+
+/// Sizes and addresses stand at even places.
+fn number(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let number = match below(7) {
+        0 => u64::MAX,
+        1 => 1 << 63,
+        2 => 1 << 32,
+        3 => bytes.len() as u64,
+        4 => below(bytes.len()) as u64,
+        5 => f64::NAN.to_bits(),
+        _ => below(3) as u64,
+    };
+    let width = [1, 2, 4, 8][below(4)];
+    let places = (bytes.len() / 2).saturating_sub(4);
+    if places > 0 {
+        let at = 2 * below(places);
+        bytes[at..at + width].copy_from_slice(&number.to_le_bytes()[..width]);
+    }
+}
+
+/// One byte in a run of letters.
+fn not_utf8(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let start = below(bytes.len());
+    let letters = bytes[start..].windows(4).position(|w| w.iter().all(u8::is_ascii_alphanumeric));
+    if let Some(at) = letters {
+        bytes[start + at + below(4)] = [0xff, 0xc3, 0x80, 0xed][below(4)];
+    }
+}

@@ -1,0 +1,265 @@
+//! Damage to what a file means: its named arrays.
+
+use super::Damaged;
+use crate::content::{Array, Content, Values};
+use crate::{checksum, hdf5};
+
+type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
+
+/// A copy with one to three arrays changed; none if the file cannot be read, or the result not written.
+pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
+    let mut content = hdf5::from_bytes(file.to_vec()).ok()?;
+    if content.is_empty() || content.values().any(|array| matches!(array.values, Values::Other(_)))
+    {
+        return None;
+    }
+    let mut what = Vec::new();
+    for _ in 0..=below(content.len().min(3)) {
+        what.extend(change(&mut content, below));
+    }
+    let is_sealed = below(4) > 0;
+    match below(2) {
+        _ if !is_sealed => {}
+        0 => drop(checksum::remove(&mut content)),
+        _ => checksum::seal(&mut content),
+    }
+    let is_sealed = is_sealed || !checksum::is_sealed(&content);
+    let bytes = hdf5::to_compressed_bytes(&content).ok()?;
+    Some(Damaged { bytes, what: what.join(", "), is_sealed })
+}
+
+/// One array changed; there is one at least.
+fn change(content: &mut Content, below: Below) -> Option<String> {
+    let names: Vec<String> = content.keys().cloned().collect();
+    let name = names[below(names.len())].clone();
+    let other = names[below(names.len())].clone();
+    let array = content.get_mut(&name)?;
+    let what = match below(16) {
+        0 => {
+            content.remove(&name);
+            "missing"
+        }
+        1 => {
+            let copy = content.get(&other)?.clone();
+            content.insert(name.clone(), copy);
+            "another's"
+        }
+        2 => {
+            let moved = content.remove(&name)?;
+            content.insert(name.replace("0000", "0001") + "x", moved);
+            "moved"
+        }
+        3 => {
+            array.values = of_another_type(&array.values, below);
+            "type"
+        }
+        4 => {
+            reshape(array, below);
+            "shape"
+        }
+        5 => {
+            resize(array, below);
+            "length"
+        }
+        6 if !name.contains('@') && below(8) == 0 => {
+            *array = zeros(array, below);
+            "zeros"
+        }
+        6 | 7 => {
+            swap(&mut array.values, below);
+            "swapped"
+        }
+        8 => {
+            each(&mut array.values, below);
+            "all values"
+        }
+        _ => {
+            one(&mut array.values, below);
+            "value"
+        }
+    };
+    Some(format!("{name}: {what}"))
+}
+
+/// The same number of values of another type.
+fn of_another_type(values: &Values, below: Below) -> Values {
+    let n = length(values);
+    match below(6) {
+        0 => Values::F64(vec![0.5; n]),
+        1 => Values::U8(vec![1; n]),
+        2 => Values::U32(vec![1; n]),
+        3 => Values::U64(vec![0; n]),
+        4 => Values::I64(vec![-1; n]),
+        _ => Values::Text(vec!["1".to_owned(); n]),
+    }
+}
+
+fn length(values: &Values) -> usize {
+    match values {
+        Values::F64(v) => v.len(),
+        Values::U8(v) => v.len(),
+        Values::U32(v) => v.len(),
+        Values::U64(v) => v.len(),
+        Values::I64(v) => v.len(),
+        Values::Text(v) => v.len(),
+        Values::Other(_) => 0,
+    }
+}
+
+fn reshape(array: &mut Array, below: Below) {
+    match below(4) {
+        0 => array.shape.push(1),
+        1 => array.shape.insert(0, 1),
+        2 => array.shape.reverse(),
+        _ => array.shape = vec![array.shape.iter().product()],
+    }
+}
+
+/// Fewer or more rows.
+fn resize(array: &mut Array, below: Below) {
+    let Some(rows) = array.shape.first().copied() else { return };
+    let row: u64 = array.shape[1..].iter().product();
+    let rows = match below(4) {
+        0 => 0,
+        1 => rows.saturating_sub(1),
+        2 => rows + 1,
+        _ => 2 * rows,
+    };
+    array.shape[0] = rows;
+    let n = (rows * row) as usize;
+    match &mut array.values {
+        Values::F64(v) => v.resize(n, 0.25),
+        Values::U8(v) => v.resize(n, 0),
+        Values::U32(v) => v.resize(n, 0),
+        Values::U64(v) => v.resize(n, 0),
+        Values::I64(v) => v.resize(n, 0),
+        Values::Text(v) => v.resize(n, "one".to_owned()),
+        Values::Other(_) => {}
+    }
+}
+
+/// Zeros of the same type and rank, far more than there were: they shrink to nothing.
+fn zeros(array: &Array, below: Below) -> Array {
+    let rows = 1_u64 << (16 + below(6));
+    let mut shape = array.shape.clone();
+    if let Some(first) = shape.first_mut() {
+        *first = rows;
+    }
+    let n = shape.iter().product::<u64>().min(1 << 23) as usize;
+    let values = match &array.values {
+        Values::U8(_) => Values::U8(vec![0; n]),
+        Values::U32(_) => Values::U32(vec![0; n]),
+        Values::U64(_) => Values::U64(vec![0; n]),
+        Values::I64(_) => Values::I64(vec![0; n]),
+        Values::Text(_) => Values::Text(vec!["x".to_owned(); n.min(1 << 16)]),
+        _ => Values::F64(vec![0.0; n]),
+    };
+    Array { shape, values }
+}
+
+fn swap(values: &mut Values, below: Below) {
+    let n = length(values);
+    if n == 0 {
+        return;
+    }
+    let (a, b) = (below(n), below(n));
+    match values {
+        Values::F64(v) => v.swap(a, b),
+        Values::U8(v) => v.swap(a, b),
+        Values::U32(v) => v.swap(a, b),
+        Values::U64(v) => v.swap(a, b),
+        Values::I64(v) => v.swap(a, b),
+        Values::Text(v) => v.swap(a, b),
+        Values::Other(_) => {}
+    }
+}
+
+fn each(values: &mut Values, below: Below) {
+    match values {
+        Values::F64(v) => {
+            let value = number(v.first().copied().unwrap_or(1.0), below);
+            v.fill(value);
+        }
+        Values::U8(v) => v.fill(integer(below) as u8),
+        Values::U32(v) => v.fill(integer(below) as u32),
+        Values::U64(v) => v.fill(integer(below)),
+        Values::I64(v) => v.fill(integer(below) as i64),
+        Values::Text(v) => v.fill(text(below)),
+        Values::Other(_) => {}
+    }
+}
+
+fn one(values: &mut Values, below: Below) {
+    let n = length(values);
+    if n == 0 {
+        return;
+    }
+    let at = below(n);
+    match values {
+        Values::F64(v) => v[at] = number(v[at], below),
+        Values::U8(v) => v[at] = integer(below) as u8,
+        Values::U32(v) => v[at] = integer(below) as u32,
+        Values::U64(v) => v[at] = integer(below),
+        Values::I64(v) => v[at] = integer(below) as i64,
+        Values::Text(v) => v[at] = text(below),
+        Values::Other(_) => {}
+    }
+}
+
+/// A number that is none, or is far too large or small, or wrong.
+fn number(old: f64, below: Below) -> f64 {
+    const NUMBERS: [f64; 12] = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN,
+        5e-324,
+        -5e-324,
+        f64::MIN_POSITIVE,
+        0.0,
+        -0.0,
+        1e160,
+        1.0,
+    ];
+    match below(16) {
+        k if k < NUMBERS.len() => NUMBERS[k],
+        12 => -old,
+        13 => old * 1e-200,
+        14 => old * 1e200,
+        _ => old + 1.0,
+    }
+}
+
+fn integer(below: Below) -> u64 {
+    match below(8) {
+        0 => 0,
+        1 => 1,
+        2 => u64::MAX,
+        3 => u64::MAX - 1,
+        4 => 1 << 31,
+        5 => 1 << 63,
+        6 => u64::from(u32::MAX),
+        _ => below(40) as u64,
+    }
+}
+
+/// Words of the format, formulas that are none, and texts that try to break their reader.
+fn text(below: Below) -> String {
+    const WORDS: &str = "||one|side|formula|tip|world|fixed|start|last|mouth|junction|linear|cubic|box|ppum|\
+        elasticity|poisson|shepard-box|plane-stress|displacement|potential|ux|u|x|t|theta|0|-1|1e999|1/0|0/0|\
+        x +|sqrt(|y/r|1/x|table(curve, x)|dtable(surface, 9, 9, x, y)|table(surface, 1/0, x)|side(7)|side(0)|\
+        side(4294967296)|sqrt(-1 - x^2)|exp(exp(exp(exp(9))))*x|let a = x; a^a|(1 - t)^2|1 - t|t - 1|ü\u{0301}\u{202e}|\
+        \u{1}|\n|a\tb|../../x|%s%n|sha256|r^-1|log(r)*theta|sign(x)*floor(1e300*y)|if(x > y, r, 1e308*r)";
+    match below(8) {
+        0 => {
+            let piece = ["(", "-", "sqrt(", "x+", "let a = (", "x^", "1,", "not "][below(8)];
+            piece.repeat(1 << below(17))
+        }
+        1 => (0..1 << below(12)).map(|k| format!("+ sin({k}*x)^{k}")).collect(),
+        _ => {
+            let words: Vec<&str> = WORDS.split('|').map(str::trim_start).collect();
+            words[below(words.len())].to_owned()
+        }
+    }
+}

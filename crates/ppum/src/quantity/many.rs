@@ -1,0 +1,57 @@
+//! Quantities at many points.
+
+use super::{Quantity, Sample, Source};
+use crate::crack::Side;
+use crate::field::LocalField;
+use crate::jet::Jet;
+use crate::vec2::Vec2;
+
+impl Quantity {
+    /// Several quantities at many points `anchor + offset`, a row for each point; NaN outside the domain.
+    ///
+    /// The field is evaluated once for all of them, on lanes, so points that follow each other should be
+    /// near each other. The values are those of [`Quantity::at`] up to rounding.
+    #[must_use]
+    pub fn at_many(
+        quantities: &[Self],
+        local: &mut LocalField<'_>,
+        offsets: &[Vec2],
+        side: Side,
+    ) -> Vec<f64> {
+        let components = local.field.components();
+        let mut jets = vec![Jet::constant(0.0); offsets.len() * components];
+        if quantities.iter().any(|quantity| quantity.source() == Source::Gradient) {
+            local.evaluate_into::<1>(offsets, side, &mut jets);
+        } else {
+            local.evaluate_into::<0>(offsets, side, &mut jets);
+        }
+        let mut rows = Vec::with_capacity(offsets.len() * quantities.len());
+        for (&offset, jets) in offsets.iter().zip(jets.chunks(components)) {
+            rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
+        }
+        rows
+    }
+
+    /// The quantity where the field is known; NaN outside the domain.
+    fn of_jets(&self, local: &mut LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> f64 {
+        if self.source() == Source::Partition {
+            return self.of_partition(local, offset).unwrap_or(f64::NAN);
+        }
+        if !local.contains(offset) {
+            return f64::NAN;
+        }
+        self.of_values(local, offset, jets)
+    }
+
+    /// The quantity of a field that is known at a point of the domain.
+    pub(super) fn of_values(&self, local: &LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> f64 {
+        let (field, point) = (local.field, local.anchor + offset);
+        let exact: Vec<_> = match self.source() {
+            Source::Exact => (0..jets.len()).map(|c| field.exact(c, point)).collect(),
+            _ => Vec::new(),
+        };
+        let offset = [offset.x, offset.y];
+        let moduli = field.equation.moduli(local.anchor, offset);
+        self.of_field(&Sample { anchor: local.anchor, offset, moduli, jets, exact: &exact })
+    }
+}
