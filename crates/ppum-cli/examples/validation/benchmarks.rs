@@ -87,8 +87,8 @@ fn infinite_plane() -> Vec<Sheet> {
         Sheet {
             title: "Kinked crack in the infinite plane",
             name: "kinked-crack",
-            reference: "length 2, then 1 at 15°, tension along y; order 3 in a plate of half-width 64 that stands for \
-                    the plane, which adds about 3/64² = 7e-4; cells of size 1, 1/2 and 1/4 around the crack, graded outwards. References good to 1e-4; F = K/(σ√π).",
+            reference: "length 2, then 1 at 15°, tension along y; order 3 in a plate of half-width 512 that stands \
+                    for the plane; cells of size 1, 1/2 and 1/4 around the crack, graded outwards. References good to 1e-4; F = K/(σ√π).",
             source: "dislocation integral equations in the infinite plane",
             shown: 0,
             window: [[-2.0, -1.5], [3.0, 1.75]],

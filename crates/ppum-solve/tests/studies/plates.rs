@@ -247,17 +247,17 @@ pub(crate) fn collinear_cracks() -> Plate {
     }
 }
 
-/// A crack of length 2 that goes on for 1 at 15°, order 3, in a plate of half-width 64 that stands for
-/// the infinite plane. Smaller plates show that the factors are 3/w² larger in half-width w.
+/// A crack of length 2 that goes on for 1 at 15°, order 3, in a plate of half-width 512 that stands
+/// for the infinite plane. Smaller plates show that the factors are 3/w² larger in half-width w.
 pub(crate) fn kinked_in_plane() -> Plate {
     let (s, c) = 15f64.to_radians().sin_cos();
-    let domain = Rect::new(vec2(-64.0, -64.0), vec2(64.0, 64.0));
+    let domain = Rect::new(vec2(-512.0, -512.0), vec2(512.0, 512.0));
     let mut problem = pulled(domain, [1, 1], &[&[[-1.0, 0.0], [1.0, 0.0], [1.0 + c, s]]]);
     problem.discretization.order = Order::Uniform(3);
     Plate {
         name: "kinked crack".into(),
         problem,
-        covers: Covers::Rings(64.0),
+        covers: Covers::Rings(512.0),
         scale: root(1.0),
         known: vec![
             known("F_I kinked end", 1, 0, 1.1520),
