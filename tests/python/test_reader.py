@@ -238,7 +238,7 @@ def test_numpy_reads_samples():
     """A grid as NPY: the values are those of the independent reader."""
     path, output = files()[0], FOLDER / "grid.npy"
     command = ["cargo", "run", "-q", "-p", "ppum-cli", "--", "sample", path, "--grid", "7x5"]
-    command += ["-q", "gradient,if(x > 0, 1, 2)", "-o", output]
+    command += ["--step", "0", "-q", "gradient,if(x > 0, 1, 2)", "-o", output]
     done = subprocess.run(list(map(str, command)), cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     grid = np.load(output)

@@ -7,15 +7,17 @@
 //! such amplification.
 
 use crate::batch::in_batches;
-use crate::eigen::EigenError;
+use crate::eigen::{EigenError, SymmetricEigen};
 use crate::shape::{ShapeEvaluator, Shapes};
 use crate::space::Space;
+use crate::system::Penalty;
 use crate::transform::{CUT_OFF, Transform};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// The stable basis of every patch.
 #[derive(Debug)]
@@ -39,6 +41,46 @@ impl StableBasis {
             grams.par_iter().enumerate().map(transform).collect::<Result<_, _>>()?;
         let sizes = transforms.iter().map(|t| t.matrix.nrows()).collect();
         Ok(Self { transforms, sizes })
+    }
+
+    /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over `penalties` [rules on the
+    /// border, w]: functions that a large penalty acts on become small, and no row of the matrix is much
+    /// larger than others. Nothing is cut off.
+    ///
+    /// # Errors
+    /// Functions that are not finite.
+    pub(crate) fn damp(
+        &mut self,
+        space: &Space<'_>,
+        penalties: &[Penalty],
+    ) -> Result<(), EigenError> {
+        for (patch, gram) in self.border_grams(space, penalties) {
+            let matrix = &mut self.transforms[patch as usize].matrix;
+            let eigen = SymmetricEigen::new(gram.as_ref())?;
+            *matrix = &eigen.vectors * eigen.inverse_root(0.0) * &*matrix;
+        }
+        Ok(())
+    }
+
+    /// I + Σ w ∫ N Nᵀ of the patches that rules on the border see.
+    fn border_grams(&self, space: &Space<'_>, penalties: &[Penalty]) -> BTreeMap<u32, Mat<f64>> {
+        let (mut evaluator, mut shapes) = (BasisEvaluator::new(space, self), Shapes::default());
+        let mut grams = BTreeMap::new();
+        for (rule, weight) in
+            penalties.iter().flat_map(|(rules, w)| rules.iter().map(move |r| (r, *w)))
+        {
+            evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut shapes);
+            shapes.scale(&rule.weights);
+            let mut first = 0;
+            for &patch in &rule.patches {
+                let n = self.sizes[patch as usize];
+                let gram = grams.entry(patch).or_insert_with(|| Mat::identity(n, n));
+                let rows = shapes.rows(&shapes.value, first..first + n);
+                matmul(gram.as_mut(), Accum::Add, rows, rows.transpose(), weight, Par::Seq);
+                first += n;
+            }
+        }
+        grams
     }
 
     /// Functions cut off, a patch.

@@ -6,7 +6,8 @@
 //!
 //! Γ is where values are given, component by component. β = 2 λ_max of the cell's own pencil
 //! ∫_Γ |σ(N) n|² against K: β > λ_max is just what keeps the system positive definite, and a cell cut
-//! into slivers gets the larger value it needs (Griebel & Schweitzer 2003).
+//! into slivers gets the larger value it needs (Griebel & Schweitzer 2003). Where it is much larger, the
+//! basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
 //!
 //! Where Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
 //! through a short support, and β ∫_Γ N·N would be a soft spring. So β is C h/ℓ² at least, C the modulus,
@@ -174,6 +175,7 @@ impl<'a> Border<'a> {
         let needed = FACTOR * largest_eigenvalue(system.matrix.as_ref(), self.traction.as_ref())?;
         let ratio = (size / self.length).min(STIFFEST);
         let beta = needed.max(self.modulus * ratio / self.length);
+        system.penalty = beta / self.modulus;
         system.matrix -= &self.consistency;
         system.matrix -= self.consistency.transpose();
         system.matrix += faer::Scale(beta) * &self.mass;

@@ -32,6 +32,8 @@ pub(crate) struct CellSystem {
     pub(crate) load: Vec<f64>,
     /// Supports and loads of each piece of the plate, as far as they are in the cell.
     pub(crate) balance: Vec<Balance>,
+    /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.
+    pub(crate) penalty: f64,
 }
 
 /// The functions of a cell's patches, numbered patch after patch.
@@ -133,6 +135,7 @@ impl<'s> CellAssembler<'s> {
             matrix: square(n * components),
             load: vec![0.0; n * components],
             balance: Balance::of(self.pieces, components),
+            penalty: 0.0,
             functions,
         };
         let products = || Products { xx: square(n), xy: square(n), yy: square(n) };

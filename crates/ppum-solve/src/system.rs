@@ -23,6 +23,59 @@ pub(crate) struct System {
     pub(crate) load: Vec<f64>,
     /// Supports and loads of each piece of the plate.
     pub(crate) balance: Vec<Balance>,
+    /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
+    pub(crate) nitsche: f64,
+}
+
+/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
+/// have 3 to 36.
+const SLIVER: f64 = 50.0;
+
+/// Border rules of one cell where values are given, and Nitsche's β there over λ + 2μ.
+pub(crate) type Penalty = (Vec<EdgeRule>, f64);
+
+/// The cells with a β so large that the basis should see it.
+///
+/// # Errors
+/// Data that are not finite.
+pub(crate) fn slivers(
+    problem: &Problem,
+    space: &Space<'_>,
+    basis: &StableBasis,
+    law: &Law<'_>,
+    pieces: &Pieces,
+) -> Result<Vec<Penalty>, EigenError> {
+    let quadrature = space.quadrature(0);
+    let holding = problem.boundary.iter().filter(|c| c.held().contains(&true));
+    let given: Vec<_> = holding.map(Given::new).collect();
+    let mut found = Ok(Vec::new());
+    in_batches(
+        if given.is_empty() { 0 } else { space.partition.len() },
+        || CellAssembler::new(space, basis, law, pieces),
+        |assembler, cell| {
+            let on_border = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
+            let on_border: Vec<_> = on_border.filter(|p| !p.rules.is_empty()).collect();
+            if on_border.is_empty() {
+                return Ok(None);
+            }
+            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+            let part =
+                assembler.assemble(cell, &quadrature.cell(rect, coverers), None, &on_border)?;
+            let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
+            let is_large = part.penalty * width(rect) > SLIVER;
+            Ok(is_large.then_some((rules, part.penalty)))
+        },
+        |_, part: Result<Option<Penalty>, EigenError>| match (&mut found, part) {
+            (Ok(all), Ok(part)) => all.extend(part),
+            (Ok(_), Err(error)) => found = Err(error),
+            (Err(_), _) => {}
+        },
+    );
+    found
+}
+
+fn width(cell: &Rect) -> f64 {
+    cell.size().x.max(cell.size().y)
 }
 
 /// Assembles the system of a problem on a space. `progress` is told the cells that are done.
@@ -56,7 +109,11 @@ pub(crate) fn assemble(
         },
         |cell, part| {
             match part {
-                Ok(part) => system.add(&part, law.components),
+                Ok(part) => {
+                    system.nitsche =
+                        system.nitsche.max(part.penalty * width(&space.partition.cell[cell]));
+                    system.add(&part, law.components);
+                }
                 Err(error) => failed = failed.or(Some(error)),
             }
             progress(cell + 1);
@@ -152,6 +209,7 @@ impl System {
             load: vec![0.0; matrix.n_unknowns()],
             matrix,
             balance: Balance::of(pieces, components),
+            nitsche: 0.0,
         }
     }
 

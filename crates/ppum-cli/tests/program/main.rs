@@ -4,6 +4,7 @@
 mod bench;
 mod damage;
 mod demo;
+mod determinism;
 mod errors;
 mod formula;
 mod info;
