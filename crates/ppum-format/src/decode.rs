@@ -5,8 +5,8 @@ mod group;
 mod tables;
 use ppum::crack::{Crack, CrackEnd, TipId};
 use ppum::dataset::{
-    Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Record, Ring,
-    Step, TipIntensity, Warning,
+    Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Reaction,
+    Record, Ring, Step, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
@@ -136,6 +136,7 @@ fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
         intensities: optional(group, "intensities", intensities)?,
         history: optional(group, "history", history)?,
         warnings: optional(group, "warnings", warnings)?,
+        reactions: optional(group, "reactions", reactions)?,
     })
 }
 
@@ -262,6 +263,24 @@ fn warnings(group: &mut Group) -> Read<Vec<Warning>> {
         Warning { kind, at: place(k), value, limit, message }
     };
     Ok(texts.map(warning).collect())
+}
+
+fn reactions(group: &mut Group) -> Read<Vec<Reaction>> {
+    let places = group.vector::<String>("on")?;
+    let n = places.len();
+    let (held, forces) = (group.matrix("held", n)?, group.matrix("force", n)?);
+    let moments = group.column::<f64>("moment", n)?;
+    let results = places.into_iter().zip(held).zip(forces.into_iter().zip(moments));
+    let reaction = |((on, held), (force, moment)): ((String, Vec<f64>), (Vec<f64>, f64))| {
+        let is_held = |&h: &f64| match h {
+            0.0 => Ok(false),
+            1.0 => Ok(true),
+            _ => Err(group.error("held", format!("{h}: expected 0 or 1"))),
+        };
+        let held = held.iter().map(is_held).collect::<Read<_>>()?;
+        Ok(Reaction { on, held, force, moment })
+    };
+    results.map(reaction).collect()
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{
-    Dataset, Equation, FieldData, NamedQuantity, Partition, Record, Step, TipIntensity, Warning,
+    Dataset, Equation, FieldData, NamedQuantity, Partition, Reaction, Record, Step, TipIntensity,
+    Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
@@ -173,6 +174,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
     intensities(&mut group.group("intensities"), &step.intensities)?;
     history(&mut group.group("history"), &step.history);
     warnings(&mut group.group("warnings"), &step.warnings);
+    reactions(&mut group.group("reactions"), &step.reactions);
     Ok(())
 }
 
@@ -360,4 +362,17 @@ fn warnings(group: &mut Group, warnings: &[Warning]) {
     group.vector("value", warnings.iter().map(|w| w.value));
     group.vector("limit", warnings.iter().map(|w| w.limit));
     group.vector("message", warnings.iter().map(|w| w.message.clone()));
+}
+
+/// Nothing where there are none.
+fn reactions(group: &mut Group, reactions: &[Reaction]) {
+    let Some(first) = reactions.first() else { return };
+    let components = first.force.len();
+    let held = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
+    let held: Vec<_> = reactions.iter().map(held).collect();
+    let force: Vec<_> = reactions.iter().map(|r| r.force.clone()).collect();
+    group.vector("on", reactions.iter().map(|r| r.on.clone()));
+    group.array("held", Array::matrix(&held, components));
+    group.array("force", Array::matrix(&force, components));
+    group.vector("moment", reactions.iter().map(|r| r.moment));
 }

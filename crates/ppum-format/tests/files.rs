@@ -144,6 +144,7 @@ fn lists_may_be_empty() {
     step.intensities.clear();
     step.history.clear();
     step.warnings.clear();
+    step.reactions.clear();
     step.partition.points.clear();
     step.partition.point.fill(None);
     data.title.clear();

@@ -20,6 +20,8 @@ use crate::law::Law;
 use crate::pencil::largest_eigenvalue;
 use crate::pieces::Pieces;
 use crate::quadrature::EdgeRule;
+use crate::reaction::Support;
+use crate::rigid::RigidMotions;
 use crate::shape::Shapes;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -42,6 +44,10 @@ pub(crate) struct BorderPiece<'a> {
     pub(crate) held: [bool; 2],
     /// The given values; tractions where not held (zero where free).
     pub(crate) values: BorderData<'a>,
+    /// Number of the condition.
+    pub(crate) condition: usize,
+    /// The motions that reactions do work on.
+    pub(crate) motions: RigidMotions,
 }
 
 /// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
@@ -62,6 +68,8 @@ pub(crate) struct Border<'a> {
     length: f64,
     /// Largest modulus there.
     modulus: f64,
+    /// What the supports exert, one a condition that gives values.
+    supports: Vec<Support>,
 }
 
 impl<'a> Border<'a> {
@@ -75,6 +83,7 @@ impl<'a> Border<'a> {
             traction_load: vec![0.0; unknowns],
             length: 0.0,
             modulus: 0.0,
+            supports: Vec::new(),
         }
     }
 
@@ -109,7 +118,7 @@ impl<'a> Border<'a> {
             shapes.scale(&rule.weights);
             for i in (0..components).filter(|&i| piece.held[i]) {
                 let given: Vec<_> = given.iter().map(|values| values[i]).collect();
-                self.hold(i, rule, &numbers, shapes, &given);
+                self.hold(i, piece, rule, &numbers, shapes, &given);
             }
         }
     }
@@ -119,6 +128,7 @@ impl<'a> Border<'a> {
     fn hold(
         &mut self,
         i: usize,
+        piece: &BorderPiece<'_>,
         rule: &EdgeRule,
         numbers: &[usize],
         shapes: &Shapes,
@@ -152,6 +162,23 @@ impl<'a> Border<'a> {
                 self.traction_load[row] += t[(k, q)] * g;
             }
         }
+        let support = self.support(piece.condition);
+        for k in 0..piece.motions.count() {
+            let points = rule.offsets.iter().zip(&rule.weights);
+            let motion = points.map(|(&o, w)| piece.motions.at(rule.anchor + o)[k][i] * w.sqrt());
+            let motion: Vec<_> = motion.collect();
+            support.add(k, &motion, (t, &all_rows), (values, &value_rows), given);
+        }
+    }
+
+    /// The sums of a condition.
+    fn support(&mut self, condition: usize) -> &mut Support {
+        let known = self.supports.iter().position(|s| s.condition == condition);
+        let place = known.unwrap_or(self.supports.len());
+        if known.is_none() {
+            self.supports.push(Support::new(condition, self.value_load.len()));
+        }
+        &mut self.supports[place]
     }
 
     /// Component i of σ(N e_j) n, rows (function, j), columns points.
@@ -183,6 +210,7 @@ impl<'a> Border<'a> {
         for (load, (value, traction)) in system.load.iter_mut().zip(loads) {
             *load += beta * value - traction;
         }
+        system.reactions = self.supports.into_iter().map(|s| s.finish(beta)).collect();
         Ok(())
     }
 }

@@ -12,6 +12,7 @@ use crate::eigen::EigenError;
 use crate::law::{Law, LawAt};
 use crate::pieces::Pieces;
 use crate::quadrature::Rule;
+use crate::reaction::CellReaction;
 use crate::shape::Shapes;
 use crate::space::Space;
 use faer::linalg::matmul::matmul;
@@ -34,6 +35,8 @@ pub(crate) struct CellSystem {
     pub(crate) balance: Vec<Balance>,
     /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.
     pub(crate) penalty: f64,
+    /// What the supports in the cell exert, one a condition that gives values.
+    pub(crate) reactions: Vec<CellReaction>,
 }
 
 /// The functions of a cell's patches, numbered patch after patch.
@@ -92,6 +95,23 @@ impl CellFunctions {
         }
     }
 
+    /// The cell's unknowns out of all: the way back of [`CellFunctions::add_to`].
+    pub(crate) fn take_from(
+        &self,
+        matrix: &BlockMatrix,
+        components: usize,
+        all: &[f64],
+    ) -> Vec<f64> {
+        let mut part = vec![0.0; self.len() * components];
+        for (k, &patch) in self.patches.iter().enumerate() {
+            let range = matrix.unknowns(patch as usize);
+            for (value, &to) in all[range].iter().zip(&self.unknowns(k, components)) {
+                part[to] = *value;
+            }
+        }
+        part
+    }
+
     fn position(&self, patch: u32) -> usize {
         self.patches.binary_search(&patch).expect("a rule's patches meet its cell")
     }
@@ -136,6 +156,7 @@ impl<'s> CellAssembler<'s> {
             load: vec![0.0; n * components],
             balance: Balance::of(self.pieces, components),
             penalty: 0.0,
+            reactions: Vec::new(),
             functions,
         };
         let products = || Products { xx: square(n), xy: square(n), yy: square(n) };

@@ -57,6 +57,7 @@ mod pieces;
 pub mod problem;
 pub mod quadrature;
 mod random;
+mod reaction;
 mod refine;
 mod rigid;
 pub mod shape;

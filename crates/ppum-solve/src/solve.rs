@@ -14,7 +14,7 @@ use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
 use crate::system::{System, assemble, slivers};
 use crate::warnings::judge;
-use ppum::dataset::{Attribute, Dataset, Record, Step};
+use ppum::dataset::{Attribute, Dataset, Reaction, Record, Step};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
 use std::time::Instant;
@@ -199,6 +199,8 @@ struct Solution {
     free_motions: usize,
     /// Largest part of the loads on a piece that does not balance.
     imbalance: f64,
+    /// What the supports exert on the plate.
+    reactions: Vec<Reaction>,
 }
 
 impl Solver<'_> {
@@ -226,6 +228,7 @@ impl Solver<'_> {
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
             imbalance,
+            reactions: system.reactions.of(self.problem, &system.matrix, &solution.unknowns),
         })
     }
 
@@ -289,6 +292,7 @@ fn free_motions(balances: &[Balance], pieces: &Pieces) -> Result<Vec<Vec<PerMoti
 impl Solution {
     /// Writes the solution into its step.
     fn store(self, step: &mut Step, components: usize) {
+        step.reactions = self.reactions;
         let data = &mut step.fields[0];
         let mut rest = self.coefficients.as_slice();
         let mut starts =

@@ -197,6 +197,7 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
         intensities: Vec::new(),
         history: vec![Record { name: "crossed twice".into(), value: crossed, unit: String::new() }],
         warnings: Vec::new(),
+        reactions: Vec::new(),
     };
     inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)

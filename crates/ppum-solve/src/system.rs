@@ -11,6 +11,7 @@ use crate::law::Law;
 use crate::pieces::Pieces;
 use crate::problem::{BorderPart, BoundaryCondition, Problem};
 use crate::quadrature::{EdgeRule, Quadrature};
+use crate::reaction::{Reactions, motions};
 use crate::space::Space;
 use ppum::crack::Side;
 use ppum::domain::segment_distance;
@@ -25,6 +26,8 @@ pub(crate) struct System {
     pub(crate) balance: Vec<Balance>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub(crate) nitsche: f64,
+    /// What the supports exert on the plate.
+    pub(crate) reactions: Reactions,
 }
 
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
@@ -46,7 +49,8 @@ pub(crate) fn slivers(
     pieces: &Pieces,
 ) -> Result<Vec<Penalty>, EigenError> {
     let quadrature = space.quadrature(0);
-    let holding = problem.boundary.iter().filter(|c| c.held().contains(&true));
+    let conditions = problem.boundary.iter().enumerate();
+    let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
     let given: Vec<_> = holding.map(Given::new).collect();
     let mut found = Ok(Vec::new());
     in_batches(
@@ -95,7 +99,7 @@ pub(crate) fn assemble(
     let source = |x: Vec2| source_at(problem, x);
     let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
     let source: Option<Data<'_>> = has_source.then_some(&source);
-    let given: Vec<_> = problem.boundary.iter().map(Given::new).collect();
+    let given: Vec<_> = problem.boundary.iter().enumerate().map(Given::new).collect();
     let mut failed = None;
     in_batches(
         space.partition.len(),
@@ -113,6 +117,7 @@ pub(crate) fn assemble(
                     system.nitsche =
                         system.nitsche.max(part.penalty * width(&space.partition.cell[cell]));
                     system.add(&part, law.components);
+                    system.reactions.push(part);
                 }
                 Err(error) => failed = failed.or(Some(error)),
             }
@@ -124,13 +129,14 @@ pub(crate) fn assemble(
 
 /// A boundary condition with its data as a function of position and normal.
 struct Given<'p> {
+    number: usize,
     condition: &'p BoundaryCondition,
     values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
 }
 
 impl<'p> Given<'p> {
-    fn new(condition: &'p BoundaryCondition) -> Self {
-        Self { condition, values: Box::new(|x, normal| condition.values(x, normal)) }
+    fn new((number, condition): (usize, &'p BoundaryCondition)) -> Self {
+        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)) }
     }
 
     fn piece(
@@ -142,7 +148,13 @@ impl<'p> Given<'p> {
     ) -> BorderPiece<'_> {
         let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
         let rules = border_rules(problem, self.condition.on, quadrature, rect, coverers);
-        BorderPiece { rules, held: self.condition.held(), values: &*self.values }
+        BorderPiece {
+            rules,
+            held: self.condition.held(),
+            values: &*self.values,
+            condition: self.number,
+            motions: motions(problem),
+        }
     }
 }
 
@@ -210,6 +222,7 @@ impl System {
             matrix,
             balance: Balance::of(pieces, components),
             nitsche: 0.0,
+            reactions: Reactions::default(),
         }
     }
 

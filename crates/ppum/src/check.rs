@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 
 use crate::crack::Crack;
 use crate::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Step, TipIntensity, Warning, monomials,
+    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Reaction, Step, TipIntensity, Warning,
+    monomials,
 };
 use crate::function::{Frame, Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
@@ -162,6 +163,10 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     }
     for (k, warning) in step.warnings.iter().enumerate() {
         check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
+    }
+    let components = step.fields.first().map_or(0, |field| field.components.len());
+    for (k, reaction) in step.reactions.iter().enumerate() {
+        check_reaction(reaction, components).map_err(|e| e.inside(&format!("reactions[{k}]")))?;
     }
     Ok(())
 }
@@ -326,6 +331,15 @@ fn check_warning(warning: &Warning) -> Checked {
     check_number("limit", warning.limit)
 }
 
+fn check_reaction(reaction: &Reaction, components: usize) -> Checked {
+    require(!reaction.on.trim().is_empty(), "on", || "is empty".into())?;
+    let of = "one a component of the first field";
+    check_length("held", reaction.held.len(), components, of)?;
+    check_length("force", reaction.force.len(), components, of)?;
+    reaction.force.iter().try_for_each(|&force| check_number("force", force))?;
+    check_number("moment", reaction.moment)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -383,6 +397,7 @@ mod tests {
             intensities: vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }],
             history: vec![],
             warnings: vec![],
+            reactions: vec![],
         };
         Dataset {
             title: "one patch".into(),

@@ -64,6 +64,8 @@ pub struct Step {
     pub history: Vec<Record>,
     /// What a specialist would remark on.
     pub warnings: Vec<Warning>,
+    /// What the supports exert on the plate, one a boundary condition that gives values.
+    pub reactions: Vec<Reaction>,
 }
 
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
@@ -200,6 +202,26 @@ pub struct Warning {
     pub limit: f64,
     /// What is wrong and what to do, on one line, with the place.
     pub message: String,
+}
+
+/// The resultant of what a support exerts on the plate: R_i = ∫ t_i, M = ∫ (x − c) × t over the part of
+/// the border where values are given. For elasticity t are the tractions of the components that are
+/// held, c the centre of the domain's box; for a potential t is the flow κ ∂u/∂n into the plate.
+///
+/// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al. 2000):
+/// the reactions and the loads on a plate add up to zero, to rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reaction {
+    /// Where, in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
+    pub on: String,
+    /// Of each component of the first field, whether the support holds it.
+    pub held: Vec<bool>,
+    /// Force per thickness \[stress·length\], one a component, zero where not held; of a potential the
+    /// flow into the plate.
+    pub force: Vec<f64>,
+    /// Moment per thickness about the centre of the domain's box, counter-clockwise
+    /// \[stress·length²\]; zero for a potential.
+    pub moment: f64,
 }
 
 /// Stress intensity factors at one tip, from interaction integrals over several discs.

@@ -50,6 +50,7 @@
 //!     intensities: Vec::new(),
 //!     history: Vec::new(),
 //!     warnings: Vec::new(),
+//!     reactions: Vec::new(),
 //! };
 //! let dataset = Dataset {
 //!     title: "A slope".into(),
@@ -142,6 +143,7 @@
 //!         intensities: vec![],
 //!         history: vec![],
 //!         warnings: vec![],
+//!         reactions: vec![],
 //!     }],
 //! };
 //!

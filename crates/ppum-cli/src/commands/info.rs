@@ -1,6 +1,7 @@
 //! `ppum info`: what is inside a dataset.
 
 mod formulas;
+mod reactions;
 mod report;
 mod text;
 

@@ -79,6 +79,7 @@ fn originals(lab: &Lab) -> Vec<Original> {
         ("h5py, first layout", kept("h5py-earliest.h5")),
         ("plate with formulas", solved(&with_formulas())),
         ("h5py, later layout", kept("h5py-v110.h5")),
+        ("plate with holes", solved(&with_holes())),
         ("Poisson", solved(LINEAR)),
         ("version 1.0", kept("version-1.0.h5")),
     ];
@@ -89,6 +90,13 @@ fn originals(lab: &Lab) -> Vec<Original> {
         Original { name, bytes, told }
     };
     files.into_iter().map(original).collect()
+}
+
+/// The cracked plate with a round hole and a polygonal one, both apart from the crack.
+fn with_holes() -> String {
+    let holes = "[[hole]]\ncenter = [0.0, 0.65]\nradius = 0.2\n\
+                 [[hole]]\npoints = [[-0.5, -0.75], [0.25, -0.75], [0.0, -0.5]]\n";
+    CRACKED.replace("[[crack]]", &format!("{holes}[[crack]]"))
 }
 
 /// What comes of a damage, or the promise that is broken.

@@ -24,7 +24,7 @@ fn json_has_the_documented_shape() {
     assert_eq!(info["equation"], elasticity);
     let step = &info["steps"][0];
     let expected = "attributes cells cracks energy fields functions history intensities levels load \
-                    orders patches points quantities step tips unknowns warnings weight weight_breakpoints \
+                    orders patches points quantities reactions step tips unknowns warnings weight weight_breakpoints \
                     weight_formula";
     assert_eq!(keys(step).join(" "), expected);
     let crack = json!([{ "points": [[-0.5, 0.0], [0.5, 0.0]], "ends": ["tip", "tip"] }]);

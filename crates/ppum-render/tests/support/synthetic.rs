@@ -152,6 +152,7 @@ pub(crate) fn dataset(recipe: &Recipe) -> Dataset {
             intensities: Vec::new(),
             history: Vec::new(),
             warnings: Vec::new(),
+            reactions: Vec::new(),
         }],
     }
 }

@@ -32,10 +32,10 @@ const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 
 /// Least radius of a tip's [`Room`], in cells at the tip, for which factors are given.
 ///
-/// Measured with tips beside another tip, the border and a kink, at orders 2 and 3: factors are off by at
-/// most 0.4 % from one cell on and 0.9 % from half a cell on, but by 1.6 % at a quarter and 4 % at a
-/// tenth of a cell, where the spread of the radii says a tenth of that: the error is that of the field, which
-/// cells larger than the room do not resolve.
+/// Measured with tips beside another tip and beside the border, at orders 2 and 3 (docs/decisions/0004):
+/// factors are off by at most 0.8 % from half a cell on, by 0.9 % from a fifth on, but by 4 % at a tenth of a
+/// cell, where the spread of the radii may say a tenth of that: the error is that of the field, which cells
+/// larger than the room do not resolve.
 const LEAST_ROOM: f64 = 0.5;
 
 /// Radius of the room, in cells at the tip, from which on the factors are off by less than 0.2 % in the

@@ -31,6 +31,11 @@ pub const LARGE_IMBALANCE: f64 = 1e-8;
 /// Part of the unknowns that the stable basis may cut off.
 pub const LARGE_CUT_OFF: f64 = 0.25;
 
+/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held border holds far more tightly than the
+/// rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held edge 710, one along
+/// such an edge 8e4 at 1e-4 of a cell.
+pub const LARGE_NITSCHE: f64 = 1e4;
+
 /// Words of the kinds of warnings.
 pub mod kind {
     /// The faces of a crack overlap.
@@ -53,6 +58,10 @@ pub mod kind {
     pub const RESIDUAL: &str = "residual";
     /// Many functions were cut off as dependent.
     pub const CUT_OFF: &str = "cut-off";
+    /// A crack cuts a cell at a held edge into a sliver.
+    pub const NITSCHE: &str = "nitsche";
+    /// Patches remain that a crack crosses twice.
+    pub const CROSSED_TWICE: &str = "crossed-twice";
 }
 
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
@@ -86,43 +95,57 @@ pub fn judge(
 fn of_history(step: &Step) -> Vec<Warning> {
     let value =
         |name: &str| step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value);
-    let residual = value("residual").unwrap_or(0.0);
-    let imbalance = value("imbalance").unwrap_or(0.0);
     let cut = value("cut-off").zip(value("unknowns")).map_or(0.0, |(cut, all)| cut / all);
+    let or_zero = |name| value(name).unwrap_or(0.0);
     let rules = [
-        (
-            kind::RESIDUAL,
-            residual,
-            LARGE_RESIDUAL,
-            format!(
-                "the residual of the linear system is {residual:.1e} of the load; the solution has lost \
-             digits: look for cracks that nearly touch, or cells far smaller than their neighbours' cracks"
-            ),
-        ),
-        (
-            kind::IMBALANCE,
-            imbalance,
-            LARGE_IMBALANCE,
-            format!(
-                "{imbalance:.1e} of the loads remain unbalanced on a plate that nothing holds, and are left \
-             out; balance the loads, or hold the plate"
-            ),
-        ),
-        (
-            kind::CUT_OFF,
-            cut,
-            LARGE_CUT_OFF,
-            format!(
-                "{:.0} % of the functions depend on others and were cut off; a smaller `enrichment_radius` or \
-             a lower `order` gives the same with less work",
-                100.0 * cut
-            ),
-        ),
+        (kind::RESIDUAL, or_zero("residual"), LARGE_RESIDUAL, residual as fn(f64) -> String),
+        (kind::IMBALANCE, or_zero("imbalance"), LARGE_IMBALANCE, imbalance),
+        (kind::CUT_OFF, cut, LARGE_CUT_OFF, cut_off),
+        (kind::NITSCHE, or_zero("nitsche"), LARGE_NITSCHE, nitsche),
+        (kind::CROSSED_TWICE, or_zero("crossed twice"), 0.0, crossed_twice),
     ];
     let passed = rules.into_iter().filter(|(_, value, limit, _)| value > limit);
     passed
-        .map(|(kind, value, limit, message)| warning(kind, None, [value, limit], message))
+        .map(|(kind, value, limit, message)| warning(kind, None, [value, limit], message(value)))
         .collect()
+}
+
+fn residual(value: f64) -> String {
+    format!(
+        "the residual of the linear system is {value:.1e} of the load; the solution has lost \
+         digits: look for cracks that nearly touch, or cells far smaller than their neighbours' cracks"
+    )
+}
+
+fn imbalance(value: f64) -> String {
+    format!(
+        "{value:.1e} of the loads remain unbalanced on a plate that nothing holds, and are left \
+         out; balance the loads, or hold the plate"
+    )
+}
+
+fn cut_off(value: f64) -> String {
+    format!(
+        "{:.0} % of the functions depend on others and were cut off; a smaller `enrichment_radius` or \
+         a lower `order` gives the same with less work",
+        100.0 * value
+    )
+}
+
+fn nitsche(value: f64) -> String {
+    format!(
+        "a crack cuts a cell at a held edge into a sliver: the penalty there is {value:.1e} times the stiffness \
+         over the cell's width, 3 to 36 in whole cells; move the end of the crack or the support, or use \
+         smaller cells there"
+    )
+}
+
+fn crossed_twice(value: f64) -> String {
+    let patches = if value == 1.0 { "1 patch is" } else { &format!("{value} patches are") };
+    format!(
+        "{patches} crossed twice by one crack, and two of the parts that it cuts them into are glued \
+         together; use smaller cells at its sharp kink"
+    )
 }
 
 fn warning(kind: &str, at: Option<Vec2>, [value, limit]: [f64; 2], message: String) -> Warning {

@@ -11,6 +11,7 @@ mod pieces;
 mod plates;
 mod positions;
 mod problem_files;
+mod reactions;
 #[path = "../studies/mod.rs"]
 mod studies;
 mod warnings;

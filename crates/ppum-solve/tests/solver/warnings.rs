@@ -166,3 +166,36 @@ fn functions_that_are_cut_off() {
     // 6 of 12 functions on most patches, fewer where there are others
     assert!(found[0].value > 0.25 && found[0].value < 0.5, "{found:?}");
 }
+
+/// A crack beside a held edge cuts its cells into slivers, the more so the closer it is.
+#[test]
+fn slivers_at_held_edges() {
+    let held = "[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n[[boundary]]\non = \"top\"\n\
+                traction = [0, 1]\n";
+    let at = |gap: f64| {
+        let y = gap - 1.0;
+        plate(&format!("[[-0.5, {y}], [0.5, {y}]]"), held, "refine = false")
+    };
+    let of = |dataset: &Dataset| {
+        warnings(dataset).iter().find(|w| w.kind == kind::NITSCHE).map(|w| (w.value, w.limit))
+    };
+    let [near, nearer] = [1e-4, 1e-5].map(|part| of(&at(0.25 * part)).expect("a warning"));
+    assert!(near.0 > 1e4 && near.1 == 1e4, "{near:?}");
+    // β is inversely proportional to the width
+    assert!((nearer.0 / near.0 - 10.0).abs() < 0.1, "{near:?} {nearer:?}");
+    assert_eq!(of(&at(0.025)), None);
+}
+
+/// The sides of a V are both in three patches without its kink: in those on [−0.0625, 0.3125] up to
+/// y = 0.136, which are two above that of the kink, in the one left of these up to y = −0.277. The blunt kink of
+/// [`good_problems_are_silent`] crosses none twice.
+#[test]
+fn patches_crossed_twice() {
+    let sharp = "[[-0.13, 0.6], [0.03, -0.5], [0.19, 0.6]]";
+    let dataset = plate(sharp, &sides("[-1, 0]", "[1, 0]"), "refine = false\noverlap = 1.5");
+    let found = warnings(&dataset);
+    let crossed: Vec<_> = found.iter().filter(|w| w.kind == kind::CROSSED_TWICE).collect();
+    let [crossed] = crossed[..] else { panic!("{found:?}") };
+    assert_eq!((crossed.value, crossed.limit), (3.0, 0.0));
+    assert!(crossed.message.contains("use smaller cells"), "{}", crossed.message);
+}

@@ -14,7 +14,7 @@ pub(crate) struct Plate {
     /// What it is.
     pub(crate) name: String,
     /// The problem, on the coarsest of three covers.
-    problem: Problem,
+    pub(crate) problem: Problem,
     /// Its covers.
     covers: Covers,
     /// K is divided by this.

@@ -171,6 +171,7 @@ impl Recipe {
             intensities: Vec::new(),
             history: Vec::new(),
             warnings: Vec::new(),
+            reactions: Vec::new(),
         }
     }
 

@@ -13,6 +13,7 @@ use ppum::vec2::Vec2;
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
+use super::reactions::{self, ReactionRow};
 use crate::families::{Family, blocks, families};
 use crate::number::{Number, trimmed};
 use crate::tips::Tip;
@@ -117,6 +118,7 @@ pub(super) struct StepReport {
     pub(super) history: Vec<HistoryRow>,
     pub(super) intensities: Vec<Tip>,
     pub(super) warnings: Vec<WarningRow>,
+    pub(super) reactions: Vec<ReactionRow>,
 }
 
 /// Cells of a level of the tree.
@@ -207,6 +209,7 @@ impl StepReport {
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
             warnings: rows(index, &field.step.warnings),
+            reactions: reactions::rows(dataset, field.step),
         })
     }
 }

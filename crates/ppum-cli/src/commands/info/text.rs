@@ -65,6 +65,12 @@ impl Page<'_> {
             writeln!(self.0, "\nstress intensity factors")?;
             table(self.0, &step.intensities)?;
         }
+        if !step.reactions.is_empty() {
+            writeln!(self.0, "\nreactions of the supports on the plate")?;
+        }
+        for reaction in &step.reactions {
+            writeln!(self.0, "{}", reaction.line())?;
+        }
         if !step.warnings.is_empty() {
             writeln!(self.0, "\nwarnings")?;
         }
