@@ -34,6 +34,21 @@ pub(crate) enum Values {
     Other(String),
 }
 
+impl Values {
+    /// Number of values; none of a type outside the format.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::F64(v) => v.len(),
+            Self::U8(v) => v.len(),
+            Self::U32(v) => v.len(),
+            Self::U64(v) => v.len(),
+            Self::I64(v) => v.len(),
+            Self::Text(v) => v.len(),
+            Self::Other(_) => 0,
+        }
+    }
+}
+
 /// A Rust type that stands for one of the element types.
 pub(crate) trait Element: Sized {
     /// Name of the type in messages and in the checksum.

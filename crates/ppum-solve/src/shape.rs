@@ -48,7 +48,7 @@ impl Shapes {
     /// Multiplies the columns by factors.
     pub(crate) fn multiply(&mut self, factors: &[f64]) {
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {
-            for row in array.chunks_exact_mut(factors.len()) {
+            for row in array.chunks_exact_mut(factors.len().max(1)) {
                 row.iter_mut().zip(factors).for_each(|(v, factor)| *v *= factor);
             }
         }

@@ -83,7 +83,7 @@ fn change(content: &mut Content, below: Below) -> Option<String> {
 
 /// The same number of values of another type.
 fn of_another_type(values: &Values, below: Below) -> Values {
-    let n = length(values);
+    let n = values.len();
     match below(6) {
         0 => Values::F64(vec![0.5; n]),
         1 => Values::U8(vec![1; n]),
@@ -91,18 +91,6 @@ fn of_another_type(values: &Values, below: Below) -> Values {
         3 => Values::U64(vec![0; n]),
         4 => Values::I64(vec![-1; n]),
         _ => Values::Text(vec!["1".to_owned(); n]),
-    }
-}
-
-fn length(values: &Values) -> usize {
-    match values {
-        Values::F64(v) => v.len(),
-        Values::U8(v) => v.len(),
-        Values::U32(v) => v.len(),
-        Values::U64(v) => v.len(),
-        Values::I64(v) => v.len(),
-        Values::Text(v) => v.len(),
-        Values::Other(_) => 0,
     }
 }
 
@@ -158,7 +146,7 @@ fn zeros(array: &Array, below: Below) -> Array {
 }
 
 fn swap(values: &mut Values, below: Below) {
-    let n = length(values);
+    let n = values.len();
     if n == 0 {
         return;
     }
@@ -190,7 +178,7 @@ fn each(values: &mut Values, below: Below) {
 }
 
 fn one(values: &mut Values, below: Below) {
-    let n = length(values);
+    let n = values.len();
     if n == 0 {
         return;
     }

@@ -137,7 +137,7 @@ impl Walk {
             other => return Ok(Array { shape, values: Values::Other(other.to_string()) }),
         };
         let array = Array { shape, values };
-        if array.len() == array.shape.iter().product::<u64>() {
+        if array.values.len() as u64 == array.shape.iter().product::<u64>() {
             Ok(array)
         } else {
             Err(error(path, "holds fewer values than its shape says"))
@@ -201,21 +201,6 @@ fn parts(shape: &[u64], chunk: &[u64]) -> Option<u64> {
     }
     let parts: Vec<u64> = shape.iter().zip(chunk).map(|(n, chunk)| n.div_ceil(*chunk)).collect();
     product(&parts)
-}
-
-impl Array {
-    fn len(&self) -> u64 {
-        let length = match &self.values {
-            Values::F64(v) => v.len(),
-            Values::U8(v) => v.len(),
-            Values::U32(v) => v.len(),
-            Values::U64(v) => v.len(),
-            Values::I64(v) => v.len(),
-            Values::Text(v) => v.len(),
-            Values::Other(_) => 0,
-        };
-        length as u64
-    }
 }
 
 /// An error at an object; the root is `/`.

@@ -54,6 +54,17 @@ fn places(warnings: &[Warning]) -> Vec<Vec2> {
 
 const STRAIGHT: &str = "[[-0.5, 0.0], [0.5, 0.0]]";
 
+/// Two cracks a thousandth of a cell apart: the functions of the strip between them depend on each other,
+/// and digits of the linear system are lost.
+#[test]
+fn lost_digits() {
+    let cracks = format!("{STRAIGHT}\n[[crack]]\npoints = [[-0.4, 2e-4], [0.4, 2e-4]]");
+    let dataset = plate(&cracks, &tension(), "");
+    let found = warnings(&dataset).iter().find(|w| w.kind == kind::RESIDUAL);
+    let found = found.expect("a warning of the residual");
+    assert!(found.value > found.limit && found.message.contains("nearly touch"), "{found:?}");
+}
+
 #[test]
 fn good_problems_are_silent() {
     for (points, loads) in [
