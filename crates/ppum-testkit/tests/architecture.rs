@@ -7,17 +7,18 @@ use std::process::Command;
 use serde_json::Value;
 
 /// What each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 6] = [
+const ARROWS: [(&str, &[&str]); 7] = [
     ("ppum", &[]),
     ("ppum-format", &["ppum"]),
     ("ppum-solve", &["ppum"]),
     ("ppum-render", &["ppum"]),
-    ("ppum-cli", &["ppum", "ppum-format", "ppum-render", "ppum-solve"]),
+    ("ppum-gpu", &["ppum", "ppum-render"]),
+    ("ppum-cli", &["ppum", "ppum-format", "ppum-gpu", "ppum-render", "ppum-solve"]),
     ("ppum-testkit", &["ppum"]),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 9] = [
+const DOORS: [(&str, &str); 10] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
@@ -27,6 +28,7 @@ const DOORS: [(&str, &str); 9] = [
     ("png", "ppum-render"),
     ("spade", "ppum-solve"),
     ("toml", "ppum-solve"),
+    ("wgpu", "ppum-gpu"),
 ];
 
 /// What the field itself must do without: threads, files of any kind, messages.

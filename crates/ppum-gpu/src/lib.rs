@@ -1,0 +1,1 @@
+//! Draws fields exactly at every pixel on graphics cards.
