@@ -1,1 +1,3 @@
 //! Draws fields exactly at every pixel on graphics cards.
+mod bins;
+mod layout;

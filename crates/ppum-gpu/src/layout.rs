@@ -1,0 +1,103 @@
+//! Records that shaders read: declared once, here, and written out as WGSL.
+
+/// Declares a record of numbers: a Rust structure, its words in the order of its fields, and the same
+/// structure in WGSL.
+///
+/// Fields go from the strictest alignment to the loosest, vectors of four first, so that neither side
+/// has gaps; a test compares the offsets with naga's.
+macro_rules! record {
+    (
+        $(#[$about:meta])*
+        $name:ident { $( $(#[$what:meta])* $field:ident : $kind:ident, )+ }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default)]
+        pub(crate) struct $name {
+            $( $(#[$what])* pub(crate) $field: $crate::layout::kinds::$kind, )+
+        }
+
+        impl $name {
+            /// The structure in WGSL.
+            pub(crate) fn wgsl() -> String {
+                let members: &[(&str, &str)] = &[$(
+                    (stringify!($field), <$crate::layout::kinds::$kind as $crate::layout::Words>::WGSL),
+                )+];
+                let line = |(name, kind): &(&str, &str)| format!("    {name}: {kind},\n");
+                let members: String = members.iter().map(line).collect();
+                format!("struct {} {{\n{members}}}\n", stringify!($name))
+            }
+
+            /// The words of all fields, up to a multiple of 16 bytes.
+            pub(crate) fn words(&self) -> Vec<u32> {
+                let mut words = Vec::new();
+                $( $crate::layout::Words::push(&self.$field, &mut words); )+
+                words.resize(words.len().next_multiple_of(4), 0);
+                words
+            }
+        }
+    };
+}
+
+pub(crate) use record;
+
+/// Names of the field types of records.
+#[expect(non_camel_case_types, reason = "they are the names of WGSL")]
+pub(crate) mod kinds {
+    pub(crate) type f32 = std::primitive::f32;
+    pub(crate) type u32 = std::primitive::u32;
+    pub(crate) type vec2f = [std::primitive::f32; 2];
+    pub(crate) type vec2u = [std::primitive::u32; 2];
+    pub(crate) type vec4f = [std::primitive::f32; 4];
+}
+
+/// A type of a field.
+pub(crate) trait Words {
+    /// Its name in WGSL.
+    const WGSL: &'static str;
+    /// Appends its words.
+    fn push(&self, words: &mut Vec<u32>);
+}
+
+macro_rules! words {
+    ($($kind:ty, $name:literal, |$value:ident| $words:expr;)+) => { $(
+        impl Words for $kind {
+            const WGSL: &'static str = $name;
+            fn push(&self, words: &mut Vec<u32>) {
+                let $value = self;
+                words.extend($words);
+            }
+        }
+    )+ };
+}
+
+words! {
+    f32, "f32", |v| [v.to_bits()];
+    u32, "u32", |v| [*v];
+    [f32; 2], "vec2<f32>", |v| v.map(f32::to_bits);
+    [u32; 2], "vec2<u32>", |v| *v;
+    [f32; 4], "vec4<f32>", |v| v.map(f32::to_bits);
+}
+
+/// The bytes of words, as devices read them.
+pub(crate) fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// A number of double precision as the sum of two of single precision.
+pub(crate) fn halves(value: f64) -> [f32; 2] {
+    let high = value as f32;
+    [high, (value - f64::from(high)) as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_keep_48_bits() {
+        for value in [0.1, -1.0 / 3.0, 12345.678901234, 1e-12] {
+            let [high, low] = halves(value).map(f64::from);
+            assert!((high + low - value).abs() <= value.abs() * 2f64.powi(-47), "{value}");
+        }
+    }
+}

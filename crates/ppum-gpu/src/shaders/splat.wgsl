@@ -1,0 +1,160 @@
+// The three passes of Üffinger et al. 2011, section 4 and figure 3: patches drawn as quads.
+//
+//   1  S = Σ W_i and ∇S by additive blending                                   splat_weight
+//   2  φ_i v_i and ∇(φ_i v_i) = ∇φ_i v_i + φ_i ∇v_i, likewise, φ_i = W_i / S     splat_field
+//   3  the quantity of the sums, then its colour                               sample_of, finish.wgsl
+//
+// A quad is clipped to the view and its corners put on borders of pixels in double precision. Its local
+// coordinates are given at its first pixel, with their steps from pixel to pixel: exact where the
+// interpolation of corners is not.
+
+struct Quad {
+    @builtin(position) position: vec4<f32>,
+    // Its first pixel; there ξ, and the steps of ξ to the next column and row.
+    @location(0) @interpolate(flat) first: vec2<u32>,
+    @location(1) @interpolate(flat) xi: vec2<f32>,
+    @location(2) @interpolate(flat) step: vec2<f32>,
+    // The same in the frame of the polynomials.
+    @location(3) @interpolate(flat) frame_xi: vec2<f32>,
+    @location(4) @interpolate(flat) frame_step: vec2<f32>,
+    @location(5) @interpolate(flat) index: u32,
+}
+
+struct Instance {
+    // First pixel, and the one after the last, in columns and rows.
+    @location(0) first: vec2<u32>,
+    @location(1) end: vec2<u32>,
+    @location(2) xi: vec2<f32>,
+    @location(3) step: vec2<f32>,
+    @location(4) frame_xi: vec2<f32>,
+    @location(5) frame_step: vec2<f32>,
+    @location(6) index: u32,
+}
+
+@vertex
+fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
+    let is_end = vec2<bool>((vertex & 1u) == 1u, vertex >= 2u);
+    let corner = vec2<f32>(select(quad.first, quad.end, is_end));
+    let at = corner / vec2<f32>(view.pixels) * 2.0 - 1.0;
+    let position = vec4<f32>(at.x, -at.y, 0.0, 1.0);
+    return Quad(
+        position, quad.first, quad.xi, quad.step, quad.frame_xi, quad.frame_step, quad.index
+    );
+}
+
+// Steps from the first pixel of a quad.
+fn quad_steps(quad: Quad) -> vec2<f32> {
+    return vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
+}
+
+// The weight of a quad's patch; 0 on the pixels of its border that the patch does not cover.
+fn quad_weight(quad: Quad) -> Jet {
+    let xi = quad.xi + quad_steps(quad) * quad.step;
+    if !covers(xi) {
+        return Jet();
+    }
+    let inverse = bitcast<vec2<f32>>(load_place(patch_address(quad.index) + 2u));
+    return weight_tensor(xi, inverse);
+}
+
+@fragment
+fn splat_weight(quad: Quad) -> Weights {
+    let w = quad_weight(quad);
+    let covered = covers(quad.xi + quad_steps(quad) * quad.step);
+    let part = select(0.0, w.v, quad.index == view.chosen);
+    return weights_of(w, select(0.0, 1.0, covered), part);
+}
+
+// φ_i v_i of two components; a slot holds two of value, x, y, xx, xy, yy.
+@fragment
+fn splat_field(quad: Quad) -> Fields {
+    let pixel = pixel_at(vec2<u32>(quad.position.xy));
+    let w = quad_weight(quad);
+    if w.v <= 0.0 {
+        return Fields();
+    }
+    let phi = jet_over(w, weight_sum(pixel.index));
+    let at = patch_address(quad.index);
+    var place = Place(quad.xi + quad_steps(quad) * quad.step, bitcast<vec2<f32>>(load_place(at + 2u)));
+    if OWN_FRAMES {
+        let inverse = bitcast<vec2<f32>>(load_place(at + 6u));
+        place = Place(quad.frame_xi + quad_steps(quad) * quad.frame_step, inverse);
+    }
+    let v = local_field(load_place(at + 3u), place, pixel.offset, view_reference());
+    return fields_of(jets_times(phi, v[2u * PAIR / LANES]));
+}
+
+// The constants that all patches subtract from theirs: those of a patch in sight.
+fn view_reference() -> Reference {
+    var out: Reference;
+    for (var g = 0u; g < GROUPS; g++) {
+        out.high[g] = view_lanes(view.reference + g * LANE_PAIRS);
+        out.low[g] = view_lanes(view.reference + (GROUPS + g) * LANE_PAIRS);
+    }
+    return out;
+}
+
+// Σ W_i with derivatives, from the first pass.
+fn weight_sum(index: vec2<u32>) -> Jet {
+    let first = textureLoad(weights_0, index, 0);
+    var sum = Jet(first.x, first.y, first.z, 0.0, 0.0, 0.0);
+    if ORDER >= 2u {
+        let second = textureLoad(weights_1, index, 0);
+        sum.xx = second.x;
+        sum.xy = second.y;
+        sum.yy = second.z;
+    }
+    return sum;
+}
+
+fn jet_over(a: Jet, b: Jet) -> Jet {
+    let sum = Jets(Lanes(a.v), Lanes(a.x), Lanes(a.y), Lanes(a.xx), Lanes(a.xy), Lanes(a.yy));
+    let q = jets_over(sum, b);
+    return Jet(q.v.x, q.x.x, q.y.x, q.xx.x, q.xy.x, q.yy.x);
+}
+
+// Everything known at a pixel, from the first two passes.
+fn splatted(pixel: Pixel) -> Sample {
+    let sum = weight_sum(pixel.index);
+    let overlap = textureLoad(weights_0, pixel.index, 0).w;
+    let part = textureLoad(weights_1, pixel.index, 0).w;
+    let reference = view_reference();
+    var u: array<Jets, GROUPS>;
+    if HAS_FIELD {
+        for (var g = 0u; g < GROUPS; g++) {
+            u[g] = jets_of(g, pixel.index);
+            u[g].v += reference.high[g] + reference.low[g];
+        }
+    }
+    return Sample(view.center + pixel.offset, u, sum.v, overlap, part / sum.v);
+}
+
+// The sums of a group of components; slot k of a pair of them holds two numbers of each.
+fn jets_of(group: u32, index: vec2<u32>) -> Jets {
+    var out: Jets;
+    let pair = group * LANES / 2u;
+    let v_x = slot_pairs(pair, 0u, index);
+    out.v = v_x[0];
+    if ORDER >= 1u {
+        out.x = v_x[1];
+        let y_xx = slot_pairs(pair, 1u, index);
+        out.y = y_xx[0];
+        out.xx = y_xx[1];
+    }
+    if ORDER >= 2u {
+        let xy_yy = slot_pairs(pair, 2u, index);
+        out.xy = xy_yy[0];
+        out.yy = xy_yy[1];
+    }
+    return out;
+}
+
+// Slot k of the pairs of components of a group, beginning with `pair`: two numbers of each component.
+fn slot_pairs(pair: u32, k: u32, index: vec2<u32>) -> array<Lanes, 2> {
+    let a = field_slot(pair * SLOTS + k, index);
+    if LANES == 2u {
+        return array<Lanes, 2>(lanes_of(a.xy, a.xy), lanes_of(a.zw, a.zw));
+    }
+    let b = field_slot((pair + 1u) * SLOTS + k, index);
+    return array<Lanes, 2>(lanes_of(a.xy, b.xy), lanes_of(a.zw, b.zw));
+}
