@@ -16,7 +16,7 @@
 use ppum::dataset::{FieldData, monomials};
 use ppum::field::Field;
 
-use crate::groups::Groups;
+use crate::groups::{Class, Groups};
 use crate::layout::halves;
 
 /// Marks the smooth term of a patch.
@@ -90,7 +90,7 @@ impl Writer<'_> {
     fn terms(&self, patch: usize) -> Vec<Term> {
         let mut terms: Vec<Term> = Vec::new();
         for block in self.data.blocks(patch) {
-            let (group, entry) = self.groups.of(self.data.block_function[block]);
+            let [group, entry] = self.groups.slot(self.data.block_function[block]);
             let entry = entry as usize;
             let has_room = |term: &&mut Term| term.group == group && term.blocks[entry].is_none();
             match terms.iter_mut().find(has_room) {
@@ -102,7 +102,7 @@ impl Writer<'_> {
                 }
             }
         }
-        if let Some(at) = terms.iter().position(|term| self.groups.is_smooth(term.group)) {
+        if let Some(at) = terms.iter().position(|term| self.groups.classes()[term.group as usize] == Class::Smooth) {
             terms[at].smooth = true;
             terms.swap(0, at);
         }

@@ -14,6 +14,7 @@ pub mod figure;
 pub mod image;
 pub mod overlay;
 pub mod picture;
+pub mod pixels;
 pub mod png;
 pub mod range;
 pub mod raster;

@@ -61,7 +61,7 @@ pub struct Picture {
 
 /// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
 /// at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most one step.
-const PALETTE: usize = 4096;
+pub const PALETTE: usize = 4096;
 
 impl Picture {
     /// The bare picture of a raster: one pixel a value, nothing else.

@@ -108,6 +108,18 @@ impl Normalization {
         self.threshold
     }
 
+    /// s(min) of the scaled value s.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// One over s(max) − s(min): the position is (s − s(min)) times it.
+    #[must_use]
+    pub fn per_span(&self) -> f64 {
+        self.per_span
+    }
+
     /// Position of a value: 0 at `min`, 1 at `max`; below 0, above 1 or infinite outside the range;
     /// NaN for NaN. On the logarithmic scale values ≤ 0 are at −∞.
     #[must_use]

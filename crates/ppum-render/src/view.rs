@@ -10,6 +10,8 @@
 //! *Continuous* pixel coordinates have their origin at the picture's upper left corner, y down;
 //! the centre of pixel (i, j) is at (i + 1/2, j + 1/2).
 
+use std::ops::Range;
+
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// A window of the plane with square pixels; its height follows from the width and the pixels.
@@ -175,6 +177,19 @@ impl View {
         vec2(self.column_offset(column), self.row_offset(row))
     }
 
+    /// The columns and rows whose centres lie in a closed box, by the test that single points pass.
+    #[must_use]
+    pub fn inside(&self, bounds: &Rect) -> [Range<usize>; 2] {
+        let (lo, hi) = (bounds.min - self.center, bounds.max - self.center);
+        let [nx, ny] = self.pixels;
+        let columns = first(nx, |i| self.column_offset(i) >= lo.x)..first(nx, |i| {
+            self.column_offset(i) > hi.x
+        });
+        let rows =
+            first(ny, |j| self.row_offset(j) <= hi.y)..first(ny, |j| self.row_offset(j) < lo.y);
+        [columns, rows]
+    }
+
     /// Offset from the view's centre of a continuous pixel position.
     #[must_use]
     pub fn offset_at(&self, pixel: Vec2) -> Vec2 {
@@ -195,6 +210,20 @@ impl View {
     pub fn pixel(&self, world: Vec2) -> Vec2 {
         self.pixel_of_offset(world - self.center)
     }
+}
+
+/// The first of `count` indices that passes a test all later ones pass too.
+fn first(count: u32, test: impl Fn(u32) -> bool) -> usize {
+    let (mut lo, mut hi) = (0, count);
+    while lo < hi {
+        let middle = lo + (hi - lo) / 2;
+        if test(middle) {
+            hi = middle;
+        } else {
+            lo = middle + 1;
+        }
+    }
+    lo as usize
 }
 
 #[cfg(test)]

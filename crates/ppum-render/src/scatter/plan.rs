@@ -9,6 +9,7 @@ use ppum::function::Slot;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2};
 
+use crate::pixels::Pixels;
 use crate::view::View;
 
 /// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
@@ -92,13 +93,13 @@ impl<'f> Plan<'f> {
             patches: Vec::with_capacity(visible.len()),
             blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
-            inside: pixels.inside(&field.domain.bounds),
-            holes: pixels.holes(&field.domain.holes),
+            inside: view.inside(&field.domain.bounds),
+            holes: holes(&field.domain.holes, view.center, &pixels),
             tiles: Tiles::default(),
         };
         for &index in &visible {
             let blocks = plan.add_blocks(field, index as usize, quantity);
-            plan.patches.push(patch(field, index as usize, &pixels, blocks));
+            plan.patches.push(patch(field, index as usize, view, &pixels, blocks));
         }
         plan.tiles = Tiles::new(&plan.patches, view.pixels, rows);
         plan
@@ -166,11 +167,11 @@ fn coefficients<'f>(data: &'f FieldData, quantity: &Quantity) -> Vec<&'f [f64]> 
     }
 }
 
-fn patch(field: &Field, index: usize, pixels: &Pixels, blocks: Range<u32>) -> Patch {
+fn patch(field: &Field, index: usize, view: &View, pixels: &Pixels, blocks: Range<u32>) -> Patch {
     let partition = &field.step.partition;
-    let (center, half) = (partition.center[index] - pixels.anchor, partition.half[index]);
+    let (center, half) = (partition.center[index] - view.center, partition.half[index]);
     let [columns, rows] = pixels.covered(&Rect::around(center, half));
-    let frame = affine(partition.origin[index] - pixels.anchor, partition.scale[index]);
+    let frame = affine(partition.origin[index] - view.center, partition.scale[index]);
     Patch { support: affine(center, half), frame, columns, rows, blocks }
 }
 
@@ -183,85 +184,16 @@ fn affine(origin: Vec2, scale: Vec2) -> [Affine; 2] {
     [one(origin.x, scale.x), one(origin.y, scale.y)]
 }
 
-/// Which pixels lie in a box.
-struct Pixels<'v> {
-    view: &'v View,
-    anchor: Vec2,
-    /// Pixels a length.
-    density: f64,
-    /// Pixels by which a rounded position may be wrong; weights decide exactly.
-    margin: f64,
-}
-
-impl<'v> Pixels<'v> {
-    fn new(view: &'v View) -> Self {
-        let density = 1.0 / view.pixel_size();
-        let far = view.center.x.abs().max(view.center.y.abs()) + view.width + view.height();
-        let margin = 1e-3 + 4.0 * f64::EPSILON * far * density;
-        Self { view, anchor: view.center, density, margin }
-    }
-
-    /// The view in the world, enlarged by the margin.
-    fn window(&self) -> Rect {
-        let margin = self.margin / self.density;
-        Rect::around(self.anchor, self.view.half() + Vec2 { x: margin, y: margin })
-    }
-
-    /// The columns and rows whose pixels may lie in a box given relative to the anchor.
-    fn covered(&self, b: &Rect) -> [Range<u32>; 2] {
-        let [nx, ny] = self.view.pixels;
-        [self.range(b.min.x, b.max.x, nx), self.range(-b.max.y, -b.min.y, ny)]
-    }
-
-    /// The pixels of `count` whose offsets may lie between two. Rounding down and up goes through
-    /// integers, which saturate.
-    fn range(&self, lo: f64, hi: f64, count: u32) -> Range<u32> {
-        let middle = 0.5 * (f64::from(count) - 1.0);
-        let first = middle + lo * self.density - self.margin;
-        let last = middle + hi * self.density + self.margin;
-        let start = if first > 0.0 { (first as u32).saturating_add(1) } else { 0 };
-        let end = if last >= 0.0 { (last as u32).saturating_add(1) } else { 0 };
-        start.min(count)..end.min(count).max(start.min(count))
-    }
-
-    /// The holes in sight.
-    fn holes(&self, holes: &[Hole]) -> Vec<HolePixels> {
-        let seen = holes.iter().map(|hole| {
-            let bounds = hole.bounds();
-            let relative = Rect::new(bounds.min - self.anchor, bounds.max - self.anchor);
-            let [columns, rows] =
-                self.covered(&relative).map(|range| range.start as usize..range.end as usize);
-            HolePixels { hole: hole.at(self.anchor), columns, rows }
-        });
-        seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
-    }
-
-    /// The columns and rows whose pixels lie in the closed box, by the reference's own test.
-    fn inside(&self, domain: &Rect) -> [Range<usize>; 2] {
-        let (lo, hi) = (domain.min - self.anchor, domain.max - self.anchor);
-        let [nx, ny] = self.view.pixels;
-        let columns = first(nx, |i| self.view.column_offset(i) >= lo.x)..first(nx, |i| {
-            self.view.column_offset(i) > hi.x
-        });
-        let rows = first(ny, |j| self.view.row_offset(j) <= hi.y)..first(ny, |j| {
-            self.view.row_offset(j) < lo.y
-        });
-        [columns, rows]
-    }
-}
-
-/// The first of `count` indices that passes a test all later ones pass too.
-fn first(count: u32, test: impl Fn(u32) -> bool) -> usize {
-    let (mut lo, mut hi) = (0, count);
-    while lo < hi {
-        let middle = lo + (hi - lo) / 2;
-        if test(middle) {
-            hi = middle;
-        } else {
-            lo = middle + 1;
-        }
-    }
-    lo as usize
+/// The holes in sight.
+fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
+    let seen = holes.iter().map(|hole| {
+        let bounds = hole.bounds();
+        let relative = Rect::new(bounds.min - anchor, bounds.max - anchor);
+        let [columns, rows] =
+            pixels.covered(&relative).map(|range| range.start as usize..range.end as usize);
+        HolePixels { hole: hole.at(anchor), columns, rows }
+    });
+    seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
 }
 
 /// The patches of each tile in compressed rows.

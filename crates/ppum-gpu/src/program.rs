@@ -1,0 +1,616 @@
+//! Shaders composed of their parts, and the pipelines made of them.
+
+use std::fmt::Write;
+
+use ppum::field::Field;
+use ppum::formula::wgsl_prelude;
+use ppum::quantity::{Quantity, Source};
+use wgpu::{
+    BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BlendComponent,
+    BlendFactor, BlendOperation, BlendState, BufferBindingType, ColorTargetState, ColorWrites,
+    RenderPipeline, ShaderStages, TextureFormat, TextureSampleType, TextureViewDimension,
+    VertexAttribute, VertexBufferLayout, VertexFormat, VertexStepMode,
+};
+
+use crate::bins;
+use crate::bodies;
+use crate::color::PALETTE_TEXELS;
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::functions::{Surroundings, functions_wgsl};
+use crate::geometry::GEOMETRY_PAIRS;
+use crate::groups::Groups;
+use crate::quads::QUAD_BYTES;
+use crate::quantity::{order_of, quantity_wgsl};
+use crate::region::record_pairs;
+use crate::scene::{Scene, SceneLayout};
+use crate::seen::ViewRecord;
+use crate::shader;
+use crate::weight::weight_wgsl;
+
+/// How patches come together at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// One pass: each pixel finds its patches and sums over them.
+    Gather,
+    /// The three passes of Üffinger et al. 2011: patches are drawn as quads and blended.
+    Splat,
+}
+
+/// What is written at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// The quantity's value.
+    Values,
+    /// The quantity's colour by a transfer function.
+    Colors,
+    /// Value, gradient and Hessian of a component of the field, whatever the quantity.
+    Component(u8),
+}
+
+/// A quantity of a field compiled for the card: what [`Renderer::compile`](crate::Renderer::compile) makes.
+///
+/// Where functions of the dataset are replaced, compile another program and go on drawing the scene.
+#[derive(Debug)]
+pub struct Program {
+    pub(crate) method: Method,
+    pub(crate) output: Output,
+    /// The patch whose φ is drawn.
+    pub(crate) chosen: Option<u32>,
+    /// Everything of the text that does not depend on the scene's buffers.
+    parts: Parts,
+    made: Option<Made>,
+}
+
+/// Texts and numbers a program is made of.
+#[derive(Clone, Debug)]
+struct Parts {
+    /// Derivatives: 0, 1 or 2.
+    order: u32,
+    /// False for quantities of the partition alone.
+    has_field: bool,
+    /// Weight, functions, quantity.
+    formulas: String,
+}
+
+/// The pipelines for a device and the buffers of a scene.
+#[derive(Debug)]
+pub(crate) struct Made {
+    generation: u64,
+    layout: SceneLayout,
+    /// Group 0: the view, the dataset, the region.
+    pub(crate) data: BindGroupLayout,
+    /// Group 1 where fields are splatted: the sums of weights.
+    pub(crate) sums: BindGroupLayout,
+    /// Group 1 of the last pass: what was splatted, and the palette.
+    pub(crate) textures: BindGroupLayout,
+    /// Splatting: weights, and a pass for each pair of components and slots.
+    pub(crate) weights: Option<RenderPipeline>,
+    pub(crate) fields: Vec<RenderPipeline>,
+    pub(crate) finish: RenderPipeline,
+    pub(crate) slots: Slots,
+}
+
+/// The float textures that splatting adds fields into, called slots: two numbers of two components each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slots {
+    /// Pairs of components.
+    pairs: u32,
+    /// Slots of each of them.
+    per_pair: u32,
+}
+
+/// The slots that one pass writes, those of one pair of components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FieldPass {
+    pub(crate) pair: u32,
+    /// Its first slot among those of the pair.
+    first: u32,
+    pub(crate) slots: u32,
+}
+
+/// Textures for S and its derivatives.
+pub(crate) const WEIGHTS: u32 = 2;
+
+/// Slots that one pass writes: 32 bytes a pixel, what WebGPU promises.
+const SLOTS_PER_PASS: u32 = 2;
+
+/// Sampled textures that WebGPU promises to a shader.
+const MOST_TEXTURES: u32 = 16;
+
+/// The format of what is added up.
+pub(crate) const SUMS: TextureFormat = TextureFormat::Rgba32Float;
+
+impl Output {
+    /// Formats of the textures that are written.
+    pub(crate) fn formats(self) -> &'static [TextureFormat] {
+        match self {
+            Self::Values => &[TextureFormat::R32Float],
+            Self::Colors => &[TextureFormat::Rgba8Unorm],
+            Self::Component(_) => &[SUMS, SUMS],
+        }
+    }
+
+    fn entry(self) -> &'static str {
+        match self {
+            Self::Values => "draw_value",
+            Self::Colors => "draw_color",
+            Self::Component(_) => "draw_component",
+        }
+    }
+}
+
+impl Program {
+    /// Composes the program; pipelines are made when it is drawn first.
+    pub(crate) fn new(
+        scene: &Scene,
+        field: &Field<'_>,
+        quantity: &Quantity,
+        method: Method,
+        output: Output,
+    ) -> Result<Self, GpuError> {
+        let order = match output {
+            Output::Component(_) => 2,
+            Output::Values | Output::Colors => order_of(quantity),
+        };
+        let has_field =
+            matches!(output, Output::Component(_)) || quantity.source() != Source::Partition;
+        let formulas = formulas(&scene.groups, field, quantity, order)?;
+        let chosen = match quantity {
+            Quantity::PartitionFunction(patch) => Some(*patch),
+            _ => None,
+        };
+        let parts = Parts { order, has_field, formulas };
+        Ok(Self { method, output, chosen, parts, made: None })
+    }
+
+    /// The pipelines for a scene as it is.
+    pub(crate) fn made(
+        &mut self,
+        gpu: &Gpu,
+        generation: u64,
+        layout: SceneLayout,
+    ) -> Result<&Made, GpuError> {
+        let fits = |made: &Made| made.generation == generation && made.layout == layout;
+        if !self.made.as_ref().is_some_and(fits) {
+            self.made = None;
+        }
+        match self.made {
+            Some(ref made) => Ok(made),
+            None => {
+                let made = self.make(gpu, generation, layout)?;
+                Ok(self.made.insert(made))
+            }
+        }
+    }
+
+    fn make(&self, gpu: &Gpu, generation: u64, layout: SceneLayout) -> Result<Made, GpuError> {
+        let slots = self.parts.slots(layout);
+        if self.method == Method::Splat {
+            check_splat(gpu, slots)?;
+        }
+        let sums = if self.method == Method::Splat { slots.all() } else { 0 };
+        let maker = Maker {
+            gpu,
+            data: data_layout(gpu, layout.chunks),
+            weights: textures_layout(gpu, WEIGHTS),
+            textures: textures_layout(gpu, sums + 1),
+            source: self.parts.text(layout, self.method, self.output, FieldPass::NONE),
+        };
+        let (weights, fields) = match self.method {
+            Method::Gather => (None, Vec::new()),
+            Method::Splat => self.splat_passes(&maker, layout, slots)?,
+        };
+        let finish = maker.finish(self.output)?;
+        let Maker { data, weights: sums, textures, .. } = maker;
+        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, slots })
+    }
+
+    fn splat_passes(
+        &self,
+        maker: &Maker<'_>,
+        layout: SceneLayout,
+        slots: Slots,
+    ) -> Result<(Option<RenderPipeline>, Vec<RenderPipeline>), GpuError> {
+        let weights = maker.quads("splat_weight", &maker.source, WEIGHTS, None)?;
+        let fields = slots.passes().map(|pass| {
+            let text = self.parts.text(layout, self.method, self.output, pass);
+            maker.quads("splat_field", &text, pass.slots, Some(&maker.weights))
+        });
+        Ok((Some(weights), fields.collect::<Result<_, _>>()?))
+    }
+}
+
+impl Slots {
+    /// Their number.
+    pub(crate) fn count(self) -> u32 {
+        self.pairs * self.per_pair
+    }
+
+    /// All textures that the last pass adds up from.
+    fn all(self) -> u32 {
+        WEIGHTS + self.count()
+    }
+
+    /// The passes that fill them.
+    pub(crate) fn passes(self) -> impl Iterator<Item = FieldPass> {
+        let firsts = move || (0..self.per_pair).step_by(SLOTS_PER_PASS as usize);
+        let pass = move |pair, first| {
+            let slots = SLOTS_PER_PASS.min(self.per_pair - first);
+            FieldPass { pair, first, slots }
+        };
+        (0..self.pairs).flat_map(move |pair| firsts().map(move |first| pass(pair, first)))
+    }
+}
+
+impl FieldPass {
+    /// Something to write for a shader that splats no field.
+    const NONE: Self = Self { pair: 0, first: 0, slots: 1 };
+
+    /// Its first slot among all.
+    pub(crate) fn first_slot(self, slots: Slots) -> u32 {
+        self.pair * slots.per_pair + self.first
+    }
+}
+
+fn check_splat(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
+    if !gpu.info().blends_floats {
+        let name = &gpu.info().name;
+        return Err(GpuError::Unsupported(format!(
+            "splatting adds up 32-bit floats while drawing, which {name} does not; gather instead"
+        )));
+    }
+    if slots.all() >= MOST_TEXTURES {
+        let message = "splatting holds all components in textures, of which there are too few for \
+             this field; gather instead";
+        return Err(GpuError::Unsupported(message.to_owned()));
+    }
+    Ok(())
+}
+
+/// Weight, functions and quantity of a field in WGSL.
+fn formulas(
+    groups: &Groups,
+    field: &Field<'_>,
+    quantity: &Quantity,
+    order: u32,
+) -> Result<String, GpuError> {
+    let step = field.step;
+    let surroundings =
+        Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
+    Ok([
+        wgsl_prelude().to_owned(),
+        weight_wgsl(&step.partition.weight)?,
+        functions_wgsl(&step.functions, groups, surroundings)?,
+        quantity_wgsl(field, quantity)?,
+    ]
+    .concat())
+}
+
+impl Parts {
+    fn slots(&self, layout: SceneLayout) -> Slots {
+        let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
+        Slots { pairs, per_pair: self.order + 1 }
+    }
+
+    /// The whole text of a shader; `pass` is what it splats.
+    fn text(&self, layout: SceneLayout, method: Method, output: Output, pass: FieldPass) -> String {
+        let mut text = self.constants(layout);
+        text += &types(layout);
+        text += &ViewRecord::wgsl().replace("ViewRecord", "View");
+        text += &bindings(layout);
+        text += &shader::point_functions();
+        for part in [shader::LOAD, shader::PIXEL, shader::BINS, shader::PLACE, shader::FINISH] {
+            text += part;
+        }
+        text += &self.formulas;
+        text += match output {
+            Output::Values => "",
+            Output::Colors => shader::COLOR,
+            Output::Component(_) => shader::COMPONENT,
+        };
+        text += &match method {
+            Method::Gather => gather_text(),
+            Method::Splat => self.splat_text(layout, pass),
+        };
+        text + &palette_binding(match method {
+            Method::Gather => 0,
+            Method::Splat => self.slots(layout).all(),
+        })
+    }
+
+    fn constants(&self, layout: SceneLayout) -> String {
+        let SceneLayout { components, own_frames, .. } = layout;
+        let mut text = String::new();
+        for (name, value) in [
+            ("ORDER", self.order),
+            ("COMPONENTS", components.count as u32),
+            ("LANES", components.lanes as u32),
+            ("LANE_PAIRS", components.lanes as u32 / 2),
+            ("GROUPS", components.groups as u32),
+            ("GEOMETRY_PAIRS", GEOMETRY_PAIRS),
+            ("PATCH_PAIRS", record_pairs(own_frames) as u32),
+            ("INNER", bins::INNER),
+            ("SMOOTH", bodies::SMOOTH),
+            ("ABSENT", bodies::ABSENT),
+            ("PALETTE", PALETTE_TEXELS),
+            ("LOG", crate::color::LOG),
+            ("SYMLOG", crate::color::SYMLOG),
+        ] {
+            let _ = writeln!(text, "const {name}: u32 = {value}u;");
+        }
+        let _ = writeln!(text, "const OWN_FRAMES: bool = {own_frames};");
+        let _ = writeln!(text, "const HAS_FIELD: bool = {};", self.has_field);
+        text
+    }
+
+    /// What splatting has beside its file: targets, slots, textures.
+    fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
+        let slots = self.slots(layout);
+        let mut text = shader::SPLAT.to_owned();
+        let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
+        let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
+        text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
+        text += &targets("Weights", WEIGHTS);
+        text += &targets("Fields", pass.slots);
+        text += &fields_of(pass, layout.components.lanes);
+        for k in 0..WEIGHTS {
+            let _ = writeln!(text, "@group(1) @binding({k}) var weights_{k}: texture_2d<f32>;");
+        }
+        for k in 0..slots.count() {
+            let binding = WEIGHTS + k;
+            let _ = writeln!(text, "@group(1) @binding({binding}) var field_{k}: texture_2d<f32>;");
+        }
+        text + &field_slot(slots.count())
+    }
+}
+
+/// `Lanes` and what belongs to it.
+fn types(layout: SceneLayout) -> String {
+    let lanes = layout.components.lanes;
+    let (of, load, view) = if lanes == 2 {
+        ("a", "load_pair(at)", "load_view(at)")
+    } else {
+        (
+            "vec4<f32>(a, b)",
+            "vec4<f32>(load_pair(at), load_pair(at + 1u))",
+            "vec4<f32>(load_view(at), load_view(at + 1u))",
+        )
+    };
+    format!(
+        "alias Lanes = vec{lanes}<f32>;
+fn lanes_of(a: vec2<f32>, b: vec2<f32>) -> Lanes {{ return {of}; }}
+fn load_lanes(at: u32) -> Lanes {{ return {load}; }}
+fn view_lanes(at: u32) -> Lanes {{ return {view}; }}
+struct Sample {{
+    position: vec2<f32>,
+    u: array<Jets, GROUPS>,
+    weight_sum: f32,
+    overlap: f32,
+    part: f32,
+}}
+"
+    )
+}
+
+/// The buffers and how they are read: one `load` each, over all the parts.
+fn bindings(layout: SceneLayout) -> String {
+    let mut text = "@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<storage, read> view_data: array<vec2<f32>>;
+"
+    .to_owned();
+    let mut binding = 2;
+    for (function, parts) in [("load", layout.chunks[0]), ("load_place", layout.chunks[1])] {
+        for k in 0..parts {
+            let _ = writeln!(
+                text,
+                "@group(0) @binding({binding}) var<storage, read> {function}_{k}: array<vec2<u32>>;"
+            );
+            binding += 1;
+        }
+        text += &load(function, parts, layout.chunk_pairs);
+    }
+    text
+}
+
+fn load(function: &str, parts: usize, chunk: u32) -> String {
+    let mut text = format!("fn {function}(at: u32) -> vec2<u32> {{\n");
+    for k in 1..parts as u32 {
+        let end = k * chunk;
+        let _ = writeln!(
+            text,
+            "    if at < {end}u {{ return {function}_{}[at - {}u]; }}",
+            k - 1,
+            end - chunk
+        );
+    }
+    let last = parts as u32 - 1;
+    let _ = writeln!(text, "    return {function}_{last}[at - {}u];\n}}", last * chunk);
+    text
+}
+
+fn gather_text() -> String {
+    shader::GATHER.to_owned()
+        + "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n"
+}
+
+fn palette_binding(binding: u32) -> String {
+    format!("@group(1) @binding({binding}) var palette: texture_2d<f32>;\n")
+}
+
+/// A structure of float targets.
+fn targets(name: &str, count: u32) -> String {
+    let member = |k| format!("    @location({k}) target_{k}: vec4<f32>,\n");
+    let members: String = (0..count).map(member).collect();
+    format!("struct {name} {{\n{members}}}\n")
+}
+
+/// What a pass writes of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
+fn fields_of(pass: FieldPass, lanes: usize) -> String {
+    const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
+    let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };
+    let slot = |k: u32| {
+        let [a, b] = PAIRS[(pass.first + k) as usize];
+        format!("vec4<f32>(u.{a}.{part}, u.{b}.{part})")
+    };
+    let all: Vec<String> = (0..pass.slots).map(slot).collect();
+    format!("fn fields_of(u: Jets) -> Fields {{\n    return Fields({});\n}}\n", all.join(", "))
+}
+
+/// The texture of a slot; 0 for those of components there are not.
+fn field_slot(count: u32) -> String {
+    let mut text = "fn field_slot(slot: u32, index: vec2<u32>) -> vec4<f32> {\n".to_owned();
+    for k in 0..count {
+        let _ =
+            writeln!(text, "    if slot == {k}u {{ return textureLoad(field_{k}, index, 0); }}");
+    }
+    text + "    return vec4<f32>();\n}\n"
+}
+
+fn data_layout(gpu: &Gpu, chunks: [usize; 2]) -> BindGroupLayout {
+    let entry = |binding: u32| BindGroupLayoutEntry {
+        binding,
+        visibility: if binding == 0 { ShaderStages::VERTEX_FRAGMENT } else { ShaderStages::FRAGMENT },
+        ty: BindingType::Buffer {
+            ty: if binding == 0 {
+                BufferBindingType::Uniform
+            } else {
+                BufferBindingType::Storage { read_only: true }
+            },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = (0..2 + (chunks[0] + chunks[1]) as u32).map(entry).collect();
+    let descriptor = BindGroupLayoutDescriptor { label: Some("data"), entries: &entries };
+    gpu.device().create_bind_group_layout(&descriptor)
+}
+
+/// A number of textures.
+fn textures_layout(gpu: &Gpu, count: u32) -> BindGroupLayout {
+    let entry = |binding: u32| BindGroupLayoutEntry {
+        binding,
+        visibility: ShaderStages::FRAGMENT,
+        ty: BindingType::Texture {
+            sample_type: TextureSampleType::Float { filterable: false },
+            view_dimension: TextureViewDimension::D2,
+            multisampled: false,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = (0..count).map(entry).collect();
+    let descriptor = BindGroupLayoutDescriptor { label: Some("textures"), entries: &entries };
+    gpu.device().create_bind_group_layout(&descriptor)
+}
+
+/// Makes the pipelines of a program.
+struct Maker<'a> {
+    gpu: &'a Gpu,
+    data: BindGroupLayout,
+    weights: BindGroupLayout,
+    textures: BindGroupLayout,
+    source: String,
+}
+
+/// What differs from pipeline to pipeline.
+struct Pass<'a> {
+    text: &'a str,
+    vertex: &'a str,
+    fragment: &'a str,
+    quads: bool,
+    targets: Vec<Option<ColorTargetState>>,
+    textures: Option<&'a BindGroupLayout>,
+}
+
+impl Maker<'_> {
+    /// The pass that makes the output.
+    fn finish(&self, output: Output) -> Result<RenderPipeline, GpuError> {
+        let target = |&format: &TextureFormat| Some(format.into());
+        self.pipeline(&Pass {
+            text: &self.source,
+            vertex: "cover",
+            fragment: output.entry(),
+            quads: false,
+            targets: output.formats().iter().map(target).collect(),
+            textures: Some(&self.textures),
+        })
+    }
+
+    /// A pass that draws quads and adds up what they write.
+    fn quads(
+        &self,
+        fragment: &str,
+        text: &str,
+        targets: u32,
+        textures: Option<&BindGroupLayout>,
+    ) -> Result<RenderPipeline, GpuError> {
+        let add = BlendComponent {
+            src_factor: BlendFactor::One,
+            dst_factor: BlendFactor::One,
+            operation: BlendOperation::Add,
+        };
+        let blend = Some(BlendState { color: add, alpha: add });
+        let target = ColorTargetState { format: SUMS, blend, write_mask: ColorWrites::ALL };
+        let targets = vec![Some(target); targets as usize];
+        let vertex = "splat_quad";
+        self.pipeline(&Pass { text, vertex, fragment, quads: true, targets, textures })
+    }
+
+    fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
+        let module = self.gpu.shader("compile the shader", pass.text)?;
+        let device = self.gpu.device();
+        let groups = [Some(&self.data), pass.textures];
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(pass.fragment),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let attributes = attributes();
+        let quads = [Some(VertexBufferLayout {
+            array_stride: QUAD_BYTES,
+            step_mode: VertexStepMode::Instance,
+            attributes: &attributes,
+        })];
+        let strip = wgpu::PrimitiveTopology::TriangleStrip;
+        let topology = if pass.quads { strip } else { wgpu::PrimitiveTopology::TriangleList };
+        let compilation_options = wgpu::PipelineCompilationOptions {
+            constants: &[],
+            zero_initialize_workgroup_memory: false,
+        };
+        self.gpu.checked("make the pipeline", || {
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(pass.fragment),
+                layout: Some(&layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some(pass.vertex),
+                    compilation_options: compilation_options.clone(),
+                    buffers: if pass.quads { &quads } else { &[] },
+                },
+                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(pass.fragment),
+                    compilation_options,
+                    targets: &pass.targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        })
+    }
+}
+
+/// The fields of a quad's record, two words each, the last one.
+fn attributes() -> [VertexAttribute; 7] {
+    use VertexFormat::{Float32x2, Uint32, Uint32x2};
+    let formats = [Uint32x2, Uint32x2, Float32x2, Float32x2, Float32x2, Float32x2, Uint32];
+    std::array::from_fn(|k| VertexAttribute {
+        format: formats[k],
+        offset: 8 * k as u64,
+        shader_location: k as u32,
+    })
+}

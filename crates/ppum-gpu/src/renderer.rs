@@ -1,0 +1,534 @@
+//! Drawing scenes, and surviving the loss of the device.
+
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityError};
+use ppum_render::image::Image;
+use ppum_render::raster::Raster;
+use ppum_render::view::View;
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindingResource, Buffer,
+    BufferDescriptor, BufferUsages, CommandEncoder, Extent3d, LoadOp, Operations,
+    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, StoreOp, Texture,
+    TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView,
+};
+
+use crate::adapter::Choice;
+use crate::color::{PALETTE_TEXELS, Shading};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::geometry::Geometry;
+use crate::layout::bytes;
+use crate::program::{Made, Method, Output, Program, SUMS, WEIGHTS};
+use crate::quads::quads;
+use crate::read;
+use crate::scene::Scene;
+use crate::seen::Seen;
+
+/// Why a picture was not drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The graphics card could not.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The quantity has no meaning for the field.
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+}
+
+/// Draws fields on a graphics device.
+///
+/// A [`Scene`] is a field on the card, a [`Program`] a quantity compiled; any program of a scene draws any
+/// view of it. Either may be replaced while the other stays. When the device is lost, the next call
+/// opens another one, uploads and compiles anew, and goes on.
+///
+/// ```no_run
+/// use ppum::{field::Field, quantity::Quantity};
+/// use ppum_gpu::{Choice, Method, Renderer};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let dataset: ppum::dataset::Dataset = todo!();
+/// # let view: ppum_render::view::View = todo!();
+/// let field = Field::new(&dataset, 0)?;
+/// let mut renderer = Renderer::open(Choice::Any)?;
+/// let stress = renderer.render(&field, &view, &Quantity::VonMises, Method::Gather)?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    choice: Choice,
+    /// Counts the devices that were opened: what was made for another one is made anew.
+    generation: u64,
+    /// Most bytes of one binding.
+    binding: u64,
+    targets: Targets,
+}
+
+/// Textures that are used again from frame to frame.
+#[derive(Debug, Default)]
+struct Targets {
+    size: [u32; 2],
+    /// Sums of weights and fields.
+    sums: Vec<TextureView>,
+    palette: Option<(Vec<u8>, TextureView)>,
+    /// The view's data and quads, in buffers that grow.
+    uniform: Option<Buffer>,
+    view: Option<Buffer>,
+    quads: Option<Buffer>,
+}
+
+/// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the next
+/// one, of the next step say, can be begun before.
+#[derive(Debug)]
+pub struct Drawn {
+    textures: Vec<Texture>,
+    size: [u32; 2],
+}
+
+impl Renderer {
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if there is none of the choice; see [`Gpu::open`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn open(choice: Choice) -> Result<Self, GpuError> {
+        Ok(Self::new(Gpu::open(choice)?, choice))
+    }
+
+    /// A renderer on an open device; a choice for the one after its loss.
+    #[must_use]
+    pub fn new(gpu: Gpu, choice: Choice) -> Self {
+        let binding = gpu.limits().max_storage_buffer_binding_size;
+        Self { gpu, choice, generation: 0, binding, targets: Targets::default() }
+    }
+
+    /// The device that draws.
+    #[must_use]
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Divides data into bindings of at most this many bytes, so that a test can see many of them.
+    #[doc(hidden)]
+    pub fn bind_at_most(&mut self, bytes: u64) {
+        self.binding = bytes.min(self.gpu.limits().max_storage_buffer_binding_size);
+    }
+
+    /// Puts a field on the card. Linear in its coefficients.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] if it does not fit into the bindings there are, five of 128 MiB by default.
+    pub fn upload(&mut self, field: &Field<'_>) -> Result<Scene, GpuError> {
+        self.again(|renderer| {
+            Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)
+        })
+    }
+
+    /// Compiles a quantity for a scene. The functions and the weight are those of `field`, the one that was
+    /// uploaded or the same with [replaced](ppum::replace) functions: nothing is uploaded again, and a program
+    /// compiled before keeps drawing if this one fails.
+    ///
+    /// # Errors
+    /// A formula that is too large for a shader; quantities that single precision cannot show; splatting on
+    /// a device that cannot.
+    pub fn compile(
+        &mut self,
+        scene: &Scene,
+        field: &Field<'_>,
+        quantity: &Quantity,
+        method: Method,
+        output: Output,
+    ) -> Result<Program, RenderError> {
+        quantity.check(field)?;
+        scene.check(field)?;
+        let mut program = Program::new(scene, field, quantity, method, output)?;
+        self.again(|renderer| {
+            program.made(&renderer.gpu, renderer.generation, scene.layout).map(|_| ())
+        })?;
+        Ok(program)
+    }
+
+    /// Draws a view of a scene. `field` is the one whose functions the program has.
+    ///
+    /// # Errors
+    /// See [`GpuError`]. A lost device is replaced; [`GpuError::Lost`] comes only if that fails twice.
+    ///
+    /// # Panics
+    /// If the program writes colours and there is no shading.
+    pub fn draw(
+        &mut self,
+        scene: &mut Scene,
+        program: &mut Program,
+        field: &Field<'_>,
+        view: &View,
+        shading: Option<&Shading>,
+    ) -> Result<Drawn, GpuError> {
+        scene.check(field)?;
+        self.check_size(view)?;
+        self.again(|renderer| {
+            if scene.generation != renderer.generation {
+                *scene =
+                    Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)?;
+            }
+            renderer.draw_once(scene, program, field, view, shading)
+        })
+    }
+
+    /// The values of a quantity at the pixel centres of a view: uploads, compiles, draws and reads.
+    ///
+    /// # Errors
+    /// See [`RenderError`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn render(
+        &mut self,
+        field: &Field<'_>,
+        view: &View,
+        quantity: &Quantity,
+        method: Method,
+    ) -> Result<Raster<f32>, RenderError> {
+        let mut scene = self.upload(field)?;
+        let mut program = self.compile(&scene, field, quantity, method, Output::Values)?;
+        let drawn = self.draw(&mut scene, &mut program, field, view, None)?;
+        Ok(self.raster(&drawn)?)
+    }
+
+    /// The values of a picture that was drawn with [`Output::Values`].
+    ///
+    /// # Errors
+    /// The device is lost, with the picture.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn raster(&self, drawn: &Drawn) -> Result<Raster<f32>, GpuError> {
+        let bytes = self.bytes(drawn, 0)?;
+        Ok(Raster::new(drawn.size, read::floats(&bytes)))
+    }
+
+    /// The colours of a picture that was drawn with [`Output::Colors`].
+    ///
+    /// # Errors
+    /// As [`raster`](Self::raster).
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn image(&self, drawn: &Drawn) -> Result<Image, GpuError> {
+        Ok(Image { size: drawn.size, rgba: self.bytes(drawn, 0)? })
+    }
+
+    /// Value, gradient and Hessian of a picture that was drawn with [`Output::Component`]: v, x, y, xx, xy, yy.
+    ///
+    /// # Errors
+    /// As [`raster`](Self::raster).
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn component(&self, drawn: &Drawn) -> Result<[Raster<f32>; 6], GpuError> {
+        let [first, second] =
+            [read::floats(&self.bytes(drawn, 0)?), read::floats(&self.bytes(drawn, 1)?)];
+        let of = |k: usize| {
+            let from = if k < 4 { &first } else { &second };
+            Raster::new(drawn.size, from.iter().skip(k % 4).step_by(4).copied().collect())
+        };
+        Ok(std::array::from_fn(of))
+    }
+
+    /// Waits until everything begun is drawn.
+    ///
+    /// # Errors
+    /// What went wrong meanwhile.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn wait(&self) -> Result<(), GpuError> {
+        read::wait(&self.gpu)
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn bytes(&self, drawn: &Drawn, texture: usize) -> Result<Vec<u8>, GpuError> {
+        let bytes = read::texture(&self.gpu, &drawn.textures[texture])?;
+        self.gpu.verdict()?;
+        Ok(bytes)
+    }
+
+    /// Does something, once more on a new device if the old one turns out to be lost.
+    fn again<T>(
+        &mut self,
+        mut f: impl FnMut(&mut Self) -> Result<T, GpuError>,
+    ) -> Result<T, GpuError> {
+        match f(self) {
+            Err(GpuError::Lost) => {
+                self.reopen()?;
+                f(self)
+            }
+            result => result,
+        }
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn reopen(&mut self) -> Result<(), GpuError> {
+        self.gpu = Gpu::open(self.choice)?;
+        self.generation += 1;
+        self.targets = Targets::default();
+        Ok(())
+    }
+
+    /// A page opens the next device by itself: it has to wait for it.
+    #[cfg(target_arch = "wasm32")]
+    fn reopen(&mut self) -> Result<(), GpuError> {
+        Err(GpuError::Lost)
+    }
+
+    fn check_size(&self, view: &View) -> Result<(), GpuError> {
+        let most = self.gpu.limits().max_texture_dimension_2d;
+        let [columns, rows] = view.pixels;
+        if columns.max(rows) <= most {
+            return Ok(());
+        }
+        Err(GpuError::Unsupported(format!(
+            "a picture of {columns}x{rows} pixels: this graphics device draws at most {most}x{most}; \
+             use `--backend cpu`"
+        )))
+    }
+
+    fn draw_once(
+        &mut self,
+        scene: &mut Scene,
+        program: &mut Program,
+        field: &Field<'_>,
+        view: &View,
+        shading: Option<&Shading>,
+    ) -> Result<Drawn, GpuError> {
+        scene.place(&self.gpu, field, view)?;
+        let (method, output, chosen) = (program.method, program.output, program.chosen);
+        let made = program.made(&self.gpu, self.generation, scene.layout)?;
+        let seen = seen(scene, field, view, (output, chosen), shading)?;
+        let gpu = &self.gpu;
+        let targets = &mut self.targets;
+        let drawn = gpu.checked("draw", || -> Result<Drawn, GpuError> {
+            targets.prepare(gpu, view.pixels, made, method, shading);
+            targets.write(gpu, &seen);
+            let data = targets.data(gpu, scene, made)?;
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            if method == Method::Splat {
+                let place = scene.placed()?;
+                let (words, count) = quads(field, view, &place.region);
+                targets.splat(gpu, &mut encoder, made, &data, (&words, count));
+            }
+            let drawn = targets.finish(gpu, &mut encoder, made, &data, output);
+            gpu.queue().submit([encoder.finish()]);
+            Ok(drawn)
+        })??;
+        Ok(drawn)
+    }
+}
+
+/// A view of a scene as shaders read it.
+fn seen(
+    scene: &Scene,
+    field: &Field<'_>,
+    view: &View,
+    (output, chosen): (Output, Option<u32>),
+    shading: Option<&Shading>,
+) -> Result<Seen, GpuError> {
+    let place = scene.placed()?;
+    let frames = scene.groups.frames(&field.step.functions);
+    let geometry = Geometry::new(field, &frames, view.center);
+    let mut seen = Seen::new(field, view, geometry, (&place.region, place.addresses));
+    if let Output::Component(component) = output {
+        seen.record.component = component.into();
+    }
+    if let Some(local) = chosen.and_then(|patch| place.region.local(patch)) {
+        seen.record.chosen = local;
+    }
+    if let Some(shading) = shading {
+        shading.note(&mut seen.record);
+    }
+    Ok(seen)
+}
+
+impl Targets {
+    /// Textures of the right size and colours.
+    fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        size: [u32; 2],
+        made: &Made,
+        method: Method,
+        shading: Option<&Shading>,
+    ) {
+        let needed = if method == Method::Splat { WEIGHTS + made.slots.count() } else { 0 };
+        if self.size != size {
+            self.sums.clear();
+            self.size = size;
+        }
+        while self.sums.len() < needed as usize {
+            let texture = target(gpu, size, SUMS);
+            self.sums.push(texture.create_view(&Default::default()));
+        }
+        let texels = match shading {
+            Some(shading) => shading.texels(),
+            None if self.palette.is_some() => return,
+            None => vec![0; 4 * (PALETTE_TEXELS as usize + 3)],
+        };
+        if self.palette.as_ref().is_none_or(|(known, _)| *known != texels) {
+            let view = palette(gpu, &texels);
+            self.palette = Some((texels, view));
+        }
+    }
+
+    /// Writes the view's data.
+    fn write(&mut self, gpu: &Gpu, seen: &Seen) {
+        let storage = BufferUsages::STORAGE;
+        let pairs: Vec<u32> = seen.pairs.as_flattened().iter().map(|v| v.to_bits()).collect();
+        write(gpu, &mut self.uniform, BufferUsages::UNIFORM, &seen.record.words());
+        write(gpu, &mut self.view, storage, &pairs);
+    }
+
+    /// Group 0: view, dataset, region.
+    fn data(&self, gpu: &Gpu, scene: &Scene, made: &Made) -> Result<BindGroup, GpuError> {
+        let own = [&self.uniform, &self.view].into_iter().flatten();
+        let all = own.chain(&scene.data).chain(&scene.placed()?.buffers);
+        let resources: Vec<_> = all.map(Buffer::as_entire_binding).collect();
+        Ok(group(gpu, &made.data, resources))
+    }
+
+    /// The first two passes of splatting.
+    fn splat(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        made: &Made,
+        data: &BindGroup,
+        (words, count): (&[u32], u32),
+    ) {
+        let words = if words.is_empty() { &[0][..] } else { words };
+        write(gpu, &mut self.quads, BufferUsages::VERTEX, words);
+        let weights = WEIGHTS as usize;
+        let sums = self.sums[..weights].iter().map(BindingResource::TextureView).collect();
+        let sums = group(gpu, &made.sums, sums);
+        if let Some(pipeline) = &made.weights {
+            let pass = (pipeline, &[data][..]);
+            self.add(encoder, pass, &self.sums[..weights], count);
+        }
+        for (pipeline, pass) in made.fields.iter().zip(made.slots.passes()) {
+            let first = weights + pass.first_slot(made.slots) as usize;
+            let into = &self.sums[first..first + pass.slots as usize];
+            self.add(encoder, (pipeline, &[data, &sums]), into, count);
+        }
+    }
+
+    /// Draws all quads into cleared textures.
+    fn add(
+        &self,
+        encoder: &mut CommandEncoder,
+        (pipeline, groups): (&RenderPipeline, &[&BindGroup]),
+        into: &[TextureView],
+        count: u32,
+    ) {
+        let attachments: Vec<_> = into.iter().map(attachment).collect();
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("splat"),
+            color_attachments: &attachments,
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
+        for (index, group) in (0..).zip(groups) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        if let Some(quads) = &self.quads {
+            pass.set_vertex_buffer(0, quads.slice(..));
+            pass.draw(0..4, 0..count);
+        }
+    }
+
+    /// The pass that makes the output.
+    fn finish(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        made: &Made,
+        data: &BindGroup,
+        output: Output,
+    ) -> Drawn {
+        let splats = if made.weights.is_some() { WEIGHTS + made.slots.count() } else { 0 };
+        let palette = self.palette.as_ref().map(|(_, view)| view);
+        let sums = self.sums[..splats as usize].iter().chain(palette);
+        let textures = group(gpu, &made.textures, sums.map(BindingResource::TextureView).collect());
+        let formats = output.formats().iter();
+        let drawn: Vec<_> = formats.map(|&format| target(gpu, self.size, format)).collect();
+        let views: Vec<_> = drawn.iter().map(|t| t.create_view(&Default::default())).collect();
+        let attachments: Vec<_> = views.iter().map(attachment).collect();
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("finish"),
+            color_attachments: &attachments,
+            ..Default::default()
+        });
+        pass.set_pipeline(&made.finish);
+        pass.set_bind_group(0, data, &[]);
+        pass.set_bind_group(1, &textures, &[]);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        Drawn { textures: drawn, size: self.size }
+    }
+}
+
+fn attachment(view: &TextureView) -> Option<RenderPassColorAttachment<'_>> {
+    let ops = Operations { load: LoadOp::Clear(wgpu::Color::TRANSPARENT), store: StoreOp::Store };
+    Some(RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+}
+
+fn group(gpu: &Gpu, layout: &BindGroupLayout, resources: Vec<BindingResource<'_>>) -> BindGroup {
+    let entry = |(binding, resource)| BindGroupEntry { binding, resource };
+    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
+    let descriptor = BindGroupDescriptor { label: None, layout, entries: &entries };
+    gpu.device().create_bind_group(&descriptor)
+}
+
+/// A texture to draw into and to read.
+fn target(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
+    let usage = TextureUsages::RENDER_ATTACHMENT
+        | TextureUsages::TEXTURE_BINDING
+        | TextureUsages::COPY_SRC;
+    gpu.device().create_texture(&descriptor(size, format, usage))
+}
+
+fn descriptor(
+    [width, height]: [u32; 2],
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> TextureDescriptor<'static> {
+    TextureDescriptor {
+        label: None,
+        size: Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    }
+}
+
+/// The colours as a texture one texel high.
+fn palette(gpu: &Gpu, texels: &[u8]) -> TextureView {
+    let width = texels.len() as u32 / 4;
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    let descriptor = descriptor([width, 1], TextureFormat::Rgba8Unorm, usage);
+    let texture = gpu.device().create_texture(&descriptor);
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(texels.len() as u32),
+        rows_per_image: None,
+    };
+    gpu.queue().write_texture(texture.as_image_copy(), texels, layout, descriptor.size);
+    texture.create_view(&Default::default())
+}
+
+/// Writes words into a buffer, a larger one if they do not fit.
+fn write(gpu: &Gpu, buffer: &mut Option<Buffer>, usage: BufferUsages, words: &[u32]) {
+    let size = 4 * words.len() as u64;
+    let fits = |buffer: &&mut Buffer| buffer.size() >= size;
+    let buffer = match buffer.as_mut().filter(fits) {
+        Some(buffer) => buffer,
+        None => buffer.insert(gpu.device().create_buffer(&BufferDescriptor {
+            label: Some("view"),
+            size: size.next_power_of_two(),
+            usage: usage | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })),
+    };
+    gpu.queue().write_buffer(buffer, 0, &bytes(words));
+}
