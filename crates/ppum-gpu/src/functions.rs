@@ -95,11 +95,9 @@ impl Kernel {
     ) -> Result<String, GpuError> {
         let body = match kind {
             Kind::One => constant("1.0"),
-            Kind::Side => format!(
-                "    let crack = bitcast<vec2<u32>>(load_view(GEOMETRY_PAIRS * group));\n    \
-                 let side = crack_side(Crack(crack.x, crack.y), offset);\n{}",
-                constant("side")
-            ),
+            Kind::Side => {
+                format!("    let side = crack_side(crack_of(group), offset);\n{}", constant("side"))
+            }
             Kind::Fixed | Kind::Tip => {
                 let members = members.iter().map(|&member| &functions[member as usize]);
                 let formulas = Formulas::new(members, surroundings)?;
@@ -117,11 +115,11 @@ impl Kernel {
     }
 
     fn of_formulas(self, kind: Kind, all: &Formulas, order: usize) -> Result<String, GpuError> {
-        let mut body = "    let at = GEOMETRY_PAIRS * group;\n".to_owned();
-        body += match kind {
-            Kind::Tip => "    let p = tip_point(at, offset);\n",
-            _ => "    let p = fixed_point(at, offset);\n",
-        };
+        let mut body = match kind {
+            Kind::Tip => "    let frame = tip_at(group);\n    let p = tip_point(frame, offset);\n",
+            _ => "    let frame = fixed_at(group);\n    let p = fixed_point(frame, offset);\n",
+        }
+        .to_owned();
         if all.natives().next().is_some() {
             body += "    let native = westergaard(p);\n";
         }
@@ -133,7 +131,7 @@ impl Kernel {
             body += &call(jets, &name);
         }
         let f = all.results(order);
-        writeln!(body, "    return functions_turned({f}, load_view(at + 1u));")
+        writeln!(body, "    return functions_turned({f}, frame.axis);")
             .expect("a string takes all");
         Ok(text + &self.function(&body))
     }

@@ -20,15 +20,30 @@ fn crack_side(crack: Crack, offset: vec2<f32>) -> f32 {
     return select(-1.0, 1.0, tangent.x * d.y - tangent.y * d.x >= 0.0);
 }
 
-fn fixed_point(at: u32, offset: vec2<f32>) -> TipPoint {
-    let d = offset + load_view(at);
-    let axis = load_view(at + 1u);
-    let y = axis.x * d.y - axis.y * d.x;
-    return TipPoint(dot(axis, d), y, select(-1.0, 1.0, y >= 0.0), 1.0);
+struct Frame { origin: vec2<f32>, axis: vec2<f32> }
+
+fn crack_of(group: u32) -> Crack {
+    let pair = bitcast<vec2<u32>>(load_view(GEOMETRY_PAIRS * group));
+    return Crack(pair.x, pair.y);
 }
 
-fn tip_point(at: u32, offset: vec2<f32>) -> TipPoint {
-    return fixed_point(at, offset);
+fn fixed_at(group: u32) -> Frame {
+    let at = GEOMETRY_PAIRS * group;
+    return Frame(load_view(at), load_view(at + 1u));
+}
+
+fn tip_at(group: u32) -> Frame {
+    return fixed_at(group);
+}
+
+fn fixed_point(frame: Frame, offset: vec2<f32>) -> TipPoint {
+    let d = offset + frame.origin;
+    let y = frame.axis.x * d.y - frame.axis.y * d.x;
+    return TipPoint(dot(frame.axis, d), y, select(-1.0, 1.0, y >= 0.0), 1.0);
+}
+
+fn tip_point(frame: Frame, offset: vec2<f32>) -> TipPoint {
+    return fixed_point(frame, offset);
 }
 
 fn tip_radius(p: TipPoint) -> f32 {
