@@ -67,6 +67,11 @@ impl Groups {
         self.members.len()
     }
 
+    /// Number of functions.
+    pub(crate) fn functions(&self) -> usize {
+        self.slots.len()
+    }
+
     /// Group and entry of a function.
     pub(crate) fn slot(&self, function: u32) -> [u32; 2] {
         self.slots[function as usize]

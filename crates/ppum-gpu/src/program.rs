@@ -18,7 +18,7 @@ use crate::color::PALETTE_TEXELS;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::functions::{Surroundings, functions_wgsl};
-use crate::geometry::GEOMETRY_PAIRS;
+use crate::geometry;
 use crate::groups::Groups;
 use crate::quads::QUAD_BYTES;
 use crate::quantity::{order_of, quantity_wgsl};
@@ -299,10 +299,9 @@ impl Parts {
         text += &types(layout);
         text += &ViewRecord::wgsl().replace("ViewRecord", "View");
         text += &bindings(layout);
-        text += &shader::point_functions();
-        for part in [shader::LOAD, shader::PIXEL, shader::BINS, shader::PLACE, shader::FINISH] {
-            text += part;
-        }
+        text += &geometry::constants();
+        let parts = [shader::LOAD, shader::PIXEL, shader::BINS, shader::PATCH, shader::FINISH];
+        text.extend(shader::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
         text += &self.formulas;
         text += match output {
             Output::Values => "",
@@ -328,7 +327,6 @@ impl Parts {
             ("LANES", components.lanes as u32),
             ("LANE_PAIRS", components.lanes as u32 / 2),
             ("GROUPS", components.groups as u32),
-            ("GEOMETRY_PAIRS", GEOMETRY_PAIRS),
             ("PATCH_PAIRS", record_pairs(own_frames) as u32),
             ("INNER", bins::INNER),
             ("SMOOTH", bodies::SMOOTH),
@@ -352,6 +350,7 @@ impl Parts {
         let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
         text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
         text += &targets("Weights", WEIGHTS);
+        text += WEIGHTS_OF;
         text += &targets("Fields", pass.slots);
         text += &fields_of(pass, layout.components.lanes);
         for k in 0..WEIGHTS {
@@ -444,6 +443,12 @@ fn targets(name: &str, count: u32) -> String {
     let members: String = (0..count).map(member).collect();
     format!("struct {name} {{\n{members}}}\n")
 }
+
+/// What is summed of a weight: with the number of patches, and that of the chosen one.
+const WEIGHTS_OF: &str = "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {
+    return Weights(vec4<f32>(w.v, w.x, w.y, overlap), vec4<f32>(w.xx, w.xy, w.yy, part));
+}
+";
 
 /// What a pass writes of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
 fn fields_of(pass: FieldPass, lanes: usize) -> String {

@@ -44,7 +44,7 @@ pub(crate) fn texture(gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError>
         Ok(Ok(())) => {}
         _ => return Err(GpuError::Lost),
     }
-    let bytes = buffer.get_mapped_range(..);
+    let bytes = buffer.get_mapped_range(..).map_err(|_| GpuError::Lost)?;
     let rows = bytes.chunks(padded as usize);
     Ok(rows.flat_map(|line| &line[..row as usize]).copied().collect())
 }

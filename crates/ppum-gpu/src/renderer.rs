@@ -325,7 +325,7 @@ fn seen(
 ) -> Result<Seen, GpuError> {
     let place = scene.placed()?;
     let frames = scene.groups.frames(&field.step.functions);
-    let geometry = Geometry::new(field, &frames, view.center);
+    let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
     let mut seen = Seen::new(field, view, geometry, (&place.region, place.addresses));
     if let Output::Component(component) = output {
         seen.record.component = component.into();

@@ -107,7 +107,8 @@ fn local_field(
                 if one {
                     v[g].v += (high - reference.high[g]) + (low - reference.low[g]);
                 } else {
-                    let p = jets_constant(high + low);
+                    var p = jets_zero();
+                    p.v = high + low;
                     v[g] = jets_plus(v[g], jets_times(functions_entry(known, 0u), p));
                 }
             }

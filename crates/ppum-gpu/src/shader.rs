@@ -1,0 +1,52 @@
+//! The texts of shaders, small files by concept, each a twin of a module of `ppum`. A shader is made of them
+//! by putting them and generated declarations one behind the other.
+
+/// Values with derivatives.
+pub(crate) const JET: &str = include_str!("shaders/jet.wgsl");
+/// Polynomials of patches.
+pub(crate) const POLYNOMIAL: &str = include_str!("shaders/polynomial.wgsl");
+/// Weight functions.
+pub(crate) const WEIGHT: &str = include_str!("shaders/weight.wgsl");
+/// Sides of cracks.
+pub(crate) const CRACK: &str = include_str!("shaders/crack.wgsl");
+/// Points in the frames of functions.
+pub(crate) const TIP: &str = include_str!("shaders/tip.wgsl");
+/// The Westergaard functions.
+pub(crate) const WESTERGAARD: &str = include_str!("shaders/westergaard.wgsl");
+/// Holes.
+pub(crate) const DOMAIN: &str = include_str!("shaders/domain.wgsl");
+/// Reading of what changes with the view.
+pub(crate) const GEOMETRY: &str = include_str!("shaders/geometry.wgsl");
+
+/// All functions of a point, by name. Beside them they need `ppum::formula::wgsl_prelude`, the
+/// [constants](crate::geometry::constants) of the view's data, `load_view`, `load_lanes`, `LANE_PAIRS`,
+/// `Lanes`, `ORDER`, `weight` and `view.cracks`.
+pub(crate) const POINT_FUNCTIONS: [(&str, &str); 8] = [
+    ("jet", JET),
+    ("polynomial", POLYNOMIAL),
+    ("weight", WEIGHT),
+    ("crack", CRACK),
+    ("tip", TIP),
+    ("westergaard", WESTERGAARD),
+    ("domain", DOMAIN),
+    ("geometry", GEOMETRY),
+];
+
+/// Reading data.
+pub(crate) const LOAD: &str = include_str!("shaders/load.wgsl");
+/// Pixels and where they are.
+pub(crate) const PIXEL: &str = include_str!("shaders/pixel.wgsl");
+/// Finding the patches of a pixel.
+pub(crate) const BINS: &str = include_str!("shaders/bins.wgsl");
+/// Patches and what they hold.
+pub(crate) const PATCH: &str = include_str!("shaders/patch.wgsl");
+/// One pass.
+pub(crate) const GATHER: &str = include_str!("shaders/gather.wgsl");
+/// Three passes.
+pub(crate) const SPLAT: &str = include_str!("shaders/splat.wgsl");
+/// What is written at a pixel.
+pub(crate) const FINISH: &str = include_str!("shaders/finish.wgsl");
+/// The transfer function.
+pub(crate) const COLOR: &str = include_str!("shaders/color.wgsl");
+/// A component as numbers.
+pub(crate) const COMPONENT: &str = include_str!("shaders/component.wgsl");
