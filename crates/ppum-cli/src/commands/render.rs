@@ -86,6 +86,7 @@ const EXAMPLES: &str = "\
 Examples:
   ppum render plate.h5 -o plate.png --figure
   ppum render plate.h5 -o uy.png -q uy --colormap coolwarm --size 1920x1080
+  ppum render plate.h5 -o file.png --colormap thermal.json
   ppum render plate.h5 -o mean.png -q '(sxx + syy)/2' --figure
   ppum render plate.h5 -o what-if.png --function 'westergaard 1=r' --weight bump
   ppum render plate.h5 -o jump.png -q uy --part jump
@@ -95,7 +96,7 @@ Examples:
 
 fn colormaps() -> String {
     format!(
-        "Colour map: {}; reversed with _r; or a file with red, green, blue a line",
+        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it",
         NAMES.join(", ")
     )
 }
