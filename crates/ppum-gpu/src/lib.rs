@@ -1,1 +1,15 @@
 //! Draws fields exactly at every pixel on graphics cards.
+#![allow(dead_code, reason = "the renderer that joins the parts is not there yet")]
+
+mod adapter;
+mod device;
+mod error;
+mod geometry;
+#[cfg(test)]
+mod tests;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub use adapter::adapters;
+pub use adapter::{AdapterInfo, AdapterKind, Choice};
+pub use device::Gpu;
+pub use error::GpuError;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ppum::formula::{Formula, FormulaJets, Scope, Table, wgsl_prelude};
+use ppum::formula::{Formula, FormulaJets, Scope, Table, WgslError, wgsl_prelude};
 use ppum::library::{ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
 use ppum_testkit::corpus::{self, SHADER};
 use ppum_testkit::random::Random;
@@ -279,6 +279,37 @@ fn library_is_valid() {
     let texts: Vec<String> = (0..).zip(&all).map(|(i, j)| j.wgsl(&format!("f_{i}"))).collect();
     let module = module(&texts);
     assert!(module.functions().count() > all.len());
+}
+
+/// Only what is used is a parameter; what WGSL cannot hold is an error with the table's name.
+#[test]
+fn parameters_that_are_used_and_limits() {
+    let scope = Scope::polar().with_sides(300);
+    let text = jets(&["y*side(299)"], &scope, 0).wgsl_of_used("f").expect("two inputs");
+    assert_eq!(module(&[text]).call("f", &[3.0, -1.0]), Ok(vec![-3.0]));
+    let sum: Vec<String> = (0..256).map(|k| format!("side({k})")).collect();
+    let error = jets(&[&sum.join("+")], &scope, 0).wgsl_of_used("f").expect_err("256 inputs");
+    assert_eq!(error, WgslError::Inputs { count: 256 });
+
+    let knots = |n: usize| (0..n).map(|k| k as f64).collect::<Vec<_>>();
+    let curve = |n| Table::curve("long", knots(n), knots(n)).expect("a table");
+    let surface = |n| Table::surface("long", knots(n), knots(24), vec![1.0; 24 * n]);
+    for (table, text, fits) in [
+        (curve(2047), "table(long, x)", true),
+        (curve(2048), "table(long, x)", false),
+        (curve(2048), "x", true),
+        (surface(23).expect("a table"), "table(long, x, y)", true),
+        (surface(24).expect("a table"), "table(long, x, y)", false),
+    ] {
+        let scope = Scope::cartesian().with_table(Arc::new(table)).expect("a new name");
+        match jets(&[text], &scope, 1).wgsl_of_used("f") {
+            Ok(text) if fits => drop(module(&[text])),
+            Err(WgslError::Table { name, elements }) if !fits => {
+                assert!(name == "long" && elements > 2047);
+            }
+            other => panic!("{text}: {other:?}"),
+        }
+    }
 }
 
 /// Each definition after those it may use.

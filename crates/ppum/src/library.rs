@@ -113,8 +113,27 @@ pub const ENRICHMENTS: [Entry; 6] = [
 /// A quantity: its name with `_` for `-`, and its formula. It may use those before it.
 pub type Definition = (&'static str, &'static str);
 
+/// The moduli of an elastic material in plane strain, of `young` and `poisson`: those of
+/// [`Moduli`](crate::equation::Moduli).
+pub const PLANE_STRAIN: [Definition; 3] = [
+    ("mu", "young/(2*(1 + poisson))"),
+    ("lambda", "young*poisson/((1 + poisson)*(1 - 2*poisson))"),
+    ("out_of_plane", "poisson"),
+];
+
+/// The moduli of an elastic material in plane stress, of `young` and `poisson`.
+pub const PLANE_STRESS: [Definition; 3] = [
+    ("mu", "young/(2*(1 + poisson))"),
+    ("lambda", "young*poisson/((1 - poisson)*(1 + poisson))"),
+    ("out_of_plane", "0"),
+];
+
 /// Quantities of a field with the components ux, uy and their derivatives `dux_dx`, …, in a material
 /// with `mu`, `lambda` and `out_of_plane` = σ_zz / (σ_xx + σ_yy).
+///
+/// Principal stresses are the mean (λ + μ) tr ε plus and minus the radius of Mohr's circle, μ times the
+/// length of (ε_xx − ε_yy, 2 ε_xy); von Mises' and Tresca's stress are made of that radius and of the mean
+/// less σ_zz. So nothing cancels that is not small by itself, in single precision neither.
 pub const ELASTICITY: [Definition; 18] = [
     ("magnitude", "sqrt(ux^2 + uy^2)"),
     ("gradient", "sqrt(dux_dx^2 + dux_dy^2 + duy_dx^2 + duy_dy^2)"),
@@ -127,13 +146,19 @@ pub const ELASTICITY: [Definition; 18] = [
     ("syy", "2*mu*eyy + lambda*(exx + eyy)"),
     ("sxy", "2*mu*exy"),
     ("szz", "out_of_plane*(sxx + syy)"),
-    ("von_mises", "sqrt(((sxx - syy)^2 + (syy - szz)^2 + (szz - sxx)^2)/2 + 3*sxy^2)"),
-    ("s1", "(sxx + syy)/2 + sqrt(((sxx - syy)/2)^2 + sxy^2)"),
-    ("s2", "(sxx + syy)/2 - sqrt(((sxx - syy)/2)^2 + sxy^2)"),
-    ("tresca", "max(s1, szz) - min(s2, szz)"),
-    ("direction", "if(sxy == 0 and sxx >= syy, 0, atan2(2*sxy, sxx - syy)/2)"),
+    (
+        "von_mises",
+        "hypot(sqrt(3)*mu*hypot(exx - eyy, 2*exy), (lambda + mu)*(1 - 2*out_of_plane)*(exx + eyy))",
+    ),
+    ("s1", "(lambda + mu)*(exx + eyy) + mu*hypot(exx - eyy, 2*exy)"),
+    ("s2", "(lambda + mu)*(exx + eyy) - mu*hypot(exx - eyy, 2*exy)"),
+    (
+        "tresca",
+        "mu*hypot(exx - eyy, 2*exy) + max(mu*hypot(exx - eyy, 2*exy), abs((lambda + mu)*(1 - 2*out_of_plane)*(exx + eyy)))",
+    ),
+    ("direction", "if(exy == 0, if(exx >= eyy, 0, pi/2), atan2(2*exy, exx - eyy)/2)"),
     ("hydrostatic", "(sxx + syy + szz)/3"),
-    ("energy", "(sxx*exx + syy*eyy)/2 + sxy*exy"),
+    ("energy", "((lambda + mu)*(exx + eyy)^2 + mu*((exx - eyy)^2 + 4*exy^2))/2"),
 ];
 
 /// Quantities of a field with the one component u.

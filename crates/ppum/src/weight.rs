@@ -248,6 +248,12 @@ impl WeightFormula {
         self.formula.text()
     }
 
+    /// w, dw/dt, d²w/dt² as formulas.
+    #[must_use]
+    pub fn jets(&self) -> &FormulaJets {
+        &self.jets
+    }
+
     /// w, dw/dt, d²w/dt² at t, lane by lane.
     fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
         // 16 lanes are the widest vector there is.

@@ -1,6 +1,8 @@
 //! The walk over naga's representation of a function.
 
-use naga::{Arena, Block, Expression, Function, Handle, Module, Statement, TypeInner};
+use naga::{
+    Arena, ArraySize, Block, Expression, Function, Handle, Module, Statement, Type, TypeInner,
+};
 
 use super::value::{Value, binary, math, unary, unknown};
 
@@ -45,8 +47,10 @@ impl<'m> Frame<'m> {
 
     fn initialize(&mut self) -> Result<(), String> {
         for (handle, variable) in self.function.local_variables.iter() {
-            let init = variable.init.map(|init| self.value(init)).transpose()?;
-            self.variables[handle.index()] = init;
+            self.variables[handle.index()] = match variable.init {
+                Some(init) => Some(self.value(init)?),
+                None => zero(self.module, variable.ty).ok(),
+            };
         }
         Ok(())
     }
@@ -82,10 +86,15 @@ impl<'m> Frame<'m> {
                 return Ok(Flow::Return(value.map(|value| self.value(value)).transpose()?));
             }
             Statement::Store { pointer, value } => {
-                let Value::Pointer(variable) = self.value(*pointer)? else {
+                let Value::Pointer(variable, path) = self.value(*pointer)? else {
                     return unknown(statement);
                 };
-                self.variables[variable.index()] = Some(self.value(*value)?);
+                let value = self.value(*value)?;
+                match (&mut self.variables[variable.index()], &path[..]) {
+                    (whole, []) => *whole = Some(value),
+                    (Some(whole), path) => *whole.part(path)? = value,
+                    (None, _) => return Err("a part of a variable without a value".to_owned()),
+                }
             }
             Statement::Call { function, arguments, result: Some(result) } => {
                 let arguments: Result<_, _> = arguments.iter().map(|&a| self.value(a)).collect();
@@ -130,11 +139,12 @@ impl<'m> Frame<'m> {
         let at = |handle: Handle<Expression>| self.value(handle);
         match &self.function.expressions[handle] {
             Expression::FunctionArgument(index) => Ok(self.arguments[*index as usize].clone()),
-            Expression::LocalVariable(variable) => Ok(Value::Pointer(*variable)),
+            Expression::LocalVariable(variable) => Ok(Value::Pointer(*variable, vec![])),
             Expression::Load { pointer } => match at(*pointer)? {
-                Value::Pointer(variable) => {
-                    let value = self.variables[variable.index()].clone();
-                    value.ok_or_else(|| "a variable is read before it is written".to_owned())
+                Value::Pointer(variable, path) => {
+                    let whole = self.variables[variable.index()].as_ref();
+                    let whole = whole.ok_or("a variable is read before it is written")?;
+                    path.iter().try_fold(whole.clone(), |value, &index| value.element(index))
                 }
                 other => unknown(other),
             },
@@ -143,7 +153,7 @@ impl<'m> Frame<'m> {
             Expression::Unary { op, expr } => unary(*op, &at(*expr)?),
             Expression::Binary { op, left, right } => binary(*op, &at(*left)?, &at(*right)?),
             Expression::Select { condition, accept, reject } => {
-                at(if at(*condition)?.holds()? { *accept } else { *reject })
+                at(*condition)?.select(&at(*accept)?, &at(*reject)?)
             }
             Expression::Math { fun, arg, arg1, arg2, arg3 } => {
                 let arguments = [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten();
@@ -173,12 +183,24 @@ fn constant(
     match &arena[handle] {
         Expression::Literal(literal) => Value::literal(*literal),
         Expression::Constant(constant) => global(module, module.constants[*constant].init),
-        Expression::Compose { ty, components } => match module.types[*ty].inner {
-            TypeInner::Array { .. } | TypeInner::Vector { .. } => {
-                components.iter().map(|&c| at(c)).collect::<Result<_, _>>().map(Value::List)
+        Expression::ZeroValue(ty) => zero(module, *ty),
+        Expression::Splat { size, value } => Ok(Value::List(vec![at(*value)?; *size as usize])),
+        Expression::Swizzle { size, vector, pattern } => {
+            let vector = at(*vector)?;
+            let picked = pattern[..*size as usize].iter().map(|&c| vector.element(c as usize));
+            picked.collect::<Result<_, _>>().map(Value::List)
+        }
+        Expression::Compose { ty, components } => {
+            let parts: Vec<Value> = components.iter().map(|&c| at(c)).collect::<Result<_, _>>()?;
+            match module.types[*ty].inner {
+                TypeInner::Array { .. } | TypeInner::Struct { .. } => Ok(Value::List(parts)),
+                // of numbers and shorter vectors
+                TypeInner::Vector { .. } => {
+                    Ok(Value::List(parts.into_iter().flat_map(Value::elements).collect()))
+                }
+                ref other => unknown(other),
             }
-            ref other => unknown(other),
-        },
+        }
         other => unknown(other),
     }
 }
@@ -186,4 +208,22 @@ fn constant(
 /// A constant of the module.
 fn global(module: &Module, handle: Handle<Expression>) -> Result<Value, String> {
     constant(module, &module.global_expressions, handle, &|handle| global(module, handle))
+}
+
+/// The zero of a type.
+fn zero(module: &Module, ty: Handle<Type>) -> Result<Value, String> {
+    match module.types[ty].inner {
+        TypeInner::Scalar(scalar) => Value::zero(scalar.kind),
+        TypeInner::Vector { size, scalar } => {
+            Ok(Value::List(vec![Value::zero(scalar.kind)?; size as usize]))
+        }
+        TypeInner::Array { base, size: ArraySize::Constant(size), .. } => {
+            Ok(Value::List(vec![zero(module, base)?; size.get() as usize]))
+        }
+        TypeInner::Struct { ref members, .. } => {
+            let zeros = members.iter().map(|member| zero(module, member.ty));
+            zeros.collect::<Result<_, _>>().map(Value::List)
+        }
+        ref other => unknown(other),
+    }
 }

@@ -2,7 +2,8 @@
 //! a graphics card.
 //!
 //! naga parses and validates. The interpreter here walks its representation with the operations that formulas
-//! need: numbers and conditions, vectors and arrays of them, variables, branches, loops and calls. It
+//! and fields need: numbers and conditions, vectors, arrays and structures of them, variables, branches, loops
+//! and calls. It
 //! computes as IEEE 754 says in single precision, other functions than √ and ⌊⌋ in double precision and
 //! rounded. Where WGSL leaves a result open, it is NaN, so that nobody can rely on it.
 
@@ -88,6 +89,27 @@ mod tests {
             fn f(x: f32) -> f32 { return a[u32(x)].z; }";
         assert_eq!(call(source, &[1.0]), Ok(vec![7.0]));
         assert!(call(source, &[2.0]).is_err_and(|error| error.contains("index 2")));
+    }
+
+    #[test]
+    fn vectors_and_structures() {
+        let source = "
+            struct Pair { a: vec2<f32>, b: array<f32, 2> }
+            fn swapped(p: Pair) -> Pair {
+                var q = Pair();
+                q.a = p.a.yx * 2.0 - vec2(1.0);
+                for (var k = 0u; k < 2u; k++) { q.b[k] = p.b[1u - k]; }
+                q.a.x += dot(p.a, p.a);
+                return q;
+            }
+            fn f(x: f32, y: f32) -> array<f32, 5> {
+                let p = swapped(Pair(vec2(x, y), array<f32, 2>(5.0, 6.0)));
+                let larger = select(p.a, vec2(7.0), p.a > vec2(10.0));
+                let bits = bitcast<vec2<f32>>(bitcast<vec2<u32>>(p.a));
+                return array<f32, 5>(larger.x, larger.y, bits.y, p.b[0], p.b[1]);
+            }";
+        // 2·4 − 1 + 25 = 32 > 10, and 2·3 − 1 = 5
+        assert_eq!(call(source, &[3.0, 4.0]), Ok(vec![7.0, 5.0, 5.0, 6.0, 5.0]));
     }
 
     #[test]

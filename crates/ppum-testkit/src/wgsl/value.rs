@@ -13,13 +13,13 @@ pub(super) enum Value {
     I32(i32),
     U32(u32),
     Bool(bool),
-    /// An array or a vector.
+    /// An array, a vector or a structure.
     List(Vec<Value>),
-    /// Where a variable is.
-    Pointer(Handle<LocalVariable>),
+    /// A variable, or what is reached in it by these indices.
+    Pointer(Handle<LocalVariable>, Vec<usize>),
 }
 
-use Value::{Bool, F32, I32, List, U32};
+use Value::{Bool, F32, I32, List, Pointer, U32};
 
 /// That a construct is not known here.
 pub(super) fn unknown<T>(what: impl Debug) -> Result<T, String> {
@@ -63,7 +63,48 @@ impl Value {
         }
     }
 
+    /// The zero of a scalar type.
+    pub(super) fn zero(kind: ScalarKind) -> Result<Self, String> {
+        Ok(match kind {
+            ScalarKind::Float => F32(0.0),
+            ScalarKind::Uint => U32(0),
+            ScalarKind::Sint => I32(0),
+            ScalarKind::Bool => Bool(false),
+            other => return unknown(other),
+        })
+    }
+
+    /// The elements of a vector, or a scalar by itself.
+    pub(super) fn elements(self) -> Vec<Self> {
+        match self {
+            List(values) => values,
+            scalar => vec![scalar],
+        }
+    }
+
+    /// What is reached by some indices.
+    pub(super) fn part(&mut self, path: &[usize]) -> Result<&mut Self, String> {
+        let Some((&index, rest)) = path.split_first() else { return Ok(self) };
+        let List(values) = self else { return unknown(("a part of", self)) };
+        let count = values.len();
+        let found = values.get_mut(index);
+        found.ok_or_else(|| format!("index {index} of {count} elements"))?.part(rest)
+    }
+
+    /// `accept` where this condition holds, else `reject`.
+    pub(super) fn select(&self, accept: &Self, reject: &Self) -> Result<Self, String> {
+        if let List(conditions) = self {
+            let lanes = conditions.iter().enumerate();
+            let lane = |(k, c): (usize, &Self)| c.select(&accept.element(k)?, &reject.element(k)?);
+            return lanes.map(lane).collect::<Result<_, _>>().map(List);
+        }
+        Ok(if self.holds()? { accept.clone() } else { reject.clone() })
+    }
+
     pub(super) fn element(&self, index: usize) -> Result<Self, String> {
+        if let Pointer(variable, path) = self {
+            return Ok(Pointer(*variable, [&path[..], &[index]].concat()));
+        }
         let List(values) = self else { return unknown(("an element of", self)) };
         let found = values.get(index).cloned();
         found.ok_or_else(|| format!("index {index} of {} elements", values.len()))
@@ -72,6 +113,9 @@ impl Value {
     /// `convert` is the width of a conversion; without it the bits stay.
     pub(super) fn cast(&self, kind: ScalarKind, convert: Option<u8>) -> Result<Self, String> {
         Ok(match (self, kind, convert) {
+            (List(values), ..) => {
+                List(values.iter().map(|v| v.cast(kind, convert)).collect::<Result<_, _>>()?)
+            }
             (F32(v), ScalarKind::Float, _) => F32(*v),
             (U32(v), ScalarKind::Uint, _) => U32(*v),
             (I32(v), ScalarKind::Sint, _) => I32(*v),
@@ -92,12 +136,16 @@ pub(super) fn unary(op: UnaryOperator, a: &Value) -> Result<Value, String> {
         (UnaryOperator::Negate, I32(a)) => Ok(I32(a.wrapping_neg())),
         (UnaryOperator::LogicalNot, Bool(a)) => Ok(Bool(!a)),
         (UnaryOperator::BitwiseNot, U32(a)) => Ok(U32(!a)),
+        (_, List(values)) => {
+            values.iter().map(|a| unary(op, a)).collect::<Result<_, _>>().map(List)
+        }
         other => unknown(other),
     }
 }
 
 pub(super) fn binary(op: BinaryOperator, a: &Value, b: &Value) -> Result<Value, String> {
     let result = match (a, b) {
+        (List(_), _) | (_, List(_)) => return by_element(&[a, b], |ab| binary(op, &ab[0], &ab[1])),
         (F32(a), F32(b)) => arithmetic(op, *a, *b).map(F32).or_else(|| compare(op, a, b)),
         (U32(a), U32(b)) => integer(op, *a, *b).map(U32).or_else(|| compare(op, a, b)),
         (I32(a), I32(b)) => compare(op, a, b),
@@ -155,10 +203,50 @@ fn logic(op: BinaryOperator, a: bool, b: bool) -> Option<bool> {
     })
 }
 
+/// A function of scalars for each element of vectors; scalars among them stand for all elements.
+fn by_element(
+    arguments: &[&Value],
+    of: impl Fn(&[Value]) -> Result<Value, String>,
+) -> Result<Value, String> {
+    let count = |argument: &&Value| match argument {
+        List(values) => values.len(),
+        _ => 1,
+    };
+    let lane = |k: usize| {
+        let at = |argument: &&Value| match argument {
+            List(_) => argument.element(k),
+            scalar => Ok((*scalar).clone()),
+        };
+        of(&arguments.iter().map(at).collect::<Result<Vec<_>, _>>()?)
+    };
+    let lanes = arguments.iter().map(count).max().unwrap_or(0);
+    (0..lanes).map(lane).collect::<Result<_, _>>().map(List)
+}
+
+/// a·b
+fn dot(a: &[Value], b: &[Value]) -> Result<Value, String> {
+    a.iter().zip(b).try_fold(F32(0.0), |sum, (a, b)| {
+        binary(BinaryOperator::Add, &sum, &binary(BinaryOperator::Multiply, a, b)?)
+    })
+}
+
 pub(super) fn math(function: MathFunction, arguments: &[Value]) -> Result<Value, String> {
+    match (function, arguments) {
+        (MathFunction::Dot, [List(a), List(b)]) => return dot(a, b),
+        (MathFunction::Length, [List(a)]) => {
+            return math(MathFunction::Sqrt, &[dot(a, a)?]);
+        }
+        (_, [List(_), ..]) => {
+            let arguments: Vec<&Value> = arguments.iter().collect();
+            return by_element(&arguments, |lane| math(function, lane));
+        }
+        _ => {}
+    }
     let result = match *arguments {
         [F32(a)] => exact(function, a).or_else(|| rounded(function, f64::from(a))),
         [F32(a), F32(b)] => of_two(function, a, b),
+        [F32(a), F32(b), F32(c)] => of_three(function, a, b, c),
+        [U32(a), U32(b)] => return of_integers(function, a, b),
         _ => None,
     };
     result.map_or_else(|| unknown((function, arguments)), |result| Ok(F32(result)))
@@ -169,6 +257,8 @@ fn exact(function: MathFunction, a: f32) -> Option<f32> {
     Some(match function {
         MathFunction::Abs => a.abs(),
         MathFunction::Floor => a.floor(),
+        MathFunction::Sign if a == 0.0 => 0.0,
+        MathFunction::Sign => a.signum(),
         MathFunction::Sqrt => a.sqrt(),
         _ => return None,
     })
@@ -209,4 +299,23 @@ fn of_two(function: MathFunction, a: f32, b: f32) -> Option<f32> {
         // as WGSL defines it
         _ => (f64::from(b) * f64::from(a).log2()).exp2() as f32,
     })
+}
+
+fn of_three(function: MathFunction, a: f32, b: f32, c: f32) -> Option<f32> {
+    Some(match function {
+        MathFunction::Clamp if a.is_nan() || b > c => f32::NAN,
+        MathFunction::Clamp => a.max(b).min(c),
+        // fused or not, as the device likes: here not
+        MathFunction::Fma => a * b + c,
+        MathFunction::Mix => a * (1.0 - c) + b * c,
+        _ => return None,
+    })
+}
+
+fn of_integers(function: MathFunction, a: u32, b: u32) -> Result<Value, String> {
+    match function {
+        MathFunction::Min => Ok(U32(a.min(b))),
+        MathFunction::Max => Ok(U32(a.max(b))),
+        other => unknown(other),
+    }
 }

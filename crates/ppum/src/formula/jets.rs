@@ -23,7 +23,7 @@ use super::graph::{Graph, NodeId, Op};
 use super::program::Program;
 use super::reciprocal::share_reciprocals;
 use super::tape::Tape;
-use super::{DerivativeError, Formula, Scope, check_inputs, wgsl};
+use super::{DerivativeError, Formula, Scope, WgslError, check_inputs, wgsl};
 
 /// Values and derivatives of formulas of one scope.
 ///
@@ -96,7 +96,22 @@ impl FormulaJets {
     /// 2047 elements, hence tables of that many knots and cells, a quarter of the cells with two arguments.
     #[must_use]
     pub fn wgsl(&self, name: &str) -> String {
-        wgsl::function(name, &self.scope, &self.program)
+        wgsl::function(name, &self.scope, &self.program, |_| true)
+    }
+
+    /// Like [`FormulaJets::wgsl`], but the parameters are only the inputs that are [used](Self::used), in
+    /// their order.
+    ///
+    /// # Errors
+    /// When a table or the number of inputs is beyond what WGSL promises to hold.
+    pub fn wgsl_of_used(&self, name: &str) -> Result<String, WgslError> {
+        wgsl::check(&self.program, self.used().count())?;
+        Ok(wgsl::function(name, &self.scope, &self.program, |input| self.uses(input)))
+    }
+
+    /// Indices of the inputs that are [used](Self::uses), in their order.
+    pub fn used(&self) -> impl Iterator<Item = usize> {
+        (0..self.scope.n_inputs()).filter(|&input| self.uses(input))
     }
 
     /// True if a result depends on this input, by its index among [`Scope::inputs`]. A dependent

@@ -96,7 +96,7 @@ pub use kinks::Kink;
 pub(crate) use lanes::Interpret;
 pub use scope::{Scope, ScopeError, VARIABLES};
 pub use table::{Table, TableError};
-pub use wgsl::wgsl_prelude;
+pub use wgsl::{WgslError, wgsl_prelude};
 
 use derivative::gradients;
 use graph::{Graph, NodeId};

@@ -7,6 +7,8 @@
 //! begin with `in_`, which no word of WGSL does; results are `v0`, `v1`, …; tables are functions that
 //! begin with `table_`, the prelude's begin with `ppum_`.
 
+use std::sync::Arc;
+
 use super::graph::{NodeId, Op};
 use super::operation::{Binary, Comparison, Unary};
 use super::program::Program;
@@ -19,11 +21,68 @@ pub fn wgsl_prelude() -> &'static str {
     include_str!("wgsl_prelude.wgsl")
 }
 
-/// The function of a program and those of its tables.
-pub(super) fn function(name: &str, scope: &Scope, program: &Program) -> String {
+/// Most elements of an array that WGSL promises.
+const MAX_ELEMENTS: usize = 2047;
+
+/// Most parameters of a function that WGSL promises.
+const MAX_PARAMETERS: usize = 255;
+
+/// Formulas that are too large for WGSL.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WgslError {
+    /// A table.
+    #[error(
+        "the table `{name}` makes an array of {elements} elements in WGSL, which has up to \
+         {MAX_ELEMENTS}; give it fewer knots"
+    )]
+    Table {
+        /// Its name.
+        name: String,
+        /// Elements of the longest array.
+        elements: usize,
+    },
+    /// The inputs.
+    #[error(
+        "the formulas use {count} inputs together; a function of WGSL has up to {MAX_PARAMETERS}"
+    )]
+    Inputs {
+        /// Number of inputs that are used.
+        count: usize,
+    },
+}
+
+/// Checks that a program with this number of parameters is within the limits of WGSL.
+pub(super) fn check(program: &Program, count: usize) -> Result<(), WgslError> {
+    if count > MAX_PARAMETERS {
+        return Err(WgslError::Inputs { count });
+    }
+    let mut used = used_tables(program).map(|(_, table)| (table, elements(table)));
+    match used.find(|(_, elements)| *elements > MAX_ELEMENTS) {
+        Some((table, elements)) => {
+            Err(WgslError::Table { name: table.name().to_owned(), elements })
+        }
+        None => Ok(()),
+    }
+}
+
+/// Elements of the longest array of a table: its knots, or its cubics.
+fn elements(table: &Table) -> usize {
+    table.x().len().max(table.y().len()).max(table.coefficients().len() / 4)
+}
+
+/// The function of a program and those of its tables. Its parameters are the inputs whose indices are
+/// `kept`.
+pub(super) fn function(
+    name: &str,
+    scope: &Scope,
+    program: &Program,
+    kept: impl Fn(usize) -> bool,
+) -> String {
     let inputs: Vec<String> = scope.inputs().map(parameter).collect();
     let mut text = tables(name, program);
-    let parameters: Vec<String> = inputs.iter().map(|input| format!("{input}: f32")).collect();
+    let parameters = inputs.iter().enumerate().filter(|(index, _)| kept(*index));
+    let parameters: Vec<String> = parameters.map(|(_, input)| format!("{input}: f32")).collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
     let mut results = Results { function: name, inputs: &inputs, atoms: Vec::new(), lets: 0 };
@@ -198,11 +257,17 @@ fn table_name(index: u32, function: &str) -> String {
 
 /// The functions of the tables that a program uses.
 fn tables(function: &str, program: &Program) -> String {
+    let text =
+        |(index, table): (u32, &Arc<Table>)| table_function(&table_name(index, function), table);
+    used_tables(program).map(text).collect()
+}
+
+/// The tables that a program uses, with their indices.
+fn used_tables(program: &Program) -> impl Iterator<Item = (u32, &Arc<Table>)> {
     let is_used = |index: u32| {
         program.ops().iter().any(|op| matches!(op, Op::Table { table, .. } if *table == index))
     };
-    let used = (0..).zip(program.tables().iter()).filter(|(index, _)| is_used(*index));
-    used.map(|(index, table)| table_function(&table_name(index, function), table)).collect()
+    (0..).zip(program.tables().iter()).filter(move |(index, _)| is_used(*index))
 }
 
 /// The function of a table: what [`Table::derivative`] does.

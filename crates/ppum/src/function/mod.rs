@@ -8,7 +8,7 @@ use crate::crack::TipId;
 pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 pub use table::{
-    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope,
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope, native,
 };
 pub use westergaard::westergaard;
 

@@ -304,8 +304,10 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// The tip and index if a formula is one of the Westergaard functions in a tip's frame.
-fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
+/// The tip and index if a formula is one of the [Westergaard functions](WESTERGAARD) in a tip's frame:
+/// then [`westergaard`] evaluates it.
+#[must_use]
+pub fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
     let Frame::Tip(tip) = frame else { return None };
     (0..).zip(WESTERGAARD).find(|(_, known)| *known == text).map(|(k, _)| (tip, k))
 }

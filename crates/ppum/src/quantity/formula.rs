@@ -65,19 +65,30 @@ pub enum QuantityFormulaError {
     Derivative(#[from] DerivativeError),
 }
 
-/// Where an input of a formula comes from.
+/// Where an input of a quantity's formula comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Input {
+pub enum Input {
+    /// The position's first coordinate.
     X,
+    /// Its second one.
     Y,
+    /// E
     Young,
+    /// ν
     Poisson,
+    /// μ
     Mu,
+    /// λ of the plane law.
     Lambda,
+    /// σ_zz / (σ_xx + σ_yy)
     OutOfPlane,
+    /// κ of Poisson's equation.
     Conductivity,
+    /// u_c
     Value(usize),
+    /// ∂u_c/∂x
     SlopeX(usize),
+    /// ∂u_c/∂y
     SlopeY(usize),
 }
 
@@ -112,6 +123,12 @@ impl<'a> Vocabulary<'a> {
             }
         }
         known
+    }
+
+    /// What an input of a formula of this vocabulary is, by its name; `None` for other names.
+    #[must_use]
+    pub fn input(&self, name: &str) -> Option<Input> {
+        self.inputs().into_iter().find(|(known, _)| known == name).map(|(_, input)| input)
     }
 
     /// The text behind the name of a quantity of the library or of the dataset, with `-` or `_`.

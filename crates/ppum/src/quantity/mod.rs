@@ -17,7 +17,7 @@ use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::vec2::Vec2;
-pub use formula::{NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use formula::{Input, NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
 use tensors::Strain;
 
 /// A scalar made of a field. Made from its name or formula with [`Quantity::parse`].

@@ -1,9 +1,9 @@
 //! The library's formulas and the kernels that stand in for them are the same functions.
 
-use ppum::equation::{Equation, Material, StressState};
-use ppum::formula::Scope;
+use ppum::equation::{Equation, Material, Moduli, StressState};
+use ppum::formula::{Formula, Scope};
 use ppum::jet::Jet;
-use ppum::library::{ELASTICITY, POISSON, WEIGHTS};
+use ppum::library::{ELASTICITY, PLANE_STRAIN, PLANE_STRESS, POISSON, WEIGHTS};
 use ppum::quantity::{Quantity, QuantityFormula, Sample, Vocabulary, names};
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -84,6 +84,26 @@ fn compare(equation: &Equation, components: &[&str], definitions: &[(&str, &str)
             let size = if *name == "energy" { size * size } else { size };
             let size = if *name == "direction" { 1e3 } else { size };
             assert!((a - b).abs() <= 2e-14 * size, "{name} of {jets:?}: {a:e} {b:e}");
+        }
+    }
+}
+
+/// λ, μ and σ_zz / (σ_xx + σ_yy) as formulas of E and ν.
+#[test]
+fn moduli_and_their_formulas() {
+    for (state, definitions) in
+        [(StressState::PlaneStrain, PLANE_STRAIN), (StressState::PlaneStress, PLANE_STRESS)]
+    {
+        for (young, poisson) in [(2.0, 0.3), (7e10, -0.7), (1.0, 0.49), (3.0, 0.0)] {
+            let scope = Scope::new(&["young", "poisson"]).expect("names");
+            let moduli = Moduli::new(young, poisson, state);
+            for ((name, text), expected) in
+                definitions.iter().zip([moduli.mu, moduli.lambda, moduli.out_of_plane])
+            {
+                let formula = Formula::parse(text, &scope).expect("a formula");
+                let found = formula.evaluate(&[young, poisson]);
+                assert!((found - expected).abs() <= 1e-15 * expected.abs(), "{name} {state:?}");
+            }
         }
     }
 }

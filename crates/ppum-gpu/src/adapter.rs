@@ -1,0 +1,192 @@
+//! The graphics adapters of this machine, and which of them is taken.
+
+use std::fmt;
+
+use wgpu::{Adapter, Backends, DeviceType, Features, InstanceDescriptor, InstanceFlags};
+
+use crate::error::GpuError;
+
+/// What a graphics adapter is and what it takes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterInfo {
+    /// Name, as the driver gives it.
+    pub name: String,
+    /// What kind of device it is.
+    pub kind: AdapterKind,
+    /// The interface it is driven by: `vulkan`, `metal`, `dx12`, in a browser `webgpu`.
+    pub backend: String,
+    /// Name and version of the driver; may be empty.
+    pub driver: String,
+    /// Largest part of a buffer that a shader sees at once, bytes.
+    pub largest_storage_binding: u64,
+    /// Largest buffer, bytes.
+    pub largest_buffer: u64,
+    /// Largest width and height of a texture, pixels.
+    pub largest_texture: u32,
+    /// True if it adds up 32-bit floats while drawing (blending), as splatting needs.
+    pub blends_floats: bool,
+}
+
+/// The kind of a graphics adapter, better ones first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A graphics card with its own memory.
+    Discrete,
+    /// A graphics unit that shares the processor's memory.
+    Integrated,
+    /// Part of a graphics card, lent to a virtual machine.
+    Virtual,
+    /// Not known; so are all adapters of browsers.
+    Other,
+    /// A program that runs on the processor.
+    Software,
+}
+
+impl AdapterKind {
+    /// The kind in one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Other => "other",
+            Self::Software => "software",
+        }
+    }
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Which adapters are good enough. Of several the best [kind](AdapterKind) is taken, and of one kind the
+/// first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Graphics hardware that is known to be such: discrete, integrated or virtual.
+    Real,
+    /// Any adapter, a software one too.
+    Any,
+}
+
+impl Choice {
+    #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a browser chooses by itself"))]
+    fn accepts(self, kind: AdapterKind) -> bool {
+        self == Self::Any || kind <= AdapterKind::Virtual
+    }
+}
+
+/// The adapters of this machine, in the order of the drivers. Empty if there is no driver.
+///
+/// OpenGL is left out: it cannot draw to 32-bit floats everywhere. Takes some ten milliseconds.
+#[cfg(not(target_arch = "wasm32"))]
+#[must_use]
+pub fn adapters() -> Vec<AdapterInfo> {
+    pollster::block_on(enumerate()).iter().map(info).collect()
+}
+
+/// An instance without the validation layers of drivers, so that debug builds behave as others do.
+fn instance() -> wgpu::Instance {
+    wgpu::Instance::new(InstanceDescriptor {
+        backends: Backends::PRIMARY,
+        flags: InstanceFlags::empty(),
+        ..InstanceDescriptor::new_without_display_handle()
+    })
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+async fn enumerate() -> Vec<Adapter> {
+    instance().enumerate_adapters(Backends::PRIMARY).await
+}
+
+/// The best adapter of a choice.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
+    let mut adapters = enumerate().await;
+    adapters.retain(|adapter| choice.accepts(kind(adapter)) && is_complete(adapter));
+    adapters.into_iter().min_by_key(kind).ok_or_else(|| none(choice))
+}
+
+/// The adapter the browser thinks the fastest: it tells nobody what there is.
+#[cfg(target_arch = "wasm32")]
+pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    };
+    let adapter = instance().request_adapter(&options).await.map_err(|_| none(choice))?;
+    if is_complete(&adapter) { Ok(adapter) } else { Err(none(choice)) }
+}
+
+fn none(choice: Choice) -> GpuError {
+    GpuError::NoAdapter {
+        wanted: match choice {
+            Choice::Real => " of a graphics card",
+            Choice::Any => "",
+        },
+    }
+}
+
+/// True if it has all that WebGPU promises.
+fn is_complete(adapter: &Adapter) -> bool {
+    wgpu::Limits::defaults().check_limits(&adapter.limits())
+        && adapter.get_downlevel_capabilities().is_webgpu_compliant()
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn kind(adapter: &Adapter) -> AdapterKind {
+    kind_of(adapter.get_info().device_type)
+}
+
+fn kind_of(kind: DeviceType) -> AdapterKind {
+    match kind {
+        DeviceType::DiscreteGpu => AdapterKind::Discrete,
+        DeviceType::IntegratedGpu => AdapterKind::Integrated,
+        DeviceType::VirtualGpu => AdapterKind::Virtual,
+        DeviceType::Cpu => AdapterKind::Software,
+        DeviceType::Other => AdapterKind::Other,
+    }
+}
+
+/// What an adapter is and takes.
+pub(crate) fn info(adapter: &Adapter) -> AdapterInfo {
+    let (info, limits) = (adapter.get_info(), adapter.limits());
+    AdapterInfo {
+        name: info.name,
+        kind: kind_of(info.device_type),
+        backend: info.backend.to_str().to_owned(),
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        largest_storage_binding: limits.max_storage_buffer_binding_size,
+        largest_buffer: limits.max_buffer_size,
+        largest_texture: limits.max_texture_dimension_2d,
+        blends_floats: adapter.features().contains(Features::FLOAT32_BLENDABLE),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn software_is_no_real_adapter() {
+        use AdapterKind::{Discrete, Integrated, Other, Software, Virtual};
+        let real: Vec<_> = [Other, Software, Virtual, Integrated, Discrete]
+            .into_iter()
+            .filter(|&kind| Choice::Real.accepts(kind))
+            .collect();
+        assert_eq!(real, [Virtual, Integrated, Discrete]);
+        assert!(Choice::Any.accepts(Software) && Choice::Any.accepts(Other));
+        assert_eq!([Software, Virtual, Other, Discrete].into_iter().min(), Some(Discrete));
+    }
+
+    #[test]
+    fn a_missing_adapter_says_what_to_do() {
+        let text = none(Choice::Any).to_string();
+        for word in ["Vulkan driver", "mesa-vulkan-drivers", "--backend cpu"] {
+            assert!(text.contains(word), "{text}");
+        }
+    }
+}
