@@ -5,6 +5,7 @@ mod adapter;
 mod device;
 mod error;
 mod geometry;
+mod shader;
 #[cfg(test)]
 mod tests;
 

@@ -1,4 +1,7 @@
-//! What tests share.
+//! What tests share, and the functions of shaders against their twins.
+
+mod compute;
+mod points;
 
 use crate::{Choice, Gpu, GpuError};
 

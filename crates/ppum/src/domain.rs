@@ -64,10 +64,10 @@ impl Hole {
     pub fn at(&self, anchor: Vec2) -> LocalHole {
         LocalHole(match self {
             Self::Circle { center, radius } => {
-                Shape::Circle { d: anchor - *center, excess: circle(*center, *radius, anchor) }
+                LocalRim::Circle { d: anchor - *center, excess: circle(*center, *radius, anchor) }
             }
             Self::Polygon { .. } => {
-                Shape::Polygon(self.sides().map(|[a, b]| LocalSide::new(a, b, anchor)).collect())
+                LocalRim::Polygon(self.sides().map(|[a, b]| LocalSide::new(a, b, anchor)).collect())
             }
         })
     }
@@ -147,25 +147,35 @@ impl LocalDomain {
 
 /// A hole seen from an anchor.
 #[derive(Clone, Debug)]
-pub struct LocalHole(Shape);
+pub struct LocalHole(LocalRim);
 
+/// The rim of a hole seen from an anchor.
 #[derive(Clone, Debug)]
-enum Shape {
+pub enum LocalRim {
     /// With d = anchor − centre a point is inside if |d|² − r² + 2 d·o + o·o < 0.
     Circle {
+        /// Anchor minus centre.
         d: Vec2,
+        /// |d|² − r², formed without cancellation.
         excess: f64,
     },
+    /// The sides in order.
     Polygon(Vec<LocalSide>),
 }
 
 impl LocalHole {
+    /// The numbers behind it.
+    #[must_use]
+    pub fn rim(&self) -> &LocalRim {
+        &self.0
+    }
+
     /// True if `anchor + offset` lies inside; not on the rim.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
         match &self.0 {
-            Shape::Circle { d, excess } => excess + (*d * 2.0 + offset).dot(offset) < 0.0,
-            Shape::Polygon(sides) => {
+            LocalRim::Circle { d, excess } => excess + (*d * 2.0 + offset).dot(offset) < 0.0,
+            LocalRim::Polygon(sides) => {
                 let crossed = sides.iter().filter(|side| side.crosses(offset)).count();
                 crossed % 2 == 1 && !sides.iter().any(|side| side.holds(offset))
             }
@@ -175,12 +185,15 @@ impl LocalHole {
 
 /// A side of a polygon from `a` to `b`, relative to the anchor.
 #[derive(Clone, Copy, Debug)]
-struct LocalSide {
-    a: Vec2,
-    b: Vec2,
-    direction: Vec2,
+pub struct LocalSide {
+    /// Where it begins.
+    pub a: Vec2,
+    /// Where it ends.
+    pub b: Vec2,
+    /// From the begin to the end.
+    pub direction: Vec2,
     /// direction × (anchor − a), formed without cancellation.
-    cross: f64,
+    pub cross: f64,
 }
 
 impl LocalSide {

@@ -24,11 +24,15 @@ pub struct LocalCrack {
 /// it, positive on the left. The segment's ends are at `lo` and `hi` along it, each the small number
 /// it is when the anchor is near that end.
 #[derive(Clone, Copy, Debug)]
-struct LocalSegment {
-    tangent: Vec2,
-    distance: f64,
-    lo: f64,
-    hi: f64,
+pub struct LocalSegment {
+    /// Unit vector along the segment.
+    pub tangent: Vec2,
+    /// Distance of the anchor from the line, positive on its left.
+    pub distance: f64,
+    /// Where the segment begins, along it from the anchor; −∞ of a crack's first segment.
+    pub lo: f64,
+    /// Where it ends; +∞ of a crack's last segment.
+    pub hi: f64,
 }
 
 impl LocalSegment {
@@ -64,6 +68,12 @@ impl LocalCrack {
             last.hi = f64::INFINITY;
         }
         Self { segments }
+    }
+
+    /// The segments, in order: one at least.
+    #[must_use]
+    pub fn segments(&self) -> &[LocalSegment] {
+        &self.segments
     }
 
     /// +1 on the left of the crack, −1 on its right; `side` decides on the crack itself.
@@ -122,13 +132,14 @@ fn sign<R: Real>(distance: R, side: Side) -> R {
 #[derive(Clone, Debug)]
 pub struct LocalTip {
     /// Anchor minus tip.
-    from_tip: Vec2,
+    pub from_tip: Vec2,
     /// Unit direction of growth.
     pub axis: Vec2,
     crack: LocalCrack,
-    segment: usize,
+    /// Index of the segment that ends at the tip.
+    pub segment: usize,
     /// +1 at the last vertex, −1 at the first, where the crack's left is the tip's right.
-    orientation: f64,
+    pub orientation: f64,
 }
 
 /// A point in the frame of a tip.

@@ -102,4 +102,4 @@ pub fn tips(cracks: &[Crack]) -> impl Iterator<Item = TipId> + '_ {
 }
 
 mod local;
-pub use local::{LocalCrack, LocalTip, TipPoint};
+pub use local::{LocalCrack, LocalSegment, LocalTip, TipPoint};

@@ -1,0 +1,49 @@
+// Holes seen from the view's centre: the twin of LocalHole in ppum::domain.
+
+// True if a point lies inside one of `count` holes, those at `at` in the view's data; not on a rim.
+fn holes_contain(at: u32, count: u32, offset: vec2<f32>) -> bool {
+    var next = at;
+    for (var k = 0u; k < count; k++) {
+        // 0 of a circle
+        let sides = u32(load_view(next).x);
+        var inside = false;
+        if sides == 0u {
+            inside = hole_circle(next, offset);
+        } else {
+            inside = hole_polygon(next + 1u, sides, offset);
+        }
+        if inside {
+            return true;
+        }
+        next += select(1u + HOLE_SIDE_PAIRS * sides, HOLE_CIRCLE_PAIRS, sides == 0u);
+    }
+    return false;
+}
+
+// (|d|² - r²) / 2r + (d + o/2)·o / r < 0, d being the view's centre minus the circle's.
+fn hole_circle(at: u32, offset: vec2<f32>) -> bool {
+    let excess = load_view(at).y;
+    let half_curvature = load_view(at + 2u).x;
+    return excess + dot(load_view(at + 1u) + half_curvature * offset, offset) < 0.0;
+}
+
+// A ray from the point to the right crosses an odd number of sides, and the point is on none.
+fn hole_polygon(at: u32, sides: u32, offset: vec2<f32>) -> bool {
+    var inside = false;
+    for (var k = 0u; k < sides; k++) {
+        let side = at + HOLE_SIDE_PAIRS * k;
+        let a = load_view(side);
+        let b = load_view(side + 1u);
+        let direction = load_view(side + 2u);
+        // distance from the side's line, positive on its left
+        let left = load_view(side + 3u).x + (direction.x * offset.y - direction.y * offset.x);
+        let within = all(offset >= min(a, b)) & all(offset <= max(a, b));
+        if (left == 0.0) & within {
+            return false;
+        }
+        let up = b.y > offset.y;
+        let crossed = (up != (a.y > offset.y)) & (up == (left > 0.0));
+        inside = inside != crossed;
+    }
+    return inside;
+}

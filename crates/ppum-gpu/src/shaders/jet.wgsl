@@ -1,0 +1,85 @@
+// Values with derivatives up to the constant ORDER, and their algebra: the twin of ppum::jet. Members
+// above ORDER stay 0.
+
+struct Jet { v: f32, x: f32, y: f32, xx: f32, xy: f32, yy: f32 }
+
+// The components of a field side by side.
+struct Jets { v: Lanes, x: Lanes, y: Lanes, xx: Lanes, xy: Lanes, yy: Lanes }
+
+// Up to four functions of one group.
+struct Functions {
+    v: vec4<f32>,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    xx: vec4<f32>,
+    xy: vec4<f32>,
+    yy: vec4<f32>,
+}
+
+fn jet_plus(a: Jet, b: Jet) -> Jet {
+    return Jet(a.v + b.v, a.x + b.x, a.y + b.y, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy);
+}
+
+fn jets_zero() -> Jets {
+    return Jets(Lanes(), Lanes(), Lanes(), Lanes(), Lanes(), Lanes());
+}
+
+fn jets_plus(a: Jets, b: Jets) -> Jets {
+    return Jets(a.v + b.v, a.x + b.x, a.y + b.y, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy);
+}
+
+// The product by Leibniz' rule.
+fn jets_times(a: Jet, b: Jets) -> Jets {
+    var out = jets_zero();
+    out.v = a.v * b.v;
+    if ORDER >= 1u {
+        out.x = a.x * b.v + a.v * b.x;
+        out.y = a.y * b.v + a.v * b.y;
+    }
+    if ORDER >= 2u {
+        out.xx = a.xx * b.v + a.v * b.xx + (a.x + a.x) * b.x;
+        out.xy = a.xy * b.v + a.v * b.xy + (a.x * b.y + a.y * b.x);
+        out.yy = a.yy * b.v + a.v * b.yy + (a.y + a.y) * b.y;
+    }
+    return out;
+}
+
+// The quotient `sum / s` by the quotient rule.
+fn jets_over(sum: Jets, s: Jet) -> Jets {
+    let inverse = 1.0 / s.v;
+    var out = jets_zero();
+    out.v = sum.v * inverse;
+    if ORDER >= 1u {
+        out.x = (sum.x - out.v * s.x) * inverse;
+        out.y = (sum.y - out.v * s.y) * inverse;
+    }
+    if ORDER >= 2u {
+        out.xx = (sum.xx - (out.x + out.x) * s.x - out.v * s.xx) * inverse;
+        out.xy = (sum.xy - (out.x * s.y + out.y * s.x) - out.v * s.xy) * inverse;
+        out.yy = (sum.yy - (out.y + out.y) * s.y - out.v * s.yy) * inverse;
+    }
+    return out;
+}
+
+// Derivatives with respect to the world of functions of a frame whose x axis is the unit vector `axis`.
+fn functions_turned(f: Functions, axis: vec2<f32>) -> Functions {
+    let c = axis.x;
+    let s = axis.y;
+    var out = Functions(f.v, vec4<f32>(), vec4<f32>(), vec4<f32>(), vec4<f32>(), vec4<f32>());
+    if ORDER >= 1u {
+        out.x = c * f.x - s * f.y;
+        out.y = s * f.x + c * f.y;
+    }
+    if ORDER >= 2u {
+        let twice = (2.0 * c * s) * f.xy;
+        out.xx = (c * c) * f.xx + (s * s) * f.yy - twice;
+        out.yy = (s * s) * f.xx + (c * c) * f.yy + twice;
+        out.xy = (c * s) * (f.xx - f.yy) + (c * c - s * s) * f.xy;
+    }
+    return out;
+}
+
+// One function of a group.
+fn functions_entry(f: Functions, k: u32) -> Jet {
+    return Jet(f.v[k], f.x[k], f.y[k], f.xx[k], f.xy[k], f.yy[k]);
+}

@@ -1,0 +1,53 @@
+// Polynomials of two variables by nested Horner schemes: the twin of ppum::polynomial.
+
+// The sum of c ξ^a η^b over a + b <= degree with its derivatives in the world; `inverse` holds the
+// reciprocal scales of ξ. At `at` are the coefficients in the order they are needed: b = degree … 0, for
+// each a = degree - b … 0, all components of one side by side.
+fn polynomial(at: u32, degree: u32, xi: vec2<f32>, inverse: vec2<f32>) -> Jets {
+    var sum = jets_zero();
+    var next = at;
+    // `row` is degree - b
+    for (var row = 0u; row <= degree; row++) {
+        // the factor of η^b with its derivatives by ξ
+        var p = Lanes();
+        var px = Lanes();
+        var pxx = Lanes();
+        for (var k = 0u; k <= row; k++) {
+            if ORDER >= 2u {
+                pxx = pxx * xi.x + (px + px);
+            }
+            if ORDER >= 1u {
+                px = px * xi.x + p;
+            }
+            p = p * xi.x + load_lanes(next);
+            next += LANE_PAIRS;
+        }
+        if ORDER >= 2u {
+            // half the second derivative until the end
+            sum.yy = sum.yy * xi.y + sum.y;
+            sum.xy = sum.xy * xi.y + sum.x;
+            sum.xx = sum.xx * xi.y + pxx;
+        }
+        if ORDER >= 1u {
+            sum.y = sum.y * xi.y + sum.v;
+            sum.x = sum.x * xi.y + px;
+        }
+        sum.v = sum.v * xi.y + p;
+    }
+    return polynomial_in_world(sum, inverse);
+}
+
+// Derivatives by ξ, of which yy is half, as derivatives in the world.
+fn polynomial_in_world(p: Jets, inverse: vec2<f32>) -> Jets {
+    var out = p;
+    if ORDER >= 1u {
+        out.x = p.x * inverse.x;
+        out.y = p.y * inverse.y;
+    }
+    if ORDER >= 2u {
+        out.xx = p.xx * inverse.x * inverse.x;
+        out.xy = p.xy * inverse.x * inverse.y;
+        out.yy = (p.yy + p.yy) * inverse.y * inverse.y;
+    }
+    return out;
+}

@@ -1,0 +1,580 @@
+//! Functions of shaders against the functions of `ppum` they are twins of, in double precision at the same
+//! rounded inputs.
+//!
+//! Tolerances count unit roundoffs u = 2⁻²⁴ of the size of the terms that are added. WGSL allows 5 u for a
+//! division and 9 u for a root; sums and products have 1 u.
+
+use ppum::cover::Cover;
+use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, Side, TipId, TipPoint};
+use ppum::dataset::{Step, monomials};
+use ppum::domain::{Domain, Hole};
+use ppum::function::westergaard;
+use ppum::jet::Jet;
+use ppum::polynomial::polynomial;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
+use ppum_testkit::random::Random;
+use ppum_testkit::wgsl::Module;
+
+use super::compute::{around, point_functions, run};
+use super::gpu_or_skip;
+use crate::geometry::{Geometry, GroupFrame};
+
+/// Unit roundoff of single precision.
+const U: f64 = f32::EPSILON as f64 / 2.0;
+
+/// A weight for the texts that test none.
+const WEIGHT: &str = "fn weight(xi: f32) -> vec3<f32> { return weight_cubic(xi); }\n";
+
+/// Where the cracks are in the view's data of one group of functions.
+const CRACKS: u32 = 4;
+
+/// What must come out: a number and the size of what it is a sum of.
+type Expected = Vec<(f64, f64)>;
+
+/// Rows that differ from what is expected by more than `units` roundoffs.
+fn wrong<const N: usize>(
+    rows: &[[f32; N]],
+    found: &[Vec<f32>],
+    units: f64,
+    expected: impl Fn(&[f32; N]) -> Expected,
+) -> Vec<String> {
+    assert_eq!(rows.len(), found.len());
+    let mut failures = Vec::new();
+    for (row, found) in rows.iter().zip(found) {
+        let expected = expected(row);
+        assert_eq!(expected.len(), found.len());
+        for (k, (&found, (exact, size))) in found.iter().zip(expected).enumerate() {
+            let error = (f64::from(found) - exact).abs();
+            let same = found.is_nan() && exact.is_nan();
+            if !(same || error <= units * U * size) {
+                let error = error / (U * size);
+                failures.push(format!("{k} at {row:?}: {found:e}, not {exact:e}: {error:.1} u"));
+            }
+        }
+    }
+    failures
+}
+
+/// Runs rows and asserts that all are right.
+#[track_caller]
+fn agrees<const N: usize>(
+    text: &str,
+    pairs: &[[f32; 2]],
+    rows: &[[f32; N]],
+    units: f64,
+    expected: impl Fn(&[f32; N]) -> Expected,
+) {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let text = format!("{}{WEIGHT}{text}", point_functions(2, CRACKS));
+    let outputs = expected(&rows[0]).len();
+    let found = run(&gpu, &text, pairs, rows, outputs).unwrap_or_else(|error| panic!("{error}"));
+    let failures = wrong(rows, &found, units, expected);
+    let first = failures.iter().take(8).cloned().collect::<Vec<_>>().join("\n");
+    assert!(failures.is_empty(), "{} wrong numbers:\n{first}", failures.len());
+}
+
+#[test]
+fn texts_are_valid_for_every_order() {
+    for order in 0..=2 {
+        let text = format!("{}{WEIGHT}fn row(k: u32) {{}}", point_functions(order, CRACKS));
+        Module::new(&around(&text, 1, 1, 1)).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+fn numbers(jet: Jet<f64>) -> [f64; 6] {
+    [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy]
+}
+
+fn jet(n: &[f32]) -> Jet<f64> {
+    let n: Vec<f64> = n.iter().map(|&n| f64::from(n)).collect();
+    Jet { v: n[0], x: n[1], y: n[2], xx: n[3], xy: n[4], yy: n[5] }
+}
+
+fn sizes(jet: Jet<f64>) -> Jet<f64> {
+    let [v, x, y, xx, xy, yy] = numbers(jet).map(f64::abs);
+    Jet { v, x, y, xx, xy, yy }
+}
+
+fn random_rows<const N: usize>(n: usize, seed: u64) -> Vec<[f32; N]> {
+    let mut random = Random(seed);
+    (0..n).map(|_| std::array::from_fn(|_| random.between(-2.0, 2.0) as f32)).collect()
+}
+
+const PUT_JETS: &str = "
+    fn put_jets(k: u32, lane: u32, j: Jets) {
+        put(k, 6u * lane, j.v[lane]);
+        put(k, 6u * lane + 1u, j.x[lane]);
+        put(k, 6u * lane + 2u, j.y[lane]);
+        put(k, 6u * lane + 3u, j.xx[lane]);
+        put(k, 6u * lane + 4u, j.xy[lane]);
+        put(k, 6u * lane + 5u, j.yy[lane]);
+    }
+    fn input_jet(k: u32, i: u32) -> Jet {
+        return Jet(input(k, i), input(k, i + 1u), input(k, i + 2u), input(k, i + 3u), input(k, i + 4u),
+            input(k, i + 5u));
+    }
+    fn lanes(j: Jet) -> Jets {
+        return Jets(Lanes(j.v), Lanes(j.x), Lanes(j.y), Lanes(j.xx), Lanes(j.xy), Lanes(j.yy));
+    }\n";
+
+/// At most 5 roundings a term.
+#[test]
+fn products_of_jets() {
+    let text = format!(
+        "{PUT_JETS}fn row(k: u32) {{
+            put_jets(k, 0u, jets_times(input_jet(k, 0u), lanes(input_jet(k, 6u))));
+        }}"
+    );
+    agrees(&text, &[], &random_rows::<12>(300, 1), 5.0, |row| {
+        let (a, b) = (jet(&row[..6]), jet(&row[6..]));
+        let size = sizes(a).times::<2>(sizes(b));
+        numbers(a.times::<2>(b)).into_iter().zip(numbers(size)).collect()
+    });
+}
+
+/// A division (5 u), whose error each of three levels passes on: 40 u of the quotient of the sizes.
+#[test]
+fn quotients_of_jets() {
+    let text = format!(
+        "{PUT_JETS}fn row(k: u32) {{
+            put_jets(k, 0u, jets_over(lanes(input_jet(k, 0u)), input_jet(k, 6u)));
+        }}"
+    );
+    let mut rows = random_rows::<12>(300, 2);
+    rows.iter_mut().for_each(|row| row[6] = 0.5 + row[6].abs());
+    agrees(&text, &[], &rows, 40.0, |row| {
+        let (a, b) = (jet(&row[..6]), jet(&row[6..]));
+        // the quotient rule with all terms added up
+        let minus = sizes(b).scaled::<2>(-1.0);
+        let size = sizes(a).over::<2>(Jet { v: b.v, ..minus });
+        numbers(a.over::<2>(b)).into_iter().zip(numbers(size)).collect()
+    });
+}
+
+/// Places where weights begin, end and have knots, on both sides of each, and between. Knots ±1/3 are no
+/// numbers of single precision: there the neighbours decide.
+fn places() -> Vec<f32> {
+    let knots = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
+    let mut places: Vec<f32> = (-60..=60).map(|k| k as f32 * 0.021).collect();
+    for knot in knots {
+        places.extend([knot, knot.next_up(), knot.next_down(), knot + 1e-15]);
+    }
+    let third = 1.0f32 / 3.0;
+    for t in [third.next_up(), third.next_down()] {
+        places.extend([t, -t]);
+    }
+    places
+}
+
+/// Up to 4 roundings of terms of size 1, 12 and 36.
+#[test]
+fn weights() {
+    let text = "fn row(k: u32) {
+        let xi = input(k, 0u);
+        var w = array<vec3<f32>, 3>(weight_linear(xi), weight_quadratic(xi), weight_cubic(xi));
+        for (var i = 0u; i < 9u; i++) { put(k, i, w[i / 3u][i % 3u]); }
+    }";
+    let rows: Vec<[f32; 1]> = places().into_iter().map(|xi| [xi]).collect();
+    agrees(text, &[], &rows, 4.0, |&[xi]| {
+        let of = |w: &WeightFunction| w.spline(f64::from(xi)).into_iter().zip([1.0, 12.0, 36.0]);
+        WeightFunction::ALL.iter().flat_map(of).collect()
+    });
+}
+
+/// The roundings of both factors and up to 4 products.
+#[test]
+fn tensor_weights() {
+    let text = format!(
+        "{PUT_JETS}fn row(k: u32) {{
+            let xi = vec2<f32>(input(k, 0u), input(k, 1u));
+            put_jets(k, 0u, lanes(weight_tensor(xi, vec2<f32>(input(k, 2u), input(k, 3u)))));
+        }}"
+    );
+    let rows: Vec<[f32; 4]> = random_rows::<4>(400, 3);
+    agrees(&text, &[], &rows, 12.0, |row| {
+        let [x, y, ix, iy] = row.map(f64::from);
+        let w = WeightFunction::Cubic.tensor::<f64, 2>([x, y], [ix, iy]);
+        let size = [1.0, 12.0 * ix, 12.0 * iy, 36.0 * ix * ix, 144.0 * ix * iy, 36.0 * iy * iy];
+        numbers(w).into_iter().zip(size.map(f64::abs)).collect()
+    });
+}
+
+/// Of degree d a coefficient meets 2 d products and sums, more in derivatives: 4 (d + 2) u of the
+/// polynomial of the sizes.
+#[test]
+fn polynomials() {
+    let text = format!(
+        "{PUT_JETS}fn row(k: u32) {{
+            let xi = vec2<f32>(input(k, 2u), input(k, 3u));
+            let inverse = vec2<f32>(input(k, 4u), input(k, 5u));
+            let p = polynomial(u32(input(k, 0u)), u32(input(k, 1u)), xi, inverse);
+            put_jets(k, 0u, p);
+            put_jets(k, 1u, p);
+        }}"
+    );
+    let mut random = Random(4);
+    for degree in 0..=8usize {
+        let n = monomials(degree);
+        let mut lane = || -> Vec<f64> {
+            (0..n).map(|_| f64::from(random.between(-1.0, 1.0) as f32)).collect()
+        };
+        let (a, b) = (lane(), lane());
+        // coefficients begin at pair 1
+        let mut pairs = vec![[7.0, 7.0]];
+        for power in (0..=degree).rev() {
+            for x in (0..=degree - power).rev() {
+                let index = monomials(x + power) - 1 - x;
+                pairs.push([a[index] as f32, b[index] as f32]);
+            }
+        }
+        let mut rows = random_rows::<6>(60, 5);
+        rows.iter_mut().for_each(|row| (row[0], row[1]) = (1.0, degree as f32));
+        agrees(&text, &pairs, &rows, 4.0 * (degree as f64 + 2.0), |row| {
+            let [.., x, y, ix, iy] = row.map(f64::from);
+            let world = |c: &[f64], x: f64, y: f64, [ix, iy]: [f64; 2]| {
+                let p = polynomial::<f64, 2>(c, degree, [x, y]);
+                let [v, px, py, xx, xy, yy] = numbers(p);
+                [v, px * ix, py * iy, xx * ix * ix, xy * ix * iy, yy * iy * iy]
+            };
+            let lane = |c: &[f64]| {
+                let size: Vec<f64> = c.iter().map(|c| c.abs()).collect();
+                let size = world(&size, x.abs(), y.abs(), [ix.abs(), iy.abs()]);
+                world(c, x, y, [ix, iy]).into_iter().zip(size).collect::<Expected>()
+            };
+            [lane(&a), lane(&b)].concat()
+        });
+    }
+}
+
+/// Points round a tip at many distances: in all directions, on the faces and a hair off them.
+fn round_the_tip(from: i32, to: i32) -> Vec<[f32; 4]> {
+    let mut rows = Vec::new();
+    for power in from..=to {
+        let r = 1.37 * 10f64.powi(power);
+        for k in 0..24 {
+            let angle = f64::from(k) * 0.2618 - std::f64::consts::PI;
+            let (x, y) = ((r * angle.cos()) as f32, (r * angle.sin()) as f32);
+            rows.push([x, y, if y < 0.0 { -1.0 } else { 1.0 }, 1.0]);
+        }
+        let r = r as f32;
+        for (y, sign) in [(0.0, 1.0), (0.0, -1.0), (r * 1e-7, 1.0), (-r * 1e-7, -1.0)] {
+            rows.extend([[-r, y, sign, 1.0], [r, y, sign, 1.0], [-r, y, sign, -1.0]]);
+        }
+    }
+    // devices may take subnormal numbers for zero
+    rows.retain(|row| !row[1].is_subnormal());
+    rows
+}
+
+fn tip_point(row: &[f32; 4]) -> TipPoint<f64> {
+    let [x, y, sign, branch] = row.map(f64::from);
+    TipPoint { x, y, sign, branch }
+}
+
+const PUT_FUNCTIONS: &str = "fn row(k: u32) {
+    let p = TipPoint(input(k, 0u), input(k, 1u), input(k, 2u), input(k, 3u));
+    let f = westergaard(p);
+    for (var i = 0u; i < 4u; i++) {
+        let j = functions_entry(f, i);
+        put(k, 6u * i, j.v);
+        put(k, 6u * i + 1u, j.x);
+        put(k, 6u * i + 2u, j.y);
+        put(k, 6u * i + 3u, j.xx);
+        put(k, 6u * i + 4u, j.xy);
+        put(k, 6u * i + 5u, j.yy);
+    }
+}";
+
+/// Two roots, three divisions and up to 20 other operations: 60 u of r^½, r^-½ and r^-3/2 times the largest
+/// factor of the formulas; of C and S themselves of their own size, which vanishes on a face.
+fn westergaard_expected(row: &[f32; 4]) -> Expected {
+    let p = tip_point(row);
+    let r = p.x.hypot(p.y);
+    let jets = westergaard::<f64, 2>(&p);
+    let sizes =
+        [r.sqrt(), 1.0 / r.sqrt(), 1.0 / r.sqrt(), r.powf(-1.5), r.powf(-1.5), r.powf(-1.5)];
+    let of = |jet: Jet<f64>| numbers(jet).into_iter().zip(sizes).collect::<Expected>();
+    let mut expected: Vec<Expected> = jets.into_iter().map(of).collect();
+    expected[..2].iter_mut().for_each(|jet| jet[0].1 = jet[0].0.abs());
+    expected.concat()
+}
+
+#[test]
+fn westergaard_functions() {
+    // r^-3/2 is a number of single precision
+    let mut rows = round_the_tip(-24, 15);
+    rows.push([0.0, 0.0, 1.0, 1.0]);
+    agrees(PUT_FUNCTIONS, &[], &rows, 60.0, |row| {
+        let mut expected = westergaard_expected(row);
+        if row[0] == 0.0 && row[1] == 0.0 {
+            expected.iter_mut().for_each(|(v, _)| *v = if *v == 0.0 { 0.0 } else { f64::NAN });
+        }
+        expected
+    });
+}
+
+#[test]
+fn a_wrong_derivative_is_found() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let rows = round_the_tip(-3, 3);
+    let right = format!("{}{WEIGHT}{PUT_FUNCTIONS}", point_functions(2, CRACKS));
+    let found = |text: &str| run(&gpu, text, &[], &rows, 24).expect("a valid text");
+    assert!(wrong(&rows, &found(&right), 60.0, westergaard_expected).is_empty());
+    for (good, bad) in [
+        ("sine * (ct * ct)", "sine * (1.00001 * ct * ct)"),
+        ("2.0 * st * st - ct * ct", "2.0 * st * st + ct * ct"),
+        ("small, large), vec2<f32>(large", "large, small), vec2<f32>(large"),
+    ] {
+        let text = right.replace(good, bad);
+        assert_ne!(text, right);
+        let failures = wrong(&rows, &found(&text), 60.0, westergaard_expected);
+        assert!(failures.len() > rows.len() / 4, "{bad}: {}", failures.len());
+    }
+}
+
+/// Two roots (18 u) and three divisions (15 u) with the operations between, of the numbers themselves.
+#[test]
+fn polar_coordinates() {
+    let text = "fn row(k: u32) {
+        let p = TipPoint(input(k, 0u), input(k, 1u), input(k, 2u), input(k, 3u));
+        let r = tip_radius(p);
+        let root = tip_half_root(p, r);
+        let half = tip_half_angle(p, r);
+        put(k, 0u, r);
+        put(k, 1u, root.x);
+        put(k, 2u, root.y);
+        put(k, 3u, half.x);
+        put(k, 4u, half.y);
+        put(k, 5u, tip_theta(half));
+    }";
+    let mut rows = round_the_tip(-30, 15);
+    rows.push([0.0, 0.0, 1.0, 1.0]);
+    agrees(text, &[], &rows, 40.0, |row| {
+        let p = tip_point(row);
+        let r = p.radius();
+        let half = p.half_angle(r);
+        let mut expected: Expected =
+            [r].into_iter().chain(p.half_root(r)).chain(half).map(|v| (v, v.abs())).collect();
+        let theta = TipPoint::theta(half);
+        expected.push((theta, theta.abs()));
+        expected
+    });
+}
+
+fn crack(points: &[[f64; 2]]) -> Crack {
+    Crack { points: points.iter().map(|&p| Vec2::from(p)).collect(), ends: [CrackEnd::Tip; 2] }
+}
+
+/// Straight, kinked at a sharp and a blunt angle, a zigzag, and one in an odd place.
+fn cracks() -> Vec<Crack> {
+    vec![
+        crack(&[[-1.0, 0.0], [0.5, 0.0]]),
+        crack(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
+        crack(&[[-1.0, 0.6], [-0.4, 0.3], [0.0, 0.0]]),
+        crack(&[[-1.0, 0.0], [-0.3, 0.4], [0.1, -0.2], [0.4, 0.1], [0.9, -0.1]]),
+        crack(&[[3.1, 7.3], [5.7, 8.9]]),
+    ]
+}
+
+fn step(cracks: Vec<Crack>) -> Step {
+    let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+    let cover = Cover::uniform(domain, 0).expect("one cell");
+    Step {
+        load: 1.0,
+        partition: cover.partition(1.25, WeightFunction::Linear).expect("one patch"),
+        cracks,
+        functions: Vec::new(),
+        fields: Vec::new(),
+        attributes: Vec::new(),
+        intensities: Vec::new(),
+        history: Vec::new(),
+        warnings: Vec::new(),
+        reactions: Vec::new(),
+    }
+}
+
+/// Offsets from the size of a plate down to 10⁻¹⁵, with the centre itself and points on axes.
+fn offsets(seed: u64) -> Vec<[f32; 2]> {
+    let mut random = Random(seed);
+    let mut rows = vec![[0.0; 2]];
+    for size in [1.0, 0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+        let near: [f64; 4] = [size, -size, 0.5 * size, -0.5 * size];
+        rows.extend(near.iter().flat_map(|&a| [[a as f32, 0.0], [0.0, a as f32]]));
+        rows.extend((0..48).map(|_| [0; 2].map(|_| random.between(-size, size) as f32)));
+    }
+    rows
+}
+
+/// True if a point is farther than the roundings of its coordinates and of the view's data from where
+/// `decide` changes: 16 u of the sizes of both.
+fn decided(at: Vec2, distance: f64, decide: impl Fn(Vec2) -> bool) -> bool {
+    let band = 16.0 * U * (at.length() + distance);
+    let round = (0..16).map(|k| std::f64::consts::TAU * f64::from(k) / 16.0);
+    let mut near = round.map(|angle| decide(at + vec2(angle.cos(), angle.sin()) * band));
+    let here = decide(at);
+    near.all(|there| there == here)
+}
+
+/// Centres of views: vertices, tips, middles of segments, and beside.
+fn centers(crack: &Crack) -> Vec<Vec2> {
+    let middle = crack.points.windows(2).map(|s| (s[0] + s[1]) * 0.5);
+    let beside = [vec2(0.31, -0.17), vec2(4.0, 8.0)];
+    crack.points.iter().copied().chain(middle).chain(beside).collect()
+}
+
+#[test]
+fn sides_of_cracks() {
+    let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
+    let (mut compared, mut all) = (0, 0);
+    for (index, crack) in (0..).zip(cracks()) {
+        let text = format!(
+            "fn row(k: u32) {{
+                let offset = vec2<f32>(input(k, 0u), input(k, 1u));
+                put(k, 0u, crack_side(crack_of(0u), offset));
+                put(k, 1u, crack_side(crack_at({index}u), offset));
+            }}"
+        );
+        for center in centers(&crack) {
+            let step = step(cracks());
+            let geometry = Geometry::new(&step, &domain, &[GroupFrame::Side(index)], center);
+            let local = LocalCrack::new(&crack, center);
+            let distance = local.segments().iter().map(|s| s.distance.abs()).fold(0.0, f64::max);
+            let side = |p: Vec2| local.side([p.x, p.y], Side::Above);
+            let mut rows = offsets(6);
+            all += rows.len();
+            // on an axis-parallel crack through the centre nothing is rounded
+            rows.retain(|&[x, y]| {
+                let p = vec2(x.into(), y.into());
+                index == 0 && center.y == 0.0 && y == 0.0 || decided(p, distance, |p| side(p) > 0.0)
+            });
+            compared += rows.len();
+            assert_eq!(geometry.cracks, CRACKS);
+            agrees(&text, &geometry.pairs, &rows, 0.0, |&[x, y]| {
+                vec![(side(vec2(x.into(), y.into())), 1.0); 2]
+            });
+        }
+    }
+    assert!(compared > all / 2, "{compared} of {all}");
+}
+
+/// The point of a frame: a product and a sum for each coordinate of rounded data, 8 u of what is added.
+/// Signs and branches where they are decided.
+#[test]
+fn points_of_tips() {
+    let text = "fn row(k: u32) {
+        let p = tip_point(tip_at(1u), vec2<f32>(input(k, 0u), input(k, 1u)));
+        put(k, 0u, p.x);
+        put(k, 1u, p.y);
+        put(k, 2u, p.sign);
+        put(k, 3u, p.branch);
+    }";
+    let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
+    for (index, crack) in (0..).zip(cracks()) {
+        for (end, center) in [End::Start, End::Last]
+            .into_iter()
+            .flat_map(|end| centers(&crack).into_iter().map(move |center| (end, center)))
+        {
+            let frames = [GroupFrame::World, GroupFrame::Tip(TipId { crack: index, end })];
+            let geometry = Geometry::new(&step(cracks()), &domain, &frames, center);
+            let tip = LocalTip::new(&crack, end, center);
+            let far = tip.from_tip.length();
+            let point = |p: Vec2| tip.point([p.x, p.y], Side::Above);
+            let mut rows = offsets(7);
+            rows.retain(|&[x, y]| {
+                decided(vec2(x.into(), y.into()), 8.0 * far, |p| point(p).sign > 0.0)
+                    && decided(vec2(x.into(), y.into()), 8.0 * far, |p| point(p).branch > 0.0)
+            });
+            agrees(text, &geometry.pairs, &rows, 8.0, |&[x, y]| {
+                let (p, size) = (point(vec2(x.into(), y.into())), f64::from(x.hypot(y)) + far);
+                vec![(p.x, size), (p.y, size), (p.sign, 0.0), (p.branch, 0.0)]
+            });
+        }
+    }
+}
+
+/// Functions of a fixed frame turned into the world.
+#[test]
+fn fixed_frames_and_turned_functions() {
+    let text = format!(
+        "{PUT_JETS}fn row(k: u32) {{
+            let frame = fixed_at(0u);
+            let p = fixed_point(frame, vec2<f32>(input(k, 0u), input(k, 1u)));
+            let j = functions_entry(functions_turned(westergaard(p), frame.axis), 2u);
+            put_jets(k, 0u, lanes(j));
+            put(k, 6u, p.x);
+            put(k, 7u, p.y);
+        }}"
+    );
+    let (origin, angle) = (vec2(0.25, -0.75), 0.7);
+    let center = vec2(0.3, -0.7);
+    let frames = [GroupFrame::Fixed { origin, angle }];
+    let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
+    let geometry = Geometry::new(&step(Vec::new()), &domain, &frames, center);
+    let mut rows = random_rows::<2>(300, 8);
+    rows.iter_mut().flatten().for_each(|v| *v *= 0.5);
+    let axis = vec2(f64::cos(angle), f64::sin(angle));
+    let place = |x: f32, y: f32| {
+        let d = vec2(x.into(), y.into()) + (center - origin);
+        (axis.dot(d), axis.cross(d))
+    };
+    // away from the singular point and the jump, where the rounded place decides
+    rows.retain(|&[x, y]| {
+        let (px, py) = place(x, y);
+        px.hypot(py) > 0.05 && (px > 0.0 || py.abs() > 1e-3)
+    });
+    agrees(&text, geometry.pairs.as_slice(), &rows, 150.0, |&[x, y]| {
+        let (px, py) = place(x, y);
+        let sign = if py < 0.0 { -1.0 } else { 1.0 };
+        let p = TipPoint { x: px, y: py, sign, branch: 1.0 };
+        let turned = westergaard::<f64, 2>(&p)[2].turned::<2>(axis.x, axis.y);
+        let r = px.hypot(py);
+        // the rounding of the place, of size 1, is magnified by 1 / r
+        let sizes = [0.5, 1.5, 1.5, 2.5, 2.5, 2.5].map(|power: f64| r.powf(-power));
+        let mut expected: Expected = numbers(turned).into_iter().zip(sizes).collect();
+        expected.extend([(px, 1.0), (py, 1.0)]);
+        expected
+    });
+}
+
+#[test]
+fn insides_of_holes() {
+    let text = "fn row(k: u32) {
+        let inside = holes_contain(u32(input(k, 2u)), u32(input(k, 3u)), vec2<f32>(input(k, 0u), input(k, 1u)));
+        put(k, 0u, select(0.0, 1.0, inside));
+    }";
+    let polygon = |points: &[[f64; 2]]| Hole::Polygon {
+        points: points.iter().copied().map(Vec2::from).collect(),
+    };
+    let holes = vec![
+        Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 },
+        polygon(&[[-1.0, -0.5], [-0.5, -0.5], [-0.5, 0.0], [-1.0, 0.0]]),
+        polygon(&[[0.0, 0.0], [-1.0, 1.0], [0.75, 1.0], [0.1, 0.6]]),
+    ];
+    let domain = Domain { bounds: Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0)), holes };
+    let (mut compared, mut all, mut inside) = (0, 0, 0);
+    for center in
+        [[0.875, 0.75], [-0.75, 0.0], [-0.5, -0.25], [0.375, 0.5], [0.1, 0.6], [-1.5, 0.3]]
+    {
+        let center = Vec2::from(center);
+        let geometry = Geometry::new(&step(cracks()), &domain, &[GroupFrame::One], center);
+        let local: Vec<_> = domain.holes.iter().map(|hole| hole.at(center)).collect();
+        let contains = |p: Vec2| local.iter().any(|hole| hole.contains(p));
+        let mut rows: Vec<[f32; 4]> = offsets(9)
+            .into_iter()
+            .map(|[x, y]| [x, y, geometry.holes as f32, geometry.n_holes as f32])
+            .collect();
+        all += rows.len();
+        let place = |row: &[f32; 4]| vec2(row[0].into(), row[1].into());
+        // a rim's distance from the centre is rounded: nothing where the centre lies on it
+        let rim = |hole: &Hole| hole.rim_distance(center);
+        let near = domain.holes.iter().map(rim).fold(f64::INFINITY, f64::min);
+        rows.retain(|row| decided(place(row), near, contains));
+        compared += rows.len();
+        inside += rows.iter().filter(|row| contains(place(row))).count();
+        agrees(text, &geometry.pairs, &rows, 0.0, |row| {
+            vec![(f64::from(u8::from(contains(place(row)))), 1.0)]
+        });
+    }
+    assert!(compared > all / 2 && inside > compared / 8, "{compared} of {all}, {inside} inside");
+}
