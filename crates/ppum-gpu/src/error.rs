@@ -1,5 +1,7 @@
 //! What can go wrong on a graphics card. Nothing here panics: a program falls back to the CPU.
 
+use ppum::formula::WgslError;
+
 /// Why a graphics card could not do what it was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -51,4 +53,16 @@ pub enum GpuError {
     /// Something this device or this crate cannot do; the text says what and what to do instead.
     #[error("{0}")]
     Unsupported(String),
+}
+
+impl GpuError {
+    /// That a formula is wrong.
+    pub(crate) fn formula(what: &str, error: &dyn std::fmt::Display) -> Self {
+        Self::Unsupported(format!("{what}: {error}"))
+    }
+
+    /// That formulas are right, but too large for a shader.
+    pub(crate) fn limit(what: &str, error: &WgslError) -> Self {
+        Self::Unsupported(format!("{what}: {error}; `--backend cpu` has no such limit"))
+    }
 }

@@ -4,10 +4,16 @@
 mod adapter;
 mod device;
 mod error;
+mod functions;
 mod geometry;
 mod shader;
+mod groups;
+mod quantity;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod texts_tests;
+mod weight;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub use adapter::adapters;

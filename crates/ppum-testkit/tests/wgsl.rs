@@ -281,6 +281,27 @@ fn library_is_valid() {
     assert!(module.functions().count() > all.len());
 }
 
+/// Angles to a few units of the last place, all round and at any distance: WGSL promises four digits of its own.
+#[test]
+fn angles_are_accurate() {
+    let atan2 = module(&[jets(&["atan2(y, x)"], &Scope::cartesian(), 0).wgsl("f")]);
+    let atan = module(&[jets(&["atan(x)"], &Scope::cartesian(), 0).wgsl("f")]);
+    let near = |found: f32, expected: f64| {
+        (f64::from(found) - expected).abs() <= 4.0 * f64::from(f32::EPSILON) * expected.abs()
+    };
+    for k in -999..1000 {
+        let angle = f64::from(k) / 1000.0 * std::f64::consts::PI;
+        for size in [1e-30, 1.0, 1e30] {
+            let (x, y) = ((size * angle.cos()) as f32, (size * angle.sin()) as f32);
+            let found = atan2.call("f", &[x, y]).expect("a number")[0];
+            assert!(near(found, f64::from(y).atan2(f64::from(x))), "{x:e} {y:e}: {found:e}");
+        }
+        let x = angle.sinh() as f32;
+        let found = atan.call("f", &[x, 0.0]).expect("a number")[0];
+        assert!(near(found, f64::from(x).atan()), "{x:e}: {found:e}");
+    }
+}
+
 /// Only what is used is a parameter; what WGSL cannot hold is an error with the table's name.
 #[test]
 fn parameters_that_are_used_and_limits() {

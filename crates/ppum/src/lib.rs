@@ -202,6 +202,7 @@ mod compensated;
 pub mod cover;
 pub mod crack;
 pub mod dataset;
+pub mod decompose;
 pub mod domain;
 pub mod equation;
 pub mod expression;

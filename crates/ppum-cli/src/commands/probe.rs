@@ -51,6 +51,7 @@ Examples:
   ppum probe plate.h5 --at -0.5,0 --at 0.5,0 -q ux,uy,von-mises
   ppum probe plate.h5 --at 0,0                         on the crack: both sides
   ppum probe plate.h5 --at 0.2,0.1 -q 'sxx + syy,max(s1, 0)'
+  ppum probe plate.h5 --at 0,0 --part jump            only the blocks of sides of cracks
   ppum probe plate.h5 --at 0.5,0 --offset 1e-12,1e-13  near a tip";
 
 /// Least and largest width of the column of names; longer ones push their values aside.

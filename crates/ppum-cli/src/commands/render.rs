@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 use clap::ValueEnum;
-use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
@@ -87,15 +86,17 @@ const EXAMPLES: &str = "\
 Examples:
   ppum render plate.h5 -o plate.png --figure
   ppum render plate.h5 -o uy.png -q uy --colormap coolwarm --size 1920x1080
+  ppum render plate.h5 -o file.png --colormap thermal.json
   ppum render plate.h5 -o mean.png -q '(sxx + syy)/2' --figure
   ppum render plate.h5 -o what-if.png --function 'westergaard 1=r' --weight bump
+  ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
 fn colormaps() -> String {
     format!(
-        "Colour map: {}; reversed with _r; or a file with red, green, blue a line",
+        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it",
         NAMES.join(", ")
     )
 }
@@ -136,7 +137,8 @@ impl Args {
         let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
         let mut picture =
             threads::with(self.threads, || self.picture(&field, &view, &quantity, &style))??;
-        let image = self.image(&mut picture, &field, &labels(&dataset, &field, &quantity))?;
+        let title = self.replacements.title(&dataset.title);
+        let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
         let file = self.file.file_name().unwrap_or_default().to_string_lossy();
         let mut texts = picture.description(&dataset.title, &file, &name);
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
@@ -244,9 +246,9 @@ fn notes(quantity: &Quantity) -> Option<(String, String)> {
     Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
 }
 
-fn labels(dataset: &Dataset, field: &Field<'_>, quantity: &Quantity) -> Labels {
+fn labels(title: String, field: &Field<'_>, quantity: &Quantity) -> Labels {
     Labels {
-        title: dataset.title.clone(),
+        title,
         quantity: quantity.symbol(&field.data.components),
         unit: quantity.unit(field).to_owned(),
         length_unit: String::new(),

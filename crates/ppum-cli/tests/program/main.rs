@@ -8,6 +8,7 @@ mod determinism;
 mod errors;
 mod formula;
 mod info;
+mod parts;
 mod probe;
 mod readme;
 mod render;

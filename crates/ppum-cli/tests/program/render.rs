@@ -134,6 +134,26 @@ fn colours_from_a_file() {
     assert!(r.abs_diff((255.0f64 * (4.0 + 1.9375) / 8.0).round() as u8) <= 1, "{r}");
 }
 
+/// The form is found by the content, whatever the file is called; mistakes have a place.
+#[test]
+fn colours_from_json() {
+    let lab = Lab::solved(LINEAR);
+    let preset = r#"[{"ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 3, 0, 0, 0, 4, 1, 1, 1],
+        "UseAboveRangeColor": 1, "AboveRangeColor": [1, 0, 0]}]"#;
+    lab.write("grey.txt", preset);
+    lab.run("render plate.h5 -o a.png -q u --size 16x8 --range=0,2 --colormap grey.txt");
+    let png = Png::read(&lab.path("a.png"));
+    // u = 1.9375 lies at 0.96875 of the range, 0.875 of the way from the second colour to the third
+    let [r, g, b, _] = png.pixel(8, 4);
+    assert!(r == g && g == b && r.abs_diff((255.0f64 * 0.875).round() as u8) <= 1, "{r}");
+    assert_eq!(png.pixel(1, 6)[0], 0, "lower left, u = 0.5625");
+    assert_eq!(png.pixel(15, 0), [255, 0, 0, 255]);
+    assert_eq!(png.text("ppum:colormap"), "grey.txt");
+    lab.write("grey.csv", "[[0, 0, 0], [1, 1");
+    let complaint = lab.fail("render plate.h5 -o b.png -q u --colormap grey.csv");
+    assert!(complaint.contains("'grey.csv', line 1, column 17: this is not JSON"), "{complaint}");
+}
+
 #[test]
 fn partition_quantities() {
     let lab = Lab::solved(CRACKED);

@@ -247,6 +247,9 @@ pub(super) fn math(function: MathFunction, arguments: &[Value]) -> Result<Value,
         [F32(a), F32(b)] => of_two(function, a, b),
         [F32(a), F32(b), F32(c)] => of_three(function, a, b, c),
         [U32(a), U32(b)] => return of_integers(function, a, b),
+        [U32(a), U32(b), U32(c)] if function == MathFunction::Clamp => {
+            return Ok(U32(a.max(b).min(c)));
+        }
         _ => None,
     };
     result.map_or_else(|| unknown((function, arguments)), |result| Ok(F32(result)))

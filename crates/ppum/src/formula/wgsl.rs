@@ -197,7 +197,7 @@ fn unary(op: Unary, a: &str) -> String {
         Unary::Tan => "tan",
         Unary::Asin => "asin",
         Unary::Acos => "acos",
-        Unary::Atan => "atan",
+        Unary::Atan => "ppum_atan",
         Unary::Sinh => "sinh",
         Unary::Cosh => "cosh",
         Unary::Tanh => "ppum_tanh",

@@ -56,13 +56,41 @@ fn ppum_tanh(a: f32) -> f32 {
     return tanh(a);
 }
 
+// The arc tangent to single precision: that of devices may have four digits. tan(3π/8) and tan(π/8) part
+// the range; the polynomial is the one of Cephes (Moshier 1992).
+fn ppum_atan(a: f32) -> f32 {
+    let size = abs(a);
+    var t = size;
+    var base = 0.0;
+    if size > 2.4142135 {
+        t = -1.0 / size;
+        base = 1.5707964;
+    } else if size > 0.41421357 {
+        t = (size - 1.0) / (size + 1.0);
+        base = 0.7853982;
+    }
+    let s = t * t;
+    let p = ((8.05374449538e-2 * s - 1.38776856032e-1) * s + 1.99777106478e-1) * s - 3.33329491539e-1;
+    let angle = base + (p * s * t + t);
+    return select(angle, -angle, a < 0.0);
+}
+
 // The angle of the point (x, y), on the axis y = 0 too: 0 or pi with the sign of y.
 fn ppum_atan2(y: f32, x: f32) -> f32 {
     if (y == 0.0) & !ppum_is_nan(x) {
         let half_turn = select(3.14159265, -3.14159265, (bitcast<u32>(y) >> 31u) == 1u);
         return select(y, half_turn, (bitcast<u32>(x) >> 31u) == 1u);
     }
-    return atan2(y, x);
+    if ppum_is_nan(x) | ppum_is_nan(y) {
+        return x + y;
+    }
+    let flat = abs(y) <= abs(x);
+    let slope = select(abs(x) / abs(y), abs(y) / abs(x), flat);
+    // infinities of both are a diagonal
+    let octant = ppum_atan(select(slope, 1.0, ppum_is_nan(slope)));
+    let steep = select(1.5707964 - octant, octant, flat);
+    let angle = select(steep, 3.1415927 - steep, (bitcast<u32>(x) >> 31u) == 1u);
+    return select(angle, -angle, y < 0.0);
 }
 
 // sqrt(a^2 + b^2) without overflow; infinite if a or b is.

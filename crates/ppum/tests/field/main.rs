@@ -2,6 +2,7 @@
 
 mod anchors;
 mod borders;
+mod decompose;
 mod deep_zoom;
 mod derivatives;
 mod formulas;

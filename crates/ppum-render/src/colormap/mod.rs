@@ -11,8 +11,18 @@
 //! and [above](Colormap::above) the range, which do not occur in it: where lightness grows they are
 //! black (slate blue in the maps that begin with black) and white; turbo has grey and white,
 //! coolwarm cyan and yellow.
+//!
+//! [Files](Colormap::from_text) of other programs are read in the common forms, JSON and text.
+
+mod json;
+mod paint;
+mod space;
+mod stops;
+mod table;
 
 use crate::image::Rgba;
+use space::Space;
+use stops::{Stops, Wrong, wrong};
 
 /// Names of the built-in maps.
 pub const NAMES: [&str; 7] =
@@ -38,6 +48,8 @@ pub struct Colormap {
     pub diverging: bool,
     /// Red, green, blue, 0 to 255; at least two entries.
     entries: Vec<[f64; 3]>,
+    /// Positions of the entries, from 0 to 1, never falling; empty if they are even.
+    positions: Vec<f64>,
 }
 
 /// Why there is no such colour map.
@@ -53,23 +65,20 @@ pub enum ColormapError {
         /// A similar name, if there is one.
         suggestion: Option<&'static str>,
     },
-    /// A line of a table is not a colour.
-    #[error(
-        "colour map '{name}', line {line}: '{text}' is not a colour; \
-        write red, green and blue, 0 to 255 or 0 to 1"
-    )]
-    Line {
+    /// A file that is not understood.
+    #[error("colour map '{name}', {place}: {problem}")]
+    File {
         /// Name of the map.
         name: String,
-        /// Line, from 1.
-        line: usize,
-        /// The line's text.
-        text: String,
+        /// Line, column or key.
+        place: String,
+        /// What is wrong there, and what to write.
+        problem: String,
     },
-    /// A table of fewer than two colours.
-    #[error("colour map '{0}' has fewer than two colours; give one a line")]
-    TooShort(String),
 }
+
+/// Longest file, in bytes; a colour map needs some thousands.
+const LONGEST: usize = 1 << 24;
 
 impl Colormap {
     /// The built-in map of that name; `_r` behind it reverses the map.
@@ -81,13 +90,13 @@ impl Colormap {
             return Self::named(base).map(Self::reversed);
         }
         let (table, below, above) = match name {
-            "viridis" => (include_str!("../data/viridis.txt"), BLACK, WHITE),
-            "plasma" => (include_str!("../data/plasma.txt"), BLACK, WHITE),
-            "inferno" => (include_str!("../data/inferno.txt"), SLATE, WHITE),
-            "magma" => (include_str!("../data/magma.txt"), SLATE, WHITE),
-            "cividis" => (include_str!("../data/cividis.txt"), BLACK, WHITE),
-            "turbo" => (include_str!("../data/turbo.txt"), GREY, WHITE),
-            "coolwarm" => (include_str!("../data/coolwarm.txt"), CYAN, YELLOW),
+            "viridis" => (include_str!("../../data/viridis.txt"), BLACK, WHITE),
+            "plasma" => (include_str!("../../data/plasma.txt"), BLACK, WHITE),
+            "inferno" => (include_str!("../../data/inferno.txt"), SLATE, WHITE),
+            "magma" => (include_str!("../../data/magma.txt"), SLATE, WHITE),
+            "cividis" => (include_str!("../../data/cividis.txt"), BLACK, WHITE),
+            "turbo" => (include_str!("../../data/turbo.txt"), GREY, WHITE),
+            "coolwarm" => (include_str!("../../data/coolwarm.txt"), CYAN, YELLOW),
             _ => {
                 let suggestion = similar_name(name);
                 return Err(ColormapError::Unknown { name: name.to_owned(), suggestion });
@@ -97,39 +106,44 @@ impl Colormap {
         Ok(Self { below, above, diverging: name == "coolwarm", ..map })
     }
 
-    /// A map from a table: red, green and blue on each line, apart by blanks or commas, either all
-    /// within 0 to 1 or all within 0 to 255; `#` begins a comment. Below and above are black and
-    /// white until set otherwise.
+    /// A map from the text of a file; its form is found from the content.
+    ///
+    /// - A colour on each line: red, green and blue, or `#rrggbb`, or either with a position in front,
+    ///   apart by commas, semicolons, tabs or blanks; a first line may name the columns, then in any
+    ///   order and among others. `#` begins a comment.
+    /// - JSON: a list of `[red, green, blue]` or `"#rrggbb"`, also under `colors`; Plotly's list of
+    ///   `[position, "rgb(r, g, b)"]`; a preset of ParaView, in RGB, HSV, Lab or Diverging, with the
+    ///   colours below and above if it uses them. A diverging one has zero in its middle.
+    ///
+    /// The numbers of colours lie all within 0 to 1 or all within 0 to 255. Positions may be of any
+    /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and above
+    /// are black and white if the file has none. Opacity is left out, and so is ParaView's colour for
+    /// NaN, which here is outside the domain.
     ///
     /// # Errors
-    /// A line that is no colour; fewer than two colours.
+    /// What is no colour, with its place; fewer than two colours; more than 65,536; a form or a colour
+    /// space that is not supported.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
-        let mut entries = Vec::new();
-        for (index, line) in text.lines().enumerate() {
-            let content = line.split('#').next().unwrap_or_default().trim();
-            if !content.is_empty() {
-                let error = || ColormapError::Line {
-                    name: name.to_owned(),
-                    line: index + 1,
-                    text: line.to_owned(),
-                };
-                entries.push(parse_color(content).ok_or_else(error)?);
-            }
-        }
-        if entries.len() < 2 {
-            return Err(ColormapError::TooShort(name.to_owned()));
-        }
-        if entries.as_flattened().iter().all(|&c| c <= 1.0) {
-            entries.as_flattened_mut().iter_mut().for_each(|c| *c *= 255.0);
-        }
-        let name = name.to_owned();
-        Ok(Self { name, below: BLACK, above: WHITE, diverging: false, entries })
+        let found = read(text).and_then(|stops| Ok((stops.entries()?, stops)));
+        let ((positions, entries), stops) = found.map_err(|Wrong { place, problem }| {
+            ColormapError::File { name: name.to_owned(), place, problem }
+        })?;
+        Ok(Self {
+            name: name.to_owned(),
+            below: stops.below.unwrap_or(BLACK),
+            above: stops.above.unwrap_or(WHITE),
+            diverging: stops.space == Space::Diverging,
+            entries,
+            positions,
+        })
     }
 
     /// The map from its other end; below and above change places.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.entries.reverse();
+        self.positions.reverse();
+        self.positions.iter_mut().for_each(|at| *at = 1.0 - *at);
         std::mem::swap(&mut self.below, &mut self.above);
         self.name = match self.name.strip_suffix("_r") {
             Some(base) => base.to_owned(),
@@ -141,12 +155,25 @@ impl Colormap {
     /// The colour at position `t`, held at the ends outside \[0, 1\].
     #[must_use]
     pub fn color(&self, t: f64) -> Rgba {
-        let last = self.entries.len() - 1;
-        let at = t.clamp(0.0, 1.0) * last as f64;
-        let index = (at as usize).min(last - 1);
-        let (low, high, share) = (self.entries[index], self.entries[index + 1], at - index as f64);
+        let (index, share) = self.place(t.clamp(0.0, 1.0));
+        let (low, high) = (self.entries[index], self.entries[index + 1]);
         let mix = |k: usize| (low[k] + share * (high[k] - low[k])).round() as u8;
         [mix(0), mix(1), mix(2), 255]
+    }
+
+    /// The entry below position `t` ∈ \[0, 1\], and the share of the way to the next one.
+    fn place(&self, t: f64) -> (usize, f64) {
+        let last = self.entries.len() - 1;
+        if self.positions.is_empty() {
+            let at = t * last as f64;
+            let index = (at as usize).min(last - 1);
+            return (index, at - index as f64);
+        }
+        let passed = self.positions.partition_point(|&at| at <= t);
+        let index = passed.saturating_sub(1).min(last - 1);
+        let (low, high) = (self.positions[index], self.positions[index + 1]);
+        // at the end of the map the last two may be equal
+        (index, if high > low { (t - low) / (high - low) } else { 1.0 })
     }
 
     /// `count` ≥ 2 colours at even positions, the ends included.
@@ -156,14 +183,23 @@ impl Colormap {
     }
 }
 
-fn parse_color(text: &str) -> Option<[f64; 3]> {
-    let mut parts = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|p| !p.is_empty());
-    let mut next = || {
-        let value: f64 = parts.next()?.parse().ok()?;
-        (0.0..=255.0).contains(&value).then_some(value)
-    };
-    let color = [next()?, next()?, next()?];
-    parts.next().is_none().then_some(color)
+/// Reads a file of any form.
+fn read(text: &str) -> Result<Stops, Wrong> {
+    let text = text.trim_start_matches('\u{feff}');
+    if text.len() > LONGEST {
+        return Err(wrong(
+            "the whole file",
+            "has more than 16 MiB; a colour map has some thousand colours",
+        ));
+    }
+    match text.trim_start().chars().next() {
+        Some('[' | '{') => json::read(text),
+        Some('<') => {
+            let problem = "XML is not supported; ParaView reads it and exports it as JSON";
+            Err(wrong("the whole file", problem))
+        }
+        _ => table::read(text).map(Stops::from),
+    }
 }
 
 /// The built-in name at most three edits away, the nearest one.
@@ -187,6 +223,9 @@ fn edit_distance(a: &str, b: &str) -> usize {
     }
     row[b.len()]
 }
+
+#[cfg(test)]
+mod files;
 
 #[cfg(test)]
 mod tests {
@@ -270,10 +309,5 @@ mod tests {
         assert!(error.contains("did you mean viridis?"), "{error}");
         let error = Colormap::named("rainbow").unwrap_err().to_string();
         assert!(!error.contains("did you mean") && error.contains("turbo"), "{error}");
-        for (text, line) in [("0 0 0\n1 2\n", 2), ("0 0 x", 1), ("0 0 0\n0 0 300", 2)] {
-            let error = Colormap::from_text("mine", text).unwrap_err();
-            assert!(matches!(error, ColormapError::Line { line: l, .. } if l == line), "{error}");
-        }
-        assert!(matches!(Colormap::from_text("mine", "1 1 1"), Err(ColormapError::TooShort(_))));
     }
 }

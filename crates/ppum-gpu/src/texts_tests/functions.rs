@@ -1,0 +1,240 @@
+use ppum::crack::{Crack, CrackEnd, End, Side, TipId, tips};
+use ppum::formula::Table;
+use ppum::function::{Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::{Recipe, crack};
+use ppum_testkit::wgsl::Module;
+use std::sync::Arc;
+
+use super::{call, module};
+use crate::error::GpuError;
+use crate::functions::{Surroundings, functions_wgsl};
+use crate::geometry::GroupFrame;
+use crate::groups::Groups;
+
+/// The centre of the view.
+const CENTER: Vec2 = vec2(0.8, 0.2);
+
+/// The data of the view as the stand-ins read them.
+fn view(frames: &[GroupFrame], cracks: &[Crack]) -> String {
+    let first = 4 * frames.len();
+    let mut pairs: Vec<[String; 2]> = Vec::new();
+    let number = |v: f64| format!("{:#x}u", (v as f32).to_bits());
+    let pair = |p: Vec2| [number(p.x), number(p.y)];
+    for frame in frames {
+        let (a, b) = match frame {
+            GroupFrame::One => (pair(Vec2::ZERO), pair(Vec2::ZERO)),
+            GroupFrame::Side(crack) => {
+                let bits = [first as u32 + 3 * crack, 1].map(|n| format!("{n}u"));
+                (bits, pair(Vec2::ZERO))
+            }
+            GroupFrame::World => (pair(CENTER), pair(vec2(1.0, 0.0))),
+            GroupFrame::Fixed { origin, angle } => {
+                (pair(CENTER - *origin), pair(vec2(angle.cos(), angle.sin())))
+            }
+            GroupFrame::Tip(tip) => {
+                let crack = &cracks[tip.crack as usize];
+                (pair(CENTER - crack.end_point(tip.end)), pair(crack.growth_direction(tip.end)))
+            }
+        };
+        pairs.extend([a, b, pair(Vec2::ZERO), pair(Vec2::ZERO)]);
+    }
+    for crack in cracks {
+        let tangent = crack.growth_direction(End::Last);
+        pairs.extend([pair(crack.points[0] - CENTER), pair(tangent), pair(Vec2::ZERO)]);
+    }
+    let numbers = pairs.concat();
+    format!(
+        "const CRACKS = {first}u;\nconst VIEW = array<u32, {}>({});\n",
+        numbers.len(),
+        numbers.join(", ")
+    )
+}
+
+const NUMBERS: &str = "
+    fn numbers(group: f32, x: f32, y: f32) -> array<f32, 25> {
+        let f = functions(u32(group), vec2<f32>(x, y));
+        return array<f32, 25>(
+            f.v.x, f.x.x, f.y.x, f.xx.x, f.xy.x, f.yy.x, f.v.y, f.x.y, f.y.y, f.xx.y, f.xy.y, f.yy.y,
+            f.v.z, f.x.z, f.y.z, f.xx.z, f.xy.z, f.yy.z, f.v.w, f.x.w, f.y.w, f.xx.w, f.xy.w, f.yy.w,
+            select(0.0, 1.0, is_one(u32(group))));
+    }";
+
+/// The module of some functions, and their text.
+fn shader(
+    functions: &[Function],
+    groups: &Groups,
+    cracks: &[Crack],
+    tables: &[Arc<Table>],
+    order: usize,
+) -> (Module, String) {
+    let surroundings = Surroundings { cracks: cracks.len(), tables, order };
+    let text = functions_wgsl(functions, groups, surroundings).expect("a text");
+    let view = view(&groups.frames(functions), cracks);
+    (module(&[include_str!("point.wgsl"), &view, &text, NUMBERS]), text)
+}
+
+fn straight() -> Vec<Crack> {
+    vec![
+        crack(&[[0.5, 0.1], [1.0, 0.3]], [CrackEnd::Tip; 2]),
+        crack(&[[0.7, 0.5], [1.1, 0.45]], [CrackEnd::Tip; 2]),
+    ]
+}
+
+fn recipe(extra: Vec<FunctionKind>) -> Vec<Function> {
+    Recipe { cracks: straight(), extra, ..Recipe::default() }.functions()
+}
+
+fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind {
+    let mut kind = FunctionKind::formula(text, frame);
+    if let FunctionKind::Formula { parameters: all, .. } = &mut kind {
+        *all = parameters.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
+    }
+    kind
+}
+
+/// Compares all functions with derivatives up to an order with the reference: formulas in double precision.
+fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order: usize) {
+    let cracks = straight();
+    let (shader, _) = shader(functions, groups, &cracks, tables, order);
+    let table = FunctionTable::of_formulas(functions, cracks.len(), tables).expect("functions");
+    let (local, mut random) = (table.at(&cracks, CENTER), Random(4));
+    for _ in 0..40 {
+        let offset = [random.between(-0.3, 0.3), random.between(-0.3, 0.3)].map(|v| v as f32);
+        for (index, function) in (0..).zip(functions) {
+            let [group, entry] = groups.slot(index);
+            let all = call(&shader, "numbers", &[group as f32, offset[0], offset[1]]);
+            assert_eq!(all[24] == 1.0, function.kind == FunctionKind::One, "{}", function.name);
+            let found = &all[6 * entry as usize..][..6];
+            let mut jets = [Jet::constant(1.0); 4];
+            let entry = match table.of(index) {
+                Slot::One => 0,
+                Slot::Jet { group, entry } => {
+                    let at = offset.map(f64::from);
+                    local.evaluate::<f64, 2>(group as usize, at, Side::Above, &mut jets);
+                    entry
+                }
+            };
+            let jet = jets[entry as usize];
+            let native = WESTERGAARD.iter().any(|text| is_text(function, text));
+            // the stand-in for the kernel has no derivatives
+            let count = if native { 1 } else { [1, 3, 6][order] };
+            let expected = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy];
+            for (k, (a, b)) in found.iter().zip(expected).enumerate() {
+                let b = if k < count { b } else { 0.0 };
+                // offsets and origins of single precision, derivatives of size 1/r and 1/r² near a tip
+                assert!(
+                    (a - b).abs() <= 2e-5 * (1.0 + b.abs()) || native && k > 0,
+                    "{} derivative {k} at {offset:?}: {a:e} {b:e}",
+                    function.name
+                );
+            }
+        }
+    }
+}
+
+fn is_text(function: &Function, expected: &str) -> bool {
+    matches!(&function.kind, FunctionKind::Formula { text, .. } if text == expected)
+}
+
+fn all_kinds() -> Vec<FunctionKind> {
+    let fixed = Frame::Fixed { origin: vec2(0.2, -0.7), angle: 0.7 };
+    let tip = Frame::Tip(TipId { crack: 1, end: End::Start });
+    vec![
+        formula("exp(-a*x)*cos(y^2) - r^3/(1 + x^2)", fixed, &[("a", 1.5)]),
+        formula("x*y^2 + fn*loop", fixed, &[("fn", 0.5), ("loop", 2.0)]),
+        formula("x*y^2", Frame::World, &[]),
+        formula("(x - y)*side(1)", Frame::World, &[]),
+        formula("theta*x*side(0) + y", tip, &[]),
+        formula("cos(1.5*theta)*r + table(array, x)", tip, &[]),
+        formula("3", tip, &[]),
+        FunctionKind::One,
+    ]
+}
+
+fn tables() -> Vec<Arc<Table>> {
+    let knots = vec![-2.0, -0.5, 0.0, 1.0, 2.0];
+    vec![Arc::new(
+        Table::curve("array", knots.clone(), knots.iter().map(|x| x * x).collect())
+            .expect("a table"),
+    )]
+}
+
+#[test]
+fn functions_of_every_kind() {
+    let functions = recipe(all_kinds());
+    for order in 0..=2 {
+        compare(&functions, &Groups::new(&functions), &tables(), order);
+    }
+}
+
+/// Formulas in place of a kernel's function, of a side and of 1, some of them at one tip only.
+#[test]
+fn replaced_functions() {
+    let plain = Recipe { cracks: straight(), ..Recipe::default() };
+    let mut step = plain.dataset().steps.remove(0);
+    step.functions = recipe(all_kinds());
+    let groups = Groups::new(&step.functions);
+    for (which, text) in
+        [("1", "2*y + side(1)"), ("3", "r*x"), ("0", "1 + x"), ("10", "x + theta/4")]
+    {
+        step.replace_function(which, text, &tables()).expect("a formula");
+        compare(&step.functions, &groups, &tables(), 1);
+    }
+}
+
+/// Tips have one kernel, however many there are.
+#[test]
+fn kernels_are_shared() {
+    let cracks: Vec<Crack> = (0..144)
+        .map(|k| crack(&[[0.0, f64::from(k)], [1.0, f64::from(k)]], [CrackEnd::Tip; 2]))
+        .collect();
+    let mut functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
+    for crack in 0..cracks.len() as u32 {
+        functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack } });
+    }
+    for tip in tips(&cracks) {
+        for text in WESTERGAARD.into_iter().chain(["r*theta"]) {
+            let kind = FunctionKind::formula(text, Frame::Tip(tip));
+            functions.push(Function { name: text.to_owned(), kind });
+        }
+    }
+    let groups = Groups::new(&functions);
+    assert_eq!(groups.len(), 1 + 144 + 288 + 288);
+    let (_, text) = shader(&functions, &groups, &cracks, &[], 2);
+    assert_eq!(text.matches("fn functions_").count(), 4);
+    assert_eq!(text.matches("if group <").count(), 3);
+    assert_eq!(text.matches("fn formulas_").count(), 1);
+}
+
+#[test]
+fn random_recipes_are_valid() {
+    for seed in 0..4 {
+        let recipe = Recipe::random(seed);
+        let functions = recipe.functions();
+        for order in 0..=2 {
+            shader(&functions, &Groups::new(&functions), &recipe.cracks, &[], order);
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_an_error_with_the_functions_name() {
+    let knots: Vec<f64> = (0..3000).map(f64::from).collect();
+    let long = [Arc::new(Table::curve("long", knots.clone(), knots).expect("a table"))];
+    let message = |text: &str| {
+        let functions =
+            [Function { name: "load".into(), kind: FunctionKind::formula(text, Frame::World) }];
+        let surroundings = Surroundings { cracks: 0, tables: &long, order: 1 };
+        match functions_wgsl(&functions, &Groups::new(&functions), surroundings) {
+            Err(GpuError::Unsupported(message)) => message,
+            other => panic!("{other:?}"),
+        }
+    };
+    let long = message("table(long, x)");
+    assert!(long.contains("`load`") && long.contains("`long`") && long.contains("--backend cpu"));
+    let broken = message("x +* y");
+    assert!(broken.contains("`load`") && !broken.contains("--backend"), "{broken}");
+}

@@ -1,0 +1,132 @@
+//! What files of all forms are read into: colours, with positions where the file gives them.
+
+use super::space::Space;
+use crate::image::Rgba;
+
+/// Most colours in a file; more are no colour map.
+pub(super) const MOST: usize = 1 << 16;
+
+/// Entries that a map of another colour space is sampled at, and least ones between two colours:
+/// linear interpolation between them is off by less than a step of a byte.
+const SAMPLES: usize = 1024;
+const LEAST_SAMPLES: usize = 8;
+
+/// What is wrong in a file, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wrong {
+    pub(super) place: String,
+    pub(super) problem: String,
+}
+
+pub(super) fn wrong(place: impl Into<String>, problem: impl Into<String>) -> Wrong {
+    Wrong { place: place.into(), problem: problem.into() }
+}
+
+/// A colour as a file gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Paint {
+    /// 0 to 255, from a form that leaves no doubt.
+    Bytes([f64; 3]),
+    /// 0 to 255 or 0 to 1, as all the file's numbers are.
+    Numbers([f64; 3]),
+}
+
+/// A colour at a position, which is missing where the file gives none.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Stop {
+    pub(super) at: Option<f64>,
+    pub(super) paint: Paint,
+    pub(super) place: String,
+}
+
+/// A file's content.
+#[derive(Clone, Debug)]
+pub(super) struct Stops {
+    pub(super) stops: Vec<Stop>,
+    pub(super) space: Space,
+    pub(super) below: Option<Rgba>,
+    pub(super) above: Option<Rgba>,
+}
+
+impl From<Vec<Stop>> for Stops {
+    fn from(stops: Vec<Stop>) -> Self {
+        Self { stops, space: Space::Rgb, below: None, above: None }
+    }
+}
+
+/// Positions from 0 to 1, empty if they are even, and sRGB entries, 0 to 255.
+pub(super) type Entries = (Vec<f64>, Vec<[f64; 3]>);
+
+impl Stops {
+    /// Colours and positions, checked and scaled.
+    pub(super) fn entries(&self) -> Result<Entries, Wrong> {
+        if self.stops.len() < 2 {
+            return Err(wrong("the whole file", "has fewer than two colours; give at least two"));
+        }
+        if self.stops.len() > MOST {
+            return Err(wrong(&self.stops[MOST].place, too_many()));
+        }
+        let (positions, colors) = (self.positions()?, self.colors());
+        Ok(match self.space {
+            Space::Rgb => (positions, colors),
+            space => sampled(space, &positions, &colors),
+        })
+    }
+
+    fn colors(&self) -> Vec<[f64; 3]> {
+        let small =
+            |paint: &Paint| !matches!(paint, Paint::Numbers(c) if c.iter().any(|&c| c > 1.0));
+        let scale = if self.stops.iter().all(|stop| small(&stop.paint)) { 255.0 } else { 1.0 };
+        let color = |stop: &Stop| match stop.paint {
+            Paint::Bytes(color) => color,
+            Paint::Numbers(color) => color.map(|c| c * scale),
+        };
+        self.stops.iter().map(color).collect()
+    }
+
+    /// Positions scaled to 0 … 1; none if the file gives none.
+    fn positions(&self) -> Result<Vec<f64>, Wrong> {
+        let given: Vec<f64> = self.stops.iter().filter_map(|stop| stop.at).collect();
+        if given.is_empty() {
+            return Ok(given);
+        }
+        if let Some(stop) = self.stops.iter().find(|stop| stop.at.is_none()) {
+            return Err(wrong(&stop.place, "has no position, but others have; give all or none"));
+        }
+        for (pair, stop) in given.windows(2).zip(&self.stops[1..]) {
+            if pair[1] < pair[0] {
+                let problem =
+                    format!("position {:?} follows {:?}; positions must grow", pair[1], pair[0]);
+                return Err(wrong(&stop.place, problem));
+            }
+        }
+        let (first, last) = (given[0], given[given.len() - 1]);
+        if !(last - first).is_finite() || last == first {
+            let problem = format!("run from {first:?} to {last:?}; they must span a finite range");
+            return Err(wrong("positions", problem));
+        }
+        Ok(given.iter().map(|at| (at - first) / (last - first)).collect())
+    }
+}
+
+pub(super) fn too_many() -> String {
+    format!("more than {MOST} colours; no picture can show them, give fewer")
+}
+
+/// Entries so close that linear interpolation between them shows the colours of another space.
+fn sampled(space: Space, positions: &[f64], colors: &[[f64; 3]]) -> Entries {
+    let count = colors.len() - 1;
+    let steps = SAMPLES.div_ceil(count).max(LEAST_SAMPLES);
+    let position = |k: usize| positions.get(k).copied().unwrap_or(k as f64 / count as f64);
+    let unit = |k: usize| colors[k].map(|c| c / 255.0);
+    let (mut at, mut entries) = (Vec::new(), Vec::new());
+    for k in 0..count {
+        let (low, high) = (position(k), position(k + 1));
+        for step in 0..=steps {
+            let share = step as f64 / steps as f64;
+            at.push(low + share * (high - low));
+            entries.push(space.between(unit(k), unit(k + 1), share).map(|c| c * 255.0));
+        }
+    }
+    (at, entries)
+}
