@@ -6,9 +6,9 @@ mod device;
 mod error;
 mod functions;
 mod geometry;
-mod shader;
 mod groups;
 mod quantity;
+mod shader;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -62,23 +62,10 @@ fn tip_half_angle(p: TipPoint, r: f32) -> vec2<f32> {
     return tip_half_root(p, r) / sqrt(r);
 }
 
-// θ on the branch that jumps on the crack itself, from cos(θ/2) and sin(θ/2): 8 arctan(tan(θ/8)), beyond a
+// θ on the branch that jumps on the crack itself, from cos(θ/2) and sin(θ/2): 4 arctan(tan(θ/4)), beyond a
 // half turn by the angle that is missing from a full one.
 fn tip_theta(half: vec2<f32>) -> f32 {
-    let cosine = sqrt((1.0 + abs(half.x)) * 0.5);
-    let sine = abs(half.y) / (cosine + cosine);
-    let angle = 8.0 * tip_arctan(sine / (1.0 + cosine));
+    let angle = 4.0 * ppum_atan(abs(half.y) / (1.0 + abs(half.x)));
     let size = select(angle, 6.2831853 - angle, half.x < 0.0);
     return select(size, -size, half.y < 0.0);
-}
-
-// arctan t for 0 <= t <= tan(π/8) by its Taylor series, whose next term is 1e-8 of it at most: WGSL promises
-// three digits only of its own one.
-fn tip_arctan(t: f32) -> f32 {
-    let q = t * t;
-    var sum = 0.0;
-    for (var n = 17.0; n > 0.0; n -= 2.0) {
-        sum = 1.0 / n - q * sum;
-    }
-    return t * sum;
 }
