@@ -65,7 +65,7 @@ fn tip_half_angle(p: TipPoint, r: f32) -> vec2<f32> {
 // θ on the branch that jumps on the crack itself, from cos(θ/2) and sin(θ/2): 4 arctan(tan(θ/4)), beyond a
 // half turn by the angle that is missing from a full one.
 fn tip_theta(half: vec2<f32>) -> f32 {
-    let quarter = 4.0 * atan(abs(half.y) / (1.0 + abs(half.x)));
-    let size = select(quarter, 6.2831853 - quarter, half.x < 0.0);
+    let angle = 4.0 * ppum_atan(abs(half.y) / (1.0 + abs(half.x)));
+    let size = select(angle, 6.2831853 - angle, half.x < 0.0);
     return select(size, -size, half.y < 0.0);
 }

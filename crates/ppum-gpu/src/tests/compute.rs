@@ -71,9 +71,14 @@ fn storage(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
 
 fn dispatch(gpu: &Gpu, module: &wgpu::ShaderModule, buffers: &[wgpu::Buffer], rows: usize) {
     let device = gpu.device();
+    let layout = layout(gpu);
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        bind_group_layouts: &[Some(&layout)],
+        ..Default::default()
+    });
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: None,
-        layout: None,
+        layout: Some(&pipeline_layout),
         module,
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
@@ -86,7 +91,6 @@ fn dispatch(gpu: &Gpu, module: &wgpu::ShaderModule, buffers: &[wgpu::Buffer], ro
             resource: buffer.as_entire_binding(),
         })
         .collect();
-    let layout = pipeline.get_bind_group_layout(0);
     let group = wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries };
     let group = device.create_bind_group(&group);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -96,6 +100,23 @@ fn dispatch(gpu: &Gpu, module: &wgpu::ShaderModule, buffers: &[wgpu::Buffer], ro
     pass.dispatch_workgroups((rows as u32).div_ceil(GROUP), 1, 1);
     drop(pass);
     gpu.queue().submit([encoder.finish()]);
+}
+
+/// Two buffers that are read, used or not, and one that is written.
+fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry = |binding: u32| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: binding < 2 },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries = [0, 1, 2].map(entry);
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries };
+    gpu.device().create_bind_group_layout(&descriptor)
 }
 
 fn read(gpu: &Gpu, from: &wgpu::Buffer, size: u64) -> Vec<f32> {

@@ -26,6 +26,9 @@ const U: f64 = f32::EPSILON as f64 / 2.0;
 /// A weight for the texts that test none.
 const WEIGHT: &str = "fn weight(xi: f32) -> vec3<f32> { return weight_cubic(xi); }\n";
 
+/// Where the cracks are in the view's data of one group of functions.
+const CRACKS: u32 = 4;
+
 /// What must come out: a number and the size of what it is a sum of.
 type Expected = Vec<(f64, f64)>;
 
@@ -63,7 +66,7 @@ fn agrees<const N: usize>(
     expected: impl Fn(&[f32; N]) -> Expected,
 ) {
     let Some(gpu) = gpu_or_skip() else { return };
-    let text = format!("{}{WEIGHT}{text}", point_functions(2, 0));
+    let text = format!("{}{WEIGHT}{text}", point_functions(2, CRACKS));
     let outputs = expected(&rows[0]).len();
     let found = run(&gpu, &text, pairs, rows, outputs).unwrap_or_else(|error| panic!("{error}"));
     let failures = wrong(rows, &found, units, expected);
@@ -74,7 +77,7 @@ fn agrees<const N: usize>(
 #[test]
 fn texts_are_valid_for_every_order() {
     for order in 0..=2 {
-        let text = format!("{}{WEIGHT}fn row(k: u32) {{}}", point_functions(order, 0));
+        let text = format!("{}{WEIGHT}fn row(k: u32) {{}}", point_functions(order, CRACKS));
         Module::new(&around(&text, 1, 1, 1)).unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -259,6 +262,8 @@ fn round_the_tip(from: i32, to: i32) -> Vec<[f32; 4]> {
             rows.extend([[-r, y, sign, 1.0], [r, y, sign, 1.0], [-r, y, sign, -1.0]]);
         }
     }
+    // devices may take subnormal numbers for zero
+    rows.retain(|row| !row[1].is_subnormal());
     rows
 }
 
@@ -313,7 +318,7 @@ fn westergaard_functions() {
 fn a_wrong_derivative_is_found() {
     let Some(gpu) = gpu_or_skip() else { return };
     let rows = round_the_tip(-3, 3);
-    let right = format!("{}{WEIGHT}{PUT_FUNCTIONS}", point_functions(2, 0));
+    let right = format!("{}{WEIGHT}{PUT_FUNCTIONS}", point_functions(2, CRACKS));
     let found = |text: &str| run(&gpu, text, &[], &rows, 24).expect("a valid text");
     assert!(wrong(&rows, &found(&right), 60.0, westergaard_expected).is_empty());
     for (good, bad) in [
@@ -328,9 +333,7 @@ fn a_wrong_derivative_is_found() {
     }
 }
 
-/// A root (9 u) and two divisions (10 u) with the operations between, of the number itself; θ has an arc
-/// tangent, of which WGSL promises 4096 units in the last place only. What is asked for here is what the
-/// renderer needs: 2e-6 rad.
+/// Two roots (18 u) and three divisions (15 u) with the operations between, of the numbers themselves.
 #[test]
 fn polar_coordinates() {
     let text = "fn row(k: u32) {
@@ -353,9 +356,8 @@ fn polar_coordinates() {
         let half = p.half_angle(r);
         let mut expected: Expected =
             [r].into_iter().chain(p.half_root(r)).chain(half).map(|v| (v, v.abs())).collect();
-        // straight ahead on the other branch is no place of a plane with one crack
         let theta = TipPoint::theta(half);
-        expected.push((theta, 2e-6 / (40.0 * U)));
+        expected.push((theta, theta.abs()));
         expected
     });
 }
@@ -423,12 +425,16 @@ fn centers(crack: &Crack) -> Vec<Vec2> {
 
 #[test]
 fn sides_of_cracks() {
-    let text = "fn row(k: u32) {
-        put(k, 0u, crack_side(crack_of(0u), vec2<f32>(input(k, 0u), input(k, 1u))));
-    }";
     let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
     let (mut compared, mut all) = (0, 0);
     for (index, crack) in (0..).zip(cracks()) {
+        let text = format!(
+            "fn row(k: u32) {{
+                let offset = vec2<f32>(input(k, 0u), input(k, 1u));
+                put(k, 0u, crack_side(crack_of(0u), offset));
+                put(k, 1u, crack_side(crack_at({index}u), offset));
+            }}"
+        );
         for center in centers(&crack) {
             let step = step(cracks());
             let geometry = Geometry::new(&step, &domain, &[GroupFrame::Side(index)], center);
@@ -443,8 +449,9 @@ fn sides_of_cracks() {
                 index == 0 && center.y == 0.0 && y == 0.0 || decided(p, distance, |p| side(p) > 0.0)
             });
             compared += rows.len();
-            agrees(text, &geometry.pairs, &rows, 0.0, |&[x, y]| {
-                vec![(side(vec2(x.into(), y.into())), 1.0)]
+            assert_eq!(geometry.cracks, CRACKS);
+            agrees(&text, &geometry.pairs, &rows, 0.0, |&[x, y]| {
+                vec![(side(vec2(x.into(), y.into())), 1.0); 2]
             });
         }
     }
