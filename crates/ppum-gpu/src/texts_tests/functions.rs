@@ -1,8 +1,9 @@
 use ppum::crack::{Crack, CrackEnd, End, Side, TipId, tips};
+use ppum::dataset::Step;
 use ppum::formula::Table;
 use ppum::function::{Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD};
 use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, crack};
 use ppum_testkit::wgsl::Module;
@@ -11,45 +12,33 @@ use std::sync::Arc;
 use super::{call, module};
 use crate::error::GpuError;
 use crate::functions::{Surroundings, functions_wgsl};
-use crate::geometry::GroupFrame;
+use crate::geometry::{Geometry, GroupFrame, constants};
 use crate::groups::Groups;
+use crate::shader::{CRACK, GEOMETRY, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL};
 
 /// The centre of the view.
 const CENTER: Vec2 = vec2(0.8, 0.2);
 
-/// The data of the view as the stand-ins read them.
-fn view(frames: &[GroupFrame], cracks: &[Crack]) -> String {
-    let first = 4 * frames.len();
-    let mut pairs: Vec<[String; 2]> = Vec::new();
-    let number = |v: f64| format!("{:#x}u", (v as f32).to_bits());
-    let pair = |p: Vec2| [number(p.x), number(p.y)];
-    for frame in frames {
-        let (a, b) = match frame {
-            GroupFrame::One => (pair(Vec2::ZERO), pair(Vec2::ZERO)),
-            GroupFrame::Side(crack) => {
-                let bits = [first as u32 + 3 * crack, 1].map(|n| format!("{n}u"));
-                (bits, pair(Vec2::ZERO))
-            }
-            GroupFrame::World => (pair(CENTER), pair(vec2(1.0, 0.0))),
-            GroupFrame::Fixed { origin, angle } => {
-                (pair(CENTER - *origin), pair(vec2(angle.cos(), angle.sin())))
-            }
-            GroupFrame::Tip(tip) => {
-                let crack = &cracks[tip.crack as usize];
-                (pair(CENTER - crack.end_point(tip.end)), pair(crack.growth_direction(tip.end)))
-            }
-        };
-        pairs.extend([a, b, pair(Vec2::ZERO), pair(Vec2::ZERO)]);
-    }
-    for crack in cracks {
-        let tangent = crack.growth_direction(End::Last);
-        pairs.extend([pair(crack.points[0] - CENTER), pair(tangent), pair(Vec2::ZERO)]);
-    }
-    let numbers = pairs.concat();
+/// The data of a view and what reads them, with the other declarations that point functions need.
+fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
+    let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0)).into();
+    let geometry = Geometry::new(step, &domain, frames, CENTER);
+    let bits = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
+    let bits: Vec<String> = bits.collect();
+    let (count, bits) = (bits.len(), bits.join(", "));
     format!(
-        "const CRACKS = {first}u;\nconst VIEW = array<u32, {}>({});\n",
-        numbers.len(),
-        numbers.join(", ")
+        "struct View {{ cracks: u32 }}
+        const view = View({}u);
+        const ORDER = {order}u;
+        const LANE_PAIRS = 1u;
+        alias Lanes = vec2<f32>;
+        const WORDS = array<u32, {count}>({bits});
+        fn load_view(at: u32) -> vec2<f32> {{
+            return bitcast<vec2<f32>>(vec2<u32>(WORDS[2u * at], WORDS[2u * at + 1u]));
+        }}
+        {}",
+        geometry.cracks,
+        constants(),
     )
 }
 
@@ -72,19 +61,24 @@ fn shader(
 ) -> (Module, String) {
     let surroundings = Surroundings { cracks: cracks.len(), tables, order };
     let text = functions_wgsl(functions, groups, surroundings).expect("a text");
-    let view = view(&groups.frames(functions), cracks);
-    (module(&[include_str!("point.wgsl"), &view, &text, NUMBERS]), text)
+    let recipe =
+        Recipe { level: 0, cells: [1, 1], tip_level: 0, cracks: vec![], ..Recipe::default() };
+    let step = Step { cracks: cracks.to_vec(), ..recipe.step() };
+    let view = view(&step, &groups.frames(functions), order);
+    let parts = [JET, CRACK, TIP, WESTERGAARD_KERNEL, GEOMETRY, &view, &text, NUMBERS];
+    (module(&parts), text)
 }
 
-fn straight() -> Vec<Crack> {
+/// Kinked and straight ones.
+fn cracks() -> Vec<Crack> {
     vec![
-        crack(&[[0.5, 0.1], [1.0, 0.3]], [CrackEnd::Tip; 2]),
+        crack(&[[0.5, 0.1], [0.8, 0.17], [1.0, 0.3]], [CrackEnd::Tip; 2]),
         crack(&[[0.7, 0.5], [1.1, 0.45]], [CrackEnd::Tip; 2]),
     ]
 }
 
 fn recipe(extra: Vec<FunctionKind>) -> Vec<Function> {
-    Recipe { cracks: straight(), extra, ..Recipe::default() }.functions()
+    Recipe { cracks: cracks(), extra, ..Recipe::default() }.functions()
 }
 
 fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind {
@@ -97,7 +91,7 @@ fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind
 
 /// Compares all functions with derivatives up to an order with the reference: formulas in double precision.
 fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order: usize) {
-    let cracks = straight();
+    let cracks = &cracks();
     let (shader, _) = shader(functions, groups, &cracks, tables, order);
     let table = FunctionTable::of_formulas(functions, cracks.len(), tables).expect("functions");
     let (local, mut random) = (table.at(&cracks, CENTER), Random(4));
@@ -118,25 +112,19 @@ fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order
                 }
             };
             let jet = jets[entry as usize];
-            let native = WESTERGAARD.iter().any(|text| is_text(function, text));
-            // the stand-in for the kernel has no derivatives
-            let count = if native { 1 } else { [1, 3, 6][order] };
+            let count = [1, 3, 6][order];
             let expected = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy];
             for (k, (a, b)) in found.iter().zip(expected).enumerate() {
                 let b = if k < count { b } else { 0.0 };
                 // offsets and origins of single precision, derivatives of size 1/r and 1/r² near a tip
                 assert!(
-                    (a - b).abs() <= 2e-5 * (1.0 + b.abs()) || native && k > 0,
+                    (a - b).abs() <= 2e-5 * (1.0 + b.abs()),
                     "{} derivative {k} at {offset:?}: {a:e} {b:e}",
                     function.name
                 );
             }
         }
     }
-}
-
-fn is_text(function: &Function, expected: &str) -> bool {
-    matches!(&function.kind, FunctionKind::Formula { text, .. } if text == expected)
 }
 
 fn all_kinds() -> Vec<FunctionKind> {
@@ -173,7 +161,7 @@ fn functions_of_every_kind() {
 /// Formulas in place of a kernel's function, of a side and of 1, some of them at one tip only.
 #[test]
 fn replaced_functions() {
-    let plain = Recipe { cracks: straight(), ..Recipe::default() };
+    let plain = Recipe { cracks: cracks(), ..Recipe::default() };
     let mut step = plain.dataset().steps.remove(0);
     step.functions = recipe(all_kinds());
     let groups = Groups::new(&step.functions);

@@ -6,6 +6,7 @@ use ppum::weight::WeightFunction;
 
 use super::{call, module};
 use crate::error::GpuError;
+use crate::shader::{JET, WEIGHT};
 use crate::weight::weight_wgsl;
 
 /// The function under test, and the numbers of its vector.
@@ -14,7 +15,8 @@ fn test_module(weight: &WeightFunction) -> ppum_testkit::wgsl::Module {
         let w = weight(xi);
         return array<f32, 3>(w.x, w.y, w.z);
     }";
-    module(&[&weight_wgsl(weight).expect("a text"), numbers])
+    let declared = "const ORDER = 1u; alias Lanes = vec2<f32>;";
+    module(&[JET, WEIGHT, declared, &weight_wgsl(weight).expect("a text"), numbers])
 }
 
 fn places() -> impl Iterator<Item = f32> {
@@ -47,6 +49,7 @@ fn compare(weight: &WeightFunction) {
 fn weights_of_the_library() {
     let scope = Scope::new(&["t"]).expect("a name");
     for entry in WEIGHTS {
+        compare(&WeightFunction::from_library(entry.name).expect("of the library"));
         compare(&WeightFunction::formula(entry.texts[0], &scope).expect("of the library"));
     }
 }
@@ -71,15 +74,4 @@ fn a_table_too_long_is_an_error() {
     let weight = WeightFunction::formula("table(long, t)", &scope).expect("a weight");
     let Err(GpuError::Unsupported(message)) = weight_wgsl(&weight) else { panic!("no error") };
     assert!(message.contains("`long`") && message.contains("--backend cpu"), "{message}");
-}
-
-/// B-splines are not compiled: the shader has functions for them.
-#[test]
-fn splines_have_functions_of_their_own() {
-    for weight in WeightFunction::ALL {
-        let text = weight_wgsl(&weight).expect("a text");
-        let spline =
-            format!("fn weight_{}(xi: f32) -> vec3<f32> {{ return vec3(xi); }}", weight.name());
-        module(&[&text, &spline]);
-    }
 }
