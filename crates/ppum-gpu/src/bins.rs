@@ -74,15 +74,10 @@ impl Bins {
             pitch = pitch * (count / most);
         }
         let before = |low: f64, at: f64, step: f64| at - ((at - low) / step).ceil() * step;
-        let origin = vec2(
-            before(bounds.min.x, center.x, pitch.x),
-            before(bounds.min.y, center.y, pitch.y),
-        );
+        let origin =
+            vec2(before(bounds.min.x, center.x, pitch.x), before(bounds.min.y, center.y, pitch.y));
         let cells = |low: f64, high: f64, step: f64| ((high - low) / step).ceil().max(1.0) as u32;
-        let size = [
-            cells(origin.x, bounds.max.x, pitch.x),
-            cells(origin.y, bounds.max.y, pitch.y),
-        ];
+        let size = [cells(origin.x, bounds.max.x, pitch.x), cells(origin.y, bounds.max.y, pitch.y)];
         Self { origin, pitch, size, ..Self::default() }
     }
 
@@ -90,10 +85,8 @@ impl Bins {
     fn bin(&self, node: usize) -> Rect {
         let columns = self.size[0] as usize;
         let index = vec2((node % columns) as f64, (node / columns) as f64);
-        let min = vec2(
-            self.origin.x + index.x * self.pitch.x,
-            self.origin.y + index.y * self.pitch.y,
-        );
+        let min =
+            vec2(self.origin.x + index.x * self.pitch.x, self.origin.y + index.y * self.pitch.y);
         Rect::new(min, min + self.pitch)
     }
 

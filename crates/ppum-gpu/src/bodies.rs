@@ -102,7 +102,10 @@ impl Writer<'_> {
                 }
             }
         }
-        if let Some(at) = terms.iter().position(|term| self.groups.classes()[term.group as usize] == Class::Smooth) {
+        if let Some(at) = terms
+            .iter()
+            .position(|term| self.groups.classes()[term.group as usize] == Class::Smooth)
+        {
             terms[at].smooth = true;
             terms.swap(0, at);
         }
@@ -131,7 +134,11 @@ impl Writer<'_> {
         for index in horner(degree) {
             let constant = smooth && index == 0;
             self.lanes(group, |component| {
-                if constant { 0.0 } else { self.data.block_coefficients(block, component)[index] as f32 }
+                if constant {
+                    0.0
+                } else {
+                    self.data.block_coefficients(block, component)[index] as f32
+                }
             });
         }
     }

@@ -429,8 +429,7 @@ fn load(function: &str, parts: usize, chunk: u32) -> String {
 }
 
 fn gather_text() -> String {
-    shader::GATHER.to_owned()
-        + "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n"
+    shader::GATHER.to_owned() + "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n"
 }
 
 fn palette_binding(binding: u32) -> String {
@@ -475,7 +474,11 @@ fn field_slot(count: u32) -> String {
 fn data_layout(gpu: &Gpu, chunks: [usize; 2]) -> BindGroupLayout {
     let entry = |binding: u32| BindGroupLayoutEntry {
         binding,
-        visibility: if binding == 0 { ShaderStages::VERTEX_FRAGMENT } else { ShaderStages::FRAGMENT },
+        visibility: if binding == 0 {
+            ShaderStages::VERTEX_FRAGMENT
+        } else {
+            ShaderStages::FRAGMENT
+        },
         ty: BindingType::Buffer {
             ty: if binding == 0 {
                 BufferBindingType::Uniform

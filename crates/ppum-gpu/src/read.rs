@@ -25,11 +25,8 @@ pub(crate) fn texture(gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError>
             mapped_at_creation: false,
         });
         let mut encoder = gpu.device().create_command_encoder(&Default::default());
-        let layout = TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(padded),
-            rows_per_image: None,
-        };
+        let layout =
+            TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
         let into = TexelCopyBufferInfo { buffer: &buffer, layout };
         encoder.copy_texture_to_buffer(texture.as_image_copy(), into, texture.size());
         gpu.queue().submit([encoder.finish()]);

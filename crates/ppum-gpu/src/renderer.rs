@@ -168,8 +168,7 @@ impl Renderer {
         self.check_size(view)?;
         self.again(|renderer| {
             if scene.generation != renderer.generation {
-                *scene =
-                    Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)?;
+                *scene = Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)?;
             }
             renderer.draw_once(scene, program, field, view, shading)
         })
@@ -479,9 +478,8 @@ fn group(gpu: &Gpu, layout: &BindGroupLayout, resources: Vec<BindingResource<'_>
 
 /// A texture to draw into and to read.
 fn target(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
-    let usage = TextureUsages::RENDER_ATTACHMENT
-        | TextureUsages::TEXTURE_BINDING
-        | TextureUsages::COPY_SRC;
+    let usage =
+        TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
     gpu.device().create_texture(&descriptor(size, format, usage))
 }
 
