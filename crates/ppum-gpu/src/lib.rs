@@ -21,6 +21,7 @@ mod renderer;
 mod scene;
 mod seen;
 mod shader;
+mod smooth;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -13,7 +13,7 @@ use wgpu::{
 };
 
 use crate::bins;
-use crate::bodies;
+use crate::bodies::{self, Components};
 use crate::color::PALETTE_TEXELS;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -27,6 +27,7 @@ use crate::region::record_quads;
 use crate::scene::{Scene, SceneLayout, TEXELS};
 use crate::seen::ViewRecord;
 use crate::shader;
+use crate::smooth::{four_constants, straight_smooth};
 use crate::weight::weight_wgsl;
 
 /// How patches come together at a pixel.
@@ -70,6 +71,8 @@ struct Parts {
     order: u32,
     /// False for quantities of the partition alone.
     has_field: bool,
+    /// True for the φ of a patch.
+    has_part: bool,
     /// Weight, functions, quantity.
     formulas: String,
 }
@@ -161,7 +164,7 @@ impl Program {
             Quantity::PartitionFunction(patch) => Some(*patch),
             _ => None,
         };
-        let parts = Parts { order, has_field, formulas };
+        let parts = Parts { order, has_field, has_part: chosen.is_some(), formulas };
         Ok(Self { method, output, chosen, parts, made: None })
     }
 
@@ -291,7 +294,7 @@ fn formulas(
 impl Parts {
     fn slots(&self, layout: SceneLayout) -> Slots {
         let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
-        let weights = if self.order >= 2 || !self.has_field { 2 } else { 1 };
+        let weights = if self.order >= 2 || self.has_part { 2 } else { 1 };
         Slots { pairs, per_pair: self.order + 1, weights }
     }
 
@@ -301,6 +304,7 @@ impl Parts {
         text += &types(layout);
         text += &ViewRecord::wgsl().replace("ViewRecord", "View");
         text += BINDINGS;
+        text += &self.smooth(layout);
         text += &geometry::constants();
         let parts = [shader::LOAD, shader::PIXEL, shader::PATCH, shader::FINISH];
         text.extend(shader::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
@@ -320,8 +324,18 @@ impl Parts {
         })
     }
 
+    /// What evaluates smooth terms, and reads constants.
+    fn smooth(&self, layout: SceneLayout) -> String {
+        let Components { lanes, groups, .. } = layout.components;
+        let smooth = match layout.shape.degree {
+            Some(degree) if groups == 1 => straight_smooth(degree.into(), lanes, self.order),
+            _ => shader::SMOOTH.to_owned(),
+        };
+        smooth + &four_constants(lanes, groups)
+    }
+
     fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout { components, shape, own_frames, has_holes, .. } = layout;
+        let SceneLayout { components, shape, own_frames, has_holes, has_kinks, .. } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -334,7 +348,6 @@ impl Parts {
             ("INNER", bins::INNER),
             ("NO_PATCH", NO_PATCH),
             ("SMOOTH_GROUP", SMOOTH_GROUP),
-            ("SMOOTH_DEGREE", shape.degree.map_or(bodies::ABSENT, u32::from)),
             ("GROUP_BITS", bodies::GROUP_BITS),
             ("ABSENT", bodies::ABSENT),
             ("ALL_ABSENT", u32::MAX),
@@ -347,7 +360,9 @@ impl Parts {
         for (name, value) in [
             ("OWN_FRAMES", own_frames),
             ("HAS_FIELD", self.has_field),
+            ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
+            ("HAS_KINKS", has_kinks),
             ("HAS_CONSTANTS", shape.has_constants),
             ("HAS_POLYNOMIALS", shape.has_polynomials),
         ] {
@@ -566,7 +581,10 @@ impl Maker<'_> {
     }
 
     fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
-        let module = self.gpu.shader("compile the shader", pass.text)?;
+        let hack = std::env::var("HACK").ok().filter(|_| pass.fragment.starts_with("draw"));
+        let text = match &hack { Some(path) if std::path::Path::new(path).exists() => std::fs::read_to_string(path).unwrap_or_default(), _ => pass.text.to_owned() };
+        if let Ok(path) = std::env::var("DUMP") { let _ = std::fs::write(format!("{path}.{}", pass.fragment), &text); }
+        let module = self.gpu.shader("compile the shader", &text)?;
         let device = self.gpu.device();
         let groups = [Some(&self.data), pass.textures];
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

@@ -46,6 +46,8 @@ pub(crate) struct SceneLayout {
     /// Polynomials have other coordinates than weights.
     pub(crate) own_frames: bool,
     pub(crate) has_holes: bool,
+    /// Some crack has several segments.
+    pub(crate) has_kinks: bool,
 }
 
 /// A region on the card.
@@ -77,6 +79,7 @@ impl Scene {
             is_lattice: lattice.is_some(),
             own_frames,
             has_holes: !field.domain.holes.is_empty(),
+            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
         };
         let groups = Arc::new(groups);
         Ok(Self { generation, layout, groups, data, bodies: patches, lattice, place: None })
