@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "the renderer that joins the parts is not there yet")]
 
 mod adapter;
+mod areas;
 mod bins;
 mod bodies;
 mod color;

@@ -13,7 +13,7 @@ use wgpu::{
 };
 
 use crate::bins;
-use crate::bodies::{self, Components};
+use crate::bodies::{self, Components, Shape};
 use crate::color::PALETTE_TEXELS;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -91,7 +91,9 @@ pub(crate) struct Made {
     /// Splatting: weights, and a pass for each pair of components and slots.
     pub(crate) weights: Option<RenderPipeline>,
     pub(crate) fields: Vec<RenderPipeline>,
+    /// The last pass, and for gathering the same where there are smooth terms only.
     pub(crate) finish: RenderPipeline,
+    pub(crate) plain: Option<RenderPipeline>,
     pub(crate) slots: Slots,
 }
 
@@ -114,7 +116,6 @@ pub(crate) struct FieldPass {
     first: u32,
     pub(crate) slots: u32,
 }
-
 
 /// Slots that one pass writes: 32 bytes a pixel, what WebGPU promises.
 const SLOTS_PER_PASS: u32 = 2;
@@ -205,9 +206,26 @@ impl Program {
             Method::Gather => (None, Vec::new()),
             Method::Splat => self.splat_passes(&maker, layout, slots)?,
         };
-        let finish = maker.finish(self.output)?;
+        let finish = maker.finish(self.output, &maker.source)?;
+        let plain = self.plain(&maker, layout)?;
         let Maker { data, weights: sums, textures, .. } = maker;
-        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, slots })
+        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, plain, slots })
+    }
+
+    /// The pipeline for pixels that only smooth terms reach, if there are others too.
+    fn plain(
+        &self,
+        maker: &Maker<'_>,
+        layout: SceneLayout,
+    ) -> Result<Option<RenderPipeline>, GpuError> {
+        let Shape { degree, has_constants, has_polynomials } = layout.shape;
+        if self.method == Method::Splat || !(has_constants || has_polynomials) {
+            return Ok(None);
+        }
+        let shape = Shape { degree, ..Shape::default() };
+        let layout = SceneLayout { shape, ..layout };
+        let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
+        maker.finish(self.output, &text).map(Some)
     }
 
     fn splat_passes(
@@ -397,11 +415,7 @@ impl Parts {
 fn types(layout: SceneLayout) -> String {
     let lanes = layout.components.lanes;
     let (of, load, view) = if lanes == 2 {
-        (
-            "a",
-            "lanes_from(load(at / 2u), at % 2u)",
-            "load_view(at)",
-        )
+        ("a", "lanes_from(load(at / 2u), at % 2u)", "load_view(at)")
     } else {
         (
             "vec4<f32>(a, b)",
@@ -548,10 +562,10 @@ struct Pass<'a> {
 
 impl Maker<'_> {
     /// The pass that makes the output.
-    fn finish(&self, output: Output) -> Result<RenderPipeline, GpuError> {
+    fn finish(&self, output: Output, text: &str) -> Result<RenderPipeline, GpuError> {
         let target = |&format: &TextureFormat| Some(format.into());
         self.pipeline(&Pass {
-            text: &self.source,
+            text,
             vertex: "cover",
             fragment: output.entry(),
             quads: false,
@@ -582,8 +596,15 @@ impl Maker<'_> {
 
     fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
         let hack = std::env::var("HACK").ok().filter(|_| pass.fragment.starts_with("draw"));
-        let text = match &hack { Some(path) if std::path::Path::new(path).exists() => std::fs::read_to_string(path).unwrap_or_default(), _ => pass.text.to_owned() };
-        if let Ok(path) = std::env::var("DUMP") { let _ = std::fs::write(format!("{path}.{}", pass.fragment), &text); }
+        let text = match &hack {
+            Some(path) if std::path::Path::new(path).exists() => {
+                std::fs::read_to_string(path).unwrap_or_default()
+            }
+            _ => pass.text.to_owned(),
+        };
+        if let Ok(path) = std::env::var("DUMP") {
+            let _ = std::fs::write(format!("{path}.{}", pass.fragment), &text);
+        }
         let module = self.gpu.shader("compile the shader", &text)?;
         let device = self.gpu.device();
         let groups = [Some(&self.data), pass.textures];

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use ppum::field::Field;
+use ppum::vec2::Rect;
 use ppum_render::view::View;
 use wgpu::{
     Extent3d, Origin3d, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureDescriptor,
     TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
 };
 
+use crate::areas::boxes;
 use crate::bodies::{Bodies, Components, Shape};
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -33,6 +35,8 @@ pub struct Scene {
     /// The address of each patch's body.
     pub(crate) bodies: Vec<u32>,
     pub(crate) lattice: Option<Lattice>,
+    /// Where there are more than smooth terms.
+    pub(crate) enriched: Vec<Rect>,
     place: Option<Place>,
 }
 
@@ -81,8 +85,9 @@ impl Scene {
             has_holes: !field.domain.holes.is_empty(),
             has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
         };
-        let groups = Arc::new(groups);
-        Ok(Self { generation, layout, groups, data, bodies: patches, lattice, place: None })
+        let enriched = boxes(field, &groups);
+        let (bodies, groups, place) = (patches, Arc::new(groups), None);
+        Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })
     }
 
     /// Sees to it that the patches of a view are on the card.
@@ -169,10 +174,8 @@ fn write_rows(gpu: &Gpu, texture: &Texture, row: u32, words: &[u32]) {
         }
         let mut words = words.to_vec();
         words.resize(words.len().next_multiple_of(4), 0);
-        let target = TexelCopyTextureInfo {
-            origin: Origin3d { x: 0, y, z: 0 },
-            ..texture.as_image_copy()
-        };
+        let target =
+            TexelCopyTextureInfo { origin: Origin3d { x: 0, y, z: 0 }, ..texture.as_image_copy() };
         let layout = TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(16 * width),

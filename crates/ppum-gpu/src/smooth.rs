@@ -42,8 +42,7 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
 /// The function that reads the constants of four functions, each quad of them once.
 pub(crate) fn four_constants(lanes: usize, groups: usize) -> String {
     let count = 4 * groups;
-    let mut text =
-        format!("fn four_constants(address: u32) -> array<Lanes, {count}> {{\n");
+    let mut text = format!("fn four_constants(address: u32) -> array<Lanes, {count}> {{\n");
     // the head is the first in the room of all lanes
     let (per_quad, slots) = (4 / lanes, count + 1);
     for quad in 0..slots.div_ceil(per_quad) {
