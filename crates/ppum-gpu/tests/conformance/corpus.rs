@@ -82,13 +82,16 @@ fn agree(group: &str, cases: &[Case], check: impl Fn(&str, Evaluator, &Differenc
     assert!(band < MOST_IN_BAND, "{band} of the pixels are left out");
 }
 
+/// Draws the values of a view, row by row from the top.
+type Draw<'a> = Box<dyn FnMut(&View) -> Option<Vec<f64>> + 'a>;
+
 /// How an evaluator draws a view; nothing where there is no device.
 fn drawing<'a>(
     evaluator: Evaluator,
     field: &'a Field<'a>,
     quantity: &'a Quantity,
     card: Option<&'a mut OnCard<'_>>,
-) -> Box<dyn FnMut(&View) -> Option<Vec<f64>> + 'a> {
+) -> Draw<'a> {
     match (evaluator, card) {
         (Scalar, _) => Box::new(|view| Some(values(&good(reference(field, view, quantity))))),
         (Double, _) => Box::new(|view| Some(values(&good(render::<f64>(field, view, quantity))))),
