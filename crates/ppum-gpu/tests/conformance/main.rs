@@ -1,41 +1,49 @@
-//! Gather and splat against the scalar reference.
+//! All renderers draw the corpus of fields alike.
+//!
+//! Tests need a graphics device, a software one is enough. Where there is none they say visibly that they are
+//! skipped, or fail if `PPUM_REQUIRE_GPU` is set.
+
+mod corpus;
+
+use std::fmt::Display;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{Choice, Method, Renderer};
-use ppum_render::reference::reference;
+use ppum_gpu::{Choice, GpuError, Renderer};
+use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
-use ppum_testkit::synthetic::Recipe;
+use ppum_testkit::fields::Window;
 
-#[test]
-fn first() {
-    let mut renderer = Renderer::open(Choice::Any).expect("x");
-    let recipe = Recipe::default();
-    let dataset = recipe.dataset();
-    let field = Field::new(&dataset, 0).expect("a field");
-    let view = View::new(recipe.domain.center(), 1.2637, [131, 97]).expect("a view");
-    for quantity in
-        [Quantity::Overlap, Quantity::WeightSum, Quantity::Component(0), Quantity::VonMises]
-    {
-        let expected = reference(&field, &view, &quantity).expect("a quantity");
-        for method in [Method::Gather, Method::Splat] {
-            let found =
-                renderer.render(&field, &view, &quantity, method).unwrap_or_else(|e| panic!("{e}"));
-            let mut all: Vec<f64> = found
-                .values
-                .iter()
-                .zip(&expected.values)
-                .map(|(&a, &b)| {
-                    if b.is_nan() && a.is_nan() {
-                        0.0
-                    } else {
-                        (f64::from(a) - b).abs() / (1e-30 + b.abs())
-                    }
-                })
-                .collect();
-            all.sort_by(f64::total_cmp);
-            let q = |s: f64| all[((all.len() - 1) as f64 * s) as usize];
-            println!("{quantity:?} {method:?} {:e} {:e} {:e}", q(0.5), q(0.99), q(1.0));
+/// A renderer, if there is a device.
+///
+/// # Panics
+/// When one is required and there is none, or when opening it fails.
+fn renderer_or_skip() -> Option<Renderer> {
+    match Renderer::open(Choice::Any) {
+        Ok(renderer) => Some(renderer),
+        Err(error @ GpuError::NoAdapter { .. }) => {
+            assert!(std::env::var_os("PPUM_REQUIRE_GPU").is_none(), "{error}");
+            eprintln!("SKIPPED: no graphics adapter");
+            None
         }
+        Err(error) => panic!("{error}"),
     }
+}
+
+fn view(window: &Window) -> View {
+    View::new(window.center, window.width, window.pixels).expect("a view")
+}
+
+fn quantity(text: &str, field: &Field<'_>) -> Quantity {
+    good(Quantity::parse(text, field))
+}
+
+/// What must not fail here.
+fn good<T, E: Display>(result: Result<T, E>) -> T {
+    result.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The values of a raster in double precision.
+fn values<T: Sample>(raster: &Raster<T>) -> Vec<f64> {
+    raster.values.iter().map(|&value| value.into()).collect()
 }
