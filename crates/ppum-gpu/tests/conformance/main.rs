@@ -4,6 +4,7 @@
 //! skipped, or fail if `PPUM_REQUIRE_GPU` is set.
 
 mod colors;
+mod control;
 mod corpus;
 mod derivatives;
 mod lost;
