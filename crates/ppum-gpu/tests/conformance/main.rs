@@ -11,6 +11,7 @@ mod lost;
 mod parts;
 mod replaced;
 mod series;
+mod texts;
 
 use std::fmt::Display;
 
