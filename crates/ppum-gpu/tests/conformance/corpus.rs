@@ -8,13 +8,8 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_testkit::fields::{self, Case, Differences, Truth};
 
-use crate::{good, quantity, renderer_or_skip, values, view};
+use crate::{OUTLIERS, SINGLE, close, good, quantity, renderer_or_skip, values, view};
 
-/// Single precision: 2⁻²⁴ times what a few hundred operations lose, relative to the local scale.
-const SINGLE: f64 = 2e-5;
-/// Single pixels may be this much farther off where the method asks for it: the vectors of the CPU expand
-/// polynomials of degree 8 along rows, splatting subtracts one constant for the whole picture.
-const OUTLIERS: f64 = 5.0;
 /// Double precision likewise.
 const DOUBLE: f64 = 1e-11;
 /// Of von Mises stress in deep views, 99th percentile of the relative error.
@@ -125,41 +120,41 @@ impl Worst {
 }
 
 /// All values within the tolerance, none where there is none.
-fn close(what: &str, evaluator: Evaluator, found: &Differences) {
-    assert_eq!(found.strange, 0, "{what}: {found:?}");
+fn within(what: &str, evaluator: Evaluator, found: &Differences) {
     let (most, worst) = match evaluator {
+        Gpu(method) => return close(what, method, found),
         Scalar => (0.0, 0.0),
         Double => (DOUBLE, DOUBLE),
-        Gpu(Method::Gather) => (SINGLE, SINGLE),
-        Single | Gpu(Method::Splat) => (SINGLE, SINGLE * OUTLIERS),
+        Single => (SINGLE, SINGLE * OUTLIERS),
     };
+    assert_eq!(found.strange, 0, "{what}: {found:?}");
     assert!(found.most <= most && found.worst <= worst, "{what}: {found:?}");
 }
 
 #[test]
 fn covers_and_weights() {
-    agree("covers and weights", &fields::coverings(), close);
+    agree("covers and weights", &fields::coverings(), within);
 }
 
 #[test]
 fn functions_cracks_and_components() {
-    agree("functions, cracks, components", &fields::functions(), close);
+    agree("functions, cracks, components", &fields::functions(), within);
 }
 
 #[test]
 fn equations_and_quantities() {
-    agree("equations and quantities", &fields::equations(), close);
+    agree("equations and quantities", &fields::equations(), within);
 }
 
 #[test]
 fn windows_of_all_kinds() {
-    agree("windows", &fields::wholes(), close);
+    agree("windows", &fields::wholes(), within);
 }
 
 #[test]
 fn zooms() {
     agree("zooms", &[fields::zooms()], |what, evaluator, found| {
-        close(what, evaluator, found);
+        within(what, evaluator, found);
         let stress = what.contains("von-mises");
         assert!(!stress || found.relative <= RELATIVE, "{what}: {found:?}");
     });

@@ -3,16 +3,36 @@
 //! Tests need a graphics device, a software one is enough. Where there is none they say visibly that they are
 //! skipped, or fail if `PPUM_REQUIRE_GPU` is set.
 
+mod colors;
+mod control;
 mod corpus;
+mod derivatives;
+mod lost;
+mod parts;
+mod replaced;
+mod series;
+mod texts;
 
 use std::fmt::Display;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{Choice, GpuError, Renderer};
+use ppum::vec2::vec2;
+use ppum_gpu::{Choice, GpuError, Method, Program, Renderer, Scene};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
-use ppum_testkit::fields::Window;
+use ppum_testkit::fields::{Differences, Truth, Window};
+use ppum_testkit::synthetic::Recipe;
+
+/// Single precision: 2⁻²⁴ times what a few hundred operations lose, relative to the local scale.
+const SINGLE: f64 = 2e-5;
+
+/// Single pixels may be this much farther off where the method asks for it: the vectors of the CPU expand
+/// polynomials of degree 8 along rows; splatting subtracts one constant for the whole picture.
+const OUTLIERS: f64 = 5.0;
+
+/// Both ways to draw.
+const METHODS: [Method; 2] = [Method::Gather, Method::Splat];
 
 /// A renderer, if there is a device.
 ///
@@ -46,4 +66,47 @@ fn good<T, E: Display>(result: Result<T, E>) -> T {
 /// The values of a raster in double precision.
 fn values<T: Sample>(raster: &Raster<T>) -> Vec<f64> {
     raster.values.iter().map(|&value| value.into()).collect()
+}
+
+/// Most of the domain of the recipes.
+fn window() -> Window {
+    let center = Recipe::default().domain.center();
+    Window { center: center + vec2(0.0123, -0.0171), width: 1.2637, pixels: [71, 53] }
+}
+
+/// A program's values of a view.
+fn draw(
+    renderer: &mut Renderer,
+    scene: &mut Scene,
+    program: &mut Program,
+    field: &Field<'_>,
+    window: &Window,
+) -> Raster<f32> {
+    let drawn = good(renderer.draw(scene, program, field, &view(window), None));
+    good(renderer.raster(&drawn))
+}
+
+/// The values of a quantity, uploaded and drawn.
+fn render(renderer: &mut Renderer, field: &Field<'_>, text: &str, method: Method) -> Raster<f32> {
+    good(renderer.render(field, &view(&window()), &quantity(text, field), method))
+}
+
+/// Checks a picture of [`window`] against the evaluation point by point.
+fn check(what: &str, field: &Field<'_>, text: &str, method: Method, raster: &Raster<f32>) {
+    let truth = Truth::new(field, window());
+    let found = truth.expected(&quantity(text, field)).compare(values(raster).into_iter());
+    println!("{what} by {method:?}: {:e}", found.worst);
+    close(what, method, &found);
+}
+
+/// Checks that a picture is that of the field, in single precision.
+fn close(what: &str, method: Method, found: &Differences) {
+    let worst = if method == Method::Splat { OUTLIERS * SINGLE } else { SINGLE };
+    let good = found.strange == 0 && found.most < SINGLE && found.worst < worst;
+    assert!(good, "{what} by {method:?}: {found:?}");
+}
+
+/// The bits of a picture: NaN are equal.
+fn bits(raster: &Raster<f32>) -> Vec<u32> {
+    raster.values.iter().map(|value| value.to_bits()).collect()
 }

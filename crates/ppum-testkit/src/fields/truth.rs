@@ -98,7 +98,8 @@ impl<'f> Truth<'f> {
         Expected { band: &self.band, values, scale, anisotropy }
     }
 
-    /// A component with derivatives, all pixels of v, x, y, xx, xy, yy; the scale of second derivatives is the largest of them around.
+    /// A component with derivatives: all pixels of v, x, y, xx, xy, yy. Second derivatives are differences of terms
+    /// of the size |∇u| |∇φ_i| and have that for their scale: |∇u| over the smallest half-extent of a patch in sight.
     #[must_use]
     pub fn component(&self, component: usize) -> [Expected<'_>; 6] {
         let mut local = self.field.at(self.window.center);
@@ -110,14 +111,16 @@ impl<'f> Truth<'f> {
         let all: Vec<_> = self.window.offsets().map(&mut one).collect();
         let parts: [fn(&Jet<f64>) -> f64; 6] =
             [|u| u.v, |u| u.x, |u| u.y, |u| u.xx, |u| u.xy, |u| u.yy];
-        let norms: Vec<f64> =
-            all.iter().map(|u| u.xx.abs().max(u.xy.abs()).max(u.yy.abs())).collect();
-        let floor = 0.1 * mean(&norms);
-        let curvatures: Vec<f64> =
-            around(&norms, self.window.pixels).iter().map(|c| c.max(floor)).collect();
+        let half = &self.field.step.partition.half;
+        let smallest = half.iter().map(|h| h.x.min(h.y)).fold(f64::INFINITY, f64::min);
         std::array::from_fn(|k| {
             let values: Vec<f64> = all.iter().map(parts[k]).collect();
-            let scale = [&self.values, &self.gradients, &curvatures][[0, 1, 1, 2, 2, 2][k]].clone();
+            let curvatures = || around(&values, self.window.pixels).into_iter();
+            let scale = match k {
+                0 => self.values.clone(),
+                1 | 2 => self.gradients.clone(),
+                _ => curvatures().zip(&self.gradients).map(|(c, g)| c.max(g / smallest)).collect(),
+            };
             Expected { band: &self.band, values, scale, anisotropy: None }
         })
     }
