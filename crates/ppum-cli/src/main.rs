@@ -4,6 +4,7 @@
 //! the work was done.
 
 mod arguments;
+mod backend;
 mod cli;
 mod commands;
 mod dataset;

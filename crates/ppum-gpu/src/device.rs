@@ -87,6 +87,10 @@ impl Gpu {
             return Err(GpuError::Lost);
         }
         let (value, error) = self.scoped(f);
+        if error.is_some() {
+            // a lost device says so when nothing is under way any more, and what lived on it is invalid before
+            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        }
         match error {
             _ if self.is_lost() => Err(GpuError::Lost),
             Some(wgpu::Error::OutOfMemory { .. }) => {

@@ -23,10 +23,10 @@ mod scene;
 mod seen;
 mod shader;
 mod smooth;
+#[doc(hidden)]
+pub mod testing;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod texts_tests;
 mod weight;
 
 #[cfg(not(target_arch = "wasm32"))]

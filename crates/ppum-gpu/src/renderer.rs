@@ -141,7 +141,7 @@ impl Renderer {
     ) -> Result<Program, RenderError> {
         quantity.check(field)?;
         scene.check(field)?;
-        let mut program = Program::new(scene, field, quantity, method, output)?;
+        let mut program = Program::new(&scene.groups, field, quantity, method, output)?;
         self.again(|renderer| {
             program.made(&renderer.gpu, renderer.generation, scene.layout).map(|_| ())
         })?;

@@ -54,6 +54,23 @@ pub(crate) struct SceneLayout {
     pub(crate) has_kinks: bool,
 }
 
+impl SceneLayout {
+    /// That of a field, with its lattice if it has one.
+    pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>) {
+        let own_frames = has_own_frames(field);
+        let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
+        let layout = Self {
+            components: Components::new(field.components()),
+            shape,
+            is_lattice: lattice.is_some(),
+            own_frames,
+            has_holes: !field.domain.holes.is_empty(),
+            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
+        };
+        (layout, lattice)
+    }
+}
+
 /// A region on the card.
 #[derive(Debug)]
 pub(crate) struct Place {
@@ -75,16 +92,7 @@ impl Scene {
         let groups = Groups::new(&field.step.functions);
         let Bodies { words, patches, shape } = Bodies::new(field, &groups);
         let data = upload(gpu, "the coefficients", &words, rows)?;
-        let own_frames = has_own_frames(field);
-        let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
-        let layout = SceneLayout {
-            components: Components::new(field.components()),
-            shape,
-            is_lattice: lattice.is_some(),
-            own_frames,
-            has_holes: !field.domain.holes.is_empty(),
-            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
-        };
+        let (layout, lattice) = SceneLayout::of(field, shape);
         let enriched = boxes(field, &groups);
         let (bodies, groups, place) = (patches, Arc::new(groups), None);
         Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })

@@ -3,10 +3,9 @@
 mod window;
 
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail, ensure};
+use anyhow::{Context as _, ensure};
 use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::formula::one_line;
@@ -19,14 +18,13 @@ use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
-use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::arguments::size;
+use crate::backend::{Drawn, Engine, Job};
 use crate::dataset::{field, open, quantity};
 use crate::number::trimmed;
 use crate::replacements::Replacements;
-use crate::threads;
 use window::{Frame, Window};
 
 /// Draw a quantity, exactly at every pixel
@@ -68,18 +66,11 @@ pub(crate) struct Args {
     /// Add axes, a colour bar, a title and the cracks
     #[arg(long)]
     figure: bool,
-    /// What computes the values
-    #[arg(long, value_enum, default_value = "auto")]
-    backend: Backend,
-    /// Precision of the computation
-    #[arg(long, value_enum, default_value = "f64")]
-    precision: Precision,
+    #[command(flatten)]
+    engine: Engine,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
-    /// Number of threads [default: all cores]; the picture does not depend on it
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
 }
 
 const EXAMPLES: &str = "\
@@ -92,6 +83,7 @@ Examples:
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
 fn colormaps() -> String {
@@ -109,19 +101,6 @@ enum Overlay {
     Patches,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Backend {
-    Auto,
-    Cpu,
-    Gpu,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Precision {
-    F64,
-    F32,
-}
-
 const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 
 impl Args {
@@ -135,12 +114,17 @@ impl Args {
         let name = name(&quantity, given);
         let view = self.view(&field)?;
         let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
-        let mut picture =
-            threads::with(self.threads, || self.picture(&field, &view, &quantity, &style))??;
+        ensure!(
+            view.rect().overlaps(&field.domain.bounds),
+            "the view shows nothing of the domain; `ppum info` says where that is"
+        );
+        let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
+        let Drawn { mut picture, by } = self.engine.draw(job)?;
         let title = self.replacements.title(&dataset.title);
         let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
         let file = self.file.file_name().unwrap_or_default().to_string_lossy();
         let mut texts = picture.description(&dataset.title, &file, &name);
+        texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
         png::write(&self.output, &image, &texts)?;
         let [columns, rows] = image.size;
@@ -148,7 +132,7 @@ impl Args {
         let target = self.output.display();
         writeln!(
             out,
-            "wrote {target}: {name}, {columns}x{rows} pixels, colours from {from} to {to}"
+            "wrote {target}: {name}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
         )?;
         Ok(())
     }
@@ -157,10 +141,7 @@ impl Args {
     fn check(&self) -> anyhow::Result<()> {
         let is_png = self.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
         ensure!(is_png, "{}: pictures are PNG files; end the name in .png", self.output.display());
-        if self.backend == Backend::Gpu {
-            bail!("drawing on the GPU is not in this version; use --backend cpu");
-        }
-        Ok(())
+        self.engine.check()
     }
 
     fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
@@ -171,23 +152,6 @@ impl Args {
             may_shrink: self.figure || self.size.is_none(),
         };
         self.window.view(field, frame)
-    }
-
-    fn picture(
-        &self,
-        field: &Field<'_>,
-        view: &View,
-        quantity: &Quantity,
-        style: &Style,
-    ) -> anyhow::Result<Picture> {
-        ensure!(
-            view.rect().overlaps(&field.domain.bounds),
-            "the view shows nothing of the domain; `ppum info` says where that is"
-        );
-        Ok(match self.precision {
-            Precision::F64 => Picture::bare(&render::<f64>(field, view, quantity)?, view, style)?,
-            Precision::F32 => Picture::bare(&render::<f32>(field, view, quantity)?, view, style)?,
-        })
     }
 
     /// The picture with its overlays, as a figure if that is asked for.

@@ -1,6 +1,7 @@
 //! The program as its users meet it: from a problem file to results and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
+mod backend;
 mod bench;
 mod damage;
 mod demo;
@@ -53,6 +54,10 @@ impl Lab {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ppum"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        // without it the drivers of Mesa complain on standard error
+        if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+            command.env("XDG_RUNTIME_DIR", self.folder.path());
+        }
         command
     }
 

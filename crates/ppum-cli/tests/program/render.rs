@@ -170,9 +170,9 @@ fn precision_and_threads() {
         lab.run(&format!("render plate.h5 -o a.png --size 200x150 --range 0,3 {options}"));
         Png::read(&lab.path("a.png")).rgba
     };
-    let double = draw("--threads 1");
-    assert_eq!(double, draw("--threads 2"));
-    let single = draw("--precision f32");
+    let double = draw("--backend cpu --threads 1");
+    assert_eq!(double, draw("--backend cpu --threads 2"));
+    let single = draw("--backend cpu --precision f32");
     // pixels at the edge of the colour "above" may fall on its other side
     let far = double.iter().zip(&single).filter(|(a, b)| a.abs_diff(**b) > 1).count();
     assert!(far <= 12, "{far}");
@@ -190,7 +190,9 @@ fn a_pixel_is_what_probe_prints() {
     ] {
         // the pixel (1, 1) of three by three has its centre at the view's
         let window = "--center 0.5,0.03125 --width 0.3 --size 3x3";
-        lab.run(&format!("render plate.h5 -o a.png -q syy {window} --range {range}"));
+        lab.run(&format!(
+            "render plate.h5 -o a.png -q syy {window} --range {range} --precision f64"
+        ));
         let found = Png::read(&lab.path("a.png")).pixel(1, 1);
         let exact = Colormap::named("viridis").unwrap().color(expected);
         let near = found.iter().zip(exact).all(|(a, b)| a.abs_diff(b) <= 1);

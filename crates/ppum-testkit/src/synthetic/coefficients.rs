@@ -56,7 +56,8 @@ pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
 }
 
 pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Function]) -> FieldData {
-    let names: &[&str] = if recipe.components == 1 { &["u"] } else { &["ux", "uy", "uz", "uw"] };
+    let all = ["ux", "uy", "uz", "uw", "up", "uq"];
+    let names = if recipe.components == 1 { &["u"][..] } else { &all };
     let data = FieldData {
         name: if recipe.components == 1 { "potential" } else { "displacement" }.into(),
         unit: String::new(),

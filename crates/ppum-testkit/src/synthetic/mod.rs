@@ -54,7 +54,7 @@ pub struct Recipe {
     pub tip_functions: [String; 4],
     /// More functions; every third patch has one of them, in turn, with a linear polynomial.
     pub extra: Vec<FunctionKind>,
-    /// Number of components: 1 makes a potential, 2 a displacement, at most 4.
+    /// Number of components: 1 makes a potential, 2 a displacement, at most 6.
     pub components: usize,
     /// Coefficients.
     pub coefficients: Coefficients,

@@ -30,6 +30,7 @@ fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
         "struct View {{ cracks: u32 }}
         const view = View({}u);
         const ORDER = {order}u;
+        const HAS_KINKS = true;
         const LANE_PAIRS = 1u;
         alias Lanes = vec2<f32>;
         const WORDS = array<u32, {count}>({bits});
@@ -92,9 +93,9 @@ fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind
 /// Compares all functions with derivatives up to an order with the reference: formulas in double precision.
 fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order: usize) {
     let cracks = &cracks();
-    let (shader, _) = shader(functions, groups, &cracks, tables, order);
+    let (shader, _) = shader(functions, groups, cracks, tables, order);
     let table = FunctionTable::of_formulas(functions, cracks.len(), tables).expect("functions");
-    let (local, mut random) = (table.at(&cracks, CENTER), Random(4));
+    let (local, mut random) = (table.at(cracks, CENTER), Random(4));
     for _ in 0..40 {
         let offset = [random.between(-0.3, 0.3), random.between(-0.3, 0.3)].map(|v| v as f32);
         for (index, function) in (0..).zip(functions) {

@@ -1,0 +1,162 @@
+//! What draws: the processor, or a graphics device.
+//!
+//! The choice is made here and nowhere else. Whatever draws gives a raster of values; ranges, colours, overlays
+//! and figures are made of it by the same code.
+
+use std::num::NonZeroUsize;
+
+use clap::ValueEnum;
+use ppum::field::Field;
+use ppum::quantity::{Quantity, Source};
+use ppum_gpu::{Choice, GpuError, Method, RenderError, Renderer};
+use ppum_render::picture::{Picture, Style};
+use ppum_render::raster::Sample;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+
+use crate::threads;
+
+/// What draws, as it was asked for.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Engine {
+    /// What computes the values
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: Backend,
+    /// Precision of the computation [default: that of the backend, f64 on the CPU, f32 on the GPU]
+    #[arg(long, value_enum)]
+    precision: Option<Precision>,
+    /// Number of threads of the CPU [default: all cores]; the picture does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    /// A graphics card if there is one and it can, else the CPU
+    Auto,
+    /// This machine's processor
+    Cpu,
+    /// Any graphics device, a software one too: one pass that gathers
+    Gpu,
+    /// The same by the three passes of Üffinger et al. 2011, to compare
+    Splat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Precision {
+    F64,
+    F32,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    pub(crate) field: &'a Field<'a>,
+    pub(crate) view: &'a View,
+    pub(crate) quantity: &'a Quantity,
+    pub(crate) style: &'a Style,
+}
+
+/// A picture, and what drew it: `cpu f64`, `gpu f32, NAME`.
+pub(crate) struct Drawn {
+    pub(crate) picture: Picture,
+    pub(crate) by: String,
+}
+
+impl Engine {
+    /// What clap cannot see.
+    pub(crate) fn check(&self) -> anyhow::Result<()> {
+        let on_gpu = matches!(self.backend, Backend::Gpu | Backend::Splat);
+        anyhow::ensure!(
+            !on_gpu || self.precision != Some(Precision::F64),
+            "graphics devices compute in single precision; use --backend cpu, or leave --precision out"
+        );
+        Ok(())
+    }
+
+    /// Draws; falls back to the CPU where that is allowed.
+    pub(crate) fn draw(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
+        match self.backend {
+            Backend::Cpu => self.on_cpu(job),
+            Backend::Gpu => on_gpu(job, Choice::Any, Method::Gather)?,
+            Backend::Splat => on_gpu(job, Choice::Any, Method::Splat)?,
+            Backend::Auto if self.needs_cpu(job) => self.on_cpu(job),
+            Backend::Auto => match on_gpu(job, Choice::Real, Method::Gather) {
+                Ok(drawn) => drawn,
+                Err(error) => {
+                    note(&error).iter().for_each(|note| eprintln!("{note}"));
+                    self.on_cpu(job)
+                }
+            },
+        }
+    }
+
+    /// True for what no graphics device can do.
+    fn needs_cpu(&self, job: Job<'_>) -> bool {
+        self.precision == Some(Precision::F64) || job.quantity.source() == Source::Exact
+    }
+
+    fn on_cpu(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
+        let narrow = self.precision == Some(Precision::F32);
+        let draw = || if narrow { on_cpu::<f32>(job) } else { on_cpu::<f64>(job) };
+        let by = if narrow { "cpu f32" } else { "cpu f64" }.to_owned();
+        Ok(Drawn { picture: threads::with(self.threads, draw)??, by })
+    }
+}
+
+fn on_cpu<T: Sample>(Job { field, view, quantity, style }: Job<'_>) -> anyhow::Result<Picture> {
+    Ok(Picture::bare(&render::<T>(field, view, quantity)?, view, style)?)
+}
+
+/// The outer error is the device's, after which the CPU may try; the inner one is anything else.
+fn on_gpu(
+    Job { field, view, quantity, style }: Job<'_>,
+    choice: Choice,
+    method: Method,
+) -> Result<anyhow::Result<Drawn>, RenderError> {
+    let mut renderer = Renderer::open(choice)?;
+    let raster = renderer.render(field, view, quantity, method)?;
+    let name = &renderer.gpu().info().name;
+    let by = match method {
+        Method::Gather => format!("gpu f32, {name}"),
+        Method::Splat => format!("gpu splat f32, {name}"),
+    };
+    let picture = Picture::bare(&raster, view, style);
+    Ok(picture.map(|picture| Drawn { picture, by }).map_err(Into::into))
+}
+
+/// What is told when the CPU draws in place of a graphics card: nothing if there is none, as is normal,
+/// or if the CPU will say the same.
+fn note(error: &RenderError) -> Option<String> {
+    match error {
+        RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_) => None,
+        error => {
+            let text = error.to_string();
+            let lines: Vec<_> = text.lines().map(str::trim).collect();
+            Some(format!(
+                "note: drawn on the CPU, since the graphics card fails: {}",
+                lines.join(" ")
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn failures_are_told_in_one_line() {
+        let error = GpuError::Shader { message: "expected `;`\n  at 3:4\n".to_owned() };
+        let note = note(&error.into()).expect("a failure");
+        assert!(note.starts_with("note: ") && note.ends_with("expected `;` at 3:4"), "{note}");
+        assert_eq!(note.lines().count(), 1);
+        assert!(super::note(&GpuError::Lost.into()).is_some());
+    }
+
+    #[test]
+    fn a_machine_without_a_graphics_card_is_no_failure() {
+        let missing = GpuError::NoAdapter { wanted: " of a graphics card" };
+        assert_eq!(note(&missing.into()), None);
+    }
+}

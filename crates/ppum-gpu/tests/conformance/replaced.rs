@@ -1,0 +1,97 @@
+//! Functions and weights replaced while running: a scene stays, and what is drawn is the replaced field.
+
+use std::sync::Arc;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::formula::Table;
+use ppum::function::{Frame, FunctionKind};
+use ppum_gpu::{Method, Output, Renderer, Scene};
+use ppum_testkit::synthetic::Recipe;
+
+use crate::{METHODS, bits, check, draw, good, quantity, renderer_or_skip, window};
+
+fn dataset() -> Dataset {
+    let extra = vec![FunctionKind::formula("x*y^2", Frame::World)];
+    Recipe { extra, level: 1, ..Recipe::default() }.dataset()
+}
+
+/// Some replacements: functions of each kind, and the weight.
+fn replacements() -> Vec<(&'static str, Dataset)> {
+    let all = [
+        ("sqrt(r)*cos(theta/2)", "r*cos(theta) + x^2"),
+        ("side 0", "tanh(8*(y - 0.2))"),
+        ("one", "1 + x*y/4"),
+        ("extra", "side(0)*exp(-x)"),
+    ];
+    let mut out: Vec<_> = all
+        .map(|(which, text)| {
+            let mut new = dataset();
+            good(new.steps[0].replace_function(which, text, &[]));
+            (which, new)
+        })
+        .into();
+    for weight in ["cosine", "(1 - t)^3*(1 + 3*t)"] {
+        let mut new = dataset();
+        good(new.steps[0].replace_weight(weight, &[]));
+        out.push((weight, new));
+    }
+    out
+}
+
+/// The field that the program is compiled for has other coefficients: those on the card are drawn, so
+/// nothing is uploaded again.
+#[test]
+fn replaced_functions_are_drawn_without_upload() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let old = dataset();
+    let field = good(Field::new(&old, 0));
+    let mut scene = good(renderer.upload(&field));
+    let stress = quantity("von-mises", &field);
+    for (k, (what, new)) in replacements().iter().enumerate() {
+        let method = METHODS[k % 2];
+        let truth = good(Field::new(new, 0));
+        let mut emptied = new.clone();
+        emptied.steps[0].fields[0].coefficients.iter_mut().for_each(|c| c.fill(0.0));
+        let field = good(Field::new(&emptied, 0));
+        let mut program = good(renderer.compile(&scene, &field, &stress, method, Output::Values));
+        let raster = draw(&mut renderer, &mut scene, &mut program, &field, &window());
+        check(what, &truth, "von-mises", method, &raster);
+    }
+}
+
+/// Texts that no shader can hold, and texts that are no formulas, say what is wrong; what was compiled before
+/// is drawn as before.
+#[test]
+fn a_broken_formula_leaves_the_old_picture() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let dataset = dataset();
+    let field = good(Field::new(&dataset, 0));
+    let stress = quantity("von-mises", &field);
+    let mut scene = good(renderer.upload(&field));
+    let compiled = renderer.compile(&scene, &field, &stress, Method::Gather, Output::Values);
+    let mut program = good(compiled);
+    let before = bits(&draw(&mut renderer, &mut scene, &mut program, &field, &window()));
+    let message = too_large(&mut renderer, &scene, &dataset);
+    assert!(message.contains("2047"), "{message}");
+    let after = bits(&draw(&mut renderer, &mut scene, &mut program, &field, &window()));
+    assert!(before == after);
+    let mut wrong = dataset.clone();
+    let error = wrong.steps[0].replace_function("extra", "x*(y", &[]).expect_err("no formula");
+    assert!(error.to_string().contains("x*(y"), "{error}");
+    assert_eq!(wrong, dataset);
+}
+
+/// What is said of a table of 3000 knots.
+fn too_large(renderer: &mut Renderer, scene: &Scene, dataset: &Dataset) -> String {
+    let x: Vec<f64> = (0..3000).map(f64::from).collect();
+    let values = x.iter().map(|x| x.sin()).collect();
+    let mut broken = dataset.clone();
+    broken.tables = vec![Arc::new(good(Table::curve("big", x, values)))];
+    let tables = broken.tables.clone();
+    good(broken.steps[0].replace_function("extra", "table(big, x)", &tables));
+    let field = good(Field::new(&broken, 0));
+    let stress = quantity("von-mises", &field);
+    let compiled = renderer.compile(scene, &field, &stress, Method::Gather, Output::Values);
+    compiled.expect_err("no shader holds so large a table").to_string()
+}

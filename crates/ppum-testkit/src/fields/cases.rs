@@ -1,0 +1,235 @@
+//! The cases, in groups.
+
+use std::sync::Arc;
+
+use ppum::crack::{Crack, CrackEnd};
+use ppum::dataset::{Dataset, Material, StressState};
+use ppum::domain::Hole;
+use ppum::equation::{Elasticity, Equation};
+use ppum::expression::Expression;
+use ppum::formula::{Scope, Table};
+use ppum::function::{Frame, FunctionKind, WESTERGAARD};
+use ppum::vec2::{Vec2, vec2};
+use ppum::weight::WeightFunction;
+
+use super::Window;
+use crate::synthetic::{Coefficients, Recipe, crack, kinked};
+
+/// A dataset to be drawn.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What it is about.
+    pub name: String,
+    /// The dataset; its first step is drawn.
+    pub dataset: Dataset,
+    /// What is looked at.
+    pub windows: Vec<Window>,
+    /// Texts of the quantities that are drawn, the one that shows most first.
+    pub quantities: Vec<String>,
+}
+
+/// All of the gradient, and a value.
+const SOME: &[&str] = &["von-mises", "uy"];
+
+/// Degree 0 to 8, the same everywhere else.
+const DEGREES: [u8; 9] = [2, 0, 8, 1, 5, 3, 7, 4, 6];
+
+impl Case {
+    fn new(name: &str, recipe: &Recipe, quantities: &[&str]) -> Self {
+        Self {
+            name: name.to_owned(),
+            dataset: recipe.dataset(),
+            windows: vec![whole([101, 75])],
+            quantities: quantities.iter().map(|&text| text.to_owned()).collect(),
+        }
+    }
+
+    fn seen(self, windows: Vec<Window>) -> Self {
+        Self { windows, ..self }
+    }
+
+    fn with(mut self, change: impl FnOnce(&mut Dataset)) -> Self {
+        change(&mut self.dataset);
+        self
+    }
+}
+
+/// Nearly the whole domain of the recipes, with pixels that are commensurate with no cell.
+fn whole(pixels: [u32; 2]) -> Window {
+    let center = Recipe::default().domain.center() + vec2(0.0123, -0.0171);
+    Window { center, width: 1.2637, pixels }
+}
+
+/// Covers, weights, degrees and frames of polynomials.
+#[must_use]
+pub fn coverings() -> Vec<Case> {
+    let default = Recipe::default;
+    let weight = |text: &str| {
+        let known = WeightFunction::from_library(text);
+        let scope = Scope::new(&["t"]).expect("t is a name");
+        known.unwrap_or_else(|| WeightFunction::formula(text, &scope).expect("a weight"))
+    };
+    let weights =
+        ["linear", "quadratic", "cubic", "bump", "if(t < 1/4, 1, (1 - t)^2*(16/9)) + 0.3*(1 - t)"];
+    let of_weight = |text: &&str| {
+        let recipe = Recipe { weight: weight(text), tip_level: 3, ..default() };
+        Case::new(&format!("weight {text}"), &recipe, &["von-mises"])
+    };
+    let mut all: Vec<_> = weights.iter().map(of_weight).collect();
+    let mixed = Recipe { degrees: DEGREES.to_vec(), tip_degree: 1, own_frames: true, ..default() };
+    all.push(Case::new("degrees 0 to 8, frames of their own", &mixed, SOME));
+    for level in [0, 1, 5] {
+        let recipe = Recipe { level, tip_level: level, ..default() };
+        all.push(Case::new(&format!("uniform cover of level {level}"), &recipe, &["von-mises"]));
+    }
+    let graded = Recipe { level: 1, tip_level: 8, random_rounds: 2, ..default() };
+    all.push(Case::new("graded cover", &graded, &["von-mises", "overlap"]));
+    let partition = ["von-mises", "ux", "phi:3", "weight-sum", "overlap"];
+    for (seed, quantities) in [(1, &partition[..]), (2, SOME), (3, SOME)] {
+        all.push(Case::new(&format!("random {seed}"), &Recipe::random(seed), quantities));
+    }
+    all
+}
+
+/// Functions, cracks and numbers of components.
+#[must_use]
+pub fn functions() -> Vec<Case> {
+    let default = Recipe::default;
+    let texts = WESTERGAARD.map(|text| format!("({text})"));
+    let formulas = Recipe { tip_functions: texts, tip_degree: 1, ..default() };
+    let williams = ["r*cos(theta)", "r^(3/2)*sin(1.5*theta)", "sqrt(r)*cos(theta/2)", "x*y"];
+    let others = Recipe { tip_functions: williams.map(str::to_owned), ..default() };
+    let fixed = Frame::Fixed { origin: vec2(0.9, 0.1), angle: 0.7 };
+    let extra = [
+        ("exp(-x)*cos(y^2) - r^3/(1 + x^2)", fixed),
+        ("side(0)*(1 + x*y)", Frame::World),
+        ("max(x, y)*tanh(3*x)", fixed),
+    ];
+    let extra = extra.map(|(text, frame)| FunctionKind::formula(text, frame)).to_vec();
+    let sides = Recipe { extra, degrees: vec![1, 2], ..default() };
+    let cracks = Recipe { cracks: several(), zone: 0.1, ..default() };
+    let mut all = vec![
+        Case::new("tip functions without a kernel", &formulas, SOME),
+        Case::new("other tip functions", &others, SOME),
+        Case::new("formulas in fixed frames and with sides", &sides, SOME),
+        Case::new("several cracks", &cracks, SOME).seen(vec![whole([147, 111])]),
+        Case::new("a function of a table", &extra_of_one("x*y^2"), SOME).with(tabulate),
+    ];
+    for components in [1, 3, 4, 6] {
+        let recipe = Recipe { components, degrees: vec![2, 3], tip_level: 3, ..default() };
+        let name = format!("{components} components");
+        let quantities =
+            if components == 4 { &["gradient", "magnitude"][..] } else { &["gradient"] };
+        all.push(Case::new(&name, &recipe, quantities));
+    }
+    all
+}
+
+/// Two cracks inside, one from the left edge.
+fn several() -> Vec<Crack> {
+    let straight = crack(&[[0.7512, -0.1523], [1.2231, -0.0317]], [CrackEnd::Tip; 2]);
+    let edge = crack(&[[0.2, 0.4312], [0.4123, 0.4987]], [CrackEnd::Mouth, CrackEnd::Tip]);
+    vec![kinked(), straight, edge]
+}
+
+fn extra_of_one(text: &str) -> Recipe {
+    let extra = vec![FunctionKind::formula(text, Frame::World)];
+    Recipe { extra, tip_level: 3, ..Recipe::default() }
+}
+
+/// Puts a function of a table in the place of the extra one.
+fn tabulate(dataset: &mut Dataset) {
+    let x: Vec<f64> = (0..9).map(|k| f64::from(k) * 0.6).collect();
+    let values = x.iter().map(|x| x.sin()).collect();
+    dataset.tables = vec![Arc::new(Table::curve("wave", x, values).expect("a table"))];
+    let tables = dataset.tables.clone();
+    dataset.steps[0].replace_function("extra", "table(wave, 3*x)*y", &tables).expect("a function");
+}
+
+/// All quantities of an elastic plate, φ of a patch, and formulas of them.
+const ELASTIC: &str = "von-mises; ux; duy_dx; duy_dy; magnitude; gradient; energy; weight-sum; overlap; \
+    divergence; curl; exx; eyy; exy; sxx; syy; sxy; szz; tresca; s1; s2; direction; hydrostatic; phi:23; \
+    sqrt(sxx^2 + 3*sxy^2) - 2*ux; if(x > 0.7, s1, s2)";
+
+/// Equations, materials, holes, and quantities of all kinds.
+#[must_use]
+pub fn equations() -> Vec<Case> {
+    let elastic: Vec<&str> = ELASTIC.split("; ").collect();
+    let coarse = Recipe { level: 1, tip_level: 2, ..Recipe::default() };
+    let regions = Equation::Elasticity(Elasticity {
+        young: expression("if(x < 0.8131, 1, 2) + 0.25*y"),
+        poisson: expression("if(x^2 + y^2 < 0.5, 0.2, 0.3)"),
+        state: StressState::PlaneStress,
+    });
+    let stress = Material { young: 1.0, poisson: 0.35, state: StressState::PlaneStress };
+    let one = Recipe { components: 1, ..coarse.clone() };
+    let conductivity = expression("1 + 0.5*sin(3*x)");
+    vec![
+        Case::new("all quantities", &coarse, &elastic).seen(vec![whole([89, 67])]),
+        Case::new("plane stress", &coarse, &["von-mises", "szz"])
+            .with(|d| d.equation = Equation::elasticity(stress)),
+        Case::new("materials by region", &coarse, &["von-mises", "energy"])
+            .with(|d| d.equation = regions),
+        Case::new("Poisson", &one, &["energy", "u"])
+            .with(|d| d.equation = Equation::Poisson { conductivity }),
+        Case::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
+    ]
+}
+
+fn expression(text: &str) -> Expression {
+    Expression::parse(text).expect("a formula of x and y")
+}
+
+/// A circle inside, one over the border, a polygon over the first.
+fn holes() -> Vec<Hole> {
+    let round = Hole::Circle { center: vec2(0.5, 0.1), radius: 0.125 };
+    let notch = Hole::Circle { center: vec2(1.2, 0.71), radius: 0.2 };
+    let points = [[0.4, 0.2], [0.8, 0.15], [0.6, 0.3], [0.7, 0.55]];
+    vec![round, notch, Hole::Polygon { points: points.map(Vec2::from).to_vec() }]
+}
+
+/// Windows partly and wholly outside, of odd sizes, and inside one patch.
+#[must_use]
+pub fn wholes() -> Vec<Case> {
+    let recipe = Recipe::default();
+    let corner = recipe.domain.max + vec2(0.013, 0.017);
+    let seen = |center, width, pixels| Window { center, width, pixels };
+    let mut windows: Vec<_> =
+        [[67, 49], [1, 1], [7, 120], [161, 3]].map(|pixels| seen(corner, 0.71, pixels)).to_vec();
+    windows.push(seen(vec2(9.0, 0.0), 1.0, [33, 17]));
+    windows.push(seen(recipe.domain.center(), 400.0, [64, 48]));
+    let inside = Recipe { level: 0, tip_level: 0, degrees: vec![5], overlap: 1.1, ..recipe };
+    let patch = vec2(0.2 + 1.0 / 6.0, -0.3 + 1.0 / 6.0);
+    let alone = vec![seen(patch, 0.11, [65, 33]), seen(patch, 1e-8, [33, 65])];
+    vec![
+        Case::new("partly and wholly outside", &Recipe::default(), SOME).seen(windows),
+        Case::new("inside one patch", &inside, SOME).seen(alone),
+        Case::new("unrelated patches", &unrelated(), SOME).seen(vec![whole([101, 75])]),
+    ]
+}
+
+fn unrelated() -> Recipe {
+    Recipe {
+        coefficients: Coefficients::Random,
+        degrees: DEGREES.to_vec(),
+        level: 1,
+        ..Recipe::default()
+    }
+}
+
+/// Zooms by factors up to 1e12 to a tip, beside it, to the middle of an oblique crack and to a kink; the
+/// picture's centre lies on them, or a few pixels beside the tip.
+#[must_use]
+pub fn zooms() -> Case {
+    let recipe = Recipe { tip_level: 9, ..Recipe::default() };
+    let points = recipe.cracks[0].points.clone();
+    let middle = points[0] + (points[1] - points[0]) * 0.63;
+    let beside = |zoom: f64| points[2] + vec2(0.71, 0.43) * (recipe.domain.size().x / zoom);
+    let places: [&dyn Fn(f64) -> Vec2; 4] = [&|_| points[2], &beside, &|_| middle, &|_| points[1]];
+    let window =
+        |center, zoom| Window { center, width: recipe.domain.size().x / zoom, pixels: [65, 49] };
+    let zooms = [1.0, 1e3, 1e6, 1e9, 1e12];
+    let windows =
+        places.iter().flat_map(|place| zooms.map(|zoom| window(place(zoom), zoom))).collect();
+    Case::new("zooms", &recipe, SOME).seen(windows)
+}

@@ -1,0 +1,53 @@
+//! The corpus of fields: what every renderer must draw alike, and how alike.
+//!
+//! A [`Case`] is a dataset with windows to look at and quantities to draw. [`Truth`] evaluates a window
+//! point by point in double precision and says what a renderer may miss:
+//!
+//! - *local scale*: the largest magnitude, in the 3 × 3 pixels around one, of the quantity and of what it is made
+//!   of: |u| for values, |∇u| for derivatives (Young's modulus is of size one in all cases), |∇u|² for the energy
+//!   density, since a component may pass zero where its neighbours do not. |∇u| counts at least as a tenth of its
+//!   mean: a patch of degree 0 has none. Quantities of the partition have the scale one, or their own;
+//! - *band*: pixels whose centre is within [`BAND`] pixels of a crack or its straight continuation, of the border of a
+//!   patch's support or of the domain's rim. There a rounded coordinate decides what is seen. They are left
+//!   out, and their share is bounded by the tests.
+
+mod cases;
+mod truth;
+
+pub use cases::{Case, coverings, equations, functions, wholes, zooms};
+pub use truth::{BAND, Differences, Expected, Truth};
+
+use ppum::vec2::{Vec2, vec2};
+
+/// What is looked at: a window of the plane on square pixels, row 0 at the top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Its middle.
+    pub center: Vec2,
+    /// Its width.
+    pub width: f64,
+    /// Columns and rows.
+    pub pixels: [u32; 2],
+}
+
+impl Window {
+    /// A pixel's side.
+    #[must_use]
+    pub fn pixel_size(&self) -> f64 {
+        self.width / f64::from(self.pixels[0])
+    }
+
+    /// The centre of a pixel relative to the window's.
+    #[must_use]
+    pub fn offset(&self, column: u32, row: u32) -> Vec2 {
+        let from_middle = |k: u32, n: u32| f64::from(k) + 0.5 - 0.5 * f64::from(n);
+        let [x, y] = [from_middle(column, self.pixels[0]), -from_middle(row, self.pixels[1])];
+        vec2(x * self.pixel_size(), y * self.pixel_size())
+    }
+
+    /// The offsets of all pixels, row by row.
+    pub fn offsets(&self) -> impl Iterator<Item = Vec2> + '_ {
+        let [columns, rows] = self.pixels;
+        (0..rows).flat_map(move |j| (0..columns).map(move |i| self.offset(i, j)))
+    }
+}
