@@ -1,26 +1,29 @@
-//! What patches hold, in pairs of words: terms of function × polynomial.
+//! What patches hold, in quads of words: terms of function × polynomial.
 //!
 //! ```text
-//! patch   terms, the smooth one first
-//! term    [group (+ SMOOTH), degrees]      degrees: 8 bits for each function of the group, ABSENT if it has no
-//!                                          polynomial here
-//!         polynomials of its functions, in their order
-//!         high and low of the constants    of a smooth term only
+//! patch   [other terms, degree of the smooth one + 256 × quads before the others], the smooth term, the others
+//! smooth  for each group of components: a polynomial without constant, high and low of the constants
+//! other   [group + 2²⁰ × its quads, degrees], the polynomials of its functions, in their order
 //! ```
 //!
-//! A polynomial holds its coefficients in Horner's order, for b = d … 0, for a = d − b … 0 that of ξ^a η^b,
-//! of all components side by side: `LANES` words, as many times as there are groups of components. The constant of a smooth term stands apart, in two
-//! halves, and is 0 in the polynomial: neighbours' constants are subtracted from each other before
-//! anything else, so that a plate that has moved far loses no digit of its strains.
+//! Degrees are 8 bits for each function of a group, [`ABSENT`] if it has no polynomial here. A polynomial
+//! holds its coefficients in Horner's order, for b = d … 0, for a = d − b … 0 that of ξ^a η^b, of all
+//! components side by side: `lanes` words, as many times as there are groups of components. What is in
+//! brackets takes as much room. Patches and other terms begin with a quad.
+//!
+//! The constant of the smooth term stands apart, in two halves: neighbours' constants are subtracted from
+//! each other before anything else, so that a plate that has moved far loses no digit of its strains.
+
+use std::collections::BTreeSet;
 
 use ppum::dataset::{FieldData, monomials};
 use ppum::field::Field;
 
-use crate::groups::{Class, Groups};
+use crate::groups::{Groups, SMOOTH_GROUP};
 use crate::layout::halves;
 
-/// Marks the smooth term of a patch.
-pub(crate) const SMOOTH: u32 = 1 << 31;
+/// The group of a term is below it, its quads above.
+pub(crate) const GROUP_BITS: u32 = 20;
 
 /// In place of a degree: the function has no polynomial.
 pub(crate) const ABSENT: u32 = 0xff;
@@ -46,19 +49,85 @@ impl Components {
 /// The bodies of all patches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
-    /// Pairs of words.
-    pub(crate) pairs: Vec<[u32; 2]>,
-    /// Address and number of terms of each patch.
-    pub(crate) patches: Vec<[u32; 2]>,
+    /// Quads of words.
+    pub(crate) words: Vec<u32>,
+    /// The address of each patch: its first quad.
+    pub(crate) patches: Vec<u32>,
+    /// What they have in common.
+    pub(crate) shape: Shape,
+}
+
+/// What shaders need not find out at each pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Shape {
+    /// The degree of all smooth terms, if every patch has one and all are alike.
+    pub(crate) degree: Option<u8>,
+    /// Some patch has a term beside the smooth one of four functions times constants.
+    pub(crate) has_constants: bool,
+    /// Some patch has another one.
+    pub(crate) has_polynomials: bool,
 }
 
 impl Bodies {
     /// The bodies of a field's patches.
     pub(crate) fn new(field: &Field<'_>, groups: &Groups) -> Self {
         let components = Components::new(field.components());
-        let mut writer = Writer { data: field.data, groups, components, pairs: Vec::new() };
-        let patches = (0..field.step.partition.len()).map(|patch| writer.patch(patch)).collect();
-        Self { pairs: writer.pairs, patches }
+        let mut writer = Writer { data: field.data, groups, components, words: Vec::new() };
+        let count = field.step.partition.len();
+        let (mut patches, mut summary) = (Vec::with_capacity(count), Summary::default());
+        for patch in 0..count {
+            let terms = writer.terms(patch);
+            summary.add(&terms, field.data);
+            patches.push(writer.patch(&terms));
+        }
+        Self { words: writer.words, patches, shape: summary.shape() }
+    }
+}
+
+/// Collects what patches have in common.
+#[derive(Debug, Default)]
+struct Summary {
+    degrees: BTreeSet<Option<u8>>,
+    has_constants: bool,
+    has_polynomials: bool,
+}
+
+impl Summary {
+    fn add(&mut self, terms: &Terms, data: &FieldData) {
+        self.degrees.insert(terms.smooth.map(|block| data.block_degree[block]));
+        for term in &terms.others {
+            let is_constant =
+                |block: Option<usize>| block.is_some_and(|b| data.block_degree[b] == 0);
+            let constant = term.blocks.into_iter().all(is_constant);
+            self.has_constants |= constant;
+            self.has_polynomials |= !constant;
+        }
+    }
+
+    fn shape(self) -> Shape {
+        let Self { degrees, has_constants, has_polynomials } = self;
+        let single = degrees.len() == 1;
+        let degree = degrees.into_iter().next().flatten().filter(|_| single);
+        Shape { degree, has_constants, has_polynomials }
+    }
+}
+
+/// The terms of a patch.
+struct Terms {
+    /// The block of the smooth term.
+    smooth: Option<usize>,
+    others: Vec<Term>,
+}
+
+/// The blocks of a patch that share a group, by entry.
+struct Term {
+    group: u32,
+    blocks: [Option<usize>; 4],
+}
+
+impl Term {
+    fn blocks(&self) -> impl Iterator<Item = usize> + '_ {
+        self.blocks.iter().copied().flatten()
     }
 }
 
@@ -66,102 +135,108 @@ struct Writer<'f> {
     data: &'f FieldData,
     groups: &'f Groups,
     components: Components,
-    pairs: Vec<[u32; 2]>,
-}
-
-/// The blocks of a patch that share a group, by entry.
-struct Term {
-    group: u32,
-    smooth: bool,
-    blocks: [Option<usize>; 4],
+    words: Vec<u32>,
 }
 
 impl Writer<'_> {
-    fn patch(&mut self, patch: usize) -> [u32; 2] {
-        let start = self.pairs.len() as u32;
-        let terms = self.terms(patch);
-        for term in &terms {
-            self.term(term);
-        }
-        [start, terms.len() as u32]
-    }
-
-    /// The terms of a patch, the smooth one first. A function that comes twice makes two terms.
-    fn terms(&self, patch: usize) -> Vec<Term> {
-        let mut terms: Vec<Term> = Vec::new();
+    /// The terms of a patch. A function that comes twice makes two terms.
+    fn terms(&self, patch: usize) -> Terms {
+        let (mut smooth, mut others) = (None, Vec::<Term>::new());
         for block in self.data.blocks(patch) {
             let [group, entry] = self.groups.slot(self.data.block_function[block]);
             let entry = entry as usize;
+            if group == SMOOTH_GROUP && self.groups.has_smooth() && smooth.is_none() {
+                smooth = Some(block);
+                continue;
+            }
             let has_room = |term: &&mut Term| term.group == group && term.blocks[entry].is_none();
-            match terms.iter_mut().find(has_room) {
+            match others.iter_mut().find(has_room) {
                 Some(term) => term.blocks[entry] = Some(block),
                 None => {
                     let mut blocks = [None; 4];
                     blocks[entry] = Some(block);
-                    terms.push(Term { group, smooth: false, blocks });
+                    others.push(Term { group, blocks });
                 }
             }
         }
-        if let Some(at) = terms
-            .iter()
-            .position(|term| self.groups.classes()[term.group as usize] == Class::Smooth)
-        {
-            terms[at].smooth = true;
-            terms.swap(0, at);
+        Terms { smooth, others }
+    }
+
+    /// Writes a patch; gives its address.
+    fn patch(&mut self, terms: &Terms) -> u32 {
+        let start = self.begin();
+        let degree = terms.smooth.map_or(ABSENT, |block| self.data.block_degree[block].into());
+        self.pair(terms.others.len() as u32, 0);
+        if let Some(block) = terms.smooth {
+            for group in 0..self.components.groups {
+                self.smooth(block, group);
+            }
         }
-        terms
+        let before = self.begin() - start;
+        self.words[4 * start as usize + 1] = degree | before << 8;
+        for term in &terms.others {
+            self.term(term);
+        }
+        start
+    }
+
+    /// Goes to the next quad, whose number this is.
+    fn begin(&mut self) -> u32 {
+        self.words.resize(self.words.len().next_multiple_of(4), 0);
+        (self.words.len() / 4) as u32
+    }
+
+    /// Two words in the room of all lanes.
+    fn pair(&mut self, first: u32, second: u32) {
+        let start = self.words.len();
+        self.words.extend([first, second]);
+        self.words.resize(start + self.components.lanes, 0);
+    }
+
+    /// The smooth term's coefficients of a group of components, high and low of the constants.
+    fn smooth(&mut self, block: usize, group: usize) {
+        let degree = usize::from(self.data.block_degree[block]);
+        for index in horner(degree).take_while(|&index| index > 0) {
+            self.coefficients(block, index, group);
+        }
+        for half in 0..2 {
+            self.lanes(group, |coefficients| halves(coefficients[0])[half], block);
+        }
     }
 
     fn term(&mut self, term: &Term) {
-        let degree = |block: &Option<usize>| {
-            block.map_or(ABSENT, |block| u32::from(self.data.block_degree[block]))
-        };
-        let degrees = (0..4).map(|entry| degree(&term.blocks[entry]) << (8 * entry)).sum();
-        self.pairs.push([term.group | if term.smooth { SMOOTH } else { 0 }, degrees]);
-        for block in term.blocks.iter().flatten() {
+        let start = self.begin();
+        let degree =
+            |block: Option<usize>| block.map_or(ABSENT, |b| self.data.block_degree[b].into());
+        let degrees = (0..4).map(|entry| degree(term.blocks[entry]) << (8 * entry)).sum();
+        self.pair(term.group, degrees);
+        for block in term.blocks() {
             for group in 0..self.components.groups {
-                self.polynomial(*block, group, term.smooth);
-            }
-            if term.smooth {
-                self.constants(*block);
-            }
-        }
-    }
-
-    /// The coefficients of a group of components.
-    fn polynomial(&mut self, block: usize, group: usize, smooth: bool) {
-        let degree = usize::from(self.data.block_degree[block]);
-        for index in horner(degree) {
-            let constant = smooth && index == 0;
-            self.lanes(group, |component| {
-                if constant {
-                    0.0
-                } else {
-                    self.data.block_coefficients(block, component)[index] as f32
+                for index in horner(self.data.block_degree[block].into()) {
+                    self.coefficients(block, index, group);
                 }
-            });
-        }
-    }
-
-    /// High and low of the constants, group by group of components.
-    fn constants(&mut self, block: usize) {
-        for group in 0..self.components.groups {
-            for half in 0..2 {
-                self.lanes(group, |component| {
-                    halves(self.data.block_coefficients(block, component)[0])[half]
-                });
             }
         }
+        let quads = self.begin() - start;
+        self.words[4 * start as usize] |= quads << GROUP_BITS;
+    }
+
+    /// A coefficient of all components of a group.
+    fn coefficients(&mut self, block: usize, index: usize, group: usize) {
+        self.lanes(group, |coefficients| coefficients[index] as f32, block);
     }
 
     /// One number of each component of a group, 0 for those there are not.
-    fn lanes(&mut self, group: usize, of: impl Fn(usize) -> f32) {
+    fn lanes(&mut self, group: usize, of: impl Fn(&[f64]) -> f32, block: usize) {
         let Components { count, lanes, .. } = self.components;
-        let word = |component: usize| if component < count { of(component).to_bits() } else { 0 };
-        let first = group * lanes;
-        let pairs = (first..first + lanes).step_by(2).map(|c| [word(c), word(c + 1)]);
-        let pairs: Vec<_> = pairs.collect();
-        self.pairs.extend(pairs);
+        for component in group * lanes..(group + 1) * lanes {
+            let value = if component < count {
+                of(self.data.block_coefficients(block, component))
+            } else {
+                0.0
+            };
+            self.words.push(value.to_bits());
+        }
     }
 }
 

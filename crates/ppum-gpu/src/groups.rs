@@ -11,6 +11,9 @@ use ppum::function::{Frame, Function, FunctionKind, GROUP, WESTERGAARD};
 
 use crate::geometry::GroupFrame;
 
+/// The group of the function 1, if there is one.
+pub(crate) const SMOOTH_GROUP: u32 = 0;
+
 /// The groups of a step's functions.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Groups {
@@ -65,6 +68,11 @@ impl Groups {
     /// Number of groups.
     pub(crate) fn len(&self) -> usize {
         self.members.len()
+    }
+
+    /// True if the step has the function 1, and so a [`SMOOTH_GROUP`].
+    pub(crate) fn has_smooth(&self) -> bool {
+        self.classes.first() == Some(&Class::Smooth)
     }
 
     /// Number of functions.

@@ -89,6 +89,12 @@ pub(crate) fn halves(value: f64) -> [f32; 2] {
     [high, (value - f64::from(high)) as f32]
 }
 
+/// Halves of which the first is a multiple of `quantum`: differences of such multiples below 2²⁴ quanta are exact.
+pub(crate) fn halves_by(quantum: f64, value: f64) -> [f32; 2] {
+    let high = ((value / quantum).round() * quantum) as f32;
+    [high, (value - f64::from(high)) as f32]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,6 +10,7 @@ mod error;
 mod functions;
 mod geometry;
 mod groups;
+mod lattice;
 mod layout;
 mod program;
 mod quads;

@@ -19,11 +19,12 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::functions::{Surroundings, functions_wgsl};
 use crate::geometry;
-use crate::groups::Groups;
+use crate::groups::{Groups, SMOOTH_GROUP};
+use crate::lattice::NO_PATCH;
 use crate::quads::QUAD_BYTES;
 use crate::quantity::{order_of, quantity_wgsl};
-use crate::region::record_pairs;
-use crate::scene::{Scene, SceneLayout};
+use crate::region::record_quads;
+use crate::scene::{Scene, SceneLayout, TEXELS};
 use crate::seen::ViewRecord;
 use crate::shader;
 use crate::weight::weight_wgsl;
@@ -98,6 +99,8 @@ pub(crate) struct Slots {
     pairs: u32,
     /// Slots of each of them.
     per_pair: u32,
+    /// Textures for S and its derivatives: two if there are second ones, or φ of a patch is wanted.
+    pub(crate) weights: u32,
 }
 
 /// The slots that one pass writes, those of one pair of components.
@@ -109,8 +112,6 @@ pub(crate) struct FieldPass {
     pub(crate) slots: u32,
 }
 
-/// Textures for S and its derivatives.
-pub(crate) const WEIGHTS: u32 = 2;
 
 /// Slots that one pass writes: 32 bytes a pixel, what WebGPU promises.
 const SLOTS_PER_PASS: u32 = 2;
@@ -192,8 +193,8 @@ impl Program {
         let sums = if self.method == Method::Splat { slots.all() } else { 0 };
         let maker = Maker {
             gpu,
-            data: data_layout(gpu, layout.chunks),
-            weights: textures_layout(gpu, WEIGHTS),
+            data: data_layout(gpu),
+            weights: textures_layout(gpu, slots.weights),
             textures: textures_layout(gpu, sums + 1),
             source: self.parts.text(layout, self.method, self.output, FieldPass::NONE),
         };
@@ -212,7 +213,7 @@ impl Program {
         layout: SceneLayout,
         slots: Slots,
     ) -> Result<(Option<RenderPipeline>, Vec<RenderPipeline>), GpuError> {
-        let weights = maker.quads("splat_weight", &maker.source, WEIGHTS, None)?;
+        let weights = maker.quads("splat_weight", &maker.source, slots.weights, None)?;
         let fields = slots.passes().map(|pass| {
             let text = self.parts.text(layout, self.method, self.output, pass);
             maker.quads("splat_field", &text, pass.slots, Some(&maker.weights))
@@ -228,8 +229,8 @@ impl Slots {
     }
 
     /// All textures that the last pass adds up from.
-    fn all(self) -> u32 {
-        WEIGHTS + self.count()
+    pub(crate) fn all(self) -> u32 {
+        self.weights + self.count()
     }
 
     /// The passes that fill them.
@@ -290,7 +291,8 @@ fn formulas(
 impl Parts {
     fn slots(&self, layout: SceneLayout) -> Slots {
         let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
-        Slots { pairs, per_pair: self.order + 1 }
+        let weights = if self.order >= 2 || !self.has_field { 2 } else { 1 };
+        Slots { pairs, per_pair: self.order + 1, weights }
     }
 
     /// The whole text of a shader; `pass` is what it splats.
@@ -298,9 +300,9 @@ impl Parts {
         let mut text = self.constants(layout);
         text += &types(layout);
         text += &ViewRecord::wgsl().replace("ViewRecord", "View");
-        text += &bindings(layout);
+        text += BINDINGS;
         text += &geometry::constants();
-        let parts = [shader::LOAD, shader::PIXEL, shader::BINS, shader::PATCH, shader::FINISH];
+        let parts = [shader::LOAD, shader::PIXEL, shader::PATCH, shader::FINISH];
         text.extend(shader::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
         text += &self.formulas;
         text += match output {
@@ -309,7 +311,7 @@ impl Parts {
             Output::Component(_) => shader::COMPONENT,
         };
         text += &match method {
-            Method::Gather => gather_text(),
+            Method::Gather => gather_text(layout.is_lattice),
             Method::Splat => self.splat_text(layout, pass),
         };
         text + &palette_binding(match method {
@@ -319,7 +321,7 @@ impl Parts {
     }
 
     fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout { components, own_frames, .. } = layout;
+        let SceneLayout { components, shape, own_frames, has_holes, .. } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -327,18 +329,30 @@ impl Parts {
             ("LANES", components.lanes as u32),
             ("LANE_PAIRS", components.lanes as u32 / 2),
             ("GROUPS", components.groups as u32),
-            ("PATCH_PAIRS", record_pairs(own_frames) as u32),
+            ("RECORD_QUADS", record_quads(own_frames)),
+            ("TEXELS", TEXELS),
             ("INNER", bins::INNER),
-            ("SMOOTH", bodies::SMOOTH),
+            ("NO_PATCH", NO_PATCH),
+            ("SMOOTH_GROUP", SMOOTH_GROUP),
+            ("SMOOTH_DEGREE", shape.degree.map_or(bodies::ABSENT, u32::from)),
+            ("GROUP_BITS", bodies::GROUP_BITS),
             ("ABSENT", bodies::ABSENT),
+            ("ALL_ABSENT", u32::MAX),
             ("PALETTE", PALETTE_TEXELS),
             ("LOG", crate::color::LOG),
             ("SYMLOG", crate::color::SYMLOG),
         ] {
             let _ = writeln!(text, "const {name}: u32 = {value}u;");
         }
-        let _ = writeln!(text, "const OWN_FRAMES: bool = {own_frames};");
-        let _ = writeln!(text, "const HAS_FIELD: bool = {};", self.has_field);
+        for (name, value) in [
+            ("OWN_FRAMES", own_frames),
+            ("HAS_FIELD", self.has_field),
+            ("HAS_HOLES", has_holes),
+            ("HAS_CONSTANTS", shape.has_constants),
+            ("HAS_POLYNOMIALS", shape.has_polynomials),
+        ] {
+            let _ = writeln!(text, "const {name}: bool = {value};");
+        }
         text
     }
 
@@ -349,15 +363,15 @@ impl Parts {
         let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
         let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
         text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
-        text += &targets("Weights", WEIGHTS);
-        text += WEIGHTS_OF;
+        text += &targets("Weights", slots.weights);
+        text += &weights_of(slots.weights);
         text += &targets("Fields", pass.slots);
         text += &fields_of(pass, layout.components.lanes);
-        for k in 0..WEIGHTS {
+        for k in 0..slots.weights {
             let _ = writeln!(text, "@group(1) @binding({k}) var weights_{k}: texture_2d<f32>;");
         }
         for k in 0..slots.count() {
-            let binding = WEIGHTS + k;
+            let binding = slots.weights + k;
             let _ = writeln!(text, "@group(1) @binding({binding}) var field_{k}: texture_2d<f32>;");
         }
         text + &field_slot(slots.count())
@@ -368,17 +382,24 @@ impl Parts {
 fn types(layout: SceneLayout) -> String {
     let lanes = layout.components.lanes;
     let (of, load, view) = if lanes == 2 {
-        ("a", "load_pair(at)", "load_view(at)")
+        (
+            "a",
+            "lanes_from(load(at / 2u), at % 2u)",
+            "load_view(at)",
+        )
     } else {
         (
             "vec4<f32>(a, b)",
-            "vec4<f32>(load_pair(at), load_pair(at + 1u))",
+            "bitcast<vec4<f32>>(load(at / 2u))",
             "vec4<f32>(load_view(at), load_view(at + 1u))",
         )
     };
     format!(
         "alias Lanes = vec{lanes}<f32>;
 fn lanes_of(a: vec2<f32>, b: vec2<f32>) -> Lanes {{ return {of}; }}
+fn lanes_from(quad: vec4<u32>, odd: u32) -> vec2<f32> {{
+    return bitcast<vec2<f32>>(select(quad.xy, quad.zw, odd == 1u));
+}}
 fn load_lanes(at: u32) -> Lanes {{ return {load}; }}
 fn view_lanes(at: u32) -> Lanes {{ return {view}; }}
 struct Sample {{
@@ -392,44 +413,17 @@ struct Sample {{
     )
 }
 
-/// The buffers and how they are read: one `load` each, over all the parts.
-fn bindings(layout: SceneLayout) -> String {
-    let mut text = "@group(0) @binding(0) var<uniform> view: View;
+/// The view, its data, the dataset's and the region's.
+const BINDINGS: &str = "@group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<storage, read> view_data: array<vec2<f32>>;
-"
-    .to_owned();
-    let mut binding = 2;
-    for (function, parts) in [("load", layout.chunks[0]), ("load_place", layout.chunks[1])] {
-        for k in 0..parts {
-            let _ = writeln!(
-                text,
-                "@group(0) @binding({binding}) var<storage, read> {function}_{k}: array<vec2<u32>>;"
-            );
-            binding += 1;
-        }
-        text += &load(function, parts, layout.chunk_pairs);
-    }
-    text
-}
+@group(0) @binding(2) var data: texture_2d<u32>;
+@group(0) @binding(3) var places: texture_2d<u32>;
+";
 
-fn load(function: &str, parts: usize, chunk: u32) -> String {
-    let mut text = format!("fn {function}(at: u32) -> vec2<u32> {{\n");
-    for k in 1..parts as u32 {
-        let end = k * chunk;
-        let _ = writeln!(
-            text,
-            "    if at < {end}u {{ return {function}_{}[at - {}u]; }}",
-            k - 1,
-            end - chunk
-        );
-    }
-    let last = parts as u32 - 1;
-    let _ = writeln!(text, "    return {function}_{last}[at - {}u];\n}}", last * chunk);
-    text
-}
-
-fn gather_text() -> String {
-    shader::GATHER.to_owned() + "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n"
+fn gather_text(is_lattice: bool) -> String {
+    let bins = if is_lattice { shader::LATTICE } else { shader::BINS };
+    let alias = "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n";
+    [bins, shader::GATHER, alias].concat()
 }
 
 fn palette_binding(binding: u32) -> String {
@@ -443,11 +437,23 @@ fn targets(name: &str, count: u32) -> String {
     format!("struct {name} {{\n{members}}}\n")
 }
 
-/// What is summed of a weight: with the number of patches, and that of the chosen one.
-const WEIGHTS_OF: &str = "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {
-    return Weights(vec4<f32>(w.v, w.x, w.y, overlap), vec4<f32>(w.xx, w.xy, w.yy, part));
+/// What is summed of a weight, with the number of patches and the weight of the chosen one.
+fn weights_of(count: u32) -> String {
+    let (second, read) = if count == 2 {
+        (", vec4<f32>(w.xx, w.xy, w.yy, part)", "textureLoad(weights_1, index, 0)")
+    } else {
+        ("", "vec4<f32>()")
+    };
+    format!(
+        "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {{
+    return Weights(vec4<f32>(w.v, w.x, w.y, overlap){second});
+}}
+fn second_weights(index: vec2<u32>) -> vec4<f32> {{
+    return {read};
+}}
+"
+    )
 }
-";
 
 /// What a pass writes of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
 fn fields_of(pass: FieldPass, lanes: usize) -> String {
@@ -471,43 +477,37 @@ fn field_slot(count: u32) -> String {
     text + "    return vec4<f32>();\n}\n"
 }
 
-fn data_layout(gpu: &Gpu, chunks: [usize; 2]) -> BindGroupLayout {
-    let entry = |binding: u32| BindGroupLayoutEntry {
-        binding,
-        visibility: if binding == 0 {
-            ShaderStages::VERTEX_FRAGMENT
-        } else {
-            ShaderStages::FRAGMENT
-        },
-        ty: BindingType::Buffer {
-            ty: if binding == 0 {
-                BufferBindingType::Uniform
-            } else {
-                BufferBindingType::Storage { read_only: true }
-            },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries: Vec<_> = (0..2 + (chunks[0] + chunks[1]) as u32).map(entry).collect();
+fn data_layout(gpu: &Gpu) -> BindGroupLayout {
+    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    let texture = texture_type(TextureSampleType::Uint);
+    let types = [
+        buffer(BufferBindingType::Uniform),
+        buffer(BufferBindingType::Storage { read_only: true }),
+        texture,
+        texture,
+    ];
+    let entries: Vec<_> = (0..).zip(types).map(|(binding, ty)| layout_entry(binding, ty)).collect();
     let descriptor = BindGroupLayoutDescriptor { label: Some("data"), entries: &entries };
     gpu.device().create_bind_group_layout(&descriptor)
 }
 
+fn texture_type(sample_type: TextureSampleType) -> BindingType {
+    let view_dimension = TextureViewDimension::D2;
+    BindingType::Texture { sample_type, view_dimension, multisampled: false }
+}
+
+/// A binding of fragments; the first, the view, of vertices too.
+fn layout_entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
+    let is_uniform = matches!(ty, BindingType::Buffer { ty: BufferBindingType::Uniform, .. });
+    let both = ShaderStages::VERTEX_FRAGMENT;
+    let visibility = if is_uniform { both } else { ShaderStages::FRAGMENT };
+    BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}
+
 /// A number of textures.
 fn textures_layout(gpu: &Gpu, count: u32) -> BindGroupLayout {
-    let entry = |binding: u32| BindGroupLayoutEntry {
-        binding,
-        visibility: ShaderStages::FRAGMENT,
-        ty: BindingType::Texture {
-            sample_type: TextureSampleType::Float { filterable: false },
-            view_dimension: TextureViewDimension::D2,
-            multisampled: false,
-        },
-        count: None,
-    };
-    let entries: Vec<_> = (0..count).map(entry).collect();
+    let ty = texture_type(TextureSampleType::Float { filterable: false });
+    let entries: Vec<_> = (0..count).map(|binding| layout_entry(binding, ty)).collect();
     let descriptor = BindGroupLayoutDescriptor { label: Some("textures"), entries: &entries };
     gpu.device().create_bind_group_layout(&descriptor)
 }

@@ -6,7 +6,6 @@ use ppum_render::pixels::Pixels;
 use ppum_render::view::View;
 
 use crate::layout::record;
-use crate::region::Region;
 
 record! {
     /// A quad, clipped to the picture. It covers whole pixels; the weight is zero on those the patch does
@@ -23,41 +22,49 @@ record! {
         /// The same in the frame of the polynomials.
         frame_xi: vec2f,
         frame_step: vec2f,
-        /// The patch, by its number in the region.
-        index: u32,
+        /// The address of the patch's body.
+        body: u32,
     }
 }
 
 /// Bytes of a quad's record.
 pub(crate) const QUAD_BYTES: u64 = 64;
 
-/// The quads of a view, in words: those of the region's patches that are in sight.
-pub(crate) fn quads(field: &Field<'_>, view: &View, region: &Region) -> (Vec<u32>, u32) {
+/// The quads of a view, in words, and their number. `bodies` holds the address of each patch's body.
+pub(crate) fn quads(field: &Field<'_>, view: &View, bodies: &[u32]) -> (Vec<u32>, u32) {
     let pixels = Pixels::new(view);
-    let window = pixels.window();
-    let partition = &field.step.partition;
+    let mut visible = Vec::new();
+    field.tree.query_box(&pixels.window(), &mut visible);
     let (mut words, mut count) = (Vec::new(), 0);
-    for (index, &number) in (0u32..).zip(&region.patches) {
-        let number = number as usize;
-        let (center, half) = (partition.center[number], partition.half[number]);
-        if !Rect::around(center, half).overlaps(&window) {
-            continue;
+    for &index in &visible {
+        if let Some(record) = quad(field, view, &pixels, index as usize, bodies[index as usize]) {
+            words.extend(record.words());
+            count += 1;
         }
-        let [columns, rows] = pixels.covered(&Rect::around(center - view.center, half));
-        if columns.is_empty() || rows.is_empty() {
-            continue;
-        }
-        let first = [columns.start, rows.start];
-        let from_center = view.offset(first[0], first[1]);
-        let (xi, step) = coordinates(view, from_center, center, half);
-        let (frame_xi, frame_step) =
-            coordinates(view, from_center, partition.origin[number], partition.scale[number]);
-        let end = [columns.end, rows.end];
-        let record = QuadRecord { first, end, xi, step, frame_xi, frame_step, index };
-        words.extend(record.words());
-        count += 1;
     }
     (words, count)
+}
+
+/// The quad of a patch; none if it meets no pixel.
+fn quad(
+    field: &Field<'_>,
+    view: &View,
+    pixels: &Pixels<'_>,
+    index: usize,
+    body: u32,
+) -> Option<QuadRecord> {
+    let partition = &field.step.partition;
+    let (center, half) = (partition.center[index], partition.half[index]);
+    let [columns, rows] = pixels.covered(&Rect::around(center - view.center, half));
+    if columns.is_empty() || rows.is_empty() {
+        return None;
+    }
+    let (first, end) = ([columns.start, rows.start], [columns.end, rows.end]);
+    let offset = view.offset(first[0], first[1]);
+    let (xi, step) = coordinates(view, offset, center, half);
+    let (origin, scale) = (partition.origin[index], partition.scale[index]);
+    let (frame_xi, frame_step) = coordinates(view, offset, origin, scale);
+    Some(QuadRecord { first, end, xi, step, frame_xi, frame_step, body })
 }
 
 /// ξ of a pixel, given by its offset from the view's centre, and its steps to the next column and row.

@@ -1,17 +1,27 @@
 //! The patches in a region of the plane, as the card holds them: seen from an anchor, in bins.
 //!
-//! Centres go to the card as `high + low`, two numbers of single precision each, relative to the
-//! anchor, and so do the columns and rows of a view. The difference of a pixel and a centre, formed half
-//! by half, then has all the digits of single precision, however small the patch is beside the region.
-//! Views that are too deep for a region, or leave it, get a new one: the anchor moves into the view, in
-//! double precision, and only the patches around it remain.
+//! Positions go to the card as `high + low`, two numbers of single precision each, relative to the
+//! anchor: `high` is a multiple of the region's quantum, so that differences of highs are exact. The
+//! difference of a pixel and a centre, formed half by half, then has all the digits of single
+//! precision, however small the patch is beside the region. Views that are too deep for a region, or
+//! leave it, get a new one: the anchor moves into the view, in double precision, and only the patches
+//! around it remain.
+//!
+//! ```text
+//! node of a bin    of a lattice: the addresses of the patches at its four corners, by x + 2 y
+//!                  else two nodes a quad, see bins.rs
+//! list             four patches a quad, by their records
+//! record           origin, high and low · reciprocal half-extents, address of the body
+//!                  the same for the frame of the polynomials, if that is another one
+//! ```
 
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
 
 use crate::bins::{Bins, Covered};
-use crate::layout::halves;
+use crate::lattice::Lattice;
+use crate::layout::halves_by;
 
 /// How much wider than the view a new region is.
 const AROUND: f64 = 16.0;
@@ -29,7 +39,7 @@ pub(crate) struct Region {
     bounds: Rect,
     /// What positions are relative to.
     pub(crate) anchor: Vec2,
-    /// The patches' indices in the dataset, ascending.
+    /// The patches' indices in the dataset, ascending; none are listed of a lattice.
     pub(crate) patches: Vec<u32>,
     /// Where they are found.
     pub(crate) bins: Bins,
@@ -37,12 +47,17 @@ pub(crate) struct Region {
 
 impl Region {
     /// The region for a view: all of the domain, or the surroundings of the view.
-    pub(crate) fn new(field: &Field<'_>, view: &View) -> Self {
+    pub(crate) fn new(field: &Field<'_>, view: &View, lattice: Option<&Lattice>) -> Self {
         let domain = field.domain.bounds;
         let around = Rect::around(view.center, view.half() * AROUND);
         let deep = view.width * DEEPEST < domain.size().x.max(domain.size().y);
         let bounds = if deep { around } else { domain };
         let anchor = if deep { view.center } else { domain.center() };
+        let relative = Rect::new(bounds.min - anchor, bounds.max - anchor);
+        if let Some(lattice) = lattice {
+            let bins = lattice.bins(relative, anchor);
+            return Self { bounds, anchor, patches: Vec::new(), bins };
+        }
         let mut patches = Vec::new();
         field.tree.query_box(&bounds, &mut patches);
         let partition = &field.step.partition;
@@ -52,7 +67,6 @@ impl Region {
             Covered { support: Rect::new(support.min - anchor, support.max - anchor), cell }
         };
         let seen: Vec<_> = patches.iter().map(seen).collect();
-        let relative = Rect::new(bounds.min - anchor, bounds.max - anchor);
         let size = relative.size();
         let bins = Bins::new(relative, &seen, MARGIN * size.x.max(size.y));
         Self { bounds, anchor, patches, bins }
@@ -69,58 +83,68 @@ impl Region {
         nothing || (inside && view.width * DEEPEST >= size.x.max(size.y))
     }
 
-    /// The patch of the dataset with this index, as the region counts.
-    pub(crate) fn local(&self, patch: u32) -> Option<u32> {
-        self.patches.binary_search(&patch).ok().map(|index| index as u32)
+    /// What positions high are multiples of: 2⁻²² of the region's size, rounded to a power of two.
+    pub(crate) fn quantum(&self) -> f64 {
+        let size = self.bounds.size();
+        let exponent = size.x.max(size.y).log2().ceil() as i32;
+        2f64.powi(exponent - 22)
     }
 
-    /// Nodes, list and records of the patches, in pairs of words. `bodies` holds the address and number of terms of
-    /// each patch of the dataset.
-    pub(crate) fn pairs(&self, field: &Field<'_>, bodies: &[[u32; 2]]) -> Places {
-        let mut pairs = self.bins.nodes.clone();
-        let list = pairs.len() as u32;
-        let entries = self.bins.list.chunks(2);
-        pairs.extend(entries.map(|two| [two[0], two.get(1).copied().unwrap_or_default()]));
-        let patches = pairs.len() as u32;
-        let own_frames = has_own_frames(field);
-        pairs.reserve(self.patches.len() * record_pairs(own_frames));
-        for &index in &self.patches {
-            self.push_patch(field, index as usize, own_frames, bodies[index as usize], &mut pairs);
-        }
-        Places { pairs, list, patches }
+    /// A position relative to the anchor, high and low.
+    pub(crate) fn halves(&self, d: Vec2) -> [[f32; 2]; 2] {
+        let ([xh, xl], [yh, yl]) =
+            (halves_by(self.quantum(), d.x), halves_by(self.quantum(), d.y));
+        [[xh, yh], [xl, yl]]
     }
 
-    /// The record of a patch: its support; its body; the frame of its polynomials, if that is another one.
-    fn push_patch(
+    /// Everything shaders read of a region. `bodies` holds the address of each patch of the dataset.
+    pub(crate) fn places(
         &self,
         field: &Field<'_>,
-        index: usize,
-        own_frame: bool,
-        body: [u32; 2],
-        pairs: &mut Vec<[u32; 2]>,
-    ) {
-        let partition = &field.step.partition;
-        self.push_frame(partition.center[index], partition.half[index], pairs);
-        pairs.push(body);
-        if own_frame {
-            self.push_frame(partition.origin[index], partition.scale[index], pairs);
+        own_frames: bool,
+        lattice: Option<&Lattice>,
+        bodies: &[u32],
+    ) -> Places {
+        if let Some(lattice) = lattice {
+            let words = lattice.nodes(&self.bins, self.anchor, bodies);
+            return Places { words, list: 0, patches: 0 };
         }
+        let mut words: Vec<u32> = self.bins.nodes.as_flattened().to_vec();
+        let list = begin(&mut words);
+        words.extend(&self.bins.list);
+        let patches = begin(&mut words);
+        words.reserve(self.patches.len() * 4 * record_quads(own_frames) as usize);
+        for &index in &self.patches {
+            let (partition, index) = (&field.step.partition, index as usize);
+            let body = bodies[index];
+            self.push_frame(partition.center[index], partition.half[index], body, &mut words);
+            if own_frames {
+                self.push_frame(partition.origin[index], partition.scale[index], 0, &mut words);
+            }
+        }
+        Places { words, list, patches }
     }
 
-    /// Origin, high and low, and reciprocal scale.
-    fn push_frame(&self, origin: Vec2, scale: Vec2, pairs: &mut Vec<[u32; 2]>) {
-        let d = origin - self.anchor;
-        let ([xh, xl], [yh, yl]) = (halves(d.x), halves(d.y));
+    /// Origin, high and low, reciprocal scale, and a word behind it.
+    fn push_frame(&self, origin: Vec2, scale: Vec2, word: u32, words: &mut Vec<u32>) {
+        let [high, low] = self.halves(origin - self.anchor);
         let inverse = [(1.0 / scale.x) as f32, (1.0 / scale.y) as f32];
-        pairs.extend([[xh, yh], [xl, yl], inverse].map(|pair| pair.map(f32::to_bits)));
+        words.extend([high, low, inverse].iter().flatten().map(|v| v.to_bits()));
+        words.extend([word, 0]);
     }
 }
 
-/// A region in pairs of words, and where its parts begin.
+/// Goes to the next quad, whose number this is.
+fn begin(words: &mut Vec<u32>) -> u32 {
+    words.resize(words.len().next_multiple_of(4), 0);
+    (words.len() / 4) as u32
+}
+
+/// A region in quads of words, and where its parts begin.
 #[derive(Clone, Debug)]
 pub(crate) struct Places {
-    pub(crate) pairs: Vec<[u32; 2]>,
-    /// The list of the bins: two entries a pair.
+    pub(crate) words: Vec<u32>,
+    /// The list of the bins.
     pub(crate) list: u32,
     /// The records of the patches.
     pub(crate) patches: u32,
@@ -132,7 +156,7 @@ pub(crate) fn has_own_frames(field: &Field<'_>) -> bool {
     partition.origin != partition.center || partition.scale != partition.half
 }
 
-/// Pairs of a patch's record.
-pub(crate) fn record_pairs(own_frames: bool) -> usize {
-    if own_frames { 7 } else { 4 }
+/// Quads of a patch's record.
+pub(crate) fn record_quads(own_frames: bool) -> u32 {
+    if own_frames { 4 } else { 2 }
 }

@@ -18,7 +18,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::geometry::Geometry;
 use crate::layout::bytes;
-use crate::program::{Made, Method, Output, Program, SUMS, WEIGHTS};
+use crate::program::{Made, Method, Output, Program, SUMS};
 use crate::quads::quads;
 use crate::read;
 use crate::scene::Scene;
@@ -60,8 +60,8 @@ pub struct Renderer {
     choice: Choice,
     /// Counts the devices that were opened: what was made for another one is made anew.
     generation: u64,
-    /// Most bytes of one binding.
-    binding: u64,
+    /// Most rows of a texture of data.
+    rows: u32,
     targets: Targets,
 }
 
@@ -99,8 +99,8 @@ impl Renderer {
     /// A renderer on an open device; a choice for the one after its loss.
     #[must_use]
     pub fn new(gpu: Gpu, choice: Choice) -> Self {
-        let binding = gpu.limits().max_storage_buffer_binding_size;
-        Self { gpu, choice, generation: 0, binding, targets: Targets::default() }
+        let rows = gpu.limits().max_texture_dimension_2d;
+        Self { gpu, choice, generation: 0, rows, targets: Targets::default() }
     }
 
     /// The device that draws.
@@ -109,19 +109,19 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Divides data into bindings of at most this many bytes, so that a test can see many of them.
+    /// Takes data of at most this many rows of 128 KiB, so that a test can see too many.
     #[doc(hidden)]
-    pub fn bind_at_most(&mut self, bytes: u64) {
-        self.binding = bytes.min(self.gpu.limits().max_storage_buffer_binding_size);
+    pub fn limit_rows(&mut self, rows: u32) {
+        self.rows = rows.min(self.gpu.limits().max_texture_dimension_2d);
     }
 
     /// Puts a field on the card. Linear in its coefficients.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] if it does not fit into the bindings there are, five of 128 MiB by default.
+    /// [`GpuError::TooLarge`] if it does not fit into a texture: 1 GiB on any device, 2 GiB on most.
     pub fn upload(&mut self, field: &Field<'_>) -> Result<Scene, GpuError> {
         self.again(|renderer| {
-            Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)
+            Scene::new(&renderer.gpu, renderer.generation, field, renderer.rows)
         })
     }
 
@@ -168,7 +168,7 @@ impl Renderer {
         self.check_size(view)?;
         self.again(|renderer| {
             if scene.generation != renderer.generation {
-                *scene = Scene::new(&renderer.gpu, renderer.generation, field, renderer.binding)?;
+                *scene = Scene::new(&renderer.gpu, renderer.generation, field, renderer.rows)?;
             }
             renderer.draw_once(scene, program, field, view, shading)
         })
@@ -290,7 +290,7 @@ impl Renderer {
         view: &View,
         shading: Option<&Shading>,
     ) -> Result<Drawn, GpuError> {
-        scene.place(&self.gpu, field, view)?;
+        scene.place(&self.gpu, field, view, self.rows)?;
         let (method, output, chosen) = (program.method, program.output, program.chosen);
         let made = program.made(&self.gpu, self.generation, scene.layout)?;
         let seen = seen(scene, field, view, (output, chosen), shading)?;
@@ -302,8 +302,7 @@ impl Renderer {
             let data = targets.data(gpu, scene, made)?;
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
             if method == Method::Splat {
-                let place = scene.placed()?;
-                let (words, count) = quads(field, view, &place.region);
+                let (words, count) = quads(field, view, &scene.bodies);
                 targets.splat(gpu, &mut encoder, made, &data, (&words, count));
             }
             let drawn = targets.finish(gpu, &mut encoder, made, &data, output);
@@ -325,12 +324,12 @@ fn seen(
     let place = scene.placed()?;
     let frames = scene.groups.frames(&field.step.functions);
     let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
-    let mut seen = Seen::new(field, view, geometry, (&place.region, place.addresses));
+    let mut seen = Seen::new(field, view, geometry, place, scene.lattice.as_ref());
     if let Output::Component(component) = output {
         seen.record.component = component.into();
     }
-    if let Some(local) = chosen.and_then(|patch| place.region.local(patch)) {
-        seen.record.chosen = local;
+    if let Some(patch) = chosen {
+        seen.record.chosen = scene.bodies[patch as usize];
     }
     if let Some(shading) = shading {
         shading.note(&mut seen.record);
@@ -348,7 +347,7 @@ impl Targets {
         method: Method,
         shading: Option<&Shading>,
     ) {
-        let needed = if method == Method::Splat { WEIGHTS + made.slots.count() } else { 0 };
+        let needed = if method == Method::Splat { made.slots.all() } else { 0 };
         if self.size != size {
             self.sums.clear();
             self.size = size;
@@ -378,9 +377,9 @@ impl Targets {
 
     /// Group 0: view, dataset, region.
     fn data(&self, gpu: &Gpu, scene: &Scene, made: &Made) -> Result<BindGroup, GpuError> {
-        let own = [&self.uniform, &self.view].into_iter().flatten();
-        let all = own.chain(&scene.data).chain(&scene.placed()?.buffers);
-        let resources: Vec<_> = all.map(Buffer::as_entire_binding).collect();
+        let buffers = [&self.uniform, &self.view].into_iter().flatten();
+        let textures = [&scene.data, &scene.placed()?.texture].map(BindingResource::TextureView);
+        let resources = buffers.map(Buffer::as_entire_binding).chain(textures).collect();
         Ok(group(gpu, &made.data, resources))
     }
 
@@ -395,7 +394,7 @@ impl Targets {
     ) {
         let words = if words.is_empty() { &[0][..] } else { words };
         write(gpu, &mut self.quads, BufferUsages::VERTEX, words);
-        let weights = WEIGHTS as usize;
+        let weights = made.slots.weights as usize;
         let sums = self.sums[..weights].iter().map(BindingResource::TextureView).collect();
         let sums = group(gpu, &made.sums, sums);
         if let Some(pipeline) = &made.weights {
@@ -442,7 +441,7 @@ impl Targets {
         data: &BindGroup,
         output: Output,
     ) -> Drawn {
-        let splats = if made.weights.is_some() { WEIGHTS + made.slots.count() } else { 0 };
+        let splats = if made.weights.is_some() { made.slots.all() } else { 0 };
         let palette = self.palette.as_ref().map(|(_, view)| view);
         let sums = self.sums[..splats as usize].iter().chain(palette);
         let textures = group(gpu, &made.textures, sums.map(BindingResource::TextureView).collect());

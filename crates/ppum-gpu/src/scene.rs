@@ -4,18 +4,21 @@ use std::sync::Arc;
 
 use ppum::field::Field;
 use ppum_render::view::View;
-use wgpu::{Buffer, BufferDescriptor, BufferUsages};
+use wgpu::{
+    Extent3d, Origin3d, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureDescriptor,
+    TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
+};
 
-use crate::bodies::{Bodies, Components};
+use crate::bodies::{Bodies, Components, Shape};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::groups::Groups;
+use crate::lattice::Lattice;
 use crate::layout::bytes;
-use crate::region::{Region, has_own_frames};
+use crate::region::{Places, Region, has_own_frames};
 
-/// Bindings for the dataset's data and for a region's; with the view's data they are the eight storage
-/// buffers that WebGPU promises.
-const MOST_CHUNKS: [usize; 2] = [5, 2];
+/// Texels in a row of a texture of data: a texture then holds up to 1 GiB on any device.
+pub(crate) const TEXELS: u32 = 8192;
 
 /// A field on the card. Made by [`Renderer::upload`](crate::Renderer::upload); one for each step of a
 /// series, say, of which any can be drawn without further ado.
@@ -25,10 +28,11 @@ pub struct Scene {
     pub(crate) generation: u64,
     pub(crate) layout: SceneLayout,
     pub(crate) groups: Arc<Groups>,
-    /// The dataset's data, in parts that can be bound.
-    pub(crate) data: Vec<Buffer>,
-    /// Address and number of terms of each patch.
-    bodies: Vec<[u32; 2]>,
+    /// What the patches hold, see [`bodies`](crate::bodies).
+    pub(crate) data: TextureView,
+    /// The address of each patch's body.
+    pub(crate) bodies: Vec<u32>,
+    pub(crate) lattice: Option<Lattice>,
     place: Option<Place>,
 }
 
@@ -36,41 +40,46 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SceneLayout {
     pub(crate) components: Components,
+    pub(crate) shape: Shape,
+    /// Patches lie on a lattice.
+    pub(crate) is_lattice: bool,
     /// Polynomials have other coordinates than weights.
     pub(crate) own_frames: bool,
-    /// Buffers of the dataset's data and of regions.
-    pub(crate) chunks: [usize; 2],
-    /// Pairs of words that one binding shows.
-    pub(crate) chunk_pairs: u32,
+    pub(crate) has_holes: bool,
 }
 
 /// A region on the card.
 #[derive(Debug)]
 pub(crate) struct Place {
     pub(crate) region: Region,
-    pub(crate) buffers: Vec<Buffer>,
+    pub(crate) texture: TextureView,
     /// Where list and records begin.
-    pub(crate) addresses: [u32; 2],
+    pub(crate) list: u32,
+    pub(crate) patches: u32,
 }
 
 impl Scene {
-    /// Uploads a field; `most` bounds the bytes of a binding.
+    /// Uploads a field; a texture has `rows` rows at most.
     pub(crate) fn new(
         gpu: &Gpu,
         generation: u64,
         field: &Field<'_>,
-        most: u64,
+        rows: u32,
     ) -> Result<Self, GpuError> {
         let groups = Groups::new(&field.step.functions);
-        let Bodies { pairs, patches } = Bodies::new(field, &groups);
-        let chunk_pairs = (most / 8) as u32;
-        let data = upload(gpu, "the coefficients", &pairs, chunk_pairs, MOST_CHUNKS[0])?;
-        let components = Components::new(field.components());
-        let chunks = [data.len(), 1];
+        let Bodies { words, patches, shape } = Bodies::new(field, &groups);
+        let data = upload(gpu, "the coefficients", &words, rows)?;
         let own_frames = has_own_frames(field);
-        let layout = SceneLayout { components, own_frames, chunks, chunk_pairs };
+        let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
+        let layout = SceneLayout {
+            components: Components::new(field.components()),
+            shape,
+            is_lattice: lattice.is_some(),
+            own_frames,
+            has_holes: !field.domain.holes.is_empty(),
+        };
         let groups = Arc::new(groups);
-        Ok(Self { generation, layout, groups, data, bodies: patches, place: None })
+        Ok(Self { generation, layout, groups, data, bodies: patches, lattice, place: None })
     }
 
     /// Sees to it that the patches of a view are on the card.
@@ -79,18 +88,18 @@ impl Scene {
         gpu: &Gpu,
         field: &Field<'_>,
         view: &View,
+        rows: u32,
     ) -> Result<(), GpuError> {
         let shows = |place: &Place| place.region.shows(field, view);
         if self.place.as_ref().is_some_and(shows) {
             return Ok(());
         }
-        let region = Region::new(field, view);
-        let places = region.pairs(field, &self.bodies);
-        let what = "the patches in sight";
-        let buffers = upload(gpu, what, &places.pairs, self.layout.chunk_pairs, MOST_CHUNKS[1])?;
-        self.layout.chunks[1] = buffers.len();
-        let addresses = [places.list, places.patches];
-        self.place = Some(Place { region, buffers, addresses });
+        let lattice = self.lattice.as_ref();
+        let region = Region::new(field, view, lattice);
+        let Places { words, list, patches } =
+            region.places(field, self.layout.own_frames, lattice, &self.bodies);
+        let texture = upload(gpu, "the patches in sight", &words, rows)?;
+        self.place = Some(Place { region, texture, list, patches });
         Ok(())
     }
 
@@ -112,33 +121,61 @@ impl Scene {
     }
 }
 
-/// Uploads pairs of words into as many buffers as bindings need, at least one.
-fn upload(
-    gpu: &Gpu,
-    what: &str,
-    pairs: &[[u32; 2]],
-    chunk_pairs: u32,
-    most: usize,
-) -> Result<Vec<Buffer>, GpuError> {
-    let chunk = chunk_pairs as usize;
-    if pairs.len() > chunk * most {
-        let (needed, most) = (8 * pairs.len() as u64, 8 * (chunk * most) as u64);
+/// Uploads words as a texture of quads.
+fn upload(gpu: &Gpu, what: &str, words: &[u32], most: u32) -> Result<TextureView, GpuError> {
+    let quads = words.len().div_ceil(4).max(1);
+    let rows = quads.div_ceil(TEXELS as usize);
+    let size_of = |rows: usize| 16 * u64::from(TEXELS) * rows as u64;
+    if rows > most as usize {
+        let (needed, most) = (size_of(rows), size_of(most as usize));
         return Err(GpuError::TooLarge { what: what.to_owned(), needed, most });
     }
-    let empty: &[[u32; 2]] = &[[0; 2]];
-    let pairs = if pairs.is_empty() { empty } else { pairs };
-    let one = |part: &[[u32; 2]]| storage(gpu, what, part.as_flattened());
-    gpu.checked(what, || pairs.chunks(chunk).map(one).collect())
+    gpu.checked(what, || {
+        let texture = gpu.device().create_texture(&TextureDescriptor {
+            label: Some(what),
+            size: Extent3d { width: TEXELS, height: rows as u32, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: TextureDimension::D2,
+            format: TextureFormat::Rgba32Uint,
+            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        for (row, part) in (0..).step_by(ROWS_AT_ONCE).zip(words.chunks(WORDS_AT_ONCE)) {
+            write_rows(gpu, &texture, row, part);
+        }
+        texture.create_view(&TextureViewDescriptor::default())
+    })
 }
 
-/// A buffer with these words.
-pub(crate) fn storage(gpu: &Gpu, label: &str, words: &[u32]) -> Buffer {
-    let buffer = gpu.device().create_buffer(&BufferDescriptor {
-        label: Some(label),
-        size: 4 * words.len() as u64,
-        usage: BufferUsages::STORAGE | BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    gpu.queue().write_buffer(&buffer, 0, &bytes(words));
-    buffer
+/// Rows that are written at once: 32 MiB, so that staging them takes little beside the data.
+const ROWS_AT_ONCE: usize = 256;
+
+const WORDS_AT_ONCE: usize = 4 * TEXELS as usize * ROWS_AT_ONCE;
+
+/// Writes words from the beginning of a row on; the last row may be short.
+fn write_rows(gpu: &Gpu, texture: &Texture, row: u32, words: &[u32]) {
+    let in_row = 4 * TEXELS as usize;
+    let (full, rest) = words.split_at(words.len() / in_row * in_row);
+    let height = (full.len() / in_row) as u32;
+    for (y, words, width, height) in
+        [(row, full, TEXELS, height), (row + height, rest, rest.len().div_ceil(4) as u32, 1)]
+    {
+        if words.is_empty() {
+            continue;
+        }
+        let mut words = words.to_vec();
+        words.resize(words.len().next_multiple_of(4), 0);
+        let target = TexelCopyTextureInfo {
+            origin: Origin3d { x: 0, y, z: 0 },
+            ..texture.as_image_copy()
+        };
+        let layout = TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(16 * width),
+            rows_per_image: None,
+        };
+        let size = Extent3d { width, height, depth_or_array_layers: 1 };
+        gpu.queue().write_texture(target, &bytes(&words), layout, size);
+    }
 }

@@ -2,13 +2,14 @@
 
 use ppum::dataset::FieldData;
 use ppum::field::Field;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::bodies::Components;
 use crate::geometry::Geometry;
 use crate::layout::{halves, record};
-use crate::region::Region;
+use crate::lattice::{Lattice, NO_PATCH};
+use crate::scene::Place;
 
 record! {
     /// The uniform `view` of the shaders.
@@ -18,8 +19,18 @@ record! {
         /// Lower left corner of the bins relative to the region's anchor, high and low.
         grid_high: vec2f,
         grid_low: vec2f,
-        /// One over the size of a bin.
+        /// Size of a bin, high and low, and one over it.
+        pitch_high: vec2f,
+        pitch_low: vec2f,
         per_pitch: vec2f,
+        /// One over the half-extent of the patches of a lattice.
+        per_half: vec2f,
+        /// Centre of the first pixel relative to the region's anchor, and the steps to the next column and
+        /// row, high and low.
+        first_high: vec2f,
+        first_low: vec2f,
+        step_high: vec2f,
+        step_low: vec2f,
         /// Columns and rows of the picture.
         pixels: vec2u,
         /// Columns and rows of the grid of bins.
@@ -29,9 +40,7 @@ record! {
         inside_end: vec2u,
         /// Side of a pixel.
         pixel_size: f32,
-        /// Addresses in the view's data: columns, rows, reference, cracks, holes.
-        columns: u32,
-        rows: u32,
+        /// Addresses in the view's data: reference, cracks, holes.
         reference: u32,
         cracks: u32,
         holes: u32,
@@ -39,7 +48,7 @@ record! {
         /// Addresses in the region: list of the bins, records of the patches.
         list: u32,
         patches: u32,
-        /// The patch whose φ is wanted, by its number in the region.
+        /// The patch whose φ is wanted, by the address of its body.
         chosen: u32,
         /// The component that is wanted.
         component: u32,
@@ -57,7 +66,7 @@ record! {
 #[derive(Clone, Debug)]
 pub(crate) struct Seen {
     pub(crate) record: ViewRecord,
-    /// Geometry, columns, rows, reference.
+    /// Geometry, then the reference.
     pub(crate) pairs: Vec<[f32; 2]>,
 }
 
@@ -67,42 +76,45 @@ impl Seen {
         field: &Field<'_>,
         view: &View,
         geometry: Geometry,
-        (region, places): (&Region, [u32; 2]),
+        place: &Place,
+        lattice: Option<&Lattice>,
     ) -> Self {
         let Geometry { mut pairs, cracks, holes, n_holes } = geometry;
-        let from_anchor = view.center - region.anchor;
-        let [columns, rows] = view.pixels;
-        let mut table = |count: u32, at: &dyn Fn(u32) -> f64| {
-            let start = pairs.len() as u32;
-            pairs.extend((0..count).map(|k| halves(at(k))));
-            start
-        };
-        let columns = table(columns, &|i| from_anchor.x + view.column_offset(i));
-        let rows = table(rows, &|j| from_anchor.y + view.row_offset(j));
         let reference = pairs.len() as u32;
         pairs.extend(reference_of(field, view.center));
         let [xs, ys] = view.inside(&field.domain.bounds);
-        let bins = &region.bins;
-        let ([xh, xl], [yh, yl]) = (halves(bins.origin.x), halves(bins.origin.y));
+        let Place { region, list, patches, .. } = place;
+        let (bins, side) = (&region.bins, view.pixel_size());
+        let [grid_high, grid_low] = region.halves(bins.origin);
+        let [pitch_high, pitch_low] = region.halves(bins.pitch);
+        let first = (view.center - region.anchor) + view.offset(0, 0);
+        let [first_high, first_low] = region.halves(first);
+        let [step_high, step_low] = region.halves(vec2(side, -side));
+        let one_over = |v: Vec2| [(1.0 / v.x) as f32, (1.0 / v.y) as f32];
         let record = ViewRecord {
             center: [view.center.x as f32, view.center.y as f32],
-            grid_high: [xh, yh],
-            grid_low: [xl, yl],
-            per_pitch: [(1.0 / bins.pitch.x) as f32, (1.0 / bins.pitch.y) as f32],
+            grid_high,
+            grid_low,
+            pitch_high,
+            pitch_low,
+            per_pitch: one_over(bins.pitch),
+            per_half: lattice.map_or([0.0; 2], |lattice| one_over(lattice.half)),
+            first_high,
+            first_low,
+            step_high,
+            step_low,
             pixels: view.pixels,
             grid_size: bins.size,
             inside_first: [xs.start as u32, ys.start as u32],
             inside_end: [xs.end as u32, ys.end as u32],
-            pixel_size: view.pixel_size() as f32,
-            columns,
-            rows,
+            pixel_size: side as f32,
             reference,
             cracks,
             holes,
             n_holes,
-            list: places[0],
-            patches: places[1],
-            chosen: u32::MAX,
+            list: *list,
+            patches: *patches,
+            chosen: NO_PATCH,
             ..ViewRecord::default()
         };
         Self { record, pairs }

@@ -36,7 +36,9 @@ pub(crate) const POINT_FUNCTIONS: [(&str, &str); 8] = [
 pub(crate) const LOAD: &str = include_str!("shaders/load.wgsl");
 /// Pixels and where they are.
 pub(crate) const PIXEL: &str = include_str!("shaders/pixel.wgsl");
-/// Finding the patches of a pixel.
+/// Finding the patches of a pixel on a uniform cover.
+pub(crate) const LATTICE: &str = include_str!("shaders/lattice.wgsl");
+/// Finding the patches of a pixel on any cover.
 pub(crate) const BINS: &str = include_str!("shaders/bins.wgsl");
 /// Patches and what they hold.
 pub(crate) const PATCH: &str = include_str!("shaders/patch.wgsl");

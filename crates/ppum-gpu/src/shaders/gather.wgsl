@@ -2,6 +2,9 @@
 
 // Everything known at a pixel. Sums are divided once:
 //   S = Σ W_i     U = Σ W_i (v_i − reference)     u = U / S + reference     ∇u = (∇U − u ∇S) / S
+//
+// Processors that run many pixels in step, as all do, take every branch that one of them takes, and some take all. So
+// the work is in loops over what is there: over the patches that cover the pixel, then over their terms.
 fn gathered(pixel: Pixel) -> Sample {
     var weight: Jet;
     var u: array<Jets, GROUPS>;
@@ -9,28 +12,58 @@ fn gathered(pixel: Pixel) -> Sample {
     var overlap = 0.0;
     var part = 0.0;
     let bin = bin_of(pixel);
-    for (var k = 0u; k < bin.y; k++) {
-        let index = bin_entry(bin.x + k);
-        let at = patch_address(index);
-        let support = place_in(at, pixel);
-        if !covers(support.xi) {
-            continue;
-        }
-        let w = weight_tensor(support.xi, support.inverse);
-        weight = jet_plus(weight, w);
-        part += select(0.0, w.v, index == view.chosen);
-        if HAS_FIELD {
-            let body = load_place(at + 3u);
-            if overlap == 0.0 {
-                reference = reference_of(body);
+    for (var first = 0u; first < bin.count; first += 32u) {
+        let covering = covering_of(bin, first, pixel);
+        var enriched = 0u;
+        for (var rest = covering; rest != 0u; rest &= rest - 1u) {
+            let k = first + firstTrailingBit(rest);
+            let candidate = candidate_of(bin, k, pixel);
+            let w = weight_tensor(candidate.support.xi, candidate.support.inverse);
+            weight = jet_plus(weight, w);
+            part += select(0.0, w.v, candidate.body == view.chosen);
+            if HAS_FIELD {
+                let body = body_at(candidate.body);
+                if overlap == 0.0 {
+                    reference = reference_of(body);
+                }
+                let place = polynomial_place(candidate, pixel);
+                let v = smooth_field(body, place, pixel.offset, reference);
+                for (var g = 0u; g < GROUPS; g++) {
+                    u[g] = jets_plus(u[g], jets_times(w, v[g]));
+                }
+                enriched |= select(0u, 1u << (k - first), body.terms > 0u);
             }
-            let place = polynomial_place(at, support, pixel);
-            let v = local_field(body, place, pixel.offset, reference);
-            for (var g = 0u; g < GROUPS; g++) {
-                u[g] = jets_plus(u[g], jets_times(w, v[g]));
+            overlap += 1.0;
+        }
+        if HAS_FIELD && (HAS_CONSTANTS || HAS_POLYNOMIALS) {
+            // the terms of all patches in one loop
+            var left = 0u;
+            var next = 0u;
+            var w: Jet;
+            var place: Place;
+            loop {
+                if left == 0u {
+                    if enriched == 0u {
+                        break;
+                    }
+                    let k = first + firstTrailingBit(enriched);
+                    enriched &= enriched - 1u;
+                    let candidate = candidate_of(bin, k, pixel);
+                    let body = body_at(candidate.body);
+                    w = weight_tensor(candidate.support.xi, candidate.support.inverse);
+                    place = polynomial_place(candidate, pixel);
+                    left = body.terms;
+                    next = body.others;
+                }
+                let term = term_at(next);
+                let v = other_field(term, place, pixel.offset);
+                for (var g = 0u; g < GROUPS; g++) {
+                    u[g] = jets_plus(u[g], jets_times(w, v[g]));
+                }
+                left -= 1u;
+                next = term.next;
             }
         }
-        overlap += 1.0;
     }
     for (var g = 0u; g < GROUPS; g++) {
         u[g] = jets_over(u[g], weight);

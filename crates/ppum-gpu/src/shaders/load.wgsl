@@ -1,10 +1,14 @@
-// All data are read here. Pairs of words: of the dataset by `load`, of the region by `load_place`, both
-// generated, since they may be in several buffers; of the view by `load_view`.
+// All data are read here. Quads of words: of the dataset by `load`, of the region by `load_place`; pairs of
+// the view by `load_view`.
+
+fn load(at: u32) -> vec4<u32> {
+    return textureLoad(data, vec2<u32>(at % TEXELS, at / TEXELS), 0);
+}
+
+fn load_place(at: u32) -> vec4<u32> {
+    return textureLoad(places, vec2<u32>(at % TEXELS, at / TEXELS), 0);
+}
 
 fn load_view(at: u32) -> vec2<f32> {
     return view_data[at];
-}
-
-fn load_pair(at: u32) -> vec2<f32> {
-    return bitcast<vec2<f32>>(load(at));
 }

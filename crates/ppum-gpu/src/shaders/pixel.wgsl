@@ -11,17 +11,22 @@ struct Pixel {
 }
 
 fn pixel_at(index: vec2<u32>) -> Pixel {
-    let x = load_view(view.columns + index.x);
-    let y = load_view(view.rows + index.y);
-    let twice = 2.0 * vec2<f32>(index) + 1.0 - vec2<f32>(view.pixels);
+    let steps = vec2<f32>(index);
+    // of highs every step is exact
+    let high = view.first_high + steps * view.step_high;
+    let low = view.first_low + steps * view.step_low;
+    let twice = 2.0 * steps + 1.0 - vec2<f32>(view.pixels);
     let offset = vec2<f32>(0.5, -0.5) * twice * view.pixel_size;
-    return Pixel(index, vec2<f32>(x.x, y.x), vec2<f32>(x.y, y.y), offset);
+    return Pixel(index, high, low, offset);
 }
 
 // True for pixels of the domain.
 fn is_inside(pixel: Pixel) -> bool {
     let after = all(pixel.index >= view.inside_first);
     let before = all(pixel.index < view.inside_end);
+    if !HAS_HOLES {
+        return after && before;
+    }
     return after && before && !holes_contain(view.holes, view.n_holes, pixel.offset);
 }
 

@@ -4,6 +4,18 @@
 // reciprocal scales of ξ. At `at` are the coefficients in the order they are needed: b = degree … 0, for
 // each a = degree - b … 0, all components of one side by side.
 fn polynomial(at: u32, degree: u32, xi: vec2<f32>, inverse: vec2<f32>) -> Jets {
+    let last = at + ((degree + 1u) * (degree + 2u) / 2u - 1u) * LANE_PAIRS;
+    return polynomial_with(at, degree, xi, inverse, load_lanes(last));
+}
+
+// The same with another constant in place of the last coefficient.
+fn polynomial_with(
+    at: u32,
+    degree: u32,
+    xi: vec2<f32>,
+    inverse: vec2<f32>,
+    constant: Lanes,
+) -> Jets {
     var sum = jets_zero();
     var next = at;
     // `row` is degree - b
@@ -19,7 +31,8 @@ fn polynomial(at: u32, degree: u32, xi: vec2<f32>, inverse: vec2<f32>) -> Jets {
             if ORDER >= 1u {
                 px = px * xi.x + p;
             }
-            p = p * xi.x + load_lanes(next);
+            let is_last = row == degree && k == row;
+            p = p * xi.x + select(load_lanes(next), constant, is_last);
             next += LANE_PAIRS;
         }
         if ORDER >= 2u {

@@ -17,7 +17,8 @@ struct Quad {
     // The same in the frame of the polynomials.
     @location(3) @interpolate(flat) frame_xi: vec2<f32>,
     @location(4) @interpolate(flat) frame_step: vec2<f32>,
-    @location(5) @interpolate(flat) index: u32,
+    // The address of what the patch holds, which tells it from all others.
+    @location(5) @interpolate(flat) body: u32,
 }
 
 struct Instance {
@@ -28,7 +29,7 @@ struct Instance {
     @location(3) step: vec2<f32>,
     @location(4) frame_xi: vec2<f32>,
     @location(5) frame_step: vec2<f32>,
-    @location(6) index: u32,
+    @location(6) body: u32,
 }
 
 @vertex
@@ -38,49 +39,59 @@ fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
     let at = corner / vec2<f32>(view.pixels) * 2.0 - 1.0;
     let position = vec4<f32>(at.x, -at.y, 0.0, 1.0);
     return Quad(
-        position, quad.first, quad.xi, quad.step, quad.frame_xi, quad.frame_step, quad.index
+        position, quad.first, quad.xi, quad.step, quad.frame_xi, quad.frame_step, quad.body
     );
 }
 
-// Steps from the first pixel of a quad.
-fn quad_steps(quad: Quad) -> vec2<f32> {
-    return vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
+// Where the pixel at hand lies in the frame that has ξ and these steps at the first pixel of its quad.
+fn quad_place(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Place {
+    let steps = vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
+    return Place(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
 }
 
-// The weight of a quad's patch; 0 on the pixels of its border that the patch does not cover.
-fn quad_weight(quad: Quad) -> Jet {
-    let xi = quad.xi + quad_steps(quad) * quad.step;
-    if !covers(xi) {
+// The weight of a patch; 0 on the pixels of its quad's border that it does not cover.
+fn quad_weight(support: Place) -> Jet {
+    if !covers(support.xi) {
         return Jet();
     }
-    let inverse = bitcast<vec2<f32>>(load_place(patch_address(quad.index) + 2u));
-    return weight_tensor(xi, inverse);
+    return weight_tensor(support.xi, support.inverse);
 }
 
 @fragment
 fn splat_weight(quad: Quad) -> Weights {
-    let w = quad_weight(quad);
-    let covered = covers(quad.xi + quad_steps(quad) * quad.step);
-    let part = select(0.0, w.v, quad.index == view.chosen);
-    return weights_of(w, select(0.0, 1.0, covered), part);
+    let support = quad_place(quad, quad.xi, quad.step);
+    let w = quad_weight(support);
+    let part = select(0.0, w.v, quad.body == view.chosen);
+    return weights_of(w, select(0.0, 1.0, covers(support.xi)), part);
 }
 
 // φ_i v_i of two components; a slot holds two of value, x, y, xx, xy, yy.
 @fragment
 fn splat_field(quad: Quad) -> Fields {
     let pixel = pixel_at(vec2<u32>(quad.position.xy));
-    let w = quad_weight(quad);
+    let support = quad_place(quad, quad.xi, quad.step);
+    let w = quad_weight(support);
     if w.v <= 0.0 {
         return Fields();
     }
     let phi = jet_over(w, weight_sum(pixel.index));
-    let at = patch_address(quad.index);
-    var place = Place(quad.xi + quad_steps(quad) * quad.step, bitcast<vec2<f32>>(load_place(at + 2u)));
+    var place = support;
     if OWN_FRAMES {
-        let inverse = bitcast<vec2<f32>>(load_place(at + 6u));
-        place = Place(quad.frame_xi + quad_steps(quad) * quad.frame_step, inverse);
+        place = quad_place(quad, quad.frame_xi, quad.frame_step);
     }
-    let v = local_field(load_place(at + 3u), place, pixel.offset, view_reference());
+    let body = body_at(quad.body);
+    var v = smooth_field(body, place, pixel.offset, view_reference());
+    if HAS_CONSTANTS || HAS_POLYNOMIALS {
+        var next = body.others;
+        for (var k = 0u; k < body.terms; k++) {
+            let term = term_at(next);
+            let other = other_field(term, place, pixel.offset);
+            for (var g = 0u; g < GROUPS; g++) {
+                v[g] = jets_plus(v[g], other[g]);
+            }
+            next = term.next;
+        }
+    }
     return fields_of(jets_times(phi, v[2u * PAIR / LANES]));
 }
 
@@ -99,7 +110,7 @@ fn weight_sum(index: vec2<u32>) -> Jet {
     let first = textureLoad(weights_0, index, 0);
     var sum = Jet(first.x, first.y, first.z, 0.0, 0.0, 0.0);
     if ORDER >= 2u {
-        let second = textureLoad(weights_1, index, 0);
+        let second = second_weights(index);
         sum.xx = second.x;
         sum.xy = second.y;
         sum.yy = second.z;
@@ -117,7 +128,7 @@ fn jet_over(a: Jet, b: Jet) -> Jet {
 fn splatted(pixel: Pixel) -> Sample {
     let sum = weight_sum(pixel.index);
     let overlap = textureLoad(weights_0, pixel.index, 0).w;
-    let part = textureLoad(weights_1, pixel.index, 0).w;
+    let part = second_weights(pixel.index).w;
     let reference = view_reference();
     var u: array<Jets, GROUPS>;
     if HAS_FIELD {
