@@ -145,7 +145,9 @@ mod tests {
                 let d = p - bins.origin;
                 let (i, j) = ((d.x / bins.pitch.x) as usize, (d.y / bins.pitch.y) as usize);
                 let node = &nodes[4 * (j * bins.size[0] as usize + i)..][..4];
-                for patch in (0..partition.len()).filter(|&k| partition.support(k).contains(p + anchor)) {
+                for patch in
+                    (0..partition.len()).filter(|&k| partition.support(k).contains(p + anchor))
+                {
                     assert!(node.contains(&(10 * patch as u32)), "patch {patch} at {p:?}");
                 }
             }

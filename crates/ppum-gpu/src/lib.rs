@@ -21,6 +21,8 @@ mod renderer;
 mod scene;
 mod seen;
 mod shader;
+#[doc(hidden)]
+pub mod testing;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -24,7 +24,7 @@ use crate::lattice::NO_PATCH;
 use crate::quads::QUAD_BYTES;
 use crate::quantity::{order_of, quantity_wgsl};
 use crate::region::record_quads;
-use crate::scene::{Scene, SceneLayout, TEXELS};
+use crate::scene::{SceneLayout, TEXELS};
 use crate::seen::ViewRecord;
 use crate::shader;
 use crate::weight::weight_wgsl;
@@ -112,7 +112,6 @@ pub(crate) struct FieldPass {
     pub(crate) slots: u32,
 }
 
-
 /// Slots that one pass writes: 32 bytes a pixel, what WebGPU promises.
 const SLOTS_PER_PASS: u32 = 2;
 
@@ -144,7 +143,7 @@ impl Output {
 impl Program {
     /// Composes the program; pipelines are made when it is drawn first.
     pub(crate) fn new(
-        scene: &Scene,
+        groups: &Groups,
         field: &Field<'_>,
         quantity: &Quantity,
         method: Method,
@@ -156,13 +155,20 @@ impl Program {
         };
         let has_field =
             matches!(output, Output::Component(_)) || quantity.source() != Source::Partition;
-        let formulas = formulas(&scene.groups, field, quantity, order)?;
+        let formulas = formulas(groups, field, quantity, order)?;
         let chosen = match quantity {
             Quantity::PartitionFunction(patch) => Some(*patch),
             _ => None,
         };
         let parts = Parts { order, has_field, formulas };
         Ok(Self { method, output, chosen, parts, made: None })
+    }
+
+    /// All texts that are compiled for a scene: that of the last pass, then those of splatting.
+    pub(crate) fn texts(&self, layout: SceneLayout) -> Vec<String> {
+        let text = |pass| self.parts.text(layout, self.method, self.output, pass);
+        let passes = self.parts.slots(layout).passes().filter(|_| self.method == Method::Splat);
+        [FieldPass::NONE].into_iter().chain(passes).map(text).collect()
     }
 
     /// The pipelines for a scene as it is.
@@ -382,11 +388,7 @@ impl Parts {
 fn types(layout: SceneLayout) -> String {
     let lanes = layout.components.lanes;
     let (of, load, view) = if lanes == 2 {
-        (
-            "a",
-            "lanes_from(load(at / 2u), at % 2u)",
-            "load_view(at)",
-        )
+        ("a", "lanes_from(load(at / 2u), at % 2u)", "load_view(at)")
     } else {
         (
             "vec4<f32>(a, b)",

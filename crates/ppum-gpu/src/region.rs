@@ -92,8 +92,7 @@ impl Region {
 
     /// A position relative to the anchor, high and low.
     pub(crate) fn halves(&self, d: Vec2) -> [[f32; 2]; 2] {
-        let ([xh, xl], [yh, yl]) =
-            (halves_by(self.quantum(), d.x), halves_by(self.quantum(), d.y));
+        let ([xh, xl], [yh, yl]) = (halves_by(self.quantum(), d.x), halves_by(self.quantum(), d.y));
         [[xh, yh], [xl, yl]]
     }
 

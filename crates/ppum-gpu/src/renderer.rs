@@ -120,9 +120,7 @@ impl Renderer {
     /// # Errors
     /// [`GpuError::TooLarge`] if it does not fit into a texture: 1 GiB on any device, 2 GiB on most.
     pub fn upload(&mut self, field: &Field<'_>) -> Result<Scene, GpuError> {
-        self.again(|renderer| {
-            Scene::new(&renderer.gpu, renderer.generation, field, renderer.rows)
-        })
+        self.again(|renderer| Scene::new(&renderer.gpu, renderer.generation, field, renderer.rows))
     }
 
     /// Compiles a quantity for a scene. The functions and the weight are those of `field`, the one that was
@@ -142,7 +140,7 @@ impl Renderer {
     ) -> Result<Program, RenderError> {
         quantity.check(field)?;
         scene.check(field)?;
-        let mut program = Program::new(scene, field, quantity, method, output)?;
+        let mut program = Program::new(&scene.groups, field, quantity, method, output)?;
         self.again(|renderer| {
             program.made(&renderer.gpu, renderer.generation, scene.layout).map(|_| ())
         })?;

@@ -166,10 +166,8 @@ fn write_rows(gpu: &Gpu, texture: &Texture, row: u32, words: &[u32]) {
         }
         let mut words = words.to_vec();
         words.resize(words.len().next_multiple_of(4), 0);
-        let target = TexelCopyTextureInfo {
-            origin: Origin3d { x: 0, y, z: 0 },
-            ..texture.as_image_copy()
-        };
+        let target =
+            TexelCopyTextureInfo { origin: Origin3d { x: 0, y, z: 0 }, ..texture.as_image_copy() };
         let layout = TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(16 * width),

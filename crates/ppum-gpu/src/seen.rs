@@ -7,8 +7,8 @@ use ppum_render::view::View;
 
 use crate::bodies::Components;
 use crate::geometry::Geometry;
-use crate::layout::{halves, record};
 use crate::lattice::{Lattice, NO_PATCH};
+use crate::layout::{halves, record};
 use crate::scene::Place;
 
 record! {

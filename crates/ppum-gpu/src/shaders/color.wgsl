@@ -1,7 +1,7 @@
 // The 1D transfer function: values to colours, as Picture does it.
 
 // Position of a value on the scale, 0 and 1 at the ends of the range.
-fn scaled(value: f32) -> f32 {
+fn scaled_value(value: f32) -> f32 {
     if view.scale == LOG {
         return log(value);
     }
@@ -21,7 +21,7 @@ fn color_of(value: f32) -> vec4<f32> {
     if value > view.range_max {
         return textureLoad(palette, vec2<u32>(PALETTE + 1u, 0u), 0);
     }
-    let position = (scaled(value) - view.scale_start) * view.per_span;
+    let position = (scaled_value(value) - view.scale_start) * view.per_span;
     let entry = clamp(position, 0.0, 1.0) * f32(PALETTE - 1u) + 0.5;
     return textureLoad(palette, vec2<u32>(u32(entry), 0u), 0);
 }

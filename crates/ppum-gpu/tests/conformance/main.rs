@@ -4,12 +4,14 @@
 //! skipped, or fail if `PPUM_REQUIRE_GPU` is set.
 
 mod colors;
+mod control;
 mod corpus;
 mod derivatives;
 mod lost;
 mod parts;
 mod replaced;
 mod series;
+mod texts;
 
 use std::fmt::Display;
 
