@@ -1,6 +1,7 @@
 //! What tests share, and the functions of shaders against their twins.
 
 mod compute;
+mod corpus;
 mod points;
 
 use crate::{Choice, Gpu, GpuError};

@@ -13,7 +13,7 @@ mod value;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-pub use backend::Shader;
+pub use backend::{Shader, tells_wrong_derivative, with_wrong_derivative};
 use interpreter::Frame;
 use value::Value;
 
