@@ -3,6 +3,7 @@
 mod compute;
 mod corpus;
 mod points;
+mod texts;
 
 use crate::{Choice, Gpu, GpuError};
 

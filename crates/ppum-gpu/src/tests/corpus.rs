@@ -1,10 +1,10 @@
-//! The conformance corpus of formulas on the driver.
+//! Formulas on the driver: their conformance corpus and their elementary functions.
 
 use std::collections::BTreeMap;
 
 use ppum::formula::wgsl_prelude;
 use ppum_testkit::corpus::{self, Backend, Case, Outcome, SHADER, jets, orders, parse};
-use ppum_testkit::wgsl::{tells_wrong_derivative, with_wrong_derivative};
+use ppum_testkit::wgsl::{ELEMENTARY, tells_wrong_derivative, with_wrong_derivative};
 
 use super::compute::run;
 use super::gpu_or_skip;
@@ -112,4 +112,22 @@ fn wrong_derivatives_fail_on_the_driver() {
     let report = corpus::check(&mut driver, &SHADER, &cases);
     assert!(cases.len() >= 30, "{} cases", cases.len());
     assert_eq!(report.failures.len(), cases.len());
+}
+
+/// Compilers keep the accuracy of the prelude's functions: none puts the parts of its constants together.
+#[test]
+fn functions_are_accurate_on_the_driver() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let (mut text, mut rows) = (wgsl_prelude().to_owned(), Vec::new());
+    let mut choices = String::new();
+    for (k, function) in (0u8..).zip(&ELEMENTARY) {
+        text += &function.jets(0).wgsl(&format!("formula_{k}"));
+        choices += &format!("case {k}u: {{ put(k, 0u, formula_{k}(input(k, 0u))[0]); }}\n");
+        rows.extend(function.arguments(2000).into_iter().map(|a| [a, f32::from(k)]));
+    }
+    text += &format!("fn row(k: u32) {{ switch u32(input(k, 1u)) {{ {choices} default: {{}} }} }}");
+    let found = run(&gpu, &text, &[], &rows, 1).expect("the functions run");
+    for ([a, k], found) in rows.into_iter().zip(found) {
+        ELEMENTARY[k as usize].check(a, found[0]);
+    }
 }

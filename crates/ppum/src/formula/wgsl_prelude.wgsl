@@ -100,11 +100,6 @@ fn ppum_tanh(a: f32) -> f32 {
     return select(size, -size, a < 0.0);
 }
 
-// The first 192 binary digits of 2/pi behind the point, after 32 zeros.
-const PPUM_TWO_OVER_PI = array<u32, 7>(
-    0u, 0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u
-);
-
 // The number of quarter turns nearest to a >= 2^13, mod 4, and the rest in quarter turns, to 3e-9 (Payne and
 // Hanek 1983).
 fn ppum_far_quarters(a: f32) -> vec2<f32> {
@@ -112,13 +107,16 @@ fn ppum_far_quarters(a: f32) -> vec2<f32> {
     let mantissa = (bits & 0x7fffffu) | 0x800000u;
     // a is mantissa times a power of 2: the digits of 2/pi that matter, from the one of weight 2 on
     let first = (bits >> 23u) - 120u;
-    let word = min(first / 32u, 4u);
+    let word = first / 32u;
+    // 0 and 192 binary digits of 2/pi behind the point; drivers are slow with arrays
+    var digits = vec3<u32>(0u, 0xa2f9836eu, 0x4e441529u);
+    if word > 0u { digits = vec3<u32>(0xa2f9836eu, 0x4e441529u, 0xfc2757d1u); }
+    if word > 1u { digits = vec3<u32>(0x4e441529u, 0xfc2757d1u, 0xf534ddc0u); }
+    if word > 2u { digits = vec3<u32>(0xfc2757d1u, 0xf534ddc0u, 0xdb629599u); }
+    if word > 3u { digits = vec3<u32>(0xf534ddc0u, 0xdb629599u, 0x3c439041u); }
     let shift = first % 32u;
-    let a0 = PPUM_TWO_OVER_PI[word];
-    let a1 = PPUM_TWO_OVER_PI[word + 1u];
-    let a2 = PPUM_TWO_OVER_PI[word + 2u];
-    let high = (a0 << shift) | ((a1 >> 1u) >> (31u - shift));
-    let low = (a1 << shift) | ((a2 >> 1u) >> (31u - shift));
+    let high = (digits.x << shift) | ((digits.y >> 1u) >> (31u - shift));
+    let low = (digits.y << shift) | ((digits.z >> 1u) >> (31u - shift));
     // in units of 2^-30, mod 4
     let product = mantissa * high + u32(f32(mantissa) * (f32(low) * 0x1p-32));
     let count = (product + 0x20000000u) >> 30u;
