@@ -25,8 +25,6 @@ mod shader;
 pub mod testing;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod texts_tests;
 mod weight;
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -1,7 +1,9 @@
 //! What tests share, and the functions of shaders against their twins.
 
 mod compute;
+mod corpus;
 mod points;
+mod texts;
 
 use crate::{Choice, Gpu, GpuError};
 

@@ -6,7 +6,9 @@ use ppum::formula::{Formula, FormulaJets, Scope, Table, WgslError, wgsl_prelude}
 use ppum::library::{ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
 use ppum_testkit::corpus::{self, SHADER};
 use ppum_testkit::random::Random;
-use ppum_testkit::wgsl::{Module, Shader};
+use ppum_testkit::wgsl::{
+    ELEMENTARY, Module, Shader, tells_wrong_derivative, with_wrong_derivative,
+};
 
 fn jets(texts: &[&str], scope: &Scope, order: usize) -> FormulaJets {
     let parse =
@@ -43,22 +45,10 @@ fn corpus_conforms() {
 /// Texts whose last derivative is wrong by more than what rounding may do do not conform.
 #[test]
 fn wrong_derivatives_fail() {
-    let wrong = |text: String| {
-        let (before, results) = text.rsplit_once(">(").expect("an array is returned");
-        let mut results: Vec<&str> = results.trim_end_matches(");\n}\n").split(", ").collect();
-        let last = results.pop().expect("a result");
-        let last = format!("{last} + (1.0 + abs({last}))");
-        results.push(&last);
-        format!("{before}>({});\n}}\n", results.join(", "))
-    };
     let mut cases = corpus::cases();
-    cases.retain(|case| {
-        let last = case.expected.len() - 1;
-        let expected = case.expected[last][case.expected[last].len() - 1];
-        let limit = SHADER.of(&case.bounds[last], expected);
-        last > 0 && case.not_single.is_none() && 1.0 + expected.abs() > 2.0 * limit
-    });
-    let mut shader = Shader::with_edited(&cases, wrong).unwrap_or_else(|error| panic!("{error}"));
+    cases.retain(tells_wrong_derivative);
+    let shader = Shader::with_edited(&cases, with_wrong_derivative);
+    let mut shader = shader.unwrap_or_else(|error| panic!("{error}"));
     let report = corpus::check(&mut shader, &SHADER, &cases);
     assert!(cases.len() >= 700, "{} cases", cases.len());
     assert_eq!(report.failures.len(), cases.len());
@@ -299,6 +289,17 @@ fn angles_are_accurate() {
         let x = angle.sinh() as f32;
         let found = atan.call("f", &[x, 0.0]).expect("a number")[0];
         assert!(near(found, f64::from(x).atan()), "{x:e}: {found:e}");
+    }
+}
+
+#[test]
+fn functions_are_accurate() {
+    for function in ELEMENTARY {
+        let module = module(&[function.jets(0).wgsl("f")]);
+        for a in function.arguments(2000) {
+            let found = module.call("f", &[a]).unwrap_or_else(|error| panic!("{error}"));
+            function.check(a, found[0]);
+        }
     }
 }
 

@@ -28,7 +28,7 @@ impl Lab {
     }
 
     /// Where a command ends and what it says on standard error, with no driver to be found.
-    fn without_driver(&self, arguments: &str) -> (Option<i32>, String, String) {
+    pub(crate) fn without_driver(&self, arguments: &str) -> (Option<i32>, String, String) {
         let output = self.command(arguments).envs(HIDDEN).output().unwrap();
         let [text, complaint] =
             [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());

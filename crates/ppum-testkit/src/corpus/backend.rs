@@ -133,13 +133,18 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 /// Value and derivatives in one program; of more than two variables the value.
-pub(crate) fn jets(case: &Case, f: &Formula) -> FormulaJets {
+///
+/// # Panics
+/// When it cannot be compiled.
+#[must_use]
+pub fn jets(case: &Case, f: &Formula) -> FormulaJets {
     let order = if case.variables.len() > 2 { 0 } else { case.expected.len() - 1 };
     FormulaJets::new(&[f], order).unwrap_or_else(|error| panic!("{}: {error}", case.place))
 }
 
 /// The outputs of a [`FormulaJets`] order by order.
-pub(crate) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
+#[must_use]
+pub fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
     let n = case.variables.len();
     let counts = [1, n, n * (n + 1) / 2];
     let of_order = |count: usize| {
@@ -151,7 +156,11 @@ pub(crate) fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// The formula of a case.
-pub(crate) fn parse(case: &Case) -> Formula {
+///
+/// # Panics
+/// When it does not parse.
+#[must_use]
+pub fn parse(case: &Case) -> Formula {
     Formula::parse(&case.formula, &case.scope)
         .unwrap_or_else(|error| panic!("{}: {}\n{error}", case.place, case.formula))
 }

@@ -3,7 +3,7 @@
 //!
 //! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
-pub(crate) mod backend;
+mod backend;
 pub mod hostile;
 mod record;
 mod report;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 use ppum::formula::{Scope, Table};
 use record::{Record, records};
 
-pub use backend::{Backend, Derivatives, Lanes, Outcome, Scalar};
+pub use backend::{Backend, Derivatives, Lanes, Outcome, Scalar, jets, orders, parse};
 pub use report::{Report, check};
 pub use tolerance::{LANES, LANES_SINGLE, SCALAR, SHADER, Tolerance};
 

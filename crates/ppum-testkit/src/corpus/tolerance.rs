@@ -41,9 +41,10 @@ pub const LANES_SINGLE: Tolerance = Tolerance {
     rounds_inputs: true,
 };
 
-/// One point in single precision by the texts of WGSL, in an interpreter that rounds functions correctly.
+/// One point in single precision by the texts of WGSL, interpreted or on a driver.
 ///
-/// c = 2 as in [`SCALAR`]. f = 4: cube root and common logarithm are made of up to four rounded operations.
+/// c = 2 as in [`SCALAR`]. f = 4: the functions of the texts are right to two units of the last place, which are
+/// four roundoffs. √, logarithm and powers are the device's, to which WGSL allows more.
 pub const SHADER: Tolerance = Tolerance {
     unit: f32::EPSILON as f64 / 2.0,
     arithmetic: 2.0,

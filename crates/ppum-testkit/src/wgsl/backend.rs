@@ -3,8 +3,7 @@
 use ppum::formula::{FormulaJets, Scope, wgsl_prelude};
 
 use super::Module;
-use crate::corpus::backend::{jets, orders, parse};
-use crate::corpus::{Backend, Case, Outcome};
+use crate::corpus::{Backend, Case, Outcome, SHADER, jets, orders, parse};
 
 /// Single precision at one point: the text of [`FormulaJets::wgsl`] in the interpreter.
 ///
@@ -74,4 +73,27 @@ impl Backend for Shader {
         let out: Vec<f64> = out.into_iter().map(f64::from).collect();
         Outcome::Results(orders(case, &out))
     }
+}
+
+/// The text of a function whose last result is wrong by more than itself, for tests that must fail.
+///
+/// # Panics
+/// When it is not a text of [`FormulaJets::wgsl`].
+#[must_use]
+pub fn with_wrong_derivative(text: String) -> String {
+    let (before, results) = text.rsplit_once(">(").expect("an array is returned");
+    let mut results: Vec<&str> = results.trim_end_matches(");\n}\n").split(", ").collect();
+    let last = results.pop().expect("a result");
+    let last = format!("{last} + (1.0 + abs({last}))");
+    results.push(&last);
+    format!("{before}>({});\n}}\n", results.join(", "))
+}
+
+/// True if [`with_wrong_derivative`] makes an error of a case that rounding cannot make.
+#[must_use]
+pub fn tells_wrong_derivative(case: &Case) -> bool {
+    let last = case.expected.len() - 1;
+    let expected = case.expected[last][case.expected[last].len() - 1];
+    let limit = SHADER.of(&case.bounds[last], expected);
+    last > 0 && case.not_single.is_none() && 1.0 + expected.abs() > 2.0 * limit
 }

@@ -8,12 +8,14 @@
 //! rounded. Where WGSL leaves a result open, it is NaN, so that nobody can rely on it.
 
 mod backend;
+mod elementary;
 mod interpreter;
 mod value;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-pub use backend::Shader;
+pub use backend::{Shader, tells_wrong_derivative, with_wrong_derivative};
+pub use elementary::{ELEMENTARY, Elementary};
 use interpreter::Frame;
 use value::Value;
 

@@ -91,9 +91,10 @@ impl FormulaJets {
     /// [`FormulaJets::evaluate`]. Tables come as functions `table_0_of_name`, …, before it.
     ///
     /// `name` has to be a name that WGSL has no meaning for (`f32` has one), beginning with neither
-    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite or 0. Functions are as accurate as
-    /// the device's, infinities and NaN as well kept as the device does. WGSL promises arrays of up to
-    /// 2047 elements, hence tables of that many knots and cells, a quarter of the cells with two arguments.
+    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite or 0.
+    /// Functions are accurate to some units of the last place where WGSL promises less, except √, log and powers
+    /// that are not whole, which are the device's; infinities and NaN are as well kept as the device does. A
+    /// table makes a text as long as its cells are many.
     #[must_use]
     pub fn wgsl(&self, name: &str) -> String {
         wgsl::function(name, &self.scope, &self.program, |_| true)
@@ -103,7 +104,8 @@ impl FormulaJets {
     /// their order.
     ///
     /// # Errors
-    /// When a table or the number of inputs is beyond what WGSL promises to hold.
+    /// When a table has more than 2047 knots or cubics (one a cell, four with two arguments), or WGSL does not
+    /// promise to hold the number of inputs.
     pub fn wgsl_of_used(&self, name: &str) -> Result<String, WgslError> {
         wgsl::check(&self.program, self.used().count())?;
         Ok(wgsl::function(name, &self.scope, &self.program, |input| self.uses(input)))

@@ -85,6 +85,7 @@ mod tape;
 #[cfg(test)]
 mod tests;
 mod wgsl;
+mod wgsl_table;
 
 use std::fmt;
 use std::sync::Arc;

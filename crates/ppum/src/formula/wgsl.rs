@@ -4,14 +4,15 @@
 //! Operations that WGSL has not, or leaves open, are functions of [`wgsl_prelude`].
 //!
 //! Names cannot collide, whatever the names of a scope: inputs with names of our own keep them, others
-//! begin with `in_`, which no word of WGSL does; results are `v0`, `v1`, …; tables are functions that
-//! begin with `table_`, the prelude's begin with `ppum_`.
+//! begin with `in_`, which no word of WGSL does; results are `v0`, `v1`, …, all derivatives of a table at some
+//! arguments `place_0`, …; tables are functions that begin with `table_`, the prelude's begin with `ppum_`.
 
 use std::sync::Arc;
 
 use super::graph::{NodeId, Op};
 use super::operation::{Binary, Comparison, Unary};
 use super::program::Program;
+use super::wgsl_table::{self, MAX_ELEMENTS, elements};
 use super::{Scope, Table, VARIABLES};
 
 /// The functions that the texts of [`FormulaJets::wgsl`](super::FormulaJets::wgsl) call. A module needs
@@ -20,9 +21,6 @@ use super::{Scope, Table, VARIABLES};
 pub fn wgsl_prelude() -> &'static str {
     include_str!("wgsl_prelude.wgsl")
 }
-
-/// Most elements of an array that WGSL promises.
-const MAX_ELEMENTS: usize = 2047;
 
 /// Most parameters of a function that WGSL promises.
 const MAX_PARAMETERS: usize = 255;
@@ -33,13 +31,13 @@ const MAX_PARAMETERS: usize = 255;
 pub enum WgslError {
     /// A table.
     #[error(
-        "the table `{name}` makes an array of {elements} elements in WGSL, which has up to \
-         {MAX_ELEMENTS}; give it fewer knots"
+        "the table `{name}` has {elements} knots or cubics, too many to compile in WGSL; give it up to \
+         {MAX_ELEMENTS}"
     )]
     Table {
         /// Its name.
         name: String,
-        /// Elements of the longest array.
+        /// Its knots or cubics, whichever are more.
         elements: usize,
     },
     /// The inputs.
@@ -66,11 +64,6 @@ pub(super) fn check(program: &Program, count: usize) -> Result<(), WgslError> {
     }
 }
 
-/// Elements of the longest array of a table: its knots, or its cubics.
-fn elements(table: &Table) -> usize {
-    table.x().len().max(table.y().len()).max(table.coefficients().len() / 4)
-}
-
 /// The function of a program and those of its tables. Its parameters are the inputs whose indices are
 /// `kept`.
 pub(super) fn function(
@@ -85,7 +78,8 @@ pub(super) fn function(
     let parameters: Vec<String> = parameters.map(|(_, input)| format!("{input}: f32")).collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
-    let mut results = Results { function: name, inputs: &inputs, atoms: Vec::new(), lets: 0 };
+    let mut results =
+        Results { function: name, inputs: &inputs, atoms: Vec::new(), lets: 0, places: Vec::new() };
     for &op in program.ops() {
         text += &results.add(op);
     }
@@ -108,7 +102,7 @@ fn parameter(input: &str) -> String {
 
 /// A number in single precision, negative ones in parentheses. One that is not finite is made by a
 /// function: as a constant expression it is an error.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let value = value as f32;
     match (value.is_finite(), value.is_sign_negative()) {
         (true, false) => format!("{value:?}"),
@@ -125,6 +119,8 @@ struct Results<'a> {
     atoms: Vec<String>,
     /// Number of `let`s.
     lets: usize,
+    /// The tables and arguments whose derivatives are there: `place_0`, `place_1`, …
+    places: Vec<(u32, NodeId, Option<NodeId>)>,
 }
 
 impl Results<'_> {
@@ -151,6 +147,7 @@ impl Results<'_> {
         self.lets += 1;
         let (before, value) = match op {
             Op::Power(a, n) => power(&name, self.at(a), n),
+            Op::Table { table, orders, x, y } => self.table(table, orders, x, y),
             _ => (String::new(), self.expression(op)),
         };
         let lines = before + &format!("    let {name} = {value};\n");
@@ -160,12 +157,11 @@ impl Results<'_> {
     fn expression(&self, op: Op) -> String {
         let at = |id| self.at(id);
         match op {
-            Op::Constant(_) | Op::Truth(_) | Op::Input(_) | Op::Power(..) => {
+            Op::Constant(_) | Op::Truth(_) | Op::Input(_) | Op::Power(..) | Op::Table { .. } => {
                 unreachable!("written by the callers")
             }
             Op::Unary(op, a) => unary(op, at(a)),
             Op::Binary(op, a, b) => binary(op, at(a), at(b)),
-            Op::Table { table, orders, x, y } => self.table(table, orders, x, y),
             Op::Select(c, a, b) => format!("select({}, {}, {})", at(b), at(a), at(c)),
             Op::Compare(op, a, b) => format!("{} {} {}", at(a), comparison(op), at(b)),
             Op::Not(c) => format!("!{}", at(c)),
@@ -175,12 +171,25 @@ impl Results<'_> {
         }
     }
 
-    fn table(&self, table: u32, [m, n]: [u8; 2], x: NodeId, y: Option<NodeId>) -> String {
-        let (name, x) = (table_name(table, self.function), self.at(x));
-        match y {
-            None => format!("{name}({m}u, {x})"),
-            Some(y) => format!("{name}({m}u, {n}u, {x}, {})", self.at(y)),
+    /// A derivative of a table, and the line that finds all of them if they are not there.
+    fn table(
+        &mut self,
+        table: u32,
+        [m, n]: [u8; 2],
+        x: NodeId,
+        y: Option<NodeId>,
+    ) -> (String, String) {
+        let known = self.places.iter().position(|&place| place == (table, x, y));
+        let place = known.unwrap_or(self.places.len());
+        let order = if y.is_some() { format!("[{n}][{m}]") } else { format!("[{m}]") };
+        let value = format!("place_{place}{order}");
+        if known.is_some() {
+            return (String::new(), value);
         }
+        self.places.push((table, x, y));
+        let arguments: Vec<&str> = [x].into_iter().chain(y).map(|id| self.at(id)).collect();
+        let (name, arguments) = (table_name(table, self.function), arguments.join(", "));
+        (format!("    let place_{place} = {name}({arguments});\n"), value)
     }
 }
 
@@ -189,17 +198,17 @@ fn unary(op: Unary, a: &str) -> String {
         Unary::Neg => return format!("-{a}"),
         Unary::Sqrt => "sqrt",
         Unary::Cbrt => "ppum_cbrt",
-        Unary::Exp => "exp",
+        Unary::Exp => "ppum_exp",
         Unary::Log => "log",
         Unary::Log10 => "ppum_log10",
-        Unary::Sin => "sin",
-        Unary::Cos => "cos",
-        Unary::Tan => "tan",
-        Unary::Asin => "asin",
-        Unary::Acos => "acos",
+        Unary::Sin => "ppum_sin",
+        Unary::Cos => "ppum_cos",
+        Unary::Tan => "ppum_tan",
+        Unary::Asin => "ppum_asin",
+        Unary::Acos => "ppum_acos",
         Unary::Atan => "ppum_atan",
-        Unary::Sinh => "sinh",
-        Unary::Cosh => "cosh",
+        Unary::Sinh => "ppum_sinh",
+        Unary::Cosh => "ppum_cosh",
         Unary::Tanh => "ppum_tanh",
         Unary::Abs => "abs",
         Unary::Sign => "ppum_sign",
@@ -257,8 +266,9 @@ fn table_name(index: u32, function: &str) -> String {
 
 /// The functions of the tables that a program uses.
 fn tables(function: &str, program: &Program) -> String {
-    let text =
-        |(index, table): (u32, &Arc<Table>)| table_function(&table_name(index, function), table);
+    let text = |(index, table): (u32, &Arc<Table>)| {
+        wgsl_table::function(&table_name(index, function), table)
+    };
     used_tables(program).map(text).collect()
 }
 
@@ -268,67 +278,4 @@ fn used_tables(program: &Program) -> impl Iterator<Item = (u32, &Arc<Table>)> {
         program.ops().iter().any(|op| matches!(op, Op::Table { table, .. } if *table == index))
     };
     (0..).zip(program.tables().iter()).filter(move |(index, _)| is_used(*index))
-}
-
-/// The function of a table: what [`Table::derivative`] does.
-fn table_function(name: &str, table: &Table) -> String {
-    let cubics: Vec<String> = table.coefficients().chunks(4).map(cubic).collect();
-    let declared = array("cubics", "vec4<f32>", &cubics) + &knots('x', table.x());
-    let x = place('x', table.x().len());
-    let about = format!("// Derivatives of the table `{}`.\n", table.name());
-    if table.y().is_empty() {
-        return format!(
-            "{about}fn {name}(x_order: u32, x: f32) -> f32 {{\n{declared}{x}    return \
-             ppum_cubic(cubics[x_cell], x_order, x_distance);\n}}\n"
-        );
-    }
-    let (y_knots, y) = (knots('y', table.y()), place('y', table.y().len()));
-    let row = |k| format!("ppum_cubic(cubics[first + {k}u], x_order, x_distance)");
-    let rows: Vec<String> = (0..4).map(row).collect();
-    format!(
-        "{about}fn {name}(x_order: u32, y_order: u32, x: f32, y: f32) -> f32 {{\n{declared}{y_knots}{x}{y}    \
-         let first = 4u * (y_cell * {}u + x_cell);\n    let in_y = vec4<f32>(\n        {}\n    );\n    \
-         return ppum_cubic(in_y, y_order, y_distance);\n}}\n",
-        table.x().len() - 1,
-        rows.join(",\n        ")
-    )
-}
-
-fn cubic(coefficients: &[f64]) -> String {
-    let numbers: Vec<String> = coefficients.iter().map(|&c| number(c)).collect();
-    format!("vec4<f32>({})", numbers.join(", "))
-}
-
-fn knots(axis: char, knots: &[f64]) -> String {
-    let numbers: Vec<String> = knots.iter().map(|&knot| number(knot)).collect();
-    array(&format!("{axis}_knots"), "f32", &numbers)
-}
-
-/// The declaration of an array, constant unless a number is beyond single precision.
-fn array(name: &str, of: &str, items: &[String]) -> String {
-    let finite = items.iter().all(|item| !item.contains("ppum_from_bits"));
-    let kind = if finite { "const" } else { "let" };
-    format!("    {kind} {name} = array<{of}, {}>({});\n", items.len(), items.join(", "))
-}
-
-/// The lines that find the cell of an argument and the distance from its first knot, and return where a
-/// derivative is 0 because the argument is outside.
-fn place(axis: char, n: usize) -> String {
-    const LINES: &str = "    let X_inside = ppum_clamp(X, X_knots[0], X_knots[LAST]);
-    if (X_order > 0u) & ((X < X_inside) | (X > X_inside)) {
-        return 0.0;
-    }
-    var X_cell = 0u;
-    var X_end = LASTu;
-    while X_end - X_cell > 1u {
-        let middle = (X_cell + X_end) / 2u;
-        if X_knots[middle] <= X_inside {
-            X_cell = middle;
-        } else {
-            X_end = middle;
-        }
-    }
-    let X_distance = X_inside - X_knots[X_cell];
-";
-    LINES.replace('X', &axis.to_string()).replace("LAST", &(n - 1).to_string())
 }

@@ -33,6 +33,12 @@ fn ppum_clamp(a: f32, low: f32, high: f32) -> f32 {
     return select(select(a, low, a < low), high, a > high);
 }
 
+// A number of [-9, 9] as it is. Compilers that replace k b + (k c + d) by k (b + c) + d do not where this
+// stands around (k c + d).
+fn ppum_apart(a: f32) -> f32 {
+    return ppum_clamp(a, -9.0, 9.0);
+}
+
 // The real cube root: one step of Newton's method from a guess of single precision.
 fn ppum_cbrt(a: f32) -> f32 {
     let size = abs(a);
@@ -48,12 +54,139 @@ fn ppum_log10(a: f32) -> f32 {
     return log(a) * 0.4342944819;
 }
 
-// tanh; that of devices may overflow where it is 1.
-fn ppum_tanh(a: f32) -> f32 {
-    if abs(a) > 10.0 {
-        return ppum_sign(a);
+// e^a 2^n to two units of the last place, where WGSL promises 3 + 2|a|; n is whole, in [-8, 8].
+// a = k log(2) + t with |t| <= log(2)/2, the polynomial is the one of Cephes (Moshier 1992).
+fn ppum_exp_scaled(a: f32, n: f32) -> f32 {
+    // beyond these bounds it is 0 or infinite
+    let b = ppum_clamp(a, -110.0, 95.0);
+    let k = floor(b * 1.44269504 + 0.5);
+    // log(2) in two parts, the product with the first one is exact
+    let t = ppum_apart(b - k * 0.693359375) + k * 2.12194440e-4;
+    let p = ((((1.9875691500e-4 * t + 1.3981999507e-3) * t + 8.3334519073e-3) * t + 4.1665795894e-2) * t
+        + 1.6666665459e-1) * t + 5.0000001201e-1;
+    // powers of 2 by their bits, in two factors as one may not be a number
+    let exponent = u32(k + n + 254.0);
+    let half = exponent / 2u;
+    return (p * t * t + t + 1.0) * bitcast<f32>(half << 23u) * bitcast<f32>((exponent - half) << 23u);
+}
+
+fn ppum_exp(a: f32) -> f32 {
+    return ppum_exp_scaled(a, 0.0);
+}
+
+fn ppum_cosh(a: f32) -> f32 {
+    let half = ppum_exp_scaled(abs(a), -1.0);
+    return half + 0.25 / half;
+}
+
+fn ppum_sinh(a: f32) -> f32 {
+    if abs(a) <= 1.0 {
+        let s = a * a;
+        return ((2.03721912945e-4 * s + 8.33028376239e-3) * s + 1.66667160211e-1) * s * a + a;
     }
-    return tanh(a);
+    let half = ppum_exp_scaled(abs(a), -1.0);
+    let size = half - 0.25 / half;
+    return select(size, -size, a < 0.0);
+}
+
+fn ppum_tanh(a: f32) -> f32 {
+    if abs(a) <= 0.625 {
+        let s = a * a;
+        let p = (((-5.70498872745e-3 * s + 2.06390887954e-2) * s - 5.37397155531e-2) * s + 1.33314422036e-1) * s
+            - 3.33332819422e-1;
+        return p * s * a + a;
+    }
+    let size = 1.0 - 2.0 / (ppum_exp(2.0 * ppum_min(abs(a), 10.0)) + 1.0);
+    return select(size, -size, a < 0.0);
+}
+
+// The number of quarter turns nearest to a >= 2^13, mod 4, and the rest in quarter turns, to 3e-9 (Payne and
+// Hanek 1983).
+fn ppum_far_quarters(a: f32) -> vec2<f32> {
+    let bits = bitcast<u32>(a);
+    let mantissa = (bits & 0x7fffffu) | 0x800000u;
+    // a is mantissa times a power of 2: the digits of 2/pi that matter, from the one of weight 2 on
+    let first = (bits >> 23u) - 120u;
+    let word = first / 32u;
+    // 0 and 192 binary digits of 2/pi behind the point; drivers are slow with arrays
+    var digits = vec3<u32>(0u, 0xa2f9836eu, 0x4e441529u);
+    if word > 0u { digits = vec3<u32>(0xa2f9836eu, 0x4e441529u, 0xfc2757d1u); }
+    if word > 1u { digits = vec3<u32>(0x4e441529u, 0xfc2757d1u, 0xf534ddc0u); }
+    if word > 2u { digits = vec3<u32>(0xfc2757d1u, 0xf534ddc0u, 0xdb629599u); }
+    if word > 3u { digits = vec3<u32>(0xf534ddc0u, 0xdb629599u, 0x3c439041u); }
+    let shift = first % 32u;
+    let high = (digits.x << shift) | ((digits.y >> 1u) >> (31u - shift));
+    let low = (digits.y << shift) | ((digits.z >> 1u) >> (31u - shift));
+    // in units of 2^-30, mod 4
+    let product = mantissa * high + u32(f32(mantissa) * (f32(low) * 0x1p-32));
+    let count = (product + 0x20000000u) >> 30u;
+    let rest = product & 0x3fffffffu;
+    let signed = select(f32(rest), -f32(0x40000000u - rest), rest > 0x20000000u);
+    return vec2<f32>(f32(count & 3u), signed * 0x1p-30);
+}
+
+// Sine and cosine; WGSL promises three digits, and none beyond [-pi, pi]. The angle is reduced to
+// [-pi/4, pi/4], the polynomials are those of Cephes (Moshier 1992).
+fn ppum_sin_cos(a: f32) -> vec2<f32> {
+    let size = abs(a);
+    var quarters = floor(size * 0.636619772 + 0.5);
+    // pi/2 in three parts, the products with the first two are exact (Cody and Waite 1980)
+    var t = ppum_apart(ppum_apart(size - quarters * 1.5703125) - quarters * 4.837512969971e-4)
+        - quarters * 7.54978995489e-8;
+    if size >= 8192.0 {
+        let far = ppum_far_quarters(size);
+        quarters = far.x;
+        t = far.y * 1.57079633;
+    }
+    if size > 3.4028234e38 {
+        t = ppum_from_bits(0x7fc00000u);
+    }
+    let s = t * t;
+    let sine = ((-1.9515295891e-4 * s + 8.3321608736e-3) * s - 1.6666654611e-1) * s * t + t;
+    let cosine = ((2.443315711809948e-5 * s - 1.388731625493765e-3) * s + 4.166664568298827e-2) * s * s
+        - 0.5 * s + 1.0;
+    let count = u32(quarters);
+    let turned = select(vec2<f32>(sine, cosine), vec2<f32>(cosine, -sine), (count & 1u) == 1u);
+    let opposite = select(turned, -turned, (count & 2u) == 2u);
+    return vec2<f32>(select(opposite.x, -opposite.x, a < 0.0), opposite.y);
+}
+
+fn ppum_sin(a: f32) -> f32 {
+    return ppum_sin_cos(a).x;
+}
+
+fn ppum_cos(a: f32) -> f32 {
+    return ppum_sin_cos(a).y;
+}
+
+fn ppum_tan(a: f32) -> f32 {
+    let sin_cos = ppum_sin_cos(a);
+    return sin_cos.x / sin_cos.y;
+}
+
+// The arc sine of a in [-1/2, 1/2]: devices may have four digits. The polynomial is the one of
+// Cephes (Moshier 1992).
+fn ppum_near_asin(a: f32) -> f32 {
+    let s = a * a;
+    let p = (((4.2163199048e-2 * s + 2.4181311049e-2) * s + 4.5470025998e-2) * s + 7.4953002686e-2) * s
+        + 1.6666752422e-1;
+    return p * s * a + a;
+}
+
+fn ppum_asin(a: f32) -> f32 {
+    if abs(a) <= 0.5 {
+        return ppum_near_asin(a);
+    }
+    let angle = 1.57079633 - 2.0 * ppum_near_asin(sqrt(0.5 - 0.5 * abs(a)));
+    return select(angle, -angle, a < 0.0);
+}
+
+fn ppum_acos(a: f32) -> f32 {
+    if abs(a) <= 0.5 {
+        return 1.57079633 - ppum_near_asin(a);
+    }
+    let angle = 2.0 * ppum_near_asin(sqrt(0.5 - 0.5 * abs(a)));
+    return select(angle, 3.14159265 - angle, a < 0.0);
 }
 
 // The arc tangent to single precision: that of devices may have four digits. tan(3π/8) and tan(π/8) part
@@ -128,16 +261,37 @@ fn ppum_pow(a: f32, b: f32) -> f32 {
     return select(power, -power, odd & ((bitcast<u32>(a) >> 31u) == 1u));
 }
 
-// A derivative of the cubic with these coefficients, constant first, at t; the order is at most 3.
-fn ppum_cubic(c: vec4<f32>, order: u32, t: f32) -> f32 {
-    if order == 0u {
-        return ((c.w * t + c.z) * t + c.y) * t + c.x;
-    }
-    if order == 1u {
-        return (3.0 * c.w * t + 2.0 * c.z) * t + c.y;
-    }
-    if order == 2u {
-        return 6.0 * c.w * t + 2.0 * c.z;
-    }
-    return 6.0 * c.w;
+// The cubic with these coefficients, constant first, and its derivatives at t.
+fn ppum_cubic(c: vec4<f32>, t: f32) -> vec4<f32> {
+    let value = ((c.w * t + c.z) * t + c.y) * t + c.x;
+    return vec4<f32>(value, (3.0 * c.w * t + 2.0 * c.z) * t + c.y, 6.0 * c.w * t + 2.0 * c.z, 6.0 * c.w);
+}
+
+// The value and derivatives, these being 0 where the argument is beyond the knots by some distance.
+fn ppum_inside(derivatives: vec4<f32>, beyond: f32) -> vec4<f32> {
+    let outside = (beyond < 0.0) | (beyond > 0.0);
+    return select(derivatives, vec4<f32>(derivatives.x, 0.0, 0.0, 0.0), outside);
+}
+
+// A curve: the cubic at a distance from a knot.
+fn ppum_curve(c: vec4<f32>, beyond: f32, t: f32) -> vec4<f32> {
+    return ppum_inside(ppum_cubic(c, t), beyond);
+}
+
+// A surface: the bicubic whose rows belong to powers of the distance in y; [order in y][order in x].
+fn ppum_surface(rows: array<vec4<f32>, 4>, beyond: vec2<f32>, t: vec2<f32>) -> array<vec4<f32>, 4> {
+    let a = ppum_cubic(rows[0], t.x);
+    let b = ppum_cubic(rows[1], t.x);
+    let c = ppum_cubic(rows[2], t.x);
+    let d = ppum_cubic(rows[3], t.x);
+    let outside = (beyond.y < 0.0) | (beyond.y > 0.0);
+    let y = select((3.0 * d * t.y + 2.0 * c) * t.y + b, vec4<f32>(), outside);
+    let yy = select(6.0 * d * t.y + 2.0 * c, vec4<f32>(), outside);
+    let yyy = select(6.0 * d, vec4<f32>(), outside);
+    return array<vec4<f32>, 4>(
+        ppum_inside(((d * t.y + c) * t.y + b) * t.y + a, beyond.x),
+        ppum_inside(y, beyond.x),
+        ppum_inside(yy, beyond.x),
+        ppum_inside(yyy, beyond.x),
+    );
 }

@@ -1,7 +1,6 @@
-//! `ppum bench`: what the solver takes on this machine.
+//! The phases of the solver.
 
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::Path;
 
 use anyhow::Context as _;
@@ -10,47 +9,11 @@ use ppum_solve::problem::{Cells, Problem};
 use ppum_solve::solve::solve;
 use serde::Serialize;
 
-use crate::number::json;
-use crate::threads;
-
-/// Measure the solver on this machine
-///
-/// Solves the centre crack at order 2 on covers of growing levels and tells the seconds and unknowns
-/// per second of each phase.
-#[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
-    /// Last level; 7 has 212,560 unknowns and takes about 10 s and 2 GB
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(FIRST..=10))]
-    level: u32,
-    /// Print JSON, see docs/cli.md
-    #[arg(long)]
-    json: bool,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
-}
-
-const EXAMPLES: &str = "\
-Examples:
-  ppum bench
-  ppum bench --level 5 --threads 1
-  ppum bench --json | jq '.solver[-1].seconds'";
-
-/// First level.
-const FIRST: i64 = 4;
-
-const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
-
-#[derive(Debug, Serialize)]
-struct Report {
-    threads: usize,
-    solver: Vec<Run>,
-}
+const PROBLEM: &str = include_str!("../../../../../examples/centre-crack.toml");
 
 /// One solution.
 #[derive(Debug, Serialize)]
-struct Run {
+pub(super) struct Run {
     level: u32,
     unknowns: u64,
     phases: Vec<Phase>,
@@ -66,29 +29,9 @@ struct Phase {
     seconds: f64,
 }
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let levels = FIRST as u32..=self.level;
-        if self.json {
-            let (threads, solver) = threads::with(self.threads, || {
-                let runs = levels.map(Run::new).collect::<anyhow::Result<Vec<_>>>();
-                (rayon::current_num_threads(), runs)
-            })?;
-            json(out, &Report { threads, solver: solver? })?;
-            return Ok(());
-        }
-        for level in levels {
-            let (threads, run) =
-                threads::with(self.threads, || (rayon::current_num_threads(), Run::new(level)))?;
-            run?.print(threads, out)?;
-            out.flush()?;
-        }
-        Ok(())
-    }
-}
-
 impl Run {
-    fn new(level: u32) -> anyhow::Result<Self> {
+    /// Solves the centre crack on 4^level cells.
+    pub(super) fn new(level: u32) -> anyhow::Result<Self> {
         let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
         problem.discretization.cells = Cells::Level(level);
         let dataset = solve(&problem, &mut |_| {})?;
@@ -102,7 +45,7 @@ impl Run {
         })
     }
 
-    fn print(&self, threads: usize, out: &mut dyn Write) -> anyhow::Result<()> {
+    pub(super) fn print(&self, threads: usize, out: &mut dyn Write) -> anyhow::Result<()> {
         let memory = self.peak_memory.map_or(String::new(), |bytes| {
             format!(", at most {:.2} GB so far", bytes as f64 / 1e9)
         });
