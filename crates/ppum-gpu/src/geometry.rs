@@ -124,8 +124,9 @@ impl<'a> Directory<'a> {
             GroupFrame::Tip(TipId { crack, end }) => {
                 let crack = crack as usize;
                 let tip = LocalTip::new(&self.points[crack], end, self.center);
-                let at_end = vec2(tip.segment as f64, tip.orientation);
-                [tip.from_tip, tip.axis, self.entries[crack], at_end]
+                let distance = self.cracks[crack].segments()[tip.segment].distance;
+                let at_end = vec2(crack as f64, tip.segment as f64);
+                [tip.from_tip, tip.axis, vec2(distance, tip.orientation), at_end]
             }
         }
     }

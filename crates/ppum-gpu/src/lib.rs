@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "the renderer that joins the parts is not there yet")]
 
 mod adapter;
+mod areas;
 mod bins;
 mod bodies;
 mod color;
@@ -23,6 +24,7 @@ mod seen;
 mod shader;
 #[doc(hidden)]
 pub mod testing;
+mod smooth;
 #[cfg(test)]
 mod tests;
 mod weight;

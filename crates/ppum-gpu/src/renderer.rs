@@ -13,6 +13,7 @@ use wgpu::{
 };
 
 use crate::adapter::Choice;
+use crate::areas::{Area, areas};
 use crate::color::{PALETTE_TEXELS, Shading};
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -303,7 +304,8 @@ impl Renderer {
                 let (words, count) = quads(field, view, &scene.bodies);
                 targets.splat(gpu, &mut encoder, made, &data, (&words, count));
             }
-            let drawn = targets.finish(gpu, &mut encoder, made, &data, output);
+            let areas = areas(view, &scene.enriched);
+            let drawn = targets.finish(gpu, &mut encoder, made, (&data, &areas), output);
             gpu.queue().submit([encoder.finish()]);
             Ok(drawn)
         })??;
@@ -436,7 +438,7 @@ impl Targets {
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
         made: &Made,
-        data: &BindGroup,
+        (data, areas): (&BindGroup, &[Area]),
         output: Output,
     ) -> Drawn {
         let splats = if made.weights.is_some() { made.slots.all() } else { 0 };
@@ -452,10 +454,21 @@ impl Targets {
             color_attachments: &attachments,
             ..Default::default()
         });
-        pass.set_pipeline(&made.finish);
         pass.set_bind_group(0, data, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        pass.draw(0..3, 0..1);
+        match &made.plain {
+            None => {
+                pass.set_pipeline(&made.finish);
+                pass.draw(0..3, 0..1);
+            }
+            Some(plain) => {
+                for Area { rect: [x, y, width, height], enriched } in areas {
+                    pass.set_pipeline(if *enriched { &made.finish } else { plain });
+                    pass.set_scissor_rect(*x, *y, *width, *height);
+                    pass.draw(0..3, 0..1);
+                }
+            }
+        }
         drop(pass);
         Drawn { textures: drawn, size: self.size }
     }

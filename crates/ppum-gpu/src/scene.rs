@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use ppum::field::Field;
+use ppum::vec2::Rect;
 use ppum_render::view::View;
 use wgpu::{
     Extent3d, Origin3d, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureDescriptor,
     TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
 };
 
+use crate::areas::boxes;
 use crate::bodies::{Bodies, Components, Shape};
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -33,6 +35,8 @@ pub struct Scene {
     /// The address of each patch's body.
     pub(crate) bodies: Vec<u32>,
     pub(crate) lattice: Option<Lattice>,
+    /// Where there are more than smooth terms.
+    pub(crate) enriched: Vec<Rect>,
     place: Option<Place>,
 }
 
@@ -46,6 +50,8 @@ pub(crate) struct SceneLayout {
     /// Polynomials have other coordinates than weights.
     pub(crate) own_frames: bool,
     pub(crate) has_holes: bool,
+    /// Some crack has several segments.
+    pub(crate) has_kinks: bool,
 }
 
 /// A region on the card.
@@ -77,9 +83,11 @@ impl Scene {
             is_lattice: lattice.is_some(),
             own_frames,
             has_holes: !field.domain.holes.is_empty(),
+            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
         };
-        let groups = Arc::new(groups);
-        Ok(Self { generation, layout, groups, data, bodies: patches, lattice, place: None })
+        let enriched = boxes(field, &groups);
+        let (bodies, groups, place) = (patches, Arc::new(groups), None);
+        Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })
     }
 
     /// Sees to it that the patches of a view are on the card.

@@ -42,6 +42,8 @@ pub(crate) const LATTICE: &str = include_str!("shaders/lattice.wgsl");
 pub(crate) const BINS: &str = include_str!("shaders/bins.wgsl");
 /// Patches and what they hold.
 pub(crate) const PATCH: &str = include_str!("shaders/patch.wgsl");
+/// Smooth terms of any degree.
+pub(crate) const SMOOTH: &str = include_str!("shaders/smooth.wgsl");
 /// One pass.
 pub(crate) const GATHER: &str = include_str!("shaders/gather.wgsl");
 /// Three passes.

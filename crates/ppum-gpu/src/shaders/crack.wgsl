@@ -29,7 +29,7 @@ fn crack_nearest(crack: Crack, offset: vec2<f32>) -> f32 {
 // distance.
 fn crack_nearest_segment(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(crack_line_distance(crack, 0u, offset), 0u);
-    if crack.count == 1u {
+    if !HAS_KINKS {
         return nearest;
     }
     var closest = crack_vector(crack, 0u, offset);

@@ -20,21 +20,22 @@ fn gathered(pixel: Pixel) -> Sample {
             let candidate = candidate_of(bin, k, pixel);
             let w = weight_tensor(candidate.support.xi, candidate.support.inverse);
             weight = jet_plus(weight, w);
-            part += select(0.0, w.v, candidate.body == view.chosen);
+            if HAS_PART {
+                part += select(0.0, w.v, candidate.body == view.chosen);
+            }
             if HAS_FIELD {
-                let body = body_at(candidate.body);
-                if overlap == 0.0 {
-                    reference = reference_of(body);
+                let smooth_term = smooth_of(candidate.body, polynomial_place(candidate, pixel));
+                if rest == covering && first == 0u {
+                    reference = Reference(smooth_term.high, smooth_term.low);
                 }
-                let place = polynomial_place(candidate, pixel);
-                let v = smooth_field(body, place, pixel.offset, reference);
+                let v = smooth_field(smooth_term, pixel.offset, reference);
                 for (var g = 0u; g < GROUPS; g++) {
                     u[g] = jets_plus(u[g], jets_times(w, v[g]));
                 }
-                enriched |= select(0u, 1u << (k - first), body.terms > 0u);
+                enriched |= select(0u, 1u << (k - first), smooth_term.terms > 0u);
             }
-            overlap += 1.0;
         }
+        overlap += f32(countOneBits(covering));
         if HAS_FIELD && (HAS_CONSTANTS || HAS_POLYNOMIALS) {
             // the terms of all patches in one loop
             var left = 0u;
@@ -49,11 +50,11 @@ fn gathered(pixel: Pixel) -> Sample {
                     let k = first + firstTrailingBit(enriched);
                     enriched &= enriched - 1u;
                     let candidate = candidate_of(bin, k, pixel);
-                    let body = body_at(candidate.body);
+                    let head = load(candidate.body);
                     w = weight_tensor(candidate.support.xi, candidate.support.inverse);
                     place = polynomial_place(candidate, pixel);
-                    left = body.terms;
-                    next = body.others;
+                    left = head.x;
+                    next = candidate.body + (head.y >> 8u);
                 }
                 let term = term_at(next);
                 let v = other_field(term, place, pixel.offset);

@@ -9,9 +9,9 @@ fn crack_of(group: u32) -> Crack {
 // The tip of a group's frame.
 fn tip_at(group: u32) -> Tip {
     let at = GEOMETRY_PAIRS * group;
-    let end = load_view(at + 3u);
-    let crack = crack_from(load_view(at + 2u));
-    return Tip(load_view(at), load_view(at + 1u), crack, u32(end.x), end.y);
+    let line = load_view(at + 2u);
+    let end = vec2<u32>(load_view(at + 3u));
+    return Tip(load_view(at), load_view(at + 1u), line.x, line.y, end.x, end.y);
 }
 
 // The fixed frame of a group, that of the world too.

@@ -17,7 +17,18 @@ struct Functions {
 }
 
 fn jet_plus(a: Jet, b: Jet) -> Jet {
-    return Jet(a.v + b.v, a.x + b.x, a.y + b.y, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy);
+    var out = Jet();
+    out.v = a.v + b.v;
+    if ORDER >= 1u {
+        out.x = a.x + b.x;
+        out.y = a.y + b.y;
+    }
+    if ORDER >= 2u {
+        out.xx = a.xx + b.xx;
+        out.xy = a.xy + b.xy;
+        out.yy = a.yy + b.yy;
+    }
+    return out;
 }
 
 fn jets_zero() -> Jets {
@@ -25,7 +36,18 @@ fn jets_zero() -> Jets {
 }
 
 fn jets_plus(a: Jets, b: Jets) -> Jets {
-    return Jets(a.v + b.v, a.x + b.x, a.y + b.y, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy);
+    var out = jets_zero();
+    out.v = a.v + b.v;
+    if ORDER >= 1u {
+        out.x = a.x + b.x;
+        out.y = a.y + b.y;
+    }
+    if ORDER >= 2u {
+        out.xx = a.xx + b.xx;
+        out.xy = a.xy + b.xy;
+        out.yy = a.yy + b.yy;
+    }
+    return out;
 }
 
 // The product by Leibniz' rule.

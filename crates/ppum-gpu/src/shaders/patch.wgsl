@@ -17,67 +17,38 @@ struct Reference {
     low: array<Lanes, GROUPS>,
 }
 
-// What a patch holds.
-struct Body {
-    // The first coefficient of the smooth term, in the unit of load_lanes.
-    first: u32,
-    // Its degree; ABSENT if there is no smooth term.
-    degree: u32,
+// The smooth term of a patch, and where the others are.
+struct Smooth {
+    // Without its constants.
+    v: array<Jets, GROUPS>,
+    // The constants, in two halves.
+    high: array<Lanes, GROUPS>,
+    low: array<Lanes, GROUPS>,
     // Number of other terms, and the quad at which they begin.
     terms: u32,
     others: u32,
-}
-
-fn body_at(address: u32) -> Body {
-    let head = load(address);
-    let degree = select(SMOOTH_DEGREE, head.y & 0xffu, SMOOTH_DEGREE == ABSENT);
-    return Body(2u * address + LANE_PAIRS, degree, head.x, address + (head.y >> 8u));
 }
 
 fn monomials(degree: u32) -> u32 {
     return (degree + 1u) * (degree + 2u) / 2u;
 }
 
-// Where high and low of the constants of a smooth term are.
-fn constants_at(body: Body, group: u32) -> u32 {
-    let count = monomials(body.degree);
-    return body.first + (group * (count + 1u) + count - 1u) * LANE_PAIRS;
-}
-
-// The constants of the smooth term of a patch; 0 if it has none.
-fn reference_of(body: Body) -> Reference {
-    var out: Reference;
-    if body.degree != ABSENT {
-        for (var g = 0u; g < GROUPS; g++) {
-            let at = constants_at(body, g);
-            out.high[g] = load_lanes(at);
-            out.low[g] = load_lanes(at + LANE_PAIRS);
-        }
-    }
-    return out;
-}
-
-// The smooth term of a patch minus the reference.
+// The smooth term minus the reference.
 fn smooth_field(
-    body: Body,
-    place: Place,
+    smooth_term: Smooth,
     offset: vec2<f32>,
     reference: Reference,
 ) -> array<Jets, GROUPS> {
-    var v: array<Jets, GROUPS>;
-    let own = reference_of(body);
-    let degree = select(body.degree, 0u, body.degree == ABSENT);
+    var v = smooth_term.v;
+    let high = smooth_term.high;
+    let low = smooth_term.low;
     for (var g = 0u; g < GROUPS; g++) {
-        let at = body.first + g * (monomials(degree) + 1u) * LANE_PAIRS;
         if is_one(SMOOTH_GROUP) {
-            let constant =
-                (own.high[g] - reference.high[g]) + (own.low[g] - reference.low[g]);
-            v[g] = polynomial_with(at, degree, place.xi, place.inverse, constant);
+            v[g].v += (high[g] - reference.high[g]) + (low[g] - reference.low[g]);
         } else {
             // another function has taken the place of 1
-            let constant = own.high[g] + own.low[g];
-            let p = polynomial_with(at, degree, place.xi, place.inverse, constant);
-            v[g] = jets_times(functions_entry(functions(SMOOTH_GROUP, offset), 0u), p);
+            v[g].v += high[g] + low[g];
+            v[g] = jets_times(functions_entry(functions(SMOOTH_GROUP, offset), 0u), v[g]);
             v[g].v -= reference.high[g] + reference.low[g];
         }
     }
@@ -91,14 +62,14 @@ struct Term {
     next: u32,
     // 8 bits for each function.
     degrees: u32,
-    // The first coefficient, in the unit of load_lanes.
-    first: u32,
+    // Its own quad.
+    address: u32,
 }
 
 fn term_at(address: u32) -> Term {
     let head = load(address);
     let group = head.x & ((1u << GROUP_BITS) - 1u);
-    return Term(group, address + (head.x >> GROUP_BITS), head.y, 2u * address + LANE_PAIRS);
+    return Term(group, address + (head.x >> GROUP_BITS), head.y, address);
 }
 
 fn degree_of(term: Term, entry: u32) -> u32 {
@@ -111,24 +82,34 @@ fn has_constants(term: Term) -> bool {
 }
 
 // A function times a constant.
-fn scaled(f: Jet, c: Lanes) -> Jets {
-    return Jets(f.v * c, f.x * c, f.y * c, f.xx * c, f.xy * c, f.yy * c);
+fn times_constant(f: Jet, c: Lanes) -> Jets {
+    var out = jets_zero();
+    out.v = f.v * c;
+    if ORDER >= 1u {
+        out.x = f.x * c;
+        out.y = f.y * c;
+    }
+    if ORDER >= 2u {
+        out.xx = f.xx * c;
+        out.xy = f.xy * c;
+        out.yy = f.yy * c;
+    }
+    return out;
 }
 
 fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUPS> {
     let f = functions(term.group, offset);
     var v: array<Jets, GROUPS>;
     if HAS_CONSTANTS && has_constants(term) {
-        for (var entry = 0u; entry < 4u; entry++) {
-            let jet = functions_entry(f, entry);
-            for (var g = 0u; g < GROUPS; g++) {
-                let c = load_lanes(term.first + (entry * GROUPS + g) * LANE_PAIRS);
-                v[g] = jets_plus(v[g], scaled(jet, c));
+        var c = four_constants(term.address);
+        for (var g = 0u; g < GROUPS; g++) {
+            for (var entry = 0u; entry < 4u; entry++) {
+                v[g] = jets_plus(v[g], times_constant(functions_entry(f, entry), c[entry * GROUPS + g]));
             }
         }
     }
     if HAS_POLYNOMIALS && !has_constants(term) {
-        var at = term.first;
+        var at = 2u * term.address + LANE_PAIRS;
         for (var entry = 0u; entry < 4u && (term.degrees >> (8u * entry)) != ALL_ABSENT >> (8u * entry); entry++) {
             let degree = degree_of(term, entry);
             if degree == ABSENT {
@@ -144,3 +125,4 @@ fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUP
     }
     return v;
 }
+

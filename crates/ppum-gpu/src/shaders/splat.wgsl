@@ -79,11 +79,11 @@ fn splat_field(quad: Quad) -> Fields {
     if OWN_FRAMES {
         place = quad_place(quad, quad.frame_xi, quad.frame_step);
     }
-    let body = body_at(quad.body);
-    var v = smooth_field(body, place, pixel.offset, view_reference());
+    let smooth_term = smooth_of(quad.body, place);
+    var v = smooth_field(smooth_term, pixel.offset, view_reference());
     if HAS_CONSTANTS || HAS_POLYNOMIALS {
-        var next = body.others;
-        for (var k = 0u; k < body.terms; k++) {
+        var next = smooth_term.others;
+        for (var k = 0u; k < smooth_term.terms; k++) {
             let term = term_at(next);
             let other = other_field(term, place, pixel.offset);
             for (var g = 0u; g < GROUPS; g++) {

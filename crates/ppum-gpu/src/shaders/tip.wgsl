@@ -1,8 +1,16 @@
 // Points in the frames of functions: the twins of TipPoint and LocalTip in ppum::crack.
 
-// A tip seen from the view's centre: centre minus tip, the direction of growth, the segment it ends, and +1
-// at the last vertex of its crack, -1 at the first.
-struct Tip { from_tip: vec2<f32>, axis: vec2<f32>, crack: Crack, segment: u32, orientation: f32 }
+// A tip seen from the view's centre: centre minus tip, the direction of growth; the distance of the centre from
+// the line of the segment it ends, and +1 at the last vertex of its crack, -1 at the first; which crack and
+// segment these are.
+struct Tip {
+    from_tip: vec2<f32>,
+    axis: vec2<f32>,
+    distance: f32,
+    orientation: f32,
+    crack: u32,
+    segment: u32,
+}
 
 // A fixed frame: the view's centre minus its origin, and its x axis.
 struct Fixed { from_origin: vec2<f32>, axis: vec2<f32> }
@@ -13,11 +21,12 @@ struct Fixed { from_origin: vec2<f32>, axis: vec2<f32> }
 struct TipPoint { x: f32, y: f32, sign: f32, branch: f32 }
 
 fn tip_point(tip: Tip, offset: vec2<f32>) -> TipPoint {
-    let distance = crack_line_distance(tip.crack, tip.segment, offset);
+    let tangent = tip.orientation * tip.axis;
+    let distance = tangent.x * offset.y - tangent.y * offset.x + tip.distance;
     let side = crack_sign(distance);
     var branch = 1.0;
-    if tip.crack.count > 1u {
-        let nearest = crack_nearest_segment(tip.crack, offset);
+    if HAS_KINKS {
+        let nearest = crack_nearest_segment(crack_at(tip.crack), offset);
         // where the tip's own segment is the nearest, two roundings of one distance must not decide
         branch = select(side * crack_sign(nearest.distance), 1.0, nearest.segment == tip.segment);
     }
