@@ -22,9 +22,9 @@ mod renderer;
 mod scene;
 mod seen;
 mod shader;
+mod smooth;
 #[doc(hidden)]
 pub mod testing;
-mod smooth;
 #[cfg(test)]
 mod tests;
 mod weight;

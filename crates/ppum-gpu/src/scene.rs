@@ -54,6 +54,21 @@ pub(crate) struct SceneLayout {
     pub(crate) has_kinks: bool,
 }
 
+impl SceneLayout {
+    /// The layout of a field.
+    pub(crate) fn new(field: &Field<'_>, shape: Shape, has_lattice: bool) -> Self {
+        let own_frames = has_own_frames(field);
+        Self {
+            components: Components::new(field.components()),
+            shape,
+            is_lattice: has_lattice && !own_frames,
+            own_frames,
+            has_holes: !field.domain.holes.is_empty(),
+            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
+        }
+    }
+}
+
 /// A region on the card.
 #[derive(Debug)]
 pub(crate) struct Place {
@@ -77,14 +92,7 @@ impl Scene {
         let data = upload(gpu, "the coefficients", &words, rows)?;
         let own_frames = has_own_frames(field);
         let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
-        let layout = SceneLayout {
-            components: Components::new(field.components()),
-            shape,
-            is_lattice: lattice.is_some(),
-            own_frames,
-            has_holes: !field.domain.holes.is_empty(),
-            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
-        };
+        let layout = SceneLayout::new(field, shape, lattice.is_some());
         let enriched = boxes(field, &groups);
         let (bodies, groups, place) = (patches, Arc::new(groups), None);
         Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })

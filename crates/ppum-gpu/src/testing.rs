@@ -3,11 +3,10 @@
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 
-use crate::bodies::{Bodies, Components};
+use crate::bodies::Bodies;
 use crate::groups::Groups;
 use crate::lattice::Lattice;
 use crate::program::{Method, Output, Program};
-use crate::region::has_own_frames;
 use crate::renderer::RenderError;
 use crate::scene::SceneLayout;
 
@@ -23,13 +22,7 @@ pub fn texts(
 ) -> Result<Vec<String>, RenderError> {
     quantity.check(field)?;
     let groups = Groups::new(&field.step.functions);
-    let own_frames = has_own_frames(field);
-    let layout = SceneLayout {
-        components: Components::new(field.components()),
-        shape: Bodies::new(field, &groups).shape,
-        is_lattice: !own_frames && Lattice::of(&field.step.partition).is_some(),
-        own_frames,
-        has_holes: !field.domain.holes.is_empty(),
-    };
+    let lattice = Lattice::of(&field.step.partition);
+    let layout = SceneLayout::new(field, Bodies::new(field, &groups).shape, lattice.is_some());
     Ok(Program::new(&groups, field, quantity, method, output)?.texts(layout))
 }
