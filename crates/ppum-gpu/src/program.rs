@@ -173,7 +173,10 @@ impl Program {
     pub(crate) fn texts(&self, layout: SceneLayout) -> Vec<String> {
         let text = |pass| self.parts.text(layout, self.method, self.output, pass);
         let passes = self.parts.slots(layout).passes().filter(|_| self.method == Method::Splat);
-        [FieldPass::NONE].into_iter().chain(passes).map(text).collect()
+        let plain = self.plain_layout(layout).map(|plain| {
+            self.parts.text(plain, self.method, self.output, FieldPass::NONE)
+        });
+        [FieldPass::NONE].into_iter().chain(passes).map(text).chain(plain).collect()
     }
 
     /// The pipelines for a scene as it is.
@@ -225,14 +228,17 @@ impl Program {
         maker: &Maker<'_>,
         layout: SceneLayout,
     ) -> Result<Option<RenderPipeline>, GpuError> {
-        let Shape { degree, has_constants, has_polynomials } = layout.shape;
-        if self.method == Method::Splat || !(has_constants || has_polynomials) {
-            return Ok(None);
-        }
-        let shape = Shape { degree, ..Shape::default() };
-        let layout = SceneLayout { shape, ..layout };
+        let Some(layout) = self.plain_layout(layout) else { return Ok(None) };
         let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
         maker.finish(self.output, &text).map(Some)
+    }
+
+    /// The layout with smooth terms only, if there are others and the method tells them apart.
+    fn plain_layout(&self, layout: SceneLayout) -> Option<SceneLayout> {
+        let Shape { degree, has_constants, has_polynomials } = layout.shape;
+        let shape = Shape { degree, ..Shape::default() };
+        let needed = self.method == Method::Gather && (has_constants || has_polynomials);
+        needed.then_some(SceneLayout { shape, ..layout })
     }
 
     fn splat_passes(

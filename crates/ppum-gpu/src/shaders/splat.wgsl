@@ -70,10 +70,11 @@ fn splat_weight(quad: Quad) -> Weights {
 fn splat_field(quad: Quad) -> Fields {
     let pixel = pixel_at(vec2<u32>(quad.position.xy));
     let support = quad_place(quad, quad.xi, quad.step);
-    let w = quad_weight(support);
-    if w.v <= 0.0 {
+    // on the very border W is 0, but its slope is not
+    if !covers(support.xi) {
         return Fields();
     }
+    let w = quad_weight(support);
     let phi = jet_over(w, weight_sum(pixel.index));
     var place = support;
     if OWN_FRAMES {

@@ -463,7 +463,7 @@ fn sides_of_cracks() {
 #[test]
 fn points_of_tips() {
     let text = "fn row(k: u32) {
-        let p = tip_point(tip_at(1u), vec2<f32>(input(k, 0u), input(k, 1u)));
+        let p = tip_point(tip_at(0u), vec2<f32>(input(k, 0u), input(k, 1u)));
         put(k, 0u, p.x);
         put(k, 1u, p.y);
         put(k, 2u, p.sign);
@@ -475,7 +475,7 @@ fn points_of_tips() {
             .into_iter()
             .flat_map(|end| centers(&crack).into_iter().map(move |center| (end, center)))
         {
-            let frames = [GroupFrame::World, GroupFrame::Tip(TipId { crack: index, end })];
+            let frames = [GroupFrame::Tip(TipId { crack: index, end })];
             let geometry = Geometry::new(&step(cracks()), &domain, &frames, center);
             let tip = LocalTip::new(&crack, end, center);
             let far = tip.from_tip.length();
