@@ -7,6 +7,8 @@ mod colors;
 mod control;
 mod corpus;
 mod derivatives;
+mod golden;
+mod large;
 mod lost;
 mod parts;
 mod replaced;

@@ -4,7 +4,7 @@ use ppum::crack::{LocalCrack, Side};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::quantity::{Quantity, Source};
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::Window;
 
@@ -205,23 +205,20 @@ fn band(field: &Field<'_>, window: &Window) -> Vec<bool> {
     let (center, near) = (window.center, BAND * window.pixel_size());
     let cracks: Vec<_> =
         field.step.cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
-    let half = window.offset(0, 0);
-    let half = Vec2 { x: -half.x + near, y: half.y + near };
-    let seen = Rect::around(center, half);
-    let mut patches = Vec::new();
-    field.tree.query_box(&seen, &mut patches);
     let partition = &field.step.partition;
-    let supports = patches.iter().map(|&p| partition.support(p as usize));
-    let boxes: Vec<_> = supports
-        .chain([field.domain.bounds])
-        .map(|b| Rect::new(b.min - center, b.max - center))
-        .collect();
-    let at = |p: Vec2| {
-        cracks.iter().any(|crack| near_crack(crack, p, near))
-            || boxes.iter().any(|b| near_border(b, p, near))
+    let mut patches = Vec::new();
+    let mut at = |p: Vec2| {
+        // a pixel around: what f64 rounds away does not matter
+        let pixel = window.pixel_size();
+        patches.clear();
+        field.tree.query_box(&Rect::around(center + p, vec2(pixel, pixel)), &mut patches);
+        let supports = patches.iter().map(|&patch| partition.support(patch as usize));
+        let mut boxes = supports.chain([field.domain.bounds]);
+        boxes.any(|b| near_border(&Rect::new(b.min - center, b.max - center), p, near))
+            || cracks.iter().any(|crack| near_crack(crack, p, near))
             || field.domain.holes.iter().any(|hole| hole.rim_distance(center + p) < near)
     };
-    window.offsets().map(at).collect()
+    window.offsets().map(&mut at).collect()
 }
 
 fn near_crack(crack: &LocalCrack, p: Vec2, near: f64) -> bool {
