@@ -21,7 +21,7 @@ const fn over(text: &'static str, [low, high]: [f64; 2], absolute: f64) -> Eleme
 
 /// Functions wherever they are finite. Far angles are reduced to 3e-9 of a quarter turn, near ones to a rounding
 /// of the third part of their π/2.
-pub const ELEMENTARY: [Elementary; 15] = [
+pub const ELEMENTARY: [Elementary; 18] = [
     over("exp(a)", [-87.3, 88.7], 0.0),
     over("exp(a)", [-1.0, 1.0], 0.0),
     over("sinh(a)", [-89.4, 89.4], 0.0),
@@ -31,6 +31,9 @@ pub const ELEMENTARY: [Elementary; 15] = [
     over("tanh(a)", [-1.0, 1.0], 0.0),
     over("asin(a)", [-1.0, 1.0], 0.0),
     over("acos(a)", [-1.0, 1.0], 0.0),
+    over("atan(a)", [-5.0, 5.0], 0.0),
+    over("atan(a)", [-1e6, 1e6], 0.0),
+    over("cbrt(a)", [-20.0, 20.0], 0.0),
     over("sin(a)", [-7.0, 7.0], 1e-9),
     over("cos(a)", [-7.0, 7.0], 1e-9),
     over("sin(a)", [-9000.0, 9000.0], 5e-9),
