@@ -57,6 +57,12 @@ impl Bins {
         bins
     }
 
+    /// Patches of the bin that meets most.
+    pub(crate) fn longest(&self) -> u32 {
+        let leaves = self.nodes.iter().filter(|node| node[1] != INNER);
+        leaves.map(|node| node[1]).max().unwrap_or_default()
+    }
+
     /// The grid without nodes.
     fn grid(bounds: Rect, patches: &[Covered]) -> Self {
         let widest = patches.iter().max_by(|a, b| a.cell.x.total_cmp(&b.cell.x));
@@ -241,8 +247,7 @@ mod tests {
         while cover.refine(|cell, level| level < 14 && cell.contains(tip)).expect("a cover") > 0 {}
         let partition = cover.partition(1.3, WeightFunction::Linear).expect("an overlap");
         let bins = Bins::new(UNIT, &covered(&partition), 1e-9);
-        let longest = bins.nodes.iter().filter(|node| node[1] != INNER).map(|node| node[1]).max();
-        assert!(longest <= Some(9), "{longest:?}");
+        assert!(bins.longest() <= 9, "{}", bins.longest());
         assert!(bins.nodes.len() < 20 * partition.len(), "{} nodes", bins.nodes.len());
     }
 

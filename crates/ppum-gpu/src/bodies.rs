@@ -14,10 +14,11 @@
 //! The constant of the smooth term stands apart, in two halves: neighbours' constants are subtracted from
 //! each other before anything else, so that a plate that has moved far loses no digit of its strains.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ppum::dataset::{FieldData, monomials};
 use ppum::field::Field;
+use ppum::vec2::Rect;
 
 use crate::groups::{Groups, SMOOTH_GROUP};
 use crate::layout::halves;
@@ -55,6 +56,8 @@ pub(crate) struct Bodies {
     pub(crate) patches: Vec<u32>,
     /// What they have in common.
     pub(crate) shape: Shape,
+    /// Boxes around the patches with other terms than the smooth one: one for each group and kind.
+    pub(crate) enriched: Vec<(Rect, Others)>,
 }
 
 /// What shaders need not find out at each pixel.
@@ -62,10 +65,27 @@ pub(crate) struct Bodies {
 pub(crate) struct Shape {
     /// The degree of all smooth terms, if every patch has one and all are alike.
     pub(crate) degree: Option<u8>,
-    /// Some patch has a term beside the smooth one of four functions times constants.
-    pub(crate) has_constants: bool,
-    /// Some patch has another one.
-    pub(crate) has_polynomials: bool,
+    /// The terms beside the smooth one.
+    pub(crate) others: Others,
+}
+
+/// Kinds of terms beside the smooth one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Others {
+    /// Four functions times constants.
+    pub(crate) constants: bool,
+    /// Functions times polynomials.
+    pub(crate) polynomials: bool,
+}
+
+impl Others {
+    /// Both kinds.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            constants: self.constants | other.constants,
+            polynomials: self.polynomials | other.polynomials,
+        }
+    }
 }
 
 impl Bodies {
@@ -77,10 +97,12 @@ impl Bodies {
         let (mut patches, mut summary) = (Vec::with_capacity(count), Summary::default());
         for patch in 0..count {
             let terms = writer.terms(patch);
-            summary.add(&terms, field.data);
+            summary.add(&terms, field, patch);
             patches.push(writer.patch(&terms));
         }
-        Self { words: writer.words, patches, shape: summary.shape() }
+        let shape = summary.shape();
+        let enriched = summary.enriched.into_iter().map(|((_, others), bounds)| (bounds, others));
+        Self { words: writer.words, patches, shape, enriched: enriched.collect() }
     }
 }
 
@@ -88,27 +110,30 @@ impl Bodies {
 #[derive(Debug, Default)]
 struct Summary {
     degrees: BTreeSet<Option<u8>>,
-    has_constants: bool,
-    has_polynomials: bool,
+    /// By group and kind.
+    enriched: BTreeMap<(u32, Others), Rect>,
 }
 
 impl Summary {
-    fn add(&mut self, terms: &Terms, data: &FieldData) {
+    fn add(&mut self, terms: &Terms, field: &Field<'_>, patch: usize) {
+        let data = field.data;
         self.degrees.insert(terms.smooth.map(|block| data.block_degree[block]));
+        let support = field.step.partition.support(patch);
         for term in &terms.others {
             let is_constant =
                 |block: Option<usize>| block.is_some_and(|b| data.block_degree[b] == 0);
-            let constant = term.blocks.into_iter().all(is_constant);
-            self.has_constants |= constant;
-            self.has_polynomials |= !constant;
+            let constants = term.blocks.into_iter().all(is_constant);
+            let key = (term.group, Others { constants, polynomials: !constants });
+            let bounds = self.enriched.entry(key).or_insert(support);
+            *bounds = bounds.union(&support);
         }
     }
 
-    fn shape(self) -> Shape {
-        let Self { degrees, has_constants, has_polynomials } = self;
-        let single = degrees.len() == 1;
-        let degree = degrees.into_iter().next().flatten().filter(|_| single);
-        Shape { degree, has_constants, has_polynomials }
+    fn shape(&self) -> Shape {
+        let single = self.degrees.len() == 1;
+        let degree = self.degrees.first().copied().flatten().filter(|_| single);
+        let kinds = self.enriched.keys().map(|&(_, others)| others);
+        Shape { degree, others: kinds.fold(Others::default(), Others::and) }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Shaders composed of their parts, and the pipelines made of them.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use ppum::field::Field;
@@ -13,7 +14,7 @@ use wgpu::{
 };
 
 use crate::bins;
-use crate::bodies::{self, Components, Shape};
+use crate::bodies::{self, Components, Others};
 use crate::color::PALETTE_TEXELS;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -91,9 +92,8 @@ pub(crate) struct Made {
     /// Splatting: weights, and a pass for each pair of components and slots.
     pub(crate) weights: Option<RenderPipeline>,
     pub(crate) fields: Vec<RenderPipeline>,
-    /// The last pass, and for gathering the same where there are smooth terms only.
-    pub(crate) finish: RenderPipeline,
-    pub(crate) plain: Option<RenderPipeline>,
+    /// The last pass; of gathering one for each kind of area.
+    pub(crate) finish: BTreeMap<Others, RenderPipeline>,
     pub(crate) slots: Slots,
 }
 
@@ -173,30 +173,49 @@ impl Program {
     pub(crate) fn texts(&self, layout: SceneLayout) -> Vec<String> {
         let text = |pass| self.parts.text(layout, self.method, self.output, pass);
         let passes = self.parts.slots(layout).passes().filter(|_| self.method == Method::Splat);
-        let plain = self.plain_layout(layout).map(|plain| {
-            self.parts.text(plain, self.method, self.output, FieldPass::NONE)
+        let areas = self.kinds(layout).into_iter().map(|others| {
+            let layout = layout.with(others);
+            self.parts.text(layout, self.method, self.output, FieldPass::NONE)
         });
-        [FieldPass::NONE].into_iter().chain(passes).map(text).chain(plain).collect()
+        areas.chain(passes.map(text)).collect()
     }
 
-    /// The pipelines for a scene as it is.
+    /// The kinds of areas that are told apart.
+    fn kinds(&self, layout: SceneLayout) -> Vec<Others> {
+        let all = layout.shape.others;
+        if self.method == Method::Splat {
+            return vec![all];
+        }
+        let both = [false, true];
+        let kinds = both
+            .into_iter()
+            .flat_map(|constants| both.map(|polynomials| Others { constants, polynomials }));
+        kinds.filter(|kind| kind.and(all) == all).collect()
+    }
+
+    /// The pipelines for a scene as it is, those of some kinds of areas among them: each is made when it is
+    /// needed first.
     pub(crate) fn made(
         &mut self,
         gpu: &Gpu,
         generation: u64,
         layout: SceneLayout,
+        areas: &BTreeSet<Others>,
     ) -> Result<&Made, GpuError> {
         let fits = |made: &Made| made.generation == generation && made.layout == layout;
-        if !self.made.as_ref().is_some_and(fits) {
-            self.made = None;
-        }
-        match self.made {
-            Some(ref made) => Ok(made),
-            None => {
-                let made = self.make(gpu, generation, layout)?;
-                Ok(self.made.insert(made))
+        let mut made = match self.made.take().filter(fits) {
+            Some(made) => made,
+            None => self.make(gpu, generation, layout)?,
+        };
+        for &others in areas {
+            if !made.finish.contains_key(&others) {
+                let text =
+                    self.parts.text(layout.with(others), self.method, self.output, FieldPass::NONE);
+                let pipeline = made.maker(gpu).finish(self.output, &text)?;
+                made.finish.insert(others, pipeline);
             }
         }
+        Ok(self.made.insert(made))
     }
 
     fn make(&self, gpu: &Gpu, generation: u64, layout: SceneLayout) -> Result<Made, GpuError> {
@@ -205,40 +224,21 @@ impl Program {
             check_splat(gpu, slots)?;
         }
         let sums = if self.method == Method::Splat { slots.all() } else { 0 };
-        let maker = Maker {
-            gpu,
+        let mut made = Made {
+            generation,
+            layout,
             data: data_layout(gpu),
-            weights: textures_layout(gpu, slots.weights),
+            sums: textures_layout(gpu, slots.weights),
             textures: textures_layout(gpu, sums + 1),
-            source: self.parts.text(layout, self.method, self.output, FieldPass::NONE),
+            weights: None,
+            fields: Vec::new(),
+            finish: BTreeMap::new(),
+            slots,
         };
-        let (weights, fields) = match self.method {
-            Method::Gather => (None, Vec::new()),
-            Method::Splat => self.splat_passes(&maker, layout, slots)?,
-        };
-        let finish = maker.finish(self.output, &maker.source)?;
-        let plain = self.plain(&maker, layout)?;
-        let Maker { data, weights: sums, textures, .. } = maker;
-        Ok(Made { generation, layout, data, sums, textures, weights, fields, finish, plain, slots })
-    }
-
-    /// The pipeline for pixels that only smooth terms reach, if there are others too.
-    fn plain(
-        &self,
-        maker: &Maker<'_>,
-        layout: SceneLayout,
-    ) -> Result<Option<RenderPipeline>, GpuError> {
-        let Some(layout) = self.plain_layout(layout) else { return Ok(None) };
-        let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
-        maker.finish(self.output, &text).map(Some)
-    }
-
-    /// The layout with smooth terms only, if there are others and the method tells them apart.
-    fn plain_layout(&self, layout: SceneLayout) -> Option<SceneLayout> {
-        let Shape { degree, has_constants, has_polynomials } = layout.shape;
-        let shape = Shape { degree, ..Shape::default() };
-        let needed = self.method == Method::Gather && (has_constants || has_polynomials);
-        needed.then_some(SceneLayout { shape, ..layout })
+        if self.method == Method::Splat {
+            (made.weights, made.fields) = self.splat_passes(&made.maker(gpu), layout, slots)?;
+        }
+        Ok(made)
     }
 
     fn splat_passes(
@@ -247,12 +247,19 @@ impl Program {
         layout: SceneLayout,
         slots: Slots,
     ) -> Result<(Option<RenderPipeline>, Vec<RenderPipeline>), GpuError> {
-        let weights = maker.quads("splat_weight", &maker.source, slots.weights, None)?;
+        let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
+        let weights = maker.quads("splat_weight", &text, slots.weights, None)?;
         let fields = slots.passes().map(|pass| {
             let text = self.parts.text(layout, self.method, self.output, pass);
-            maker.quads("splat_field", &text, pass.slots, Some(&maker.weights))
+            maker.quads("splat_field", &text, pass.slots, Some(&maker.made.sums))
         });
         Ok((Some(weights), fields.collect::<Result<_, _>>()?))
+    }
+}
+
+impl Made {
+    fn maker<'a>(&'a self, gpu: &'a Gpu) -> Maker<'a> {
+        Maker { gpu, made: self }
     }
 }
 
@@ -366,7 +373,9 @@ impl Parts {
     }
 
     fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout { components, shape, own_frames, has_holes, has_kinks, .. } = layout;
+        let SceneLayout {
+            components, shape, own_frames, has_holes, has_kinks, has_long_lists, ..
+        } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -394,8 +403,9 @@ impl Parts {
             ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
             ("HAS_KINKS", has_kinks),
-            ("HAS_CONSTANTS", shape.has_constants),
-            ("HAS_POLYNOMIALS", shape.has_polynomials),
+            ("HAS_LONG_LISTS", has_long_lists),
+            ("HAS_CONSTANTS", shape.others.constants),
+            ("HAS_POLYNOMIALS", shape.others.polynomials),
         ] {
             let _ = writeln!(text, "const {name}: bool = {value};");
         }
@@ -557,10 +567,7 @@ fn textures_layout(gpu: &Gpu, count: u32) -> BindGroupLayout {
 /// Makes the pipelines of a program.
 struct Maker<'a> {
     gpu: &'a Gpu,
-    data: BindGroupLayout,
-    weights: BindGroupLayout,
-    textures: BindGroupLayout,
-    source: String,
+    made: &'a Made,
 }
 
 /// What differs from pipeline to pipeline.
@@ -583,7 +590,7 @@ impl Maker<'_> {
             fragment: output.entry(),
             quads: false,
             targets: output.formats().iter().map(target).collect(),
-            textures: Some(&self.textures),
+            textures: Some(&self.made.textures),
         })
     }
 
@@ -608,19 +615,9 @@ impl Maker<'_> {
     }
 
     fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
-        let hack = std::env::var("HACK").ok().filter(|_| pass.fragment.starts_with("draw"));
-        let text = match &hack {
-            Some(path) if std::path::Path::new(path).exists() => {
-                std::fs::read_to_string(path).unwrap_or_default()
-            }
-            _ => pass.text.to_owned(),
-        };
-        if let Ok(path) = std::env::var("DUMP") {
-            let _ = std::fs::write(format!("{path}.{}", pass.fragment), &text);
-        }
-        let module = self.gpu.shader("compile the shader", &text)?;
+        let module = self.gpu.shader("compile the shader", pass.text)?;
         let device = self.gpu.device();
-        let groups = [Some(&self.data), pass.textures];
+        let groups = [Some(&self.made.data), pass.textures];
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(pass.fragment),
             bind_group_layouts: &groups,

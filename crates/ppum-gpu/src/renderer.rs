@@ -1,5 +1,7 @@
 //! Drawing scenes, and surviving the loss of the device.
 
+use std::collections::BTreeSet;
+
 use ppum::field::Field;
 use ppum::quantity::{Quantity, QuantityError};
 use ppum_render::image::Image;
@@ -143,7 +145,8 @@ impl Renderer {
         scene.check(field)?;
         let mut program = Program::new(&scene.groups, field, quantity, method, output)?;
         self.again(|renderer| {
-            program.made(&renderer.gpu, renderer.generation, scene.layout).map(|_| ())
+            let all = BTreeSet::from([scene.layout.shape.others]);
+            program.made(&renderer.gpu, renderer.generation, scene.layout, &all).map(|_| ())
         })?;
         Ok(program)
     }
@@ -291,7 +294,12 @@ impl Renderer {
     ) -> Result<Drawn, GpuError> {
         scene.place(&self.gpu, field, view, self.rows)?;
         let (method, output, chosen) = (program.method, program.output, program.chosen);
-        let made = program.made(&self.gpu, self.generation, scene.layout)?;
+        let areas = match method {
+            Method::Gather => areas(view, &scene.enriched),
+            Method::Splat => vec![Area::whole(view, scene.layout.shape.others)],
+        };
+        let kinds = areas.iter().map(|area| area.others).collect();
+        let made = program.made(&self.gpu, self.generation, scene.layout, &kinds)?;
         let seen = seen(scene, field, view, (output, chosen), shading)?;
         let gpu = &self.gpu;
         let targets = &mut self.targets;
@@ -304,7 +312,6 @@ impl Renderer {
                 let (words, count) = quads(field, view, &scene.bodies);
                 targets.splat(gpu, &mut encoder, made, &data, (&words, count));
             }
-            let areas = areas(view, &scene.enriched);
             let drawn = targets.finish(gpu, &mut encoder, made, (&data, &areas), output);
             gpu.queue().submit([encoder.finish()]);
             Ok(drawn)
@@ -456,17 +463,11 @@ impl Targets {
         });
         pass.set_bind_group(0, data, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        match &made.plain {
-            None => {
-                pass.set_pipeline(&made.finish);
+        for Area { rect: [x, y, width, height], others } in areas {
+            if let Some(pipeline) = made.finish.get(others) {
+                pass.set_pipeline(pipeline);
+                pass.set_scissor_rect(*x, *y, *width, *height);
                 pass.draw(0..3, 0..1);
-            }
-            Some(plain) => {
-                for Area { rect: [x, y, width, height], enriched } in areas {
-                    pass.set_pipeline(if *enriched { &made.finish } else { plain });
-                    pass.set_scissor_rect(*x, *y, *width, *height);
-                    pass.draw(0..3, 0..1);
-                }
             }
         }
         drop(pass);

@@ -10,8 +10,7 @@ use wgpu::{
     TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
 };
 
-use crate::areas::boxes;
-use crate::bodies::{Bodies, Components, Shape};
+use crate::bodies::{Bodies, Components, Others, Shape};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::groups::Groups;
@@ -36,7 +35,7 @@ pub struct Scene {
     pub(crate) bodies: Vec<u32>,
     pub(crate) lattice: Option<Lattice>,
     /// Where there are more than smooth terms.
-    pub(crate) enriched: Vec<Rect>,
+    pub(crate) enriched: Vec<(Rect, Others)>,
     place: Option<Place>,
 }
 
@@ -52,6 +51,8 @@ pub(crate) struct SceneLayout {
     pub(crate) has_holes: bool,
     /// Some crack has several segments.
     pub(crate) has_kinks: bool,
+    /// Some bin of the region meets more than 32 patches.
+    pub(crate) has_long_lists: bool,
 }
 
 impl SceneLayout {
@@ -66,8 +67,16 @@ impl SceneLayout {
             own_frames,
             has_holes: !field.domain.holes.is_empty(),
             has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
+            has_long_lists: false,
         };
         (layout, lattice)
+    }
+}
+
+impl SceneLayout {
+    /// The layout where no other terms than these beside the smooth one are.
+    pub(crate) fn with(self, others: Others) -> Self {
+        Self { shape: Shape { others, ..self.shape }, ..self }
     }
 }
 
@@ -90,10 +99,9 @@ impl Scene {
         rows: u32,
     ) -> Result<Self, GpuError> {
         let groups = Groups::new(&field.step.functions);
-        let Bodies { words, patches, shape } = Bodies::new(field, &groups);
+        let Bodies { words, patches, shape, enriched } = Bodies::new(field, &groups);
         let data = upload(gpu, "the coefficients", &words, rows)?;
         let (layout, lattice) = SceneLayout::of(field, shape);
-        let enriched = boxes(field, &groups);
         let (bodies, groups, place) = (patches, Arc::new(groups), None);
         Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })
     }
@@ -115,6 +123,7 @@ impl Scene {
         let Places { words, list, patches } =
             region.places(field, self.layout.own_frames, lattice, &self.bodies);
         let texture = upload(gpu, "the patches in sight", &words, rows)?;
+        self.layout.has_long_lists = region.bins.longest() > 32;
         self.place = Some(Place { region, texture, list, patches });
         Ok(())
     }

@@ -67,3 +67,8 @@ fn covering_of(bin: Bin, first: u32, pixel: Pixel) -> u32 {
     }
     return covering;
 }
+
+// The first candidate of a set.
+fn first_of(candidates: u32) -> u32 {
+    return firstTrailingBit(candidates);
+}

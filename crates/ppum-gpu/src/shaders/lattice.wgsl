@@ -49,3 +49,9 @@ fn covering_of(bin: Bin, first: u32, pixel: Pixel) -> u32 {
     let there = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), bin.bodies != vec4<u32>(NO_PATCH));
     return x & y & (there.x | there.y | there.z | there.w);
 }
+
+// The first candidate of a set that is not empty.
+fn first_of(candidates: u32) -> u32 {
+    let upper = select(3u, 2u, (candidates & 4u) != 0u);
+    return select(select(upper, 1u, (candidates & 2u) != 0u), 0u, (candidates & 1u) != 0u);
+}
