@@ -132,6 +132,7 @@ impl Gpu {
     }
 
     /// What the driver has complained about, outside of [`Gpu::checked`], since this was asked last.
+    #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page asks later"))]
     pub(crate) fn verdict(&self) -> Result<(), GpuError> {
         let complaint = self.state.complaint.lock().unwrap_or_else(PoisonError::into_inner).take();
         match complaint {

@@ -66,6 +66,7 @@ impl Groups {
     }
 
     /// Number of groups.
+    #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         self.members.len()
     }
@@ -92,6 +93,7 @@ impl Groups {
 
     /// The class of each group at upload: a smooth part with another function in place of 1 is still the
     /// smooth part.
+    #[cfg(test)]
     pub(crate) fn classes(&self) -> &[Class] {
         &self.classes
     }

@@ -3,8 +3,8 @@
 /// Declares a record of numbers: a Rust structure, its words in the order of its fields, and the same
 /// structure in WGSL.
 ///
-/// Fields go from the strictest alignment to the loosest, vectors of four first, so that neither side
-/// has gaps; a test compares the offsets with naga's.
+/// Fields go from the strictest alignment to the loosest, vectors first, so that neither side has gaps; a
+/// test holds every record to WGSL's rules.
 macro_rules! record {
     (
         $(#[$about:meta])*
@@ -17,15 +17,10 @@ macro_rules! record {
         }
 
         impl $name {
-            /// The structure in WGSL.
-            pub(crate) fn wgsl() -> String {
-                let members: &[(&str, &str)] = &[$(
-                    (stringify!($field), <$crate::layout::kinds::$kind as $crate::layout::Words>::WGSL),
-                )+];
-                let line = |(name, kind): &(&str, &str)| format!("    {name}: {kind},\n");
-                let members: String = members.iter().map(line).collect();
-                format!("struct {} {{\n{members}}}\n", stringify!($name))
-            }
+            /// Names and types of the fields in WGSL.
+            pub(crate) const MEMBERS: &'static [(&'static str, &'static str)] = &[$(
+                (stringify!($field), <$crate::layout::kinds::$kind as $crate::layout::Words>::WGSL),
+            )+];
 
             /// The words of all fields, up to a multiple of 16 bytes.
             pub(crate) fn words(&self) -> Vec<u32> {
@@ -40,6 +35,18 @@ macro_rules! record {
 
 pub(crate) use record;
 
+/// A structure of WGSL of these members; `before` is what stands before each, by its index.
+pub(crate) fn structure(
+    name: &str,
+    members: &[(&str, &str)],
+    before: impl Fn(usize) -> String,
+) -> String {
+    let line =
+        |(k, (name, kind)): (usize, &(&str, &str))| format!("    {}{name}: {kind},\n", before(k));
+    let members: String = members.iter().enumerate().map(line).collect();
+    format!("struct {name} {{\n{members}}}\n")
+}
+
 /// Names of the field types of records.
 #[expect(non_camel_case_types, reason = "they are the names of WGSL")]
 pub(crate) mod kinds {
@@ -47,7 +54,6 @@ pub(crate) mod kinds {
     pub(crate) type u32 = std::primitive::u32;
     pub(crate) type vec2f = [std::primitive::f32; 2];
     pub(crate) type vec2u = [std::primitive::u32; 2];
-    pub(crate) type vec4f = [std::primitive::f32; 4];
 }
 
 /// A type of a field.
@@ -75,7 +81,6 @@ words! {
     u32, "u32", |v| [*v];
     [f32; 2], "vec2<f32>", |v| v.map(f32::to_bits);
     [u32; 2], "vec2<u32>", |v| *v;
-    [f32; 4], "vec4<f32>", |v| v.map(f32::to_bits);
 }
 
 /// The bytes of words, as devices read them.
@@ -98,6 +103,22 @@ pub(crate) fn halves_by(quantum: f64, value: f64) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quads::{QUAD_BYTES, QuadRecord};
+    use crate::seen::ViewRecord;
+
+    /// Vectors of two begin with an even word, so WGSL puts nothing between members.
+    #[test]
+    fn records_have_no_gaps() {
+        for members in [ViewRecord::MEMBERS, QuadRecord::MEMBERS] {
+            let mut word = 0;
+            for (name, kind) in members {
+                let size = if kind.starts_with("vec2") { 2 } else { 1 };
+                assert_eq!(word % size, 0, "{name}");
+                word += size;
+            }
+        }
+        assert_eq!(4 * QuadRecord::default().words().len() as u64, QUAD_BYTES);
+    }
 
     #[test]
     fn halves_keep_48_bits() {

@@ -22,7 +22,8 @@ use crate::functions::{Surroundings, functions_wgsl};
 use crate::geometry;
 use crate::groups::{Groups, SMOOTH_GROUP};
 use crate::lattice::NO_PATCH;
-use crate::quads::QUAD_BYTES;
+use crate::layout::structure;
+use crate::quads::{QUAD_BYTES, QuadRecord};
 use crate::quantity::{order_of, quantity_wgsl};
 use crate::region::record_quads;
 use crate::scene::{SceneLayout, TEXELS};
@@ -340,7 +341,7 @@ impl Parts {
     fn text(&self, layout: SceneLayout, method: Method, output: Output, pass: FieldPass) -> String {
         let mut text = self.constants(layout);
         text += &types(layout);
-        text += &ViewRecord::wgsl().replace("ViewRecord", "View");
+        text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
         text += BINDINGS;
         text += &self.smooth(layout);
         text += &geometry::constants();
@@ -416,6 +417,8 @@ impl Parts {
     fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
         let slots = self.slots(layout);
         let mut text = shader::SPLAT.to_owned();
+        let location = |k| format!("@location({k}) ");
+        text += &structure("Instance", QuadRecord::MEMBERS, location);
         let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
         let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
         text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
@@ -661,13 +664,18 @@ impl Maker<'_> {
     }
 }
 
-/// The fields of a quad's record, two words each, the last one.
-fn attributes() -> [VertexAttribute; 7] {
-    use VertexFormat::{Float32x2, Uint32, Uint32x2};
-    let formats = [Uint32x2, Uint32x2, Float32x2, Float32x2, Float32x2, Float32x2, Uint32];
-    std::array::from_fn(|k| VertexAttribute {
-        format: formats[k],
-        offset: 8 * k as u64,
-        shader_location: k as u32,
-    })
+/// The fields of a quad's record.
+fn attributes() -> Vec<VertexAttribute> {
+    let mut offset = 0;
+    let attribute = |(location, (_, kind)): (u32, &(&str, &str))| {
+        let format = match *kind {
+            "vec2<f32>" => VertexFormat::Float32x2,
+            "vec2<u32>" => VertexFormat::Uint32x2,
+            _ => VertexFormat::Uint32,
+        };
+        let at = offset;
+        offset += format.size();
+        VertexAttribute { format, offset: at, shader_location: location }
+    };
+    (0..).zip(QuadRecord::MEMBERS).map(attribute).collect()
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use ppum::field::Field;
 use ppum::quantity::{Quantity, QuantityError};
-use ppum_render::image::Image;
-use ppum_render::raster::Raster;
 use ppum_render::view::View;
+#[cfg(not(target_arch = "wasm32"))]
+use ppum_render::{image::Image, raster::Raster};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindingResource, Buffer,
     BufferDescriptor, BufferUsages, CommandEncoder, Extent3d, LoadOp, Operations,
@@ -23,6 +23,7 @@ use crate::geometry::Geometry;
 use crate::layout::bytes;
 use crate::program::{Made, Method, Output, Program, SUMS};
 use crate::quads::quads;
+#[cfg(not(target_arch = "wasm32"))]
 use crate::read;
 use crate::scene::Scene;
 use crate::seen::Seen;
@@ -58,6 +59,7 @@ pub enum RenderError {
 /// # }
 /// ```
 #[derive(Debug)]
+#[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
 pub struct Renderer {
     gpu: Gpu,
     choice: Choice,
@@ -84,6 +86,7 @@ struct Targets {
 /// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the next
 /// one, of the next step say, can be begun before.
 #[derive(Debug)]
+#[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page cannot wait for pictures yet"))]
 pub struct Drawn {
     textures: Vec<Texture>,
     size: [u32; 2],

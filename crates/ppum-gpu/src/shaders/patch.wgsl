@@ -104,13 +104,18 @@ fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUP
         var c = four_constants(term.address);
         for (var g = 0u; g < GROUPS; g++) {
             for (var entry = 0u; entry < 4u; entry++) {
-                v[g] = jets_plus(v[g], times_constant(functions_entry(f, entry), c[entry * GROUPS + g]));
+                let part = times_constant(functions_entry(f, entry), c[entry * GROUPS + g]);
+                v[g] = jets_plus(v[g], part);
             }
         }
     }
     if HAS_POLYNOMIALS && !has_constants(term) {
         var at = 2u * term.address + LANE_PAIRS;
-        for (var entry = 0u; entry < 4u && (term.degrees >> (8u * entry)) != ALL_ABSENT >> (8u * entry); entry++) {
+        for (var entry = 0u; entry < 4u; entry++) {
+            // the loop ends with the last polynomial
+            if (term.degrees >> (8u * entry)) == (ALL_ABSENT >> (8u * entry)) {
+                break;
+            }
             let degree = degree_of(term, entry);
             if degree == ABSENT {
                 continue;

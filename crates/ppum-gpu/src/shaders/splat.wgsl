@@ -21,17 +21,6 @@ struct Quad {
     @location(5) @interpolate(flat) body: u32,
 }
 
-struct Instance {
-    // First pixel, and the one after the last, in columns and rows.
-    @location(0) first: vec2<u32>,
-    @location(1) end: vec2<u32>,
-    @location(2) xi: vec2<f32>,
-    @location(3) step: vec2<f32>,
-    @location(4) frame_xi: vec2<f32>,
-    @location(5) frame_step: vec2<f32>,
-    @location(6) body: u32,
-}
-
 @vertex
 fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
     let is_end = vec2<bool>((vertex & 1u) == 1u, vertex >= 2u);

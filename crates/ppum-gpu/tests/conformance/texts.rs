@@ -21,7 +21,9 @@ fn validate(case: &Case, known: &mut BTreeSet<String>) {
         for method in METHODS {
             for &output in outputs {
                 let all = good(texts(&field, &quantity, method, output));
-                assert_eq!(all.len() > 1, method == Method::Splat && has_field(text));
+                if method == Method::Splat {
+                    assert_eq!(all.len() > 1, has_field(text));
+                }
                 for shader in all.into_iter().filter(|shader| known.insert(shader.clone())) {
                     let what = format!("{}: {text}, {method:?}, {output:?}", case.name);
                     Module::new(&shader).unwrap_or_else(|error| panic!("{what}: {error}"));
