@@ -86,7 +86,10 @@ struct Targets {
 /// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the next
 /// one, of the next step say, can be begun before.
 #[derive(Debug)]
-#[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page cannot wait for pictures yet"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    allow(dead_code, reason = "a page cannot wait for pictures yet")
+)]
 pub struct Drawn {
     textures: Vec<Texture>,
     size: [u32; 2],
