@@ -305,7 +305,7 @@ impl<'a> Compiler<'a> {
 }
 
 /// The tip and index if a formula is one of the [Westergaard functions](WESTERGAARD) in a tip's frame:
-/// then [`westergaard`] evaluates it.
+/// then [`westergaard()`] evaluates it.
 #[must_use]
 pub fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
     let Frame::Tip(tip) = frame else { return None };
