@@ -3,7 +3,7 @@
 //! ```text
 //! patch   [other terms, degree of the smooth one + 256 × quads before the others], the smooth term, the others
 //! smooth  for each group of components: a polynomial without constant, high and low of the constants
-//! other   [group + 2²⁰ × its quads, degrees], the polynomials of its functions, in their order
+//! other   [group + 2^GROUP_BITS × its quads, degrees], the polynomials of its functions, in their order
 //! ```
 //!
 //! Degrees are 8 bits for each function of a group, [`ABSENT`] if it has no polynomial here. A polynomial

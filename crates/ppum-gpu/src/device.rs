@@ -157,8 +157,9 @@ impl Gpu {
     }
 }
 
-/// WebGPU's defaults with textures and buffers as large as the adapter makes them. What a shader sees of
-/// a buffer at once stays at the default 128 MiB, so that what is tested here is what runs elsewhere.
+/// WebGPU's defaults, but for textures and buffers as large as the adapter makes them: pictures above 8192
+/// pixels a side and data above 1 GiB are drawn where the adapter can. All else stays at the defaults, so that
+/// what is tested here is what runs elsewhere.
 fn limits(most: &Limits) -> Limits {
     Limits {
         max_texture_dimension_2d: most.max_texture_dimension_2d,

@@ -66,8 +66,7 @@ impl Groups {
     }
 
     /// Number of groups.
-    #[cfg(test)]
-    pub(crate) fn len(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.members.len()
     }
 
@@ -185,7 +184,7 @@ mod tests {
         functions.push(Function { name: "one".into(), kind: FunctionKind::One });
         functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } });
         let groups = Groups::new(&functions);
-        let members: Vec<_> = (0..groups.len()).map(|group| groups.members(group)).collect();
+        let members: Vec<_> = (0..groups.count()).map(|group| groups.members(group)).collect();
         let expected: [&[u32]; 7] =
             [&[12], &[13], &[0, 1], &[2, 3, 4, 5], &[6], &[7, 8, 9, 10], &[11]];
         assert_eq!(members, expected);
@@ -210,9 +209,9 @@ mod tests {
             }
         }
         let groups = Groups::new(&functions);
-        assert_eq!(groups.len(), 9 + 18 + 18);
+        assert_eq!(groups.count(), 9 + 18 + 18);
         let keys: Vec<_> =
-            (0..groups.len()).map(|group| texts(&functions, groups.members(group))).collect();
+            (0..groups.count()).map(|group| texts(&functions, groups.members(group))).collect();
         assert_eq!(keys.windows(2).filter(|pair| pair[0] != pair[1]).count(), 2);
     }
 
@@ -242,6 +241,6 @@ mod tests {
     fn frames_that_differ_do_not_share_a_group() {
         let fixed = |angle| formula("x", Frame::Fixed { origin: Vec2::ZERO, angle });
         let groups = Groups::new(&[fixed(0.0), fixed(0.5), formula("x", Frame::World)]);
-        assert_eq!(groups.len(), 3);
+        assert_eq!(groups.count(), 3);
     }
 }

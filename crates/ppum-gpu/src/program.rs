@@ -61,7 +61,7 @@ pub struct Program {
     pub(crate) output: Output,
     /// The patch whose φ is drawn.
     pub(crate) chosen: Option<u32>,
-    /// Everything of the text that does not depend on the scene's buffers.
+    /// Everything of the text that does not depend on the scene's layout.
     parts: Parts,
     made: Option<Made>,
 }
@@ -73,13 +73,15 @@ struct Parts {
     order: u32,
     /// False for quantities of the partition alone.
     has_field: bool,
+    /// The step has a smooth part.
+    has_smooth: bool,
     /// True for the φ of a patch.
     has_part: bool,
     /// Weight, functions, quantity.
     formulas: String,
 }
 
-/// The pipelines for a device and the buffers of a scene.
+/// The pipelines for a device and the layout of a scene.
 #[derive(Debug)]
 pub(crate) struct Made {
     generation: u64,
@@ -147,7 +149,7 @@ impl Output {
 }
 
 impl Program {
-    /// Composes the program; pipelines are made when it is drawn first.
+    /// Composes the program; pipelines are made when they are needed.
     pub(crate) fn new(
         groups: &Groups,
         field: &Field<'_>,
@@ -166,7 +168,8 @@ impl Program {
             Quantity::PartitionFunction(patch) => Some(*patch),
             _ => None,
         };
-        let parts = Parts { order, has_field, has_part: chosen.is_some(), formulas };
+        let has_smooth = groups.has_smooth();
+        let parts = Parts { order, has_field, has_smooth, has_part: chosen.is_some(), formulas };
         Ok(Self { method, output, chosen, parts, made: None })
     }
 
@@ -204,19 +207,32 @@ impl Program {
         areas: &BTreeSet<Others>,
     ) -> Result<&Made, GpuError> {
         let fits = |made: &Made| made.generation == generation && made.layout == layout;
-        let mut made = match self.made.take().filter(fits) {
-            Some(made) => made,
-            None => self.make(gpu, generation, layout)?,
+        let mut made = match self.made.take() {
+            Some(made) if fits(&made) => made,
+            _ => self.make(gpu, generation, layout)?,
         };
+        let result = self.make_areas(gpu, &mut made, areas);
+        // what is made stays, also if something else cannot be
+        let made = self.made.insert(made);
+        result.map(|()| &*made)
+    }
+
+    /// Makes the pipelines of areas that are missing.
+    fn make_areas(
+        &self,
+        gpu: &Gpu,
+        made: &mut Made,
+        areas: &BTreeSet<Others>,
+    ) -> Result<(), GpuError> {
         for &others in areas {
             if !made.finish.contains_key(&others) {
-                let text =
-                    self.parts.text(layout.with(others), self.method, self.output, FieldPass::NONE);
+                let layout = made.layout.with(others);
+                let text = self.parts.text(layout, self.method, self.output, FieldPass::NONE);
                 let pipeline = made.maker(gpu).finish(self.output, &text)?;
                 made.finish.insert(others, pipeline);
             }
         }
-        Ok(self.made.insert(made))
+        Ok(())
     }
 
     fn make(&self, gpu: &Gpu, generation: u64, layout: SceneLayout) -> Result<Made, GpuError> {
@@ -225,12 +241,16 @@ impl Program {
             check_splat(gpu, slots)?;
         }
         let sums = if self.method == Method::Splat { slots.all() } else { 0 };
+        let [data, weights, textures] = gpu.checked("describe the bindings", || {
+            let weights = textures_layout(gpu, slots.weights);
+            [data_layout(gpu), weights, textures_layout(gpu, sums + 1)]
+        })?;
         let mut made = Made {
             generation,
             layout,
-            data: data_layout(gpu),
-            sums: textures_layout(gpu, slots.weights),
-            textures: textures_layout(gpu, sums + 1),
+            data,
+            sums: weights,
+            textures,
             weights: None,
             fields: Vec::new(),
             finish: BTreeMap::new(),
@@ -303,7 +323,8 @@ fn check_splat(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
             "splatting adds up 32-bit floats while drawing, which {name} does not; gather instead"
         )));
     }
-    if slots.all() >= MOST_TEXTURES {
+    // beside the sums: the palette, the dataset's data, the region's
+    if slots.all() + 3 > MOST_TEXTURES {
         let message = "splatting holds all components in textures, of which there are too few for \
              this field; gather instead";
         return Err(GpuError::Unsupported(message.to_owned()));
@@ -401,6 +422,7 @@ impl Parts {
         for (name, value) in [
             ("OWN_FRAMES", own_frames),
             ("HAS_FIELD", self.has_field),
+            ("HAS_SMOOTH", self.has_smooth),
             ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
             ("HAS_KINKS", has_kinks),
@@ -621,11 +643,6 @@ impl Maker<'_> {
         let module = self.gpu.shader("compile the shader", pass.text)?;
         let device = self.gpu.device();
         let groups = [Some(&self.made.data), pass.textures];
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(pass.fragment),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
         let attributes = attributes();
         let quads = [Some(VertexBufferLayout {
             array_stride: QUAD_BYTES,
@@ -639,6 +656,11 @@ impl Maker<'_> {
             zero_initialize_workgroup_memory: false,
         };
         self.gpu.checked("make the pipeline", || {
+            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(pass.fragment),
+                bind_group_layouts: &groups,
+                immediate_size: 0,
+            });
             device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(pass.fragment),
                 layout: Some(&layout),

@@ -50,7 +50,7 @@ impl Region {
     pub(crate) fn new(field: &Field<'_>, view: &View, lattice: Option<&Lattice>) -> Self {
         let domain = field.domain.bounds;
         let around = Rect::around(view.center, view.half() * AROUND);
-        let deep = view.width * DEEPEST < domain.size().x.max(domain.size().y);
+        let deep = longer(view) * DEEPEST < domain.size().x.max(domain.size().y);
         let bounds = if deep { around } else { domain };
         let anchor = if deep { view.center } else { domain.center() };
         let relative = Rect::new(bounds.min - anchor, bounds.max - anchor);
@@ -80,7 +80,7 @@ impl Region {
         let seen = view.rect().intersection(&domain);
         let inside = bounds.contains(seen.min) && bounds.contains(seen.max);
         let nothing = !view.rect().overlaps(&domain);
-        nothing || (inside && view.width * DEEPEST >= size.x.max(size.y))
+        nothing || (inside && longer(view) * DEEPEST >= size.x.max(size.y))
     }
 
     /// What positions high are multiples of: 2⁻²² of the region's size, rounded to a power of two.
@@ -131,6 +131,11 @@ impl Region {
         words.extend([high, low, inverse].iter().flatten().map(|v| v.to_bits()));
         words.extend([word, 0]);
     }
+}
+
+/// The longer side of a view.
+fn longer(view: &View) -> f64 {
+    view.width.max(view.height())
 }
 
 /// Goes to the next quad, whose number this is.

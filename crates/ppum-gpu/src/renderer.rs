@@ -134,7 +134,8 @@ impl Renderer {
 
     /// Compiles a quantity for a scene. The functions and the weight are those of `field`, the one that was
     /// uploaded or the same with [replaced](ppum::replace) functions: nothing is uploaded again, and a program
-    /// compiled before keeps drawing if this one fails.
+    /// compiled before keeps drawing if this one fails. Areas of a picture that need less than the whole program
+    /// get their own when they are seen first.
     ///
     /// # Errors
     /// A formula that is too large for a shader; quantities that single precision cannot show; splatting on
@@ -149,6 +150,12 @@ impl Renderer {
     ) -> Result<Program, RenderError> {
         quantity.check(field)?;
         scene.check(field)?;
+        if let Output::Component(component) = output
+            && usize::from(component) >= field.components()
+        {
+            let message = format!("there is no component {component}, counted from 0");
+            return Err(GpuError::Unsupported(message).into());
+        }
         let mut program = Program::new(&scene.groups, field, quantity, method, output)?;
         self.again(|renderer| {
             let all = BTreeSet::from([scene.layout.shape.others]);
@@ -162,8 +169,7 @@ impl Renderer {
     /// # Errors
     /// See [`GpuError`]. A lost device is replaced; [`GpuError::Lost`] comes only if that fails twice.
     ///
-    /// # Panics
-    /// If the program writes colours and there is no shading.
+    /// [`GpuError::Unsupported`] if the program writes colours and there is no shading.
     pub fn draw(
         &mut self,
         scene: &mut Scene,
@@ -174,9 +180,13 @@ impl Renderer {
     ) -> Result<Drawn, GpuError> {
         scene.check(field)?;
         self.check_size(view)?;
+        if program.output == Output::Colors && shading.is_none() {
+            let message = "a program that writes colours needs a shading to draw";
+            return Err(GpuError::Unsupported(message.to_owned()));
+        }
         self.again(|renderer| {
             if scene.generation != renderer.generation {
-                *scene = Scene::new(&renderer.gpu, renderer.generation, field, renderer.rows)?;
+                *scene = scene.renewed(&renderer.gpu, renderer.generation, field, renderer.rows)?;
             }
             renderer.draw_once(scene, program, field, view, shading)
         })
@@ -245,7 +255,11 @@ impl Renderer {
 
     #[cfg(not(target_arch = "wasm32"))]
     fn bytes(&self, drawn: &Drawn, texture: usize) -> Result<Vec<u8>, GpuError> {
-        let bytes = read::texture(&self.gpu, &drawn.textures[texture])?;
+        let Some(texture) = drawn.textures.get(texture) else {
+            let message = "the picture was drawn with another output than is read".to_owned();
+            return Err(GpuError::Unsupported(message));
+        };
+        let bytes = read::texture(&self.gpu, texture)?;
         self.gpu.verdict()?;
         Ok(bytes)
     }
@@ -540,7 +554,7 @@ fn write(gpu: &Gpu, buffer: &mut Option<Buffer>, usage: BufferUsages, words: &[u
         Some(buffer) => buffer,
         None => buffer.insert(gpu.device().create_buffer(&BufferDescriptor {
             label: Some("view"),
-            size: size.next_power_of_two(),
+            size: size.next_power_of_two().min(gpu.limits().max_buffer_size).max(size),
             usage: usage | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })),

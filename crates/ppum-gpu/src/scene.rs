@@ -10,7 +10,7 @@ use wgpu::{
     TextureDimension, TextureFormat, TextureUsages, TextureView, TextureViewDescriptor,
 };
 
-use crate::bodies::{Bodies, Components, Others, Shape};
+use crate::bodies::{Bodies, Components, GROUP_BITS, Others, Shape};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::groups::Groups;
@@ -98,11 +98,34 @@ impl Scene {
         field: &Field<'_>,
         rows: u32,
     ) -> Result<Self, GpuError> {
-        let groups = Groups::new(&field.step.functions);
+        let groups = Arc::new(Groups::new(&field.step.functions));
+        Self::with_groups(gpu, generation, field, rows, groups)
+    }
+
+    /// Uploads the field of a scene on a new device. Its functions may have been replaced since: programs know
+    /// them by the groups they had.
+    pub(crate) fn renewed(
+        &self,
+        gpu: &Gpu,
+        generation: u64,
+        field: &Field<'_>,
+        rows: u32,
+    ) -> Result<Self, GpuError> {
+        Self::with_groups(gpu, generation, field, rows, Arc::clone(&self.groups))
+    }
+
+    fn with_groups(
+        gpu: &Gpu,
+        generation: u64,
+        field: &Field<'_>,
+        rows: u32,
+        groups: Arc<Groups>,
+    ) -> Result<Self, GpuError> {
+        check_sizes(field, &groups)?;
         let Bodies { words, patches, shape, enriched } = Bodies::new(field, &groups);
         let data = upload(gpu, "the coefficients", &words, rows)?;
         let (layout, lattice) = SceneLayout::of(field, shape);
-        let (bodies, groups, place) = (patches, Arc::new(groups), None);
+        let (bodies, place) = (patches, None);
         Ok(Self { generation, layout, groups, data, bodies, lattice, enriched, place })
     }
 
@@ -123,7 +146,8 @@ impl Scene {
         let Places { words, list, patches } =
             region.places(field, self.layout.own_frames, lattice, &self.bodies);
         let texture = upload(gpu, "the patches in sight", &words, rows)?;
-        self.layout.has_long_lists = region.bins.longest() > 32;
+        // once it is so it stays: a program made for it draws all regions
+        self.layout.has_long_lists |= region.bins.longest() > 32;
         self.place = Some(Place { region, texture, list, patches });
         Ok(())
     }
@@ -145,6 +169,21 @@ impl Scene {
         Err(GpuError::Unsupported(message.to_owned()))
     }
 }
+
+/// Refuses what the numbers of terms cannot hold.
+fn check_sizes(field: &Field<'_>, groups: &Groups) -> Result<(), GpuError> {
+    if groups.count() >= 1 << GROUP_BITS || field.components() > MOST_COMPONENTS {
+        let (functions, components) = (groups.functions(), field.components());
+        return Err(GpuError::Unsupported(format!(
+            "{functions} functions and {components} components are more than shaders tell apart; use \
+             `--backend cpu`"
+        )));
+    }
+    Ok(())
+}
+
+/// Components of a field: a term of four functions times polynomials of degree 8 then stays below 4096 quads.
+const MOST_COMPONENTS: usize = 64;
 
 /// Uploads words as a texture of quads.
 fn upload(gpu: &Gpu, what: &str, words: &[u32], most: u32) -> Result<TextureView, GpuError> {

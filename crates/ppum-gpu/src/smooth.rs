@@ -1,7 +1,7 @@
 //! The smooth term of a patch where all patches have the same degree: a shader without loops. And what
 //! else reads quads of coefficients once each.
 //!
-//! `smooth_of` of `shaders/patch.wgsl` reads a degree and runs loops over coefficients. Here the
+//! `smooth_of` of `shaders/smooth.wgsl` reads a degree and runs loops over coefficients. Here the
 //! same nested Horner schemes are written out for one degree, and each quad of coefficients is loaded
 //! once.
 
@@ -36,7 +36,7 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
     }
     let _ = writeln!(text, "    out.high[0] = {};", slot(count));
     let _ = writeln!(text, "    out.low[0] = {};", slot(count + 1));
-    text + "    out.terms = q0.x;\n    out.others = address + (q0.y >> 8u);\n    return out;\n}\n"
+    text + "    out.present = true;\n    out.terms = q0.x;\n    out.others = address + (q0.y >> 8u);\n    return out;\n}\n"
 }
 
 /// The function that reads the constants of four functions, each quad of them once.

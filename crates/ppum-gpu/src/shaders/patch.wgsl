@@ -27,6 +27,8 @@ struct Smooth {
     // Number of other terms, and the quad at which they begin.
     terms: u32,
     others: u32,
+    // False if the patch has no smooth term.
+    present: bool,
 }
 
 fn monomials(degree: u32) -> u32 {
@@ -43,12 +45,17 @@ fn smooth_field(
     let high = smooth_term.high;
     let low = smooth_term.low;
     for (var g = 0u; g < GROUPS; g++) {
-        if is_one(SMOOTH_GROUP) {
+        if !HAS_SMOOTH {
+            v[g].v -= reference.high[g] + reference.low[g];
+        } else if is_one(SMOOTH_GROUP) {
             v[g].v += (high[g] - reference.high[g]) + (low[g] - reference.low[g]);
         } else {
             // another function has taken the place of 1
             v[g].v += high[g] + low[g];
-            v[g] = jets_times(functions_entry(functions(SMOOTH_GROUP, offset), 0u), v[g]);
+            // 0 · f has no value where f has none
+            if smooth_term.present {
+                v[g] = jets_times(functions_entry(functions(SMOOTH_GROUP, offset), 0u), v[g]);
+            }
             v[g].v -= reference.high[g] + reference.low[g];
         }
     }

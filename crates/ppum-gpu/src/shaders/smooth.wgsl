@@ -9,6 +9,7 @@ fn smooth_of(address: u32, place: Place) -> Smooth {
     if degree == ABSENT {
         return out;
     }
+    out.present = true;
     let count = monomials(degree);
     var at = 2u * address + LANE_PAIRS;
     for (var g = 0u; g < GROUPS; g++) {

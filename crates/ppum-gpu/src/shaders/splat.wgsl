@@ -63,7 +63,7 @@ fn splat_field(quad: Quad) -> Fields {
     if !covers(support.xi) {
         return Fields();
     }
-    let w = quad_weight(support);
+    let w = weight_tensor(support.xi, support.inverse);
     let phi = jet_over(w, weight_sum(pixel.index));
     var place = support;
     if OWN_FRAMES {

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use ppum::dataset::Dataset;
+use ppum::decompose::Part;
 use ppum::field::Field;
 use ppum::formula::Table;
 use ppum::function::{Frame, FunctionKind};
 use ppum_gpu::{Method, Output, Renderer, Scene};
 use ppum_testkit::synthetic::Recipe;
 
-use crate::{METHODS, bits, check, draw, good, quantity, renderer_or_skip, window};
+use crate::{METHODS, bits, check, draw, good, quantity, renderer_or_skip, view, window};
 
 fn dataset() -> Dataset {
     let extra = vec![FunctionKind::formula("x*y^2", Frame::World)];
@@ -57,6 +58,42 @@ fn replaced_functions_are_drawn_without_upload() {
         let mut program = good(renderer.compile(&scene, &field, &stress, method, Output::Values));
         let raster = draw(&mut renderer, &mut scene, &mut program, &field, &window());
         check(what, &truth, "von-mises", method, &raster);
+    }
+}
+
+/// The device is lost while functions are replaced: the scene comes back with the groups the program knows.
+#[test]
+fn replaced_functions_survive_a_loss() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let old = dataset();
+    let field = good(Field::new(&old, 0));
+    let mut scene = good(renderer.upload(&field));
+    let stress = quantity("von-mises", &field);
+    for (what, new) in &replacements()[1..3] {
+        let truth = good(Field::new(new, 0));
+        let compiled = renderer.compile(&scene, &truth, &stress, Method::Gather, Output::Values);
+        let mut program = good(compiled);
+        renderer.gpu().lose();
+        let raster = draw(&mut renderer, &mut scene, &mut program, &truth, &window());
+        check(what, &truth, "von-mises", Method::Gather, &raster);
+    }
+}
+
+/// Where a function that has taken the place of 1 has no value, patches without a smooth part do not mind.
+#[test]
+fn a_function_is_not_asked_where_it_is_not_used() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let mut dataset = dataset();
+    let step = &mut dataset.steps[0];
+    let jumps = good(step.fields[0].part(Part::Jump, &step.functions));
+    step.fields[0] = jumps;
+    // negative everywhere: no logarithm
+    good(step.replace_function("one", "log(-1 - x^2)", &[]));
+    let truth = good(Field::new(&dataset, 0));
+    let stress = quantity("von-mises", &truth);
+    for method in METHODS {
+        let raster = good(renderer.render(&truth, &view(&window()), &stress, method));
+        check("jumps alone", &truth, "von-mises", method, &raster);
     }
 }
 

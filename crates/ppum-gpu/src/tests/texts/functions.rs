@@ -191,7 +191,7 @@ fn kernels_are_shared() {
         }
     }
     let groups = Groups::new(&functions);
-    assert_eq!(groups.len(), 1 + 144 + 288 + 288);
+    assert_eq!(groups.count(), 1 + 144 + 288 + 288);
     let (_, text) = shader(&functions, &groups, &cracks, &[], 2);
     assert_eq!(text.matches("fn functions_").count(), 4);
     assert_eq!(text.matches("if group <").count(), 3);
