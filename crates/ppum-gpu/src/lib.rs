@@ -18,6 +18,7 @@ mod areas;
 mod bins;
 mod bodies;
 mod color;
+mod compose;
 mod device;
 mod error;
 mod functions;
@@ -25,6 +26,7 @@ mod geometry;
 mod groups;
 mod lattice;
 mod layout;
+mod pipeline;
 mod program;
 mod quads;
 mod quantity;
@@ -36,6 +38,7 @@ mod scene;
 mod seen;
 mod shader;
 mod smooth;
+mod targets;
 #[doc(hidden)]
 pub mod testing;
 #[cfg(test)]

@@ -1,36 +1,19 @@
-//! Shaders composed of their parts, and the pipelines made of them.
+//! A quantity compiled for the card.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 use ppum::field::Field;
-use ppum::formula::wgsl_prelude;
 use ppum::quantity::{Quantity, Source};
-use wgpu::{
-    BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BlendComponent,
-    BlendFactor, BlendOperation, BlendState, BufferBindingType, ColorTargetState, ColorWrites,
-    RenderPipeline, ShaderStages, TextureFormat, TextureSampleType, TextureViewDimension,
-    VertexAttribute, VertexBufferLayout, VertexFormat, VertexStepMode,
-};
+use wgpu::{BindGroupLayout, RenderPipeline, TextureFormat};
 
-use crate::bins;
-use crate::bodies::{self, Components, Others};
-use crate::color::PALETTE_TEXELS;
+use crate::bodies::Others;
+use crate::compose::{Parts, formulas};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::functions::{Surroundings, functions_wgsl};
-use crate::geometry;
-use crate::groups::{Groups, SMOOTH_GROUP};
-use crate::lattice::NO_PATCH;
-use crate::layout::structure;
-use crate::quads::{QUAD_BYTES, QuadRecord};
-use crate::quantity::{order_of, quantity_wgsl};
-use crate::region::record_quads;
-use crate::scene::{SceneLayout, TEXELS};
-use crate::seen::ViewRecord;
-use crate::shader;
-use crate::smooth::{four_constants, straight_smooth};
-use crate::weight::weight_wgsl;
+use crate::groups::Groups;
+use crate::pipeline::{Maker, data_layout, textures_layout};
+use crate::quantity::order_of;
+use crate::scene::SceneLayout;
 
 /// How patches come together at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,21 +49,6 @@ pub struct Program {
     made: Option<Made>,
 }
 
-/// Texts and numbers a program is made of.
-#[derive(Clone, Debug)]
-struct Parts {
-    /// Derivatives: 0, 1 or 2.
-    order: u32,
-    /// False for quantities of the partition alone.
-    has_field: bool,
-    /// The step has a smooth part.
-    has_smooth: bool,
-    /// True for the φ of a patch.
-    has_part: bool,
-    /// Weight, functions, quantity.
-    formulas: String,
-}
-
 /// The pipelines for a device and the layout of a scene.
 #[derive(Debug)]
 pub(crate) struct Made {
@@ -104,9 +72,9 @@ pub(crate) struct Made {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slots {
     /// Pairs of components.
-    pairs: u32,
+    pub(crate) pairs: u32,
     /// Slots of each of them.
-    per_pair: u32,
+    pub(crate) per_pair: u32,
     /// Textures for S and its derivatives: two if there are second ones, or φ of a patch is wanted.
     pub(crate) weights: u32,
 }
@@ -116,7 +84,7 @@ pub(crate) struct Slots {
 pub(crate) struct FieldPass {
     pub(crate) pair: u32,
     /// Its first slot among those of the pair.
-    first: u32,
+    pub(crate) first: u32,
     pub(crate) slots: u32,
 }
 
@@ -139,7 +107,8 @@ impl Output {
         }
     }
 
-    fn entry(self) -> &'static str {
+    /// The function of the shader that writes it.
+    pub(crate) fn entry(self) -> &'static str {
         match self {
             Self::Values => "draw_value",
             Self::Colors => "draw_color",
@@ -308,7 +277,7 @@ impl Slots {
 
 impl FieldPass {
     /// Something to write for a shader that splats no field.
-    const NONE: Self = Self { pair: 0, first: 0, slots: 1 };
+    pub(crate) const NONE: Self = Self { pair: 0, first: 0, slots: 1 };
 
     /// Its first slot among all.
     pub(crate) fn first_slot(self, slots: Slots) -> u32 {
@@ -330,374 +299,4 @@ fn check_splat(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
         return Err(GpuError::Unsupported(message.to_owned()));
     }
     Ok(())
-}
-
-/// Weight, functions and quantity of a field in WGSL.
-fn formulas(
-    groups: &Groups,
-    field: &Field<'_>,
-    quantity: &Quantity,
-    order: u32,
-) -> Result<String, GpuError> {
-    let step = field.step;
-    let surroundings =
-        Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
-    Ok([
-        wgsl_prelude().to_owned(),
-        weight_wgsl(&step.partition.weight)?,
-        functions_wgsl(&step.functions, groups, surroundings)?,
-        quantity_wgsl(field, quantity)?,
-    ]
-    .concat())
-}
-
-impl Parts {
-    fn slots(&self, layout: SceneLayout) -> Slots {
-        let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
-        let weights = if self.order >= 2 || self.has_part { 2 } else { 1 };
-        Slots { pairs, per_pair: self.order + 1, weights }
-    }
-
-    /// The whole text of a shader; `pass` is what it splats.
-    fn text(&self, layout: SceneLayout, method: Method, output: Output, pass: FieldPass) -> String {
-        let mut text = self.constants(layout);
-        text += &types(layout);
-        text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
-        text += BINDINGS;
-        text += &self.smooth(layout);
-        text += &geometry::constants();
-        let parts = [shader::LOAD, shader::PIXEL, shader::PATCH, shader::FINISH];
-        text.extend(shader::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
-        text += &self.formulas;
-        text += match output {
-            Output::Values => "",
-            Output::Colors => shader::COLOR,
-            Output::Component(_) => shader::COMPONENT,
-        };
-        text += &match method {
-            Method::Gather => gather_text(layout.is_lattice),
-            Method::Splat => self.splat_text(layout, pass),
-        };
-        text + &palette_binding(match method {
-            Method::Gather => 0,
-            Method::Splat => self.slots(layout).all(),
-        })
-    }
-
-    /// What evaluates smooth terms, and reads constants.
-    fn smooth(&self, layout: SceneLayout) -> String {
-        let Components { lanes, groups, .. } = layout.components;
-        let smooth = match layout.shape.degree {
-            Some(degree) if groups == 1 => straight_smooth(degree.into(), lanes, self.order),
-            _ => shader::SMOOTH.to_owned(),
-        };
-        smooth + &four_constants(lanes, groups)
-    }
-
-    fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout {
-            components, shape, own_frames, has_holes, has_kinks, has_long_lists, ..
-        } = layout;
-        let mut text = String::new();
-        for (name, value) in [
-            ("ORDER", self.order),
-            ("COMPONENTS", components.count as u32),
-            ("LANES", components.lanes as u32),
-            ("LANE_PAIRS", components.lanes as u32 / 2),
-            ("GROUPS", components.groups as u32),
-            ("RECORD_QUADS", record_quads(own_frames)),
-            ("TEXELS", TEXELS),
-            ("INNER", bins::INNER),
-            ("NO_PATCH", NO_PATCH),
-            ("SMOOTH_GROUP", SMOOTH_GROUP),
-            ("GROUP_BITS", bodies::GROUP_BITS),
-            ("ABSENT", bodies::ABSENT),
-            ("ALL_ABSENT", u32::MAX),
-            ("PALETTE", PALETTE_TEXELS),
-            ("LOG", crate::color::LOG),
-            ("SYMLOG", crate::color::SYMLOG),
-        ] {
-            let _ = writeln!(text, "const {name}: u32 = {value}u;");
-        }
-        for (name, value) in [
-            ("OWN_FRAMES", own_frames),
-            ("HAS_FIELD", self.has_field),
-            ("HAS_SMOOTH", self.has_smooth),
-            ("HAS_PART", self.has_part),
-            ("HAS_HOLES", has_holes),
-            ("HAS_KINKS", has_kinks),
-            ("HAS_LONG_LISTS", has_long_lists),
-            ("HAS_CONSTANTS", shape.others.constants),
-            ("HAS_POLYNOMIALS", shape.others.polynomials),
-        ] {
-            let _ = writeln!(text, "const {name}: bool = {value};");
-        }
-        text
-    }
-
-    /// What splatting has beside its file: targets, slots, textures.
-    fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
-        let slots = self.slots(layout);
-        let mut text = shader::SPLAT.to_owned();
-        let location = |k| format!("@location({k}) ");
-        text += &structure("Instance", QuadRecord::MEMBERS, location);
-        let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
-        let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
-        text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
-        text += &targets("Weights", slots.weights);
-        text += &weights_of(slots.weights);
-        text += &targets("Fields", pass.slots);
-        text += &fields_of(pass, layout.components.lanes);
-        for k in 0..slots.weights {
-            let _ = writeln!(text, "@group(1) @binding({k}) var weights_{k}: texture_2d<f32>;");
-        }
-        for k in 0..slots.count() {
-            let binding = slots.weights + k;
-            let _ = writeln!(text, "@group(1) @binding({binding}) var field_{k}: texture_2d<f32>;");
-        }
-        text + &field_slot(slots.count())
-    }
-}
-
-/// `Lanes` and what belongs to it.
-fn types(layout: SceneLayout) -> String {
-    let lanes = layout.components.lanes;
-    let (of, load, view) = if lanes == 2 {
-        ("a", "lanes_from(load(at / 2u), at % 2u)", "load_view(at)")
-    } else {
-        (
-            "vec4<f32>(a, b)",
-            "bitcast<vec4<f32>>(load(at / 2u))",
-            "vec4<f32>(load_view(at), load_view(at + 1u))",
-        )
-    };
-    format!(
-        "alias Lanes = vec{lanes}<f32>;
-fn lanes_of(a: vec2<f32>, b: vec2<f32>) -> Lanes {{ return {of}; }}
-fn lanes_from(quad: vec4<u32>, odd: u32) -> vec2<f32> {{
-    return bitcast<vec2<f32>>(select(quad.xy, quad.zw, odd == 1u));
-}}
-fn load_lanes(at: u32) -> Lanes {{ return {load}; }}
-fn view_lanes(at: u32) -> Lanes {{ return {view}; }}
-struct Sample {{
-    position: vec2<f32>,
-    u: array<Jets, GROUPS>,
-    weight_sum: f32,
-    overlap: f32,
-    part: f32,
-}}
-"
-    )
-}
-
-/// The view, its data, the dataset's and the region's.
-const BINDINGS: &str = "@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<storage, read> view_data: array<vec2<f32>>;
-@group(0) @binding(2) var data: texture_2d<u32>;
-@group(0) @binding(3) var places: texture_2d<u32>;
-";
-
-fn gather_text(is_lattice: bool) -> String {
-    let bins = if is_lattice { shader::LATTICE } else { shader::BINS };
-    let alias = "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n";
-    [bins, shader::GATHER, alias].concat()
-}
-
-fn palette_binding(binding: u32) -> String {
-    format!("@group(1) @binding({binding}) var palette: texture_2d<f32>;\n")
-}
-
-/// A structure of float targets.
-fn targets(name: &str, count: u32) -> String {
-    let member = |k| format!("    @location({k}) target_{k}: vec4<f32>,\n");
-    let members: String = (0..count).map(member).collect();
-    format!("struct {name} {{\n{members}}}\n")
-}
-
-/// What is summed of a weight, with the number of patches and the weight of the chosen one.
-fn weights_of(count: u32) -> String {
-    let (second, read) = if count == 2 {
-        (", vec4<f32>(w.xx, w.xy, w.yy, part)", "textureLoad(weights_1, index, 0)")
-    } else {
-        ("", "vec4<f32>()")
-    };
-    format!(
-        "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {{
-    return Weights(vec4<f32>(w.v, w.x, w.y, overlap){second});
-}}
-fn second_weights(index: vec2<u32>) -> vec4<f32> {{
-    return {read};
-}}
-"
-    )
-}
-
-/// What a pass writes of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
-fn fields_of(pass: FieldPass, lanes: usize) -> String {
-    const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
-    let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };
-    let slot = |k: u32| {
-        let [a, b] = PAIRS[(pass.first + k) as usize];
-        format!("vec4<f32>(u.{a}.{part}, u.{b}.{part})")
-    };
-    let all: Vec<String> = (0..pass.slots).map(slot).collect();
-    format!("fn fields_of(u: Jets) -> Fields {{\n    return Fields({});\n}}\n", all.join(", "))
-}
-
-/// The texture of a slot; 0 for those of components there are not.
-fn field_slot(count: u32) -> String {
-    let mut text = "fn field_slot(slot: u32, index: vec2<u32>) -> vec4<f32> {\n".to_owned();
-    for k in 0..count {
-        let _ =
-            writeln!(text, "    if slot == {k}u {{ return textureLoad(field_{k}, index, 0); }}");
-    }
-    text + "    return vec4<f32>();\n}\n"
-}
-
-fn data_layout(gpu: &Gpu) -> BindGroupLayout {
-    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let texture = texture_type(TextureSampleType::Uint);
-    let types = [
-        buffer(BufferBindingType::Uniform),
-        buffer(BufferBindingType::Storage { read_only: true }),
-        texture,
-        texture,
-    ];
-    let entries: Vec<_> = (0..).zip(types).map(|(binding, ty)| layout_entry(binding, ty)).collect();
-    let descriptor = BindGroupLayoutDescriptor { label: Some("data"), entries: &entries };
-    gpu.device().create_bind_group_layout(&descriptor)
-}
-
-fn texture_type(sample_type: TextureSampleType) -> BindingType {
-    let view_dimension = TextureViewDimension::D2;
-    BindingType::Texture { sample_type, view_dimension, multisampled: false }
-}
-
-/// A binding of fragments; the first, the view, of vertices too.
-fn layout_entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
-    let is_uniform = matches!(ty, BindingType::Buffer { ty: BufferBindingType::Uniform, .. });
-    let both = ShaderStages::VERTEX_FRAGMENT;
-    let visibility = if is_uniform { both } else { ShaderStages::FRAGMENT };
-    BindGroupLayoutEntry { binding, visibility, ty, count: None }
-}
-
-/// A number of textures.
-fn textures_layout(gpu: &Gpu, count: u32) -> BindGroupLayout {
-    let ty = texture_type(TextureSampleType::Float { filterable: false });
-    let entries: Vec<_> = (0..count).map(|binding| layout_entry(binding, ty)).collect();
-    let descriptor = BindGroupLayoutDescriptor { label: Some("textures"), entries: &entries };
-    gpu.device().create_bind_group_layout(&descriptor)
-}
-
-/// Makes the pipelines of a program.
-struct Maker<'a> {
-    gpu: &'a Gpu,
-    made: &'a Made,
-}
-
-/// What differs from pipeline to pipeline.
-struct Pass<'a> {
-    text: &'a str,
-    vertex: &'a str,
-    fragment: &'a str,
-    quads: bool,
-    targets: Vec<Option<ColorTargetState>>,
-    textures: Option<&'a BindGroupLayout>,
-}
-
-impl Maker<'_> {
-    /// The pass that makes the output.
-    fn finish(&self, output: Output, text: &str) -> Result<RenderPipeline, GpuError> {
-        let target = |&format: &TextureFormat| Some(format.into());
-        self.pipeline(&Pass {
-            text,
-            vertex: "cover",
-            fragment: output.entry(),
-            quads: false,
-            targets: output.formats().iter().map(target).collect(),
-            textures: Some(&self.made.textures),
-        })
-    }
-
-    /// A pass that draws quads and adds up what they write.
-    fn quads(
-        &self,
-        fragment: &str,
-        text: &str,
-        targets: u32,
-        textures: Option<&BindGroupLayout>,
-    ) -> Result<RenderPipeline, GpuError> {
-        let add = BlendComponent {
-            src_factor: BlendFactor::One,
-            dst_factor: BlendFactor::One,
-            operation: BlendOperation::Add,
-        };
-        let blend = Some(BlendState { color: add, alpha: add });
-        let target = ColorTargetState { format: SUMS, blend, write_mask: ColorWrites::ALL };
-        let targets = vec![Some(target); targets as usize];
-        let vertex = "splat_quad";
-        self.pipeline(&Pass { text, vertex, fragment, quads: true, targets, textures })
-    }
-
-    fn pipeline(&self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
-        let module = self.gpu.shader("compile the shader", pass.text)?;
-        let device = self.gpu.device();
-        let groups = [Some(&self.made.data), pass.textures];
-        let attributes = attributes();
-        let quads = [Some(VertexBufferLayout {
-            array_stride: QUAD_BYTES,
-            step_mode: VertexStepMode::Instance,
-            attributes: &attributes,
-        })];
-        let strip = wgpu::PrimitiveTopology::TriangleStrip;
-        let topology = if pass.quads { strip } else { wgpu::PrimitiveTopology::TriangleList };
-        let compilation_options = wgpu::PipelineCompilationOptions {
-            constants: &[],
-            zero_initialize_workgroup_memory: false,
-        };
-        self.gpu.checked("make the pipeline", || {
-            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(pass.fragment),
-                bind_group_layouts: &groups,
-                immediate_size: 0,
-            });
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(pass.fragment),
-                layout: Some(&layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(pass.vertex),
-                    compilation_options: compilation_options.clone(),
-                    buffers: if pass.quads { &quads } else { &[] },
-                },
-                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-                depth_stencil: None,
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(pass.fragment),
-                    compilation_options,
-                    targets: &pass.targets,
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        })
-    }
-}
-
-/// The fields of a quad's record.
-fn attributes() -> Vec<VertexAttribute> {
-    let mut offset = 0;
-    let attribute = |(location, (_, kind)): (u32, &(&str, &str))| {
-        let format = match *kind {
-            "vec2<f32>" => VertexFormat::Float32x2,
-            "vec2<u32>" => VertexFormat::Uint32x2,
-            _ => VertexFormat::Uint32,
-        };
-        let at = offset;
-        offset += format.size();
-        VertexAttribute { format, offset: at, shader_location: location }
-    };
-    (0..).zip(QuadRecord::MEMBERS).map(attribute).collect()
 }

@@ -7,26 +7,21 @@ use ppum::quantity::{Quantity, QuantityError};
 use ppum_render::view::View;
 #[cfg(not(target_arch = "wasm32"))]
 use ppum_render::{image::Image, raster::Raster};
-use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindingResource, Buffer,
-    BufferDescriptor, BufferUsages, CommandEncoder, Extent3d, LoadOp, Operations,
-    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, StoreOp, Texture,
-    TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView,
-};
+use wgpu::Texture;
 
 use crate::adapter::Choice;
 use crate::areas::{Area, areas};
-use crate::color::{PALETTE_TEXELS, Shading};
+use crate::color::Shading;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::geometry::Geometry;
-use crate::layout::bytes;
-use crate::program::{Made, Method, Output, Program, SUMS};
+use crate::program::{Method, Output, Program};
 use crate::quads::quads;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::read;
 use crate::scene::Scene;
 use crate::seen::Seen;
+use crate::targets::Targets;
 
 /// Why a picture was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -70,19 +65,6 @@ pub struct Renderer {
     targets: Targets,
 }
 
-/// Textures that are used again from frame to frame.
-#[derive(Debug, Default)]
-struct Targets {
-    size: [u32; 2],
-    /// Sums of weights and fields.
-    sums: Vec<TextureView>,
-    palette: Option<(Vec<u8>, TextureView)>,
-    /// The view's data and quads, in buffers that grow.
-    uniform: Option<Buffer>,
-    view: Option<Buffer>,
-    quads: Option<Buffer>,
-}
-
 /// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the next
 /// one, of the next step say, can be begun before.
 #[derive(Debug)]
@@ -91,8 +73,8 @@ struct Targets {
     allow(dead_code, reason = "a page cannot wait for pictures yet")
 )]
 pub struct Drawn {
-    textures: Vec<Texture>,
-    size: [u32; 2],
+    pub(crate) textures: Vec<Texture>,
+    pub(crate) size: [u32; 2],
 }
 
 impl Renderer {
@@ -362,202 +344,4 @@ fn seen(
         shading.note(&mut seen.record);
     }
     Ok(seen)
-}
-
-impl Targets {
-    /// Textures of the right size and colours.
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        size: [u32; 2],
-        made: &Made,
-        method: Method,
-        shading: Option<&Shading>,
-    ) {
-        let needed = if method == Method::Splat { made.slots.all() } else { 0 };
-        if self.size != size {
-            self.sums.clear();
-            self.size = size;
-        }
-        while self.sums.len() < needed as usize {
-            let texture = target(gpu, size, SUMS);
-            self.sums.push(texture.create_view(&Default::default()));
-        }
-        let texels = match shading {
-            Some(shading) => shading.texels(),
-            None if self.palette.is_some() => return,
-            None => vec![0; 4 * (PALETTE_TEXELS as usize + 3)],
-        };
-        if self.palette.as_ref().is_none_or(|(known, _)| *known != texels) {
-            let view = palette(gpu, &texels);
-            self.palette = Some((texels, view));
-        }
-    }
-
-    /// Writes the view's data.
-    fn write(&mut self, gpu: &Gpu, seen: &Seen) {
-        let storage = BufferUsages::STORAGE;
-        let pairs: Vec<u32> = seen.pairs.as_flattened().iter().map(|v| v.to_bits()).collect();
-        write(gpu, &mut self.uniform, BufferUsages::UNIFORM, &seen.record.words());
-        write(gpu, &mut self.view, storage, &pairs);
-    }
-
-    /// Group 0: view, dataset, region.
-    fn data(&self, gpu: &Gpu, scene: &Scene, made: &Made) -> Result<BindGroup, GpuError> {
-        let buffers = [&self.uniform, &self.view].into_iter().flatten();
-        let textures = [&scene.data, &scene.placed()?.texture].map(BindingResource::TextureView);
-        let resources = buffers.map(Buffer::as_entire_binding).chain(textures).collect();
-        Ok(group(gpu, &made.data, resources))
-    }
-
-    /// The first two passes of splatting.
-    fn splat(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut CommandEncoder,
-        made: &Made,
-        data: &BindGroup,
-        (words, count): (&[u32], u32),
-    ) {
-        let words = if words.is_empty() { &[0][..] } else { words };
-        write(gpu, &mut self.quads, BufferUsages::VERTEX, words);
-        let weights = made.slots.weights as usize;
-        let sums = self.sums[..weights].iter().map(BindingResource::TextureView).collect();
-        let sums = group(gpu, &made.sums, sums);
-        if let Some(pipeline) = &made.weights {
-            let pass = (pipeline, &[data][..]);
-            self.add(encoder, pass, &self.sums[..weights], count);
-        }
-        for (pipeline, pass) in made.fields.iter().zip(made.slots.passes()) {
-            let first = weights + pass.first_slot(made.slots) as usize;
-            let into = &self.sums[first..first + pass.slots as usize];
-            self.add(encoder, (pipeline, &[data, &sums]), into, count);
-        }
-    }
-
-    /// Draws all quads into cleared textures.
-    fn add(
-        &self,
-        encoder: &mut CommandEncoder,
-        (pipeline, groups): (&RenderPipeline, &[&BindGroup]),
-        into: &[TextureView],
-        count: u32,
-    ) {
-        let attachments: Vec<_> = into.iter().map(attachment).collect();
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("splat"),
-            color_attachments: &attachments,
-            ..Default::default()
-        });
-        pass.set_pipeline(pipeline);
-        for (index, group) in (0..).zip(groups) {
-            pass.set_bind_group(index, *group, &[]);
-        }
-        if let Some(quads) = &self.quads {
-            pass.set_vertex_buffer(0, quads.slice(..));
-            pass.draw(0..4, 0..count);
-        }
-    }
-
-    /// The pass that makes the output.
-    fn finish(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut CommandEncoder,
-        made: &Made,
-        (data, areas): (&BindGroup, &[Area]),
-        output: Output,
-    ) -> Drawn {
-        let splats = if made.weights.is_some() { made.slots.all() } else { 0 };
-        let palette = self.palette.as_ref().map(|(_, view)| view);
-        let sums = self.sums[..splats as usize].iter().chain(palette);
-        let textures = group(gpu, &made.textures, sums.map(BindingResource::TextureView).collect());
-        let formats = output.formats().iter();
-        let drawn: Vec<_> = formats.map(|&format| target(gpu, self.size, format)).collect();
-        let views: Vec<_> = drawn.iter().map(|t| t.create_view(&Default::default())).collect();
-        let attachments: Vec<_> = views.iter().map(attachment).collect();
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("finish"),
-            color_attachments: &attachments,
-            ..Default::default()
-        });
-        pass.set_bind_group(0, data, &[]);
-        pass.set_bind_group(1, &textures, &[]);
-        for Area { rect: [x, y, width, height], others } in areas {
-            if let Some(pipeline) = made.finish.get(others) {
-                pass.set_pipeline(pipeline);
-                pass.set_scissor_rect(*x, *y, *width, *height);
-                pass.draw(0..3, 0..1);
-            }
-        }
-        drop(pass);
-        Drawn { textures: drawn, size: self.size }
-    }
-}
-
-fn attachment(view: &TextureView) -> Option<RenderPassColorAttachment<'_>> {
-    let ops = Operations { load: LoadOp::Clear(wgpu::Color::TRANSPARENT), store: StoreOp::Store };
-    Some(RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
-}
-
-fn group(gpu: &Gpu, layout: &BindGroupLayout, resources: Vec<BindingResource<'_>>) -> BindGroup {
-    let entry = |(binding, resource)| BindGroupEntry { binding, resource };
-    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
-    let descriptor = BindGroupDescriptor { label: None, layout, entries: &entries };
-    gpu.device().create_bind_group(&descriptor)
-}
-
-/// A texture to draw into and to read.
-fn target(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
-    let usage =
-        TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-    gpu.device().create_texture(&descriptor(size, format, usage))
-}
-
-fn descriptor(
-    [width, height]: [u32; 2],
-    format: TextureFormat,
-    usage: TextureUsages,
-) -> TextureDescriptor<'static> {
-    TextureDescriptor {
-        label: None,
-        size: Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    }
-}
-
-/// The colours as a texture one texel high.
-fn palette(gpu: &Gpu, texels: &[u8]) -> TextureView {
-    let width = texels.len() as u32 / 4;
-    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-    let descriptor = descriptor([width, 1], TextureFormat::Rgba8Unorm, usage);
-    let texture = gpu.device().create_texture(&descriptor);
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(texels.len() as u32),
-        rows_per_image: None,
-    };
-    gpu.queue().write_texture(texture.as_image_copy(), texels, layout, descriptor.size);
-    texture.create_view(&Default::default())
-}
-
-/// Writes words into a buffer, a larger one if they do not fit.
-fn write(gpu: &Gpu, buffer: &mut Option<Buffer>, usage: BufferUsages, words: &[u32]) {
-    let size = 4 * words.len() as u64;
-    let fits = |buffer: &&mut Buffer| buffer.size() >= size;
-    let buffer = match buffer.as_mut().filter(fits) {
-        Some(buffer) => buffer,
-        None => buffer.insert(gpu.device().create_buffer(&BufferDescriptor {
-            label: Some("view"),
-            size: size.next_power_of_two().min(gpu.limits().max_buffer_size).max(size),
-            usage: usage | BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })),
-    };
-    gpu.queue().write_buffer(buffer, 0, &bytes(words));
 }
