@@ -42,16 +42,16 @@ pub enum RenderError {
 /// opens another one, uploads and compiles anew, and goes on.
 ///
 /// ```no_run
-/// use ppum::{field::Field, quantity::Quantity};
+/// use ppum::{dataset::Dataset, field::Field, quantity::Quantity};
 /// use ppum_gpu::{Choice, Method, Renderer};
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// # let dataset: ppum::dataset::Dataset = todo!();
-/// # let view: ppum_render::view::View = todo!();
-/// let field = Field::new(&dataset, 0)?;
-/// let mut renderer = Renderer::open(Choice::Any)?;
-/// let stress = renderer.render(&field, &view, &Quantity::VonMises, Method::Gather)?;
-/// # Ok(())
-/// # }
+/// use ppum_render::view::View;
+///
+/// fn largest_stress(dataset: &Dataset, view: &View) -> Result<f64, Box<dyn std::error::Error>> {
+///     let field = Field::new(dataset, 0)?;
+///     let mut renderer = Renderer::open(Choice::Any)?;
+///     let stress = renderer.render(&field, view, &Quantity::VonMises, Method::Gather)?;
+///     Ok(stress.statistics().max)
+/// }
 /// ```
 #[derive(Debug)]
 #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
