@@ -45,6 +45,7 @@ mod border;
 mod cell;
 mod cholesky;
 mod clip;
+mod corner;
 mod eigen;
 mod enrichment;
 mod gauge;

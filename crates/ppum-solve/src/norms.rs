@@ -37,7 +37,8 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
-    let parts = over_cells(field, space, EXTRA, |sums: &mut [Norms; 3], at, u, weight| {
+    let all: Vec<_> = (0..space.partition.len()).collect();
+    let parts = over_cells(field, space, &all, EXTRA, |sums: &mut [Norms; 3], at, u, weight| {
         let e = exact(at.anchor, at.offset);
         let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
         for (sum, v) in sums.iter_mut().zip([*u, e, difference]) {
@@ -55,8 +56,13 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
+    energy_of(field, space, &(0..space.partition.len()).collect::<Vec<_>>())
+}
+
+/// The part of the [`energy`] in some cells, by their indices.
+pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
     let add = |sum: &mut Norms, at: &Place, u: &[Jet<f64>; 2], weight| sum.add(&at.law, u, weight);
-    let parts = over_cells(field, space, 0, add);
+    let parts = over_cells(field, space, cells, 0, add);
     parts.iter().map(|part| 0.5 * part.energy).sum()
 }
 
@@ -67,18 +73,18 @@ struct Place {
     law: LawAt,
 }
 
-/// Sums over the points of each cell, cell by cell.
+/// Sums over the points of each of some cells, cell by cell.
 fn over_cells<S: Default + Send>(
     field: &Field<'_>,
     space: &Space<'_>,
+    cells: &[usize],
     extra: usize,
     add: impl Fn(&mut S, &Place, &[Jet<f64>; 2], f64) + Sync,
 ) -> Vec<S> {
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
-    let cells = &space.partition.cell;
-    let cell = |c: usize| {
+    let cell = |&c: &usize| {
         let mut sum = S::default();
-        for rule in quadrature.cell(&cells[c], &space.coverers[c]) {
+        for rule in quadrature.cell(&space.partition.cell[c], &space.coverers[c]) {
             let local = field.at(rule.anchor);
             for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
                 let mut u = [Jet::constant(0.0); 2];
@@ -90,7 +96,7 @@ fn over_cells<S: Default + Send>(
         }
         sum
     };
-    (0..cells.len()).into_par_iter().map(cell).collect()
+    cells.par_iter().map(cell).collect()
 }
 
 impl Norms {

@@ -111,13 +111,13 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     solution.store(&mut step, problem.components());
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
-    let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
     let value = stored_energy(&dataset)?;
+    dataset.steps[0].history.push(Record { name: "energy".into(), value, unit: String::new() });
+    let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
     step.warnings = warnings;
-    step.history.push(Record { name: "energy".into(), value, unit: String::new() });
     step.history.extend(clock.records);
     Ok(dataset)
 }

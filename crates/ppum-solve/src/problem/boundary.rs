@@ -204,6 +204,12 @@ impl BoundaryCondition {
         held
     }
 
+    /// The tractions (fluxes) at a point, zero where a value is given.
+    pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        let (held, values) = (self.held(), self.values(x, normal));
+        [0, 1].map(|k| if held[k] { 0.0 } else { values[k] })
+    }
+
     /// The given values and tractions (fluxes) at a point with the normal out of the material, zero
     /// where nothing is said.
     pub(crate) fn values(&self, x: Vec2, normal: Vec2) -> [f64; 2] {

@@ -4,6 +4,7 @@
 //! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the bound
 //! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset.
 
+mod corners;
 mod faces;
 mod tips;
 
@@ -13,6 +14,7 @@ use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
 use crate::problem::Problem;
 use crate::space::Space;
 use crate::system::{face_load, source_at};
+use corners::of_corners;
 use faces::of_faces;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Record, Step, Warning};
@@ -62,6 +64,8 @@ pub mod kind {
     pub const NITSCHE: &str = "nitsche";
     /// Patches remain that a crack crosses twice.
     pub const CROSSED_TWICE: &str = "crossed-twice";
+    /// The cells at a singular point of the border are too large for its field.
+    pub const SINGULAR_POINT: &str = "singular-point";
 }
 
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
@@ -87,14 +91,21 @@ pub fn judge(
     let tips = intensities(dataset, &field, &space, loads);
     let mut warnings = of_tips(&tips, &field.step.cracks);
     warnings.extend(of_faces(&field));
+    if let Some((problem, energy)) = problem.zip(recorded(field.step, "energy")) {
+        warnings.extend(of_corners(problem, &field, &space, energy));
+    }
     warnings.extend(of_history(field.step));
     Ok((tips, warnings))
 }
 
+/// A number of the solver's report.
+fn recorded(step: &Step, name: &str) -> Option<f64> {
+    step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value)
+}
+
 /// The warnings about the solution as a whole, from the solver's report in the step's history.
 fn of_history(step: &Step) -> Vec<Warning> {
-    let value =
-        |name: &str| step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value);
+    let value = |name| recorded(step, name);
     let cut = value("cut-off").zip(value("unknowns")).map_or(0.0, |(cut, all)| cut / all);
     let or_zero = |name| value(name).unwrap_or(0.0);
     let rules = [

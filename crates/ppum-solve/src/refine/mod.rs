@@ -6,11 +6,16 @@
 //! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
 //!   the side, for the three or more parts it is cut into, two of which would be glued together.
 //!
-//! Enrichment does the rest: grading toward a tip gains nothing once the singular functions are there.
+//! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
+//! Other singular points, and round rims, have no such functions: cells are [graded] towards them.
+
+mod graded;
 
 use crate::clip::{rim_crossings, runs_inside};
+use crate::corner::corners;
 use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
+use graded::graded;
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
@@ -62,11 +67,14 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
         .chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)))
         .collect();
     let bent: Vec<_> = problem.cracks.iter().filter(|crack| crack.points.len() > 2).collect();
+    let largest = cover.cells().iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
+    let graded = graded(problem, &corners(problem), cover.n_cells(), largest);
     let alpha = problem.discretization.overlap;
     for _ in 0..DEEPEST {
         let asks = |cell: Rect, _| {
             let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
             needs.iter().any(|need| need.asks(&cell, &patch))
+                || graded.iter().any(|graded| graded.asks(&cell))
                 || bent.iter().any(|crack| {
                     is_crossed_twice(crack, &cell, &patch.intersection(&problem.domain.bounds))
                 })

@@ -1,0 +1,208 @@
+//! Singular points that are no tips: where the border of the plate turns inwards or its conditions change.
+//!
+//! Around such a point the solution is a sum of r^λ times functions of the angle, with exponents λ that the
+//! openings of the material, the conditions on their two rays and Poisson's ratio decide (Williams 1952).
+//! Where the smallest Re λ is below one, stresses are infinite, and polynomials see the field badly: kinks of
+//! cracks, corners of holes, the ends of held pieces of edges, clamped corners, mouths of cracks at held edges.
+//! They are found from the geometry and the conditions alone.
+
+mod exponent;
+mod sectors;
+
+use crate::clip::rim_crossings;
+use crate::problem::{BorderPart, Problem};
+use exponent::smallest;
+use ppum::crack::{Crack, tips};
+use ppum::dataset::Equation;
+use ppum::domain::Hole;
+use ppum::vec2::{Rect, Vec2, vec2};
+use sectors::{Sector, Surroundings};
+
+/// Lengths below this part of the domain's longer side count as zero, as they do for cracks.
+const TOUCH: f64 = 1e-9;
+
+/// What takes the place of 1 − λ where a load ends: u ~ r ln r.
+const LOGARITHM: f64 = 0.3;
+
+/// A singular point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corner {
+    /// Where it is.
+    pub(crate) at: Vec2,
+    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads.
+    pub(crate) exponent: f64,
+    /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
+    pub(crate) room: f64,
+    /// What it is.
+    pub(crate) nature: Nature,
+}
+
+impl Corner {
+    /// How much of the field around the point is not smooth: 1 − λ, and a constant where loads begin.
+    pub(crate) fn weakness(&self) -> f64 {
+        match self.nature {
+            Nature::Load => LOGARITHM,
+            _ => 1.0 - self.exponent,
+        }
+    }
+}
+
+/// What makes a point singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Nature {
+    /// A kink of the crack with this index.
+    Kink(usize),
+    /// A corner of the plate, at its border or at holes, free or held alike on its two sides.
+    Corner,
+    /// The end of what is held.
+    Support,
+    /// The end of a loaded piece of an edge, where u ~ r ln r.
+    Load,
+}
+
+impl Nature {
+    /// In words.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Kink(crack) => format!("the kink of crack {crack}"),
+            Self::Corner => "the corner".into(),
+            Self::Support => "the end of the support".into(),
+            Self::Load => "the end of the load".into(),
+        }
+    }
+}
+
+/// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic in their number.
+pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
+    let size = problem.domain.bounds.size();
+    let touch = TOUCH * size.x.max(size.y);
+    let places = distinct(places(problem), touch);
+    let around = Surroundings { problem, touch };
+    let tips: Vec<_> = tips(&problem.cracks)
+        .map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end))
+        .collect();
+    let corner = |&at: &Vec2| {
+        let apart = |others: &[Vec2]| {
+            let lengths = others.iter().map(|p| (*p - at).length());
+            lengths.filter(|length| *length > touch).fold(f64::INFINITY, f64::min)
+        };
+        let room = around.distance(at).min(apart(&places)).min(apart(&tips));
+        let sectors = around.sectors(at, room);
+        let constants = Constants::at(&problem.equation, at);
+        let exponents = sectors.iter().map(|sector| (smallest(sector, constants), sector));
+        let (exponent, sector) = exponents.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let nature = match exponent < 1.0 {
+            true => nature(problem, sector, at, touch),
+            false => Nature::Load,
+        };
+        let singular = exponent < 1.0 || around.load_jumps(at, room);
+        singular.then_some(Corner { at, exponent, room, nature })
+    };
+    places.iter().filter_map(corner).collect()
+}
+
+/// What of the equation the exponents depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Constants {
+    /// Kolosov's κ.
+    Elastic(f64),
+    Poisson,
+}
+
+impl Constants {
+    fn at(equation: &Equation, p: Vec2) -> Self {
+        equation.elastic().map_or(Self::Poisson, |elastic| Self::Elastic(elastic.at(p).kolosov()))
+    }
+}
+
+fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
+    let inner = |crack: &Crack| {
+        let inner = &crack.points[1..crack.points.len() - 1];
+        inner.iter().any(|p| (*p - at).length() <= touch)
+    };
+    match problem.cracks.iter().position(inner) {
+        Some(crack) => Nature::Kink(crack),
+        None if sector.held[0] == sector.held[1] => Nature::Corner,
+        None => Nature::Support,
+    }
+}
+
+/// Points at which the border turns or its conditions may change: not all of them do, some twice.
+fn places(problem: &Problem) -> Vec<Vec2> {
+    let bounds = &problem.domain.bounds;
+    let mut all = corners_of(bounds).to_vec();
+    for condition in &problem.boundary {
+        if let BorderPart::Edge { edge, from, to } = condition.on {
+            all.extend([from, to].map(|s| edge.point(bounds, s)));
+        }
+    }
+    let holes = &problem.domain.holes;
+    all.extend(holes.iter().flat_map(Hole::sides).map(|[a, _]| a));
+    let cracks = problem.cracks.iter().flat_map(|crack| crack.points.windows(2));
+    let straight = cracks.map(|s| [s[0], s[1]]).chain(edges_of(bounds));
+    let crossings = straight.flat_map(|s| holes.iter().flat_map(move |hole| crossing(s, hole)));
+    all.extend(crossings);
+    for (k, hole) in holes.iter().enumerate() {
+        all.extend(holes[..k].iter().flat_map(|other| rims_crossing(hole, other)));
+    }
+    all.extend(problem.cracks.iter().flat_map(|crack| vertices(crack)));
+    all
+}
+
+/// Vertices of a crack that are no tips.
+fn vertices(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
+    let is_tip = |p: &Vec2| crack.tips().any(|end| crack.end_point(end) == *p);
+    crack.points.iter().copied().filter(move |p| !is_tip(p))
+}
+
+fn corners_of(rect: &Rect) -> [Vec2; 4] {
+    [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)]
+}
+
+fn edges_of(rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
+    let corners = corners_of(rect);
+    (0..4).map(move |k| [corners[k], corners[(k + 1) % 4]])
+}
+
+/// Where a segment meets a rim.
+fn crossing([a, b]: [Vec2; 2], hole: &Hole) -> Vec<Vec2> {
+    let on_segment = rim_crossings(a, b, hole).into_iter().filter(|t| (0.0..=1.0).contains(t));
+    on_segment.map(|t| a + (b - a) * t).collect()
+}
+
+/// Where two rims meet.
+fn rims_crossing(hole: &Hole, other: &Hole) -> Vec<Vec2> {
+    match (hole, other) {
+        (Hole::Polygon { .. }, _) => hole.sides().flat_map(|s| crossing(s, other)).collect(),
+        (_, Hole::Polygon { .. }) => other.sides().flat_map(|s| crossing(s, hole)).collect(),
+        (Hole::Circle { center, radius }, Hole::Circle { center: c, radius: r }) => {
+            circles_crossing((*center, *radius), (*c, *r))
+        }
+    }
+}
+
+fn circles_crossing((center, radius): (Vec2, f64), (c, r): (Vec2, f64)) -> Vec<Vec2> {
+    let way = c - center;
+    let d = way.length();
+    let along = 0.5 * (d + (radius - r) * (radius + r) / d);
+    let across = ((radius - along) * (radius + along)).sqrt();
+    if !(across > 0.0 && d > 0.0) {
+        return Vec::new();
+    }
+    let (unit, foot) = (way.unit(), center + way.unit() * along);
+    vec![foot + unit.left() * across, foot - unit.left() * across]
+}
+
+/// Points without those that are the same as one before them.
+fn distinct(mut points: Vec<Vec2>, touch: f64) -> Vec<Vec2> {
+    let mut kept: Vec<Vec2> = Vec::with_capacity(points.len());
+    for p in points.drain(..) {
+        if kept.iter().all(|q| (*q - p).length() > touch) {
+            kept.push(p);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests;

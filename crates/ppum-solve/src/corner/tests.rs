@@ -1,0 +1,166 @@
+use super::*;
+use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge};
+use ppum::dataset::{Material, StressState};
+use std::f64::consts::PI;
+
+const BOUNDS: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+const FREE: [bool; 2] = [false; 2];
+const HELD: [bool; 2] = [true; 2];
+
+fn wedge(from: f64, opening: f64, held: [[bool; 2]; 2], kappa: f64) -> f64 {
+    smallest(&Sector { from, opening, held }, Constants::Elastic(kappa))
+}
+
+/// The smallest root in (lo, 1) of a real function that changes its sign there.
+fn root(lo: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let steps = 4000;
+    let at = |k: usize| lo + (0.999 - lo) * k as f64 / steps as f64;
+    (0..steps)
+        .map(|k| 0.5 * (at(k) + at(k + 1)))
+        .zip(0..)
+        .find(|&(_, k)| f(at(k)) * f(at(k + 1)) < 0.0)
+        .map_or(1.0, |(x, _)| x)
+}
+
+/// sin²(λω) = λ² sin²ω (Williams 1952), whichever way the wedge points.
+#[test]
+fn free_wedges_have_the_exponents_of_their_equation() {
+    for k in 1..=40 {
+        let opening = PI + PI * f64::from(k) / 40.0;
+        let exact = root(0.4, |l| (l * opening).sin() + l * opening.sin());
+        for from in [0.0, 1.0, -2.5] {
+            let found = wedge(from, opening, [FREE; 2], 1.8);
+            assert!((found - exact).abs() < 6e-4, "{opening}: {found} instead of {exact}");
+        }
+    }
+    assert!((wedge(0.0, 1.5 * PI, [FREE; 2], 2.0) - 0.54448).abs() < 1e-4);
+    assert_eq!(wedge(0.3, 0.9 * PI, [FREE; 2], 2.0), 1.0);
+}
+
+/// 4κ sin²(λω) = (κ + 1)² − 4λ² sin²ω for a wedge held on one side, κ² sin²(λω) = λ² sin²ω held on both.
+#[test]
+fn held_wedges_have_the_exponents_of_their_equations() {
+    for kappa in [1.2f64, 1.8, 2.6] {
+        for k in 1..=12 {
+            let opening = PI * f64::from(k) / 7.0;
+            let mixed = |l: f64| {
+                (kappa + 1.0).powi(2)
+                    - 4.0 * (l * opening.sin()).powi(2)
+                    - 4.0 * kappa * (l * opening).sin().powi(2)
+            };
+            let exact = root(0.15, mixed);
+            let found = wedge(0.7, opening, [HELD, FREE], kappa);
+            if opening < 0.8 * PI && exact < 0.98 {
+                assert!((found - exact).abs() < 6e-4, "{opening}, {kappa}: {found}, {exact}");
+            }
+            let held = |l: f64| kappa * (l * opening).sin() + l * opening.sin();
+            let other = |l: f64| kappa * (l * opening).sin() - l * opening.sin();
+            let exact = root(0.3, held).min(root(0.3, other));
+            let found = wedge(-0.4, opening, [HELD; 2], kappa);
+            if exact < 0.98 {
+                assert!((found - exact).abs() < 6e-4, "{opening}, {kappa}: {found}, {exact}");
+            }
+        }
+        // the end of a held piece of a straight border: 1/2 ± i ln κ/(2π)
+        assert!((wedge(0.0, PI, [FREE, HELD], kappa) - 0.5).abs() < 2e-4);
+    }
+    assert!((wedge(0.0, 0.5 * PI, [HELD, FREE], 1.8) - 0.711).abs() < 5e-4);
+}
+
+/// A roller is the middle of a plate: half the wedge of a crack, or of a corner.
+#[test]
+fn rollers_halve_wedges() {
+    // along x: u_y held is symmetric, u_x held antisymmetric
+    for held in [[false, true], [true, false]] {
+        assert!((wedge(0.0, PI, [held, FREE], 1.8) - 0.5).abs() < 2e-4);
+    }
+    assert_eq!(wedge(0.0, 0.5 * PI, [[false, true], FREE], 1.8), 1.0);
+    assert_eq!(wedge(0.0, 0.5 * PI, [[false, true], [true, false]], 1.8), 1.0);
+}
+
+fn plate() -> Problem {
+    let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+    Problem::elasticity(BOUNDS, material, Discretization::new(Cells::Level(3)))
+}
+
+fn clamp() -> Vec<Condition> {
+    vec![Condition::Dirichlet(0.0.into()), Condition::Dirichlet(0.0.into())]
+}
+
+fn found(problem: &Problem) -> Vec<(Vec2, f64, Nature)> {
+    corners(problem).iter().map(|c| (c.at, (c.exponent * 1e3).round() / 1e3, c.nature)).collect()
+}
+
+#[test]
+fn a_plain_plate_has_none() {
+    let roller = |k: usize| {
+        let mut components = vec![Condition::Free; 2];
+        components[k] = Condition::Dirichlet(0.0.into());
+        components
+    };
+    let straight = plate().with_crack(&[[-1.0, 0.2], [0.1, 0.3]]);
+    assert_eq!(found(&straight), []);
+    let rollers =
+        straight.with_boundary(Edge::Bottom, roller(1)).with_boundary(Edge::Left, roller(0));
+    assert_eq!(found(&rollers), []);
+}
+
+#[test]
+fn clamped_corners_ends_of_supports_and_mouths_at_supports_are_found() {
+    let clamped = plate().with_boundary(Edge::Bottom, clamp());
+    let at = |x: f64, y: f64| (vec2(x, y), 0.711, Nature::Support);
+    assert_eq!(found(&clamped), [at(-1.0, -1.0), at(1.0, -1.0)]);
+    let mouth = clamped.with_crack(&[[0.25, -1.0], [0.25, 0.0]]);
+    assert_eq!(found(&mouth), [at(-1.0, -1.0), at(1.0, -1.0), at(0.25, -1.0)]);
+    let mut piece = plate();
+    let on = BorderPart::Edge { edge: Edge::Top, from: -1.0, to: 0.5 };
+    piece.boundary.push(BoundaryCondition::new(on, clamp()));
+    assert_eq!(found(&piece), [at(-1.0, 1.0), (vec2(0.5, 1.0), 0.5, Nature::Support)]);
+}
+
+#[test]
+fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
+    let mut problem = plate().with_crack(&[[-0.75, -0.5], [-0.25, -0.5], [-0.25, -0.25]]);
+    let square = |x: f64, y: f64, h: f64| {
+        let points = [[-h, -h], [h, -h], [h, h], [-h, h]];
+        Hole::Polygon { points: points.map(|[a, b]| vec2(x + a, y + b)).to_vec() }
+    };
+    problem.domain.holes = vec![square(1.0, 0.5, 0.25), square(0.0, 0.5, 0.125)];
+    let corner = |x: f64, y: f64| (vec2(x, y), 0.544, Nature::Corner);
+    let inner = [[-0.125, 0.375], [0.125, 0.375], [0.125, 0.625], [-0.125, 0.625]];
+    let mut expected = vec![corner(0.75, 0.25), corner(0.75, 0.75)];
+    expected.extend(inner.map(|[x, y]| corner(x, y)));
+    expected.push((vec2(-0.25, -0.5), 0.544, Nature::Kink(0)));
+    let mut all = found(&problem);
+    let key = |c: &(Vec2, f64, Nature)| (c.0.x * 8.0 + c.0.y * 100.0) as i64;
+    all.sort_by_key(key);
+    expected.sort_by_key(key);
+    assert_eq!(all, expected);
+    let kink = corners(&problem).into_iter().find(|c| c.nature == Nature::Kink(0)).expect("it");
+    assert!((kink.room - 0.25).abs() < 1e-12);
+}
+
+/// A half circle out of a held edge leaves two right angles, held on one side; rims that cross make corners
+/// below π, which are singular only where something is held.
+#[test]
+fn crossing_rims_make_corners() {
+    let mut problem = plate().with_boundary(Edge::Bottom, clamp());
+    let circle = |x: f64, y: f64| Hole::Circle { center: vec2(x, y), radius: 0.25 };
+    problem.domain.holes = vec![circle(0.0, -1.0), circle(-0.15, 0.5), circle(0.15, 0.5)];
+    let at = |x: f64| (vec2(x, -1.0), 0.711, Nature::Support);
+    let mut all = found(&problem);
+    all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
+    assert_eq!(all, [at(-1.0), at(-0.25), at(0.25), at(1.0)]);
+}
+
+#[test]
+fn potentials_have_the_exponents_of_laplace() {
+    let mut problem = Problem::poisson(BOUNDS, 1.0, Discretization::new(Cells::Level(3)));
+    let on = BorderPart::Edge { edge: Edge::Top, from: -0.5, to: 0.5 };
+    problem.boundary.push(BoundaryCondition::new(on, vec![Condition::Dirichlet(0.0.into())]));
+    let problem = problem.with_crack(&[[-0.5, 0.0], [0.0, 0.0], [0.0, 0.5]]);
+    let places = [([-0.5, 1.0], 0.5, Nature::Support), ([0.5, 1.0], 0.5, Nature::Support)];
+    let mut expected: Vec<_> = places.map(|(p, l, n)| (Vec2::from(p), l, n)).to_vec();
+    expected.push((vec2(0.0, 0.0), 0.667, Nature::Kink(0)));
+    assert_eq!(found(&problem), expected);
+}
