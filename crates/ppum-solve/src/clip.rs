@@ -53,10 +53,10 @@ pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
     }
 }
 
-/// Number of connected parts of a crack inside an open box.
-pub(crate) fn runs_inside(crack: &Crack, open: &Rect) -> usize {
+/// Number of connected parts of a polyline inside an open box.
+pub(crate) fn runs_inside(points: &[Vec2], open: &Rect) -> usize {
     let (mut runs, mut goes_on) = (0, false);
-    for pair in crack.points.windows(2) {
+    for pair in points.windows(2) {
         let Some([_, to]) = clipped(pair[0], pair[1], open) else {
             goes_on = false;
             continue;
@@ -65,6 +65,15 @@ pub(crate) fn runs_inside(crack: &Crack, open: &Rect) -> usize {
         goes_on = to == 1.0 && inside(open, pair[1]);
     }
     runs
+}
+
+/// The same of a closed polygon, whose last corner is joined to the first.
+pub(crate) fn runs_of_rim(corners: &[Vec2], open: &Rect) -> usize {
+    let start = corners.iter().position(|p| !inside(open, *p));
+    let Some(start) = start else { return 1 };
+    let n = corners.len();
+    let round: Vec<_> = (0..=n).map(|k| corners[(start + k) % n]).collect();
+    runs_inside(&round, open)
 }
 
 /// Length of a segment inside an open box.
@@ -114,15 +123,13 @@ pub(crate) fn distance([a, b]: [Vec2; 2], rect: &Rect) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::crack;
 
     #[test]
     fn runs_of_a_crack_in_a_box() {
-        let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0));
         let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         let runs = |points: &[[f64; 2]]| {
-            let points = points.iter().map(|&p| p.into()).collect();
-            runs_inside(&crack(points, &domain.into()), &unit)
+            let points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
+            runs_inside(&points, &unit)
         };
         assert_eq!(runs(&[[-1.0, 0.5], [2.0, 0.6]]), 1);
         assert_eq!(runs(&[[-1.0, 0.5], [0.4, 0.5], [2.0, 0.6]]), 1, "a kink inside");
@@ -131,5 +138,25 @@ mod tests {
         assert_eq!(runs(&[[0.2, 2.0], [0.2, 0.5], [3.0, 0.5], [3.0, 0.2], [-1.0, 0.2]]), 2);
         assert_eq!(runs(&[[-1.0, 0.0], [2.0, 0.0]]), 0, "along the border");
         assert_eq!(runs(&[[-1.0, 0.5], [0.0, 0.5], [-1.0, 0.6]]), 0, "up to the border");
+    }
+
+    #[test]
+    fn runs_of_a_rim_in_a_box() {
+        let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+        let runs = |points: &[[f64; 2]]| {
+            let mut points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
+            let all = (0..points.len()).map(|_| {
+                points.rotate_left(1);
+                runs_of_rim(&points, &unit)
+            });
+            let all: Vec<_> = all.collect();
+            assert!(all.iter().all(|n| *n == all[0]), "wherever it begins: {all:?}");
+            all[0]
+        };
+        assert_eq!(runs(&[[0.2, 0.2], [0.8, 0.2], [0.5, 0.8]]), 1, "inside");
+        assert_eq!(runs(&[[0.2, -1.0], [0.4, -1.0], [0.3, 0.5]]), 1, "an apex inside");
+        assert_eq!(runs(&[[0.2, -1.0], [0.4, -1.0], [0.3, 2.0]]), 2, "a strip through");
+        assert_eq!(runs(&[[-1.0, -1.0], [0.5, -1.0], [0.5, 3.0], [-1.0, 3.0]]), 1, "one side");
+        assert_eq!(runs(&[[-1.0, -1.0], [2.0, -1.0], [2.0, 3.0], [-1.0, 3.0]]), 0, "all of it");
     }
 }

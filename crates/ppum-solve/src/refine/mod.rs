@@ -4,26 +4,33 @@
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
 //!   half the room that its stress intensity is found in.
 //! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
-//!   the side, for the three or more parts it is cut into, two of which would be glued together.
+//!   the side, for the three or more parts it is cut into, two of which would be glued together. Nor by the rim
+//!   of a polygon, for whose two sides it has no functions of their own.
+//! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
 //! Other singular points, and round rims, have no such functions: cells are [graded] towards them.
 
 mod graded;
+mod ligament;
 
-use crate::clip::{rim_crossings, runs_inside};
+use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
 use crate::intensity::{AMPLE_ROOM, Room};
 use crate::problem::{Cells, Problem};
 use graded::graded;
+use ligament::ligaments;
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
-use ppum::domain::Domain;
+use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
-/// Part of a crack's length below which cells are not divided to part its runs.
+/// Part of a crack's length, or of a hole's size, below which cells are not divided to part its runs.
 const LEAST_GAP: f64 = 1.0 / 128.0;
+
+/// The same, below which what is glued together beside a kink is as small as the kink's finest cells.
+const NO_GAP: f64 = 1.0 / 1024.0;
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
 const DEEPEST: usize = 16;
@@ -66,18 +73,17 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
         .map(|tip| Need::new(problem, tip))
         .chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)))
         .collect();
-    let bent: Vec<_> = problem.cracks.iter().filter(|crack| crack.points.len() > 2).collect();
     let largest = cover.cells().iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
     let graded = graded(problem, &corners(problem), cover.n_cells(), largest);
+    let ligaments = ligaments(problem, largest);
     let alpha = problem.discretization.overlap;
     for _ in 0..DEEPEST {
         let asks = |cell: Rect, _| {
             let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
             needs.iter().any(|need| need.asks(&cell, &patch))
                 || graded.iter().any(|graded| graded.asks(&cell))
-                || bent.iter().any(|crack| {
-                    is_crossed_twice(crack, &cell, &patch.intersection(&problem.domain.bounds))
-                })
+                || ligaments.iter().any(|ligament| ligament.asks(&cell))
+                || is_crossed_twice(problem, &patch, LEAST_GAP)
         };
         if cover.refine(asks)? == 0 {
             return Ok(cover);
@@ -108,22 +114,32 @@ fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
     Ok(cover)
 }
 
-/// Number of patches that still hold several runs of one crack: two of the parts they are cut into are
-/// glued together.
+/// Number of patches that still hold several runs of one crack or rim: two of the parts they are cut into
+/// are glued together.
 pub(crate) fn n_crossed_twice(problem: &Problem, partition: &Partition) -> usize {
-    let part = |patch: usize| partition.support(patch).intersection(&problem.domain.bounds);
-    let is_crossed = |patch: &usize| {
-        let part = part(*patch);
-        problem.cracks.iter().any(|crack| crack.points.len() > 2 && runs_inside(crack, &part) > 1)
-    };
+    let is_crossed = |&patch: &usize| is_crossed_twice(problem, &partition.support(patch), NO_GAP);
     (0..partition.len()).filter(is_crossed).count()
 }
 
-/// True if a patch, as far as the domain reaches, holds several runs of a crack and is large enough to be
-/// divided.
-fn is_crossed_twice(crack: &Crack, cell: &Rect, patch: &Rect) -> bool {
-    let size = cell.size();
-    size.x.max(size.y) > LEAST_GAP * crack.length() && runs_inside(crack, patch) > 1
+/// True if a patch, as far as the domain reaches, holds several runs of a crack, or of the rim of a polygon, and is
+/// larger than a part of it.
+fn is_crossed_twice(problem: &Problem, patch: &Rect, part: f64) -> bool {
+    let Problem { domain, cracks, discretization, .. } = problem;
+    let size = patch.size().x.max(patch.size().y) / discretization.overlap;
+    let inside = patch.intersection(&domain.bounds);
+    let by_crack = |crack: &Crack| {
+        let points = &crack.points;
+        points.len() > 2 && size > part * crack.length() && runs_inside(points, &inside) > 1
+    };
+    let by_hole = |hole: &Hole| match hole {
+        Hole::Circle { .. } => false,
+        Hole::Polygon { points } => {
+            let whole = hole.bounds().size();
+            // a rim is free: little is glued together at its sharp corners
+            size > part.max(LEAST_GAP) * whole.x.max(whole.y) && runs_of_rim(points, &inside) > 1
+        }
+    };
+    cracks.iter().any(by_crack) || domain.holes.iter().any(by_hole)
 }
 
 /// What one tip asks of the cells around it.

@@ -62,7 +62,7 @@ pub mod kind {
     pub const CUT_OFF: &str = "cut-off";
     /// A crack cuts a cell at a held edge into a sliver.
     pub const NITSCHE: &str = "nitsche";
-    /// Patches remain that a crack crosses twice.
+    /// Patches remain that a crack, or the rim of a hole, crosses twice.
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
     pub const SINGULAR_POINT: &str = "singular-point";
@@ -154,8 +154,8 @@ fn nitsche(value: f64) -> String {
 fn crossed_twice(value: f64) -> String {
     let patches = if value == 1.0 { "1 patch is" } else { &format!("{value} patches are") };
     format!(
-        "{patches} crossed twice by one crack, and two of the parts that it cuts them into are glued \
-         together; use smaller cells at its sharp kink"
+        "{patches} crossed twice by one crack or rim, and two of the parts that it cuts them into are glued \
+         together; use smaller cells at its sharp kink or corner"
     )
 }
 

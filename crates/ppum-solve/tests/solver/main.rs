@@ -1,6 +1,7 @@
 //! The solver against exact solutions and independent reference values.
 
 mod awkward;
+mod corners;
 mod examples;
 mod formulas;
 mod holes;

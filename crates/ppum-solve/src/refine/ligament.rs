@@ -1,0 +1,105 @@
+//! Cells in ligaments: where little material is left between a hole and an edge, another hole or a crack, the
+//! plate bends like a beam, and a few cells must lie across.
+
+use crate::problem::{Edge, Problem};
+use ppum::domain::{Hole, segment_distance};
+use ppum::vec2::{Rect, Vec2};
+
+/// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half as many
+/// cells across to 4e-3.
+const ACROSS: f64 = 1.0 / 3.0;
+
+/// Ligaments below this part of the plate's size are as good as broken through.
+const THINNEST: f64 = 1e-4;
+
+/// A hole and what is near it.
+pub(super) struct Ligament<'p> {
+    hole: &'p Hole,
+    other: Other<'p>,
+    finest: f64,
+}
+
+/// What a ligament ends at.
+#[derive(Clone, Copy)]
+enum Other<'p> {
+    Edge(Edge, &'p Rect),
+    Hole(&'p Hole),
+    Crack(&'p [Vec2]),
+}
+
+/// The ligaments of a problem that ask for cells smaller than `size`.
+pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
+    let (bounds, holes) = (&problem.domain.bounds, &problem.domain.holes);
+    let plate = bounds.size();
+    let thinnest = THINNEST * plate.x.min(plate.y);
+    let mut found = Vec::new();
+    for (k, hole) in holes.iter().enumerate() {
+        let edges = Edge::ALL.into_iter().map(|edge| Other::Edge(edge, bounds));
+        let others = holes[..k].iter().map(Other::Hole);
+        let cracks = problem.cracks.iter().map(|crack| Other::Crack(&crack.points));
+        let all = edges.chain(others).chain(cracks);
+        found.extend(all.filter_map(|other| {
+            let width = width(hole, other);
+            let finest = ACROSS * width;
+            (width > thinnest && finest < size).then_some(Ligament { hole, other, finest })
+        }));
+    }
+    found
+}
+
+impl Ligament<'_> {
+    /// True if a cell is too large for what is left where it lies.
+    pub(super) fn asks(&self, cell: &Rect) -> bool {
+        let (size, center) = (cell.size().x.max(cell.size().y), cell.center());
+        size > self.finest
+            && size > ACROSS * (self.hole.rim_distance(center) + self.other.distance(center))
+    }
+}
+
+impl Other<'_> {
+    fn distance(&self, p: Vec2) -> f64 {
+        match *self {
+            Self::Edge(edge, bounds) => edge.depth(bounds, p).abs(),
+            Self::Hole(hole) => hole.rim_distance(p),
+            Self::Crack(points) => nearest(points, p),
+        }
+    }
+
+    /// Points of which one is nearest to a circle or to a polygon that keeps apart, beside the polygon's own.
+    fn corners(&self) -> Vec<Vec2> {
+        match self {
+            Self::Edge(..) | Self::Hole(Hole::Circle { .. }) => Vec::new(),
+            Self::Hole(Hole::Polygon { points }) => points.clone(),
+            Self::Crack(points) => points.to_vec(),
+        }
+    }
+}
+
+/// Width of the material between a hole and something else; zero or less where they touch.
+fn width(hole: &Hole, other: Other<'_>) -> f64 {
+    match (hole, other) {
+        (Hole::Circle { center, radius }, Other::Edge(edge, bounds)) => {
+            edge.depth(bounds, *center) - radius
+        }
+        (Hole::Circle { center, radius }, Other::Hole(Hole::Circle { center: c, radius: r })) => {
+            (*c - *center).length() - radius - r
+        }
+        (Hole::Circle { center, radius }, _) => other.distance(*center) - radius,
+        (Hole::Polygon { .. }, Other::Hole(Hole::Circle { center, radius })) => {
+            hole.rim_distance(*center) - radius
+        }
+        (Hole::Polygon { points }, Other::Edge(edge, bounds)) => {
+            points.iter().map(|p| edge.depth(bounds, *p)).fold(f64::INFINITY, f64::min)
+        }
+        (Hole::Polygon { points }, _) => {
+            let there = points.iter().map(|p| other.distance(*p));
+            let back = other.corners().into_iter().map(|p| hole.rim_distance(p));
+            there.chain(back).fold(f64::INFINITY, f64::min)
+        }
+    }
+}
+
+/// Distance of a point to a polyline.
+fn nearest(points: &[Vec2], p: Vec2) -> f64 {
+    points.windows(2).map(|s| segment_distance(s[0], s[1], p)).fold(f64::INFINITY, f64::min)
+}
