@@ -8,6 +8,7 @@
 
 use crate::batch::in_batches;
 use crate::eigen::{EigenError, SymmetricEigen};
+use crate::quadrature::EdgeRule;
 use crate::shape::{ShapeEvaluator, Shapes};
 use crate::space::Space;
 use crate::system::Penalty;
@@ -69,7 +70,7 @@ impl StableBasis {
         for (rule, weight) in
             penalties.iter().flat_map(|(rules, w)| rules.iter().map(move |r| (r, *w)))
         {
-            evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut shapes);
+            evaluator.evaluate_edge(rule, &mut shapes);
             shapes.scale(&rule.weights);
             let mut first = 0;
             for &patch in &rule.patches {
@@ -165,6 +166,12 @@ impl<'s> BasisEvaluator<'s> {
     ) {
         self.evaluator.evaluate(anchor, offsets, patches, &mut self.plain);
         self.basis.apply(patches, &self.plain, out);
+    }
+
+    /// The basis functions at the points of a rule along an edge; on a face of a crack its side.
+    pub(crate) fn evaluate_edge(&mut self, rule: &EdgeRule, out: &mut Shapes) {
+        self.evaluator.evaluate_edge(rule, &mut self.plain);
+        self.basis.apply(&rule.patches, &self.plain, out);
     }
 }
 

@@ -98,7 +98,7 @@ impl<'a> Border<'a> {
     ) {
         let components = self.law.components;
         for rule in &piece.rules {
-            evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+            evaluator.evaluate_edge(rule, shapes);
             let numbers = system.functions.numbers(&rule.patches);
             let mut given = Vec::with_capacity(rule.offsets.len());
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
@@ -110,7 +110,7 @@ impl<'a> Border<'a> {
                 }
                 let loads = &loads[..components];
                 shapes.add_load(q, &numbers, loads, weight, &mut system.load);
-                let balance = &mut system.balance[pieces.behind(x, rule.normals[q])];
+                let balance = &mut system.balance[pieces.of_border(rule, q)];
                 balance.add_load(x, loads, weight);
                 balance.add_held(x, piece.held, weight);
                 given.push(values.map(|v| v * weight.sqrt()));

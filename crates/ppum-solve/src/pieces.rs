@@ -5,12 +5,14 @@
 //!
 //! The border, the rims of holes and the cracks are edges of a constrained Delaunay triangulation;
 //! triangles that meet across an edge that is none of these belong to one piece. Predicates are
-//! exact, so a crack that ends on the border cuts it, however the cells lie.
+//! exact, so a crack that ends on the border cuts it, however the cells lie. A point on a face of a
+//! crack belongs to the triangle on that side of the edge that it lies on.
 
-use ppum::crack::{Crack, CrackEnd, End};
-use ppum::domain::{Domain, Hole};
+use crate::quadrature::{EdgeRule, Face};
+use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
+use ppum::domain::{Domain, Hole, segment_distance};
 use ppum::vec2::{Rect, Vec2, vec2};
-use spade::handles::{FaceHandle, InnerTag};
+use spade::handles::{FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
 use spade::{Triangulation as _, mitigate_underflow};
 
@@ -21,7 +23,7 @@ const LEAST_AREA: f64 = 1e-12;
 const INWARD: f64 = 1e-9;
 
 type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
-type Face<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
 /// The connected components of the domain without its cracks.
 #[derive(Debug)]
@@ -29,9 +31,21 @@ pub(crate) struct Pieces {
     bounds: Rect,
     /// Of each piece, what is known of it.
     all: Vec<Piece>,
-    /// Where there are several: the triangulation, and of each triangle its piece.
-    map: Option<(Mesh, Vec<Option<usize>>)>,
+    map: Option<Map>,
 }
+
+/// Where the pieces are.
+#[derive(Debug)]
+struct Map {
+    mesh: Mesh,
+    /// Of each triangle, its piece; none in a hole.
+    piece_of: Vec<Option<usize>>,
+    /// Of each segment of each crack, the ends of the edges along it, in the direction of the crack.
+    along: Along,
+}
+
+/// Of each segment of each crack, ends of edges.
+type Along = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
 
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,12 +73,12 @@ impl Pieces {
         let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
         triangulate(&domain, &cracks)
-            .map_or_else(|_| all_of_it(), |mesh| Self::of_mesh(&domain, mesh))
+            .map_or_else(|_| all_of_it(), |(mesh, along)| Self::of_mesh(&domain, mesh, along))
     }
 
-    fn of_mesh(domain: &Domain, mesh: Mesh) -> Self {
+    fn of_mesh(domain: &Domain, mesh: Mesh, along: Along) -> Self {
         let bounds = domain.bounds;
-        let inside = |face: Face<'_>| domain.contains(from_unit(&bounds, face.center()));
+        let inside = |face: Triangle<'_>| domain.contains(from_unit(&bounds, face.center()));
         let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
         let mut piece_of = vec![None; material.len()];
         let mut all = Vec::new();
@@ -78,7 +92,7 @@ impl Pieces {
                 }
             }
         }
-        Self { bounds, all, map: Some((mesh, piece_of)) }
+        Self { bounds, all, map: Some(Map { mesh, piece_of, along }) }
     }
 
     /// The pieces; at least one if anything is left of the box.
@@ -89,9 +103,7 @@ impl Pieces {
     /// The number of the piece that holds a point of the plate, which must not lie on a crack. A point
     /// that rounding has put outside belongs to the piece next to it.
     pub(crate) fn of(&self, p: Vec2) -> usize {
-        let Some((mesh, piece_of)) = self.map.as_ref().filter(|_| self.all.len() > 1) else {
-            return 0;
-        };
+        let Some(Map { mesh, piece_of, .. }) = self.map() else { return 0 };
         let face = match mesh.locate(to_unit(&self.bounds, p)) {
             PositionInTriangulation::OnFace(face) => Some(mesh.face(face)),
             PositionInTriangulation::OnEdge(edge)
@@ -107,9 +119,38 @@ impl Pieces {
         face.and_then(|face| nearest(mesh, face, piece_of)).unwrap_or(0)
     }
 
+    /// The map, if there are several pieces.
+    fn map(&self) -> Option<&Map> {
+        self.map.as_ref().filter(|_| self.all.len() > 1)
+    }
+
+    /// The piece that a point of a rule along an edge belongs to.
+    pub(crate) fn of_border(&self, rule: &EdgeRule, point: usize) -> usize {
+        let p = rule.anchor + rule.offsets[point];
+        match rule.face {
+            Some(face) => self.beside(face, p),
+            None => self.behind(p, rule.normals[point]),
+        }
+    }
+
     /// The piece that a point of the border belongs to, with the normal out of the material.
-    pub(crate) fn behind(&self, p: Vec2, normal: Vec2) -> usize {
+    fn behind(&self, p: Vec2, normal: Vec2) -> usize {
         self.of(p - normal * (INWARD * self.bounds.size().length()))
+    }
+
+    /// The piece that a face of a crack belongs to at a point of it.
+    fn beside(&self, face: Face, p: Vec2) -> usize {
+        let Some(Map { mesh, piece_of, along }) = self.map() else { return 0 };
+        let SegmentId { crack, segment } = face.segment;
+        let p = to_unit(&self.bounds, p);
+        let way =
+            |ends: &&[FixedVertexHandle; 2]| distance(ends.map(|v| mesh.vertex(v).position()), p);
+        let edges = along[crack as usize][segment as usize].iter();
+        let nearest_edge = edges.min_by(|a, b| way(a).total_cmp(&way(b)));
+        let edge = nearest_edge.and_then(|&[from, to]| mesh.get_edge_from_neighbors(from, to));
+        let edge = edge.map(|edge| if face.side == Side::Above { edge } else { edge.rev() });
+        let triangle = edge.and_then(|edge| edge.face().as_inner());
+        triangle.and_then(|triangle| nearest(mesh, triangle, piece_of)).unwrap_or(0)
     }
 }
 
@@ -150,29 +191,42 @@ fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
 }
 
 /// The triangulation of the box in units of its sides, so that its border stays straight. Holes are
-/// polygons.
-fn triangulate(domain: &Domain, cracks: &[Vec<Vec2>]) -> Result<Mesh, InsertionError> {
-    let mut mesh = Mesh::new();
-    let border = rims::border(&domain.bounds).into_iter();
+/// polygons. The cracks come last: nothing divides their edges any more.
+fn triangulate(domain: &Domain, cracks: &[Vec<Vec2>]) -> Result<(Mesh, Along), InsertionError> {
+    let (mut mesh, bounds) = (Mesh::new(), &domain.bounds);
     let rims = domain.holes.iter().flat_map(Hole::sides);
-    let cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
-    for segment in border.chain(rims).chain(cracks) {
-        add_edge(&mut mesh, &domain.bounds, segment)?;
+    for segment in rims::border(bounds).into_iter().chain(rims) {
+        add_edges(&mut mesh, bounds, segment)?;
     }
-    Ok(mesh)
+    let mut along = Vec::new();
+    for crack in cracks {
+        let segments = crack.windows(2).map(|s| add_edges(&mut mesh, bounds, [s[0], s[1]]));
+        along.push(segments.collect::<Result<_, _>>()?);
+    }
+    Ok((mesh, along))
 }
 
-fn add_edge(mesh: &mut Mesh, bounds: &Rect, ends: [Vec2; 2]) -> Result<(), InsertionError> {
+/// Adds a segment; the ends of the edges along it, in its direction.
+fn add_edges(
+    mesh: &mut Mesh,
+    bounds: &Rect,
+    ends: [Vec2; 2],
+) -> Result<Vec<[FixedVertexHandle; 2]>, InsertionError> {
     let [from, to] = ends.map(|p| mesh.insert(to_unit(bounds, p)));
     let (from, to) = (from?, to?);
-    if from != to {
-        mesh.add_constraint_and_split(from, to, |p| p);
-    }
-    Ok(())
+    let edges =
+        if from == to { Vec::new() } else { mesh.add_constraint_and_split(from, to, |p| p) };
+    let ends = edges.into_iter().map(|edge| mesh.directed_edge(edge).vertices().map(|v| v.fix()));
+    Ok(ends.collect())
+}
+
+fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
+    let [a, b, p] = [a, b, p].map(|p| vec2(p.x, p.y));
+    segment_distance(a, b, p)
 }
 
 /// The faces that are connected with one, ascending.
-fn flood(mesh: &Mesh, start: Face<'_>, material: &[bool]) -> Vec<usize> {
+fn flood(mesh: &Mesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
     let mut seen = vec![false; material.len()];
     let mut waiting = vec![start.fix()];
     seen[index(&start)] = true;
@@ -189,7 +243,7 @@ fn flood(mesh: &Mesh, start: Face<'_>, material: &[bool]) -> Vec<usize> {
 }
 
 /// The piece of a face, or of the one nearest to it across edges.
-fn nearest(mesh: &Mesh, start: Face<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
+fn nearest(mesh: &Mesh, start: Triangle<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
     let mut seen = vec![start.fix()];
     let mut next = 0;
     while let Some(&face) = seen.get(next) {
@@ -209,7 +263,7 @@ fn nearest(mesh: &Mesh, start: Face<'_>, piece_of: &[Option<usize>]) -> Option<u
 }
 
 /// Inner faces count from 0.
-fn index(face: &Face<'_>) -> usize {
+fn index(face: &Triangle<'_>) -> usize {
     face.index() - 1
 }
 

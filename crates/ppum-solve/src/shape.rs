@@ -2,6 +2,7 @@
 //!
 //! Sides of cracks enter shifted, see [`Space::shifts`].
 
+use crate::quadrature::{EdgeRule, Face};
 use crate::space::Space;
 use faer::MatRef;
 use ppum::crack::Side;
@@ -89,8 +90,11 @@ impl Shapes {
 #[derive(Debug)]
 pub struct ShapeEvaluator<'s> {
     space: &'s Space<'s>,
-    seen: Option<(Vec2, LocalFunctions<'s>)>,
+    seen: Option<(Seat, LocalFunctions<'s>)>,
 }
+
+/// What functions are seen from: the anchor, and the face that points lie on.
+type Seat = (Vec2, Option<Face>);
 
 impl<'s> ShapeEvaluator<'s> {
     /// An evaluator for the functions of a space.
@@ -101,11 +105,21 @@ impl<'s> ShapeEvaluator<'s> {
 
     /// The shape functions of `patches`, which must be all that cover the points.
     pub fn evaluate(&mut self, anchor: Vec2, offsets: &[Vec2], patches: &[u32], out: &mut Shapes) {
-        let space = self.space;
-        if self.seen.as_ref().is_none_or(|(known, _)| *known != anchor) {
-            self.seen = Some((anchor, space.functions.at(&space.step.cracks, anchor)));
+        self.fill((anchor, None), offsets, patches, out);
+    }
+
+    /// The shape functions at the points of a rule along an edge; on a face of a crack its side.
+    pub fn evaluate_edge(&mut self, rule: &EdgeRule, out: &mut Shapes) {
+        self.fill((rule.anchor, rule.face), &rule.offsets, &rule.patches, out);
+    }
+
+    fn fill(&mut self, seat: Seat, offsets: &[Vec2], patches: &[u32], out: &mut Shapes) {
+        let (space, (anchor, face)) = (self.space, seat);
+        if self.seen.as_ref().is_none_or(|(known, _)| *known != seat) {
+            self.seen = Some((seat, functions(space, seat)));
         }
         let Some((_, functions)) = &self.seen else { return };
+        let side = face.map_or(Side::Above, |face| face.side);
         let n_functions = patches.iter().map(|&p| space.sizes[p as usize]).sum();
         out.resize(n_functions, offsets.len());
         let groups = groups_of(space, patches);
@@ -120,7 +134,7 @@ impl<'s> ShapeEvaluator<'s> {
             at.offset = offset;
             for &group in &groups {
                 let place = [offset.x, offset.y];
-                functions.evaluate::<f64, 1>(group, place, Side::Above, &mut at.jets[group]);
+                functions.evaluate::<f64, 1>(group, place, side, &mut at.jets[group]);
             }
             at.partition(patches, &mut weights);
             let mut function = 0;
@@ -132,6 +146,14 @@ impl<'s> ShapeEvaluator<'s> {
 }
 
 const ZERO: Jet<f64> = Jet { v: 0.0, x: 0.0, y: 0.0, xx: 0.0, xy: 0.0, yy: 0.0 };
+
+fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'s> {
+    let cracks = &space.step.cracks;
+    match face {
+        Some(face) => space.functions.on(cracks, face.segment, anchor),
+        None => space.functions.at(cracks, anchor),
+    }
+}
 
 /// The function groups that the blocks of some patches use, ascending.
 fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {

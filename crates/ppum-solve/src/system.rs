@@ -10,7 +10,7 @@ use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pieces::Pieces;
 use crate::problem::{BorderPart, BoundaryCondition, Problem};
-use crate::quadrature::{EdgeRule, Quadrature};
+use crate::quadrature::{EdgeRule, Face, Quadrature};
 use crate::reaction::{Reactions, motions};
 use crate::space::Space;
 use ppum::crack::Side;
@@ -173,11 +173,10 @@ fn border_rules(
         }
         BorderPart::Hole(hole) => quadrature.rim(rect, coverers, &problem.domain.holes[hole]),
         BorderPart::Crack { crack, face } => {
-            let segments = problem.cracks[crack].points.windows(2).map(|s| [s[0], s[1]]);
             let both = [Side::Above, Side::Below];
             let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
-            let faces = sides.flat_map(|side| segments.clone().map(move |s| (s, side)));
-            faces.flat_map(|(s, side)| quadrature.face(rect, coverers, s, side)).collect()
+            let faces = sides.flat_map(|side| Face::of(&problem.cracks[crack], crack, side));
+            faces.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
         }
     }
 }

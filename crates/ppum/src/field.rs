@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use crate::box_tree::BoxTree;
-use crate::crack::Side;
+use crate::crack::{SegmentId, Side};
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
 use crate::domain::{Domain, LocalDomain};
 use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
@@ -157,13 +157,22 @@ impl<'d> Field<'d> {
     /// The field as seen from an anchor.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalField<'_> {
-        LocalField {
-            field: self,
-            anchor,
-            domain: self.domain.at(anchor),
-            functions: self.functions.at(&self.step.cracks, anchor),
-            patches: Vec::new(),
-        }
+        self.seen(anchor, self.functions.at(&self.step.cracks, anchor))
+    }
+
+    /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation takes
+    /// the side of this crack that it is told, wherever rounding has put the points.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
+        self.seen(anchor, self.functions.on(&self.step.cracks, segment, anchor))
+    }
+
+    fn seen<'f>(&'f self, anchor: Vec2, functions: LocalFunctions<'f>) -> LocalField<'f> {
+        let domain = self.domain.at(anchor);
+        LocalField { field: self, anchor, domain, functions, patches: Vec::new() }
     }
 }
 

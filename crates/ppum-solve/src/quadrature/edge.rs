@@ -8,8 +8,8 @@ use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use super::{Kink, Level, Quadrature, Singular, TOLERANCE, corners, cutting_line};
-use ppum::crack::Side;
+use super::{Kink, Level, Quadrature, Singular, TOLERANCE, cutting_line};
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::vec2::{Rect, Vec2};
 
 /// Values of a level function below this part of its size on a segment are zero.
@@ -21,9 +21,29 @@ const ON_LINE: f64 = 1e-14;
 /// How far behind a border, in units of a cell, it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
 
-/// How far beside a crack the points of a face lie, in units of their distance to the anchor: more
-/// than rounding, less than any field tells.
-const BESIDE: f64 = 32.0 * f64::EPSILON;
+/// A face of a crack: one side of one of its segments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Face {
+    /// The segment.
+    pub segment: SegmentId,
+    /// The side that the material lies on.
+    pub side: Side,
+}
+
+impl Face {
+    /// The faces of a crack on one side, one a segment.
+    pub fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
+        let segment = move |segment| SegmentId { crack: index as u32, segment };
+        (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
+    }
+
+    /// The ends of the segment.
+    fn ends(&self, cracks: &[Crack]) -> [Vec2; 2] {
+        let (points, k) =
+            (&cracks[self.segment.crack as usize].points, self.segment.segment as usize);
+        [points[k], points[k + 1]]
+    }
+}
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,12 +59,15 @@ pub struct EdgeRule {
     pub patches: Vec<u32>,
     /// Unit normals out of the material, one a point.
     pub normals: Vec<Vec2>,
+    /// The face that the points lie on, if they are on one. Rounding may put them on either side of the
+    /// crack: what has sides there takes that of the face.
+    pub face: Option<Face>,
 }
 
 impl EdgeRule {
     pub(super) fn empty(anchor: Vec2, patches: &[u32]) -> Self {
         let (offsets, weights, normals) = (Vec::new(), Vec::new(), Vec::new());
-        Self { anchor, offsets, weights, patches: patches.to_vec(), normals }
+        Self { anchor, offsets, weights, patches: patches.to_vec(), normals, face: None }
     }
 
     pub(super) fn push(&mut self, offset: Vec2, weight: f64, normal: Vec2) {
@@ -61,25 +84,17 @@ impl Quadrature<'_> {
         !self.geometry.holes.iter().any(|hole| hole.contains(behind))
     }
 
-    /// [`edge`](Self::edge) along a face of a crack: the points lie a rounding inside the material, so
-    /// that fields are those of this side.
+    /// [`edge`](Self::edge) along a face of a crack of the geometry.
+    ///
+    /// # Panics
+    /// If there is no such segment.
     #[must_use]
-    pub fn face(
-        &self,
-        cell: &Rect,
-        coverers: &[u32],
-        ends: [Vec2; 2],
-        side: Side,
-    ) -> Vec<EdgeRule> {
+    pub fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
+        let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
-        let normal = if side == Side::Above { -left } else { left };
+        let normal = if face.side == Side::Above { -left } else { left };
         let mut rules = self.edge(cell, coverers, ends, normal);
-        for rule in &mut rules {
-            let line = normal.dot(ends[0] - rule.anchor).abs();
-            for offset in &mut rule.offsets {
-                *offset = *offset - normal * (BESIDE * (offset.length() + line));
-            }
-        }
+        rules.iter_mut().for_each(|rule| rule.face = Some(face));
         rules
     }
 
@@ -96,15 +111,10 @@ impl Quadrature<'_> {
         [from, to]: [Vec2; 2],
         normal: Vec2,
     ) -> Vec<EdgeRule> {
-        let anchor = cell.center();
-        let tangent = (to - from).unit();
-        let foot = tangent.left() * tangent.left().dot(from - anchor);
-        let line = Line { anchor, tangent, normal, foot };
-        if line.faces(cell) {
-            return Vec::new();
-        }
-        let ends = [from, to].map(|p| tangent.dot(p - anchor));
-        let Some((lo, hi)) = line.inside(cell, ends, TOLERANCE) else { return Vec::new() };
+        let line = Line::new(cell.center(), [from, to], normal);
+        let ends = [from, to].map(|p| line.tangent.dot(p - line.anchor));
+        let inside = line.inside(cell, ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
+        let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
         let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new() };
         run.add(lo, hi, coverers);
@@ -118,27 +128,62 @@ struct Line {
     tangent: Vec2,
     normal: Vec2,
     foot: Vec2,
+    /// The segment that the points are on.
+    segment: [Vec2; 2],
 }
 
 impl Line {
+    fn new(anchor: Vec2, segment: [Vec2; 2], normal: Vec2) -> Self {
+        let [from, to] = segment.map(|p| p - anchor);
+        let tangent = (segment[1] - segment[0]).unit();
+        // the nearer end: the line passes through it but for the rounding of a short way
+        let near = if from.length() < to.length() { from } else { to };
+        let foot = tangent.left() * tangent.left().dot(near);
+        Self { anchor, tangent, normal, foot, segment }
+    }
+
     /// The part of \[ends\] inside a box, if it has a length. A line along a border is inside for a
     /// positive `slack`, a part of the box's size.
     fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
         let [mut lo, mut hi] = ends;
-        for axis in 0..2 {
-            let slack = slack * component(rect.size(), axis);
-            let (min, max) = (component(rect.min, axis), component(rect.max, axis));
-            match [min, max].map(|at| self.parameter(axis, at)) {
-                [Some(a), Some(b)] => (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b))),
-                _ => {
-                    let at = component(self.anchor + self.foot, axis);
-                    if at < min - slack || at > max + slack {
-                        return None;
-                    }
+        let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
+        for axis in [main, 1 - main] {
+            let (min, max) = self.borders(rect, axis);
+            if let Some(at) = self.level(rect, axis, (lo, hi)) {
+                let slack = slack * (max - min);
+                if at < min - slack || at > max + slack {
+                    return None;
                 }
+            } else {
+                let slope = component(self.tangent, axis);
+                let [a, b] = [min, max].map(|at| (at - component(self.foot, axis)) / slope);
+                (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
             }
         }
         (hi - lo > TOLERANCE * rect.size().length()).then_some((lo, hi))
+    }
+
+    /// The borders of a box across an axis, relative to the anchor.
+    fn borders(&self, rect: &Rect, axis: usize) -> (f64, f64) {
+        (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
+    }
+
+    /// Where a part of the line lies along an axis, if that is one place but for rounding.
+    fn level(&self, rect: &Rect, axis: usize, (lo, hi): (f64, f64)) -> Option<f64> {
+        let slope = component(self.tangent, axis);
+        let middle = component(self.foot, axis) + slope * (0.5 * (lo + hi));
+        (slope.abs() * (hi - lo) <= TOLERANCE * component(rect.size(), axis)).then_some(middle)
+    }
+
+    /// False if this part of the line runs along a border of the box and the normal points into it.
+    fn belongs_to(&self, rect: &Rect, part: (f64, f64)) -> bool {
+        let points_in = |axis: usize| {
+            let Some(at) = self.level(rect, axis, part) else { return false };
+            let ((min, max), normal) = (self.borders(rect, axis), component(self.normal, axis));
+            let slack = TOLERANCE * (max - min);
+            (at <= min + slack && normal > 0.0) || (at >= max - slack && normal < 0.0)
+        };
+        !points_in(0) && !points_in(1)
     }
 
     /// s of the point whose coordinate along an axis is `at`; none on a line across the axis.
@@ -146,13 +191,6 @@ impl Line {
         let slope = component(self.tangent, axis);
         let way = at - component(self.anchor, axis) - component(self.foot, axis);
         (slope != 0.0).then(|| way / slope)
-    }
-
-    /// True if the box lies wholly on the side the normal points to.
-    fn faces(&self, rect: &Rect) -> bool {
-        let slack = TOLERANCE * rect.size().length();
-        let way = |p: Vec2| self.normal.dot(p - self.anchor - self.foot);
-        corners(rect).into_iter().all(|p| way(p) >= -slack)
     }
 
     /// s of a point's foot on the line, and the point's distance to the line.
@@ -223,7 +261,8 @@ impl Run<'_> {
             (from != to).then(|| lo + (hi - lo) * (from / (from - to)))
         };
         let straight = kinks.iter().filter_map(|kink| cutting_line(kink, self.cell));
-        let lines = self.quadrature.segments_near(self.cell).chain(straight);
+        let others = self.quadrature.segments_near(self.cell).filter(|s| *s != self.line.segment);
+        let lines = others.chain(straight);
         let curved = kinks.iter().filter_map(|kink| match kink {
             Kink::Curve(level) => Some(level),
             _ => None,

@@ -39,7 +39,7 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 
-pub use edge::EdgeRule;
+pub use edge::{EdgeRule, Face};
 pub use gauss::{GaussRule, MAX_POINTS, gauss};
 pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
 pub use orders::Orders;

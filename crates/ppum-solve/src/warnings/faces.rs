@@ -1,7 +1,7 @@
 //! Warnings about the faces of cracks: whether they open.
 
 use super::{kind, short, shown, warning};
-use ppum::crack::{Crack, Side};
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::Warning;
 use ppum::field::Field;
 use ppum::jet::Jet;
@@ -9,10 +9,6 @@ use ppum::vec2::{Vec2, vec2};
 
 /// Places along a crack at which its opening is looked at.
 const SAMPLES: usize = 96;
-
-/// Distance from the crack at which its faces are evaluated, in parts of its length: beyond rounding
-/// of the coordinates, and nothing against the opening.
-const BESIDE: f64 = 1e-9;
 
 /// Part of a crack's scale by which faces may overlap where they should just touch.
 const NOISE: f64 = 5e-3;
@@ -38,7 +34,7 @@ struct Place {
 }
 
 fn overlap(field: &Field<'_>, index: usize, crack: &Crack) -> Option<Warning> {
-    let places: Vec<Place> = places(crack).filter_map(|p| Place::new(field, crack, p)).collect();
+    let places: Vec<Place> = places(crack, index).filter_map(|p| Place::new(field, p)).collect();
     // an opening is small against other jumps, or against what the strain makes of the length
     let jump = places.iter().fold(0.0f64, |m, p| m.max(p.jump));
     let strain = places.iter().map(|p| p.strain).sum::<f64>() / places.len() as f64;
@@ -58,27 +54,26 @@ fn overlap(field: &Field<'_>, index: usize, crack: &Crack) -> Option<Warning> {
     })
 }
 
-/// Points along a crack, equally apart and none at a vertex, with the normal there.
-fn places(crack: &Crack) -> impl Iterator<Item = (Vec2, Vec2)> {
+/// Points along a crack, equally apart and none at a vertex, with their segment and the normal there.
+fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId, Vec2)> {
     let length = crack.length();
-    crack.points.windows(2).flat_map(move |s| {
+    (0..).zip(crack.points.windows(2)).flat_map(move |(segment, s)| {
         let (a, way) = (s[0], s[1] - s[0]);
         let count = (SAMPLES as f64 * way.length() / length).ceil();
         let at = move |k: usize| a + way * ((k as f64 + 0.5) / count);
-        (0..count as usize).map(move |k| (at(k), way.unit().left()))
+        let segment = SegmentId { crack: index as u32, segment };
+        (0..count as usize).map(move |k| (at(k), segment, way.unit().left()))
     })
 }
 
 impl Place {
-    fn new(field: &Field<'_>, crack: &Crack, (at, normal): (Vec2, Vec2)) -> Option<Self> {
-        let beside = BESIDE * crack.length();
-        let mut local = field.at(at);
-        let mut face = |sign: f64, side: Side| {
+    fn new(field: &Field<'_>, (at, on, normal): (Vec2, SegmentId, Vec2)) -> Option<Self> {
+        let mut local = field.on(on, at);
+        let mut face = |side: Side| {
             let mut u = [Jet::constant(0.0); 2];
-            let offset = normal * (sign * beside);
-            local.evaluate::<1>(offset, side, &mut u).then_some(u)
+            local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
-        let (above, below) = (face(1.0, Side::Above)?, face(-1.0, Side::Below)?);
+        let (above, below) = (face(Side::Above)?, face(Side::Below)?);
         let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
         let strain = |u: [Jet<f64>; 2]| u[0].x.hypot(u[1].y).hypot(0.5 * (u[0].y + u[1].x));
         Some(Self {

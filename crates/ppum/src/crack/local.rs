@@ -3,6 +3,9 @@
 //! Points are `anchor + offset`. The distances of the anchor to the crack's lines and tips are
 //! formed once, in f64, without cancellation; evaluation adds the offset only. So a view
 //! 10⁻¹² of the domain wide has no noise, at a tip, at a kink or in the middle of an oblique crack.
+//!
+//! Points that are known to lie on a segment are seen [on it](LocalCrack::on): there the distance is zero
+//! however their coordinates were rounded, and the [`Side`] that is asked for is the one that is met.
 
 use super::{Crack, End, Side};
 use crate::compensated::cross;
@@ -27,6 +30,8 @@ pub struct LocalCrack {
 pub struct LocalSegment {
     /// Unit vector along the segment.
     pub tangent: Vec2,
+    /// Unit vector to its left; zero if all points lie on it.
+    normal: Vec2,
     /// Distance of the anchor from the line, positive on its left.
     pub distance: f64,
     /// Where the segment begins, along it from the anchor; −∞ of a crack's first segment.
@@ -39,13 +44,19 @@ impl LocalSegment {
     fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
         let (tangent, length) = ((b - a).unit(), (b - a).length());
         let distance = cross(a, b, anchor) / length;
-        Self { tangent, distance, lo: tangent.dot(a - anchor), hi: tangent.dot(b - anchor) }
+        let (lo, hi) = (tangent.dot(a - anchor), tangent.dot(b - anchor));
+        Self { tangent, normal: tangent.left(), distance, lo, hi }
+    }
+
+    /// The same segment for points that lie on it: none has a distance.
+    fn touched(self) -> Self {
+        Self { normal: Vec2::ZERO, distance: 0.0, ..self }
     }
 
     #[inline(always)]
     fn distance<R: Real>(&self, offset: [R; 2]) -> R {
         let [x, y] = offset;
-        x.lit(self.tangent.x).mul_add(y, x.lit(-self.tangent.y).mul_add(x, x.lit(self.distance)))
+        x.lit(self.normal.y).mul_add(y, x.lit(self.normal.x).mul_add(x, x.lit(self.distance)))
     }
 
     #[inline(always)]
@@ -68,6 +79,16 @@ impl LocalCrack {
             last.hi = f64::INFINITY;
         }
         Self { segments }
+    }
+
+    /// The crack seen from `anchor` for points that lie on one of its segments: this one is the
+    /// nearest to all of them, and its distance is zero.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(crack: &Crack, segment: u32, anchor: Vec2) -> Self {
+        Self { segments: vec![Self::new(crack, anchor).segments[segment as usize].touched()] }
     }
 
     /// The segments, in order: one at least.
@@ -138,6 +159,10 @@ pub struct LocalTip {
     crack: LocalCrack,
     /// Index of the segment that ends at the tip.
     pub segment: usize,
+    /// That segment.
+    line: LocalSegment,
+    /// True of a crack of more than one segment.
+    bends: bool,
     /// +1 at the last vertex, −1 at the first, where the crack's left is the tip's right.
     pub orientation: f64,
 }
@@ -162,17 +187,26 @@ impl LocalTip {
     #[must_use]
     pub fn new(crack: &Crack, end: End, anchor: Vec2) -> Self {
         let local = LocalCrack::new(crack, anchor);
+        let bends = local.segments.len() > 1;
         let (segment, orientation) = match end {
             End::Start => (0, -1.0),
             End::Last => (local.segments.len() - 1, 1.0),
         };
-        Self {
-            from_tip: anchor - crack.end_point(end),
-            axis: local.segments[segment].tangent * orientation,
-            crack: local,
-            segment,
-            orientation,
-        }
+        let line = local.segments[segment];
+        let (from_tip, axis) = (anchor - crack.end_point(end), line.tangent * orientation);
+        Self { from_tip, axis, crack: local, segment, line, bends, orientation }
+    }
+
+    /// The tip at `end` of `crack`, seen from `anchor`, for points that lie on one of the crack's
+    /// segments: there θ is that of the side which is asked for, ±π behind a straight crack's tip.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(crack: &Crack, segment: u32, end: End, anchor: Vec2) -> Self {
+        let tip = Self::new(crack, end, anchor);
+        let line = if tip.segment == segment as usize { tip.line.touched() } else { tip.line };
+        Self { crack: LocalCrack::on(crack, segment, anchor), line, ..tip }
     }
 
     /// The point `anchor + offset` in the tip's frame.
@@ -184,12 +218,12 @@ impl LocalTip {
         let one = offset[0].lit(1.0);
         let dx = offset[0] + one.lit(self.from_tip.x);
         let dy = offset[1] + one.lit(self.from_tip.y);
-        let distance = self.crack.segments[self.segment].distance(offset);
+        let distance = self.line.distance(offset);
         let line_side = sign(distance, side);
-        let branch = if self.crack.segments.len() == 1 {
-            one
-        } else {
+        let branch = if self.bends {
             line_side * sign(self.crack.nearest_distance(offset), side)
+        } else {
+            one
         };
         let orientation = one.lit(self.orientation);
         TipPoint {

@@ -51,6 +51,15 @@ pub struct TipId {
     pub end: End,
 }
 
+/// One segment of one crack, for points that are known to lie on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SegmentId {
+    /// Index of the crack.
+    pub crack: u32,
+    /// Index of the segment, from the crack's start.
+    pub segment: u32,
+}
+
 /// The side of a crack, seen along its direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {

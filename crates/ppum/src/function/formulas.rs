@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::Frame;
-use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
+use super::seen::Seen;
+use crate::crack::{LocalCrack, LocalTip, Side, TipPoint};
 use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
@@ -61,13 +62,13 @@ impl Formulas {
         self.compiled.jets[2].n_operations()
     }
 
-    /// The functions seen from an anchor.
-    pub(super) fn at(&self, cracks: &[Crack], anchor: Vec2) -> LocalFormulas<'_> {
-        let used = |(crack, &used): (_, &bool)| used.then(|| LocalCrack::new(crack, anchor));
+    /// The functions as they see the cracks.
+    pub(super) fn seen(&self, seen: &Seen<'_>) -> LocalFormulas<'_> {
+        let used = |(crack, &used): (u32, &bool)| used.then(|| seen.crack(crack));
         LocalFormulas {
             compiled: &self.compiled,
-            frame: LocalFrame::new(cracks, self.frame, anchor),
-            cracks: cracks.iter().zip(&self.compiled.uses[POLAR..]).map(used).collect(),
+            frame: LocalFrame::new(seen, self.frame),
+            cracks: (0..).zip(&self.compiled.uses[POLAR..]).map(used).collect(),
         }
     }
 }
@@ -80,15 +81,14 @@ enum LocalFrame {
 }
 
 impl LocalFrame {
-    fn new(cracks: &[Crack], frame: Frame, anchor: Vec2) -> Self {
+    fn new(seen: &Seen<'_>, frame: Frame) -> Self {
+        let anchor = seen.anchor;
         match frame {
             Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },
             Frame::Fixed { origin, angle } => {
                 Self::Fixed { from_origin: anchor - origin, axis: vec2(angle.cos(), angle.sin()) }
             }
-            Frame::Tip(tip) => {
-                Self::Tip(LocalTip::new(&cracks[tip.crack as usize], tip.end, anchor))
-            }
+            Frame::Tip(tip) => Self::Tip(seen.tip(tip)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The function table: the f_b of function × polynomial.
 
 mod formulas;
+mod seen;
 mod table;
 mod westergaard;
 

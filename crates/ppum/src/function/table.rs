@@ -7,8 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::formulas::{Formulas, LocalFormulas};
+use super::seen::Seen;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
-use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipId};
+use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId};
 use crate::formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
 use crate::jet::Jet;
 use crate::real::Real;
@@ -139,16 +140,27 @@ impl FunctionTable {
     /// The table as seen from an anchor.
     #[must_use]
     pub fn at(&self, cracks: &[Crack], anchor: Vec2) -> LocalFunctions<'_> {
-        let seen = |group| match group {
-            &Group::Side(crack) => {
-                LocalGroup::Side(LocalCrack::new(&cracks[crack as usize], anchor))
-            }
-            &Group::Westergaard(tip) => {
-                LocalGroup::Westergaard(LocalTip::new(&cracks[tip.crack as usize], tip.end, anchor))
-            }
-            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.at(cracks, anchor)),
+        self.seen(&Seen { cracks, anchor, on: None })
+    }
+
+    /// The table as seen from an anchor, for points that lie on a segment of a crack: what depends on
+    /// that crack is evaluated on it, on the side that is asked for, wherever rounding has put the points.
+    /// All else goes by their position.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(&self, cracks: &[Crack], segment: SegmentId, anchor: Vec2) -> LocalFunctions<'_> {
+        self.seen(&Seen { cracks, anchor, on: Some(segment) })
+    }
+
+    fn seen(&self, seen: &Seen<'_>) -> LocalFunctions<'_> {
+        let local = |group| match group {
+            &Group::Side(crack) => LocalGroup::Side(seen.crack(crack)),
+            &Group::Westergaard(tip) => LocalGroup::Westergaard(seen.tip(tip)),
+            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(seen)),
         };
-        LocalFunctions { table: self, groups: self.groups.iter().map(seen).collect() }
+        LocalFunctions { table: self, groups: self.groups.iter().map(local).collect() }
     }
 }
 

@@ -484,8 +484,14 @@ mod tests {
     fn infinite_where_the_gradient_does_not_exist() {
         let m = material(StressState::PlaneStrain);
         let nan = Jet { x: f64::NAN, y: f64::NAN, ..Jet::constant(0.0) };
-        assert_eq!(value(m, &[nan, nan], "von-mises"), f64::INFINITY);
+        let components = ["ux".to_owned(), "uy".to_owned()];
+        let all = names(&Equation::elasticity(m), &components);
+        let of_gradient = all.iter().filter(|(_, q)| q.source() == Source::Gradient);
+        for (name, _) in of_gradient {
+            assert_eq!(value(m, &[nan, nan], name), f64::INFINITY, "{name}");
+        }
         assert_eq!(value(m, &[nan, nan], "ux"), 0.0);
+        assert_eq!(value(m, &[Jet::constant(0.0); 2], "direction"), 0.0);
     }
 
     #[test]

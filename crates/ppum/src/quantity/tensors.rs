@@ -82,7 +82,8 @@ impl<R: Real> Stress<R> {
         let ahead = half.ge(zero);
         let (up, down) =
             (R::select(ahead, self.xy, radius - half), R::select(ahead, radius + half, self.xy));
-        let tangent = R::select(radius.gt(zero), up / down, zero);
+        // a radius that is not a number stays one: there is no direction where there is no gradient
+        let tangent = R::select(radius.gt(zero), up / down, radius);
         tangent.map(|t| if t == f64::NEG_INFINITY { t.abs() } else { t }.atan())
     }
 }

@@ -1,6 +1,10 @@
 //! Sides of cracks where rounding would decide: against rays counted with 31 digits.
 
-use ppum::crack::{Crack, CrackEnd, LocalCrack, Side};
+use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, SegmentId, Side, TipId};
+use ppum::function::{
+    Frame, Function, FunctionKind, FunctionTable, GROUP, LocalFunctions, WESTERGAARD,
+};
+use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::extended::{point, side};
 use ppum_testkit::random::Random;
@@ -54,4 +58,72 @@ fn around_kinks() {
         sure += usize::from(compare(&crack, anchor, offset, 1e-5 * r));
     }
     assert!(sure > 4900, "{sure}");
+}
+
+/// Sides, tip functions of both ends by kernel and by formula, and formulas of sides, for two cracks.
+fn functions(tips: &[TipId]) -> Vec<Function> {
+    let side = (0..2).map(|crack| FunctionKind::Side { crack });
+    let sides = ["x*side(0) + side(1)", "side(0)*side(1)"];
+    let formulas = WESTERGAARD.into_iter().chain(["theta", "sqrt(r)*sin(theta/2)*side(0)"]);
+    let at_tip =
+        |tip| formulas.clone().map(move |text| FunctionKind::formula(text, Frame::Tip(tip)));
+    let at_tips = tips.iter().copied().flat_map(at_tip);
+    let named = |kind| Function { name: "any".into(), kind };
+    let world = sides.map(|text| FunctionKind::formula(text, Frame::World));
+    side.chain(at_tips).chain(world).map(named).collect()
+}
+
+fn all(local: &LocalFunctions<'_>, offset: Vec2, side: Side) -> Vec<Jet<f64>> {
+    let mut jets = [Jet::constant(0.0); GROUP];
+    let mut groups = |group| {
+        local.evaluate::<f64, 1>(group, offset.into(), side, &mut jets);
+        jets[..local.table().group_len(group)].to_vec()
+    };
+    (0..local.table().groups()).flat_map(&mut groups).collect()
+}
+
+/// Points on a segment that rounding has put on it or on either side of it: functions seen on the segment
+/// have the limits from the side that is asked for, and θ behind a tip is ±π to the last bit.
+#[test]
+fn told_where_points_lie() {
+    let mut random = Random(3);
+    for round in 0..400 {
+        let far = random.direction() * [0.0, 1.0, 1e3, 1e6][round % 4];
+        let turn = if round % 3 == 0 { 0.0 } else { random.between(-1.2, 1.2) };
+        let (arm, kink) = (random.direction(), far + random.direction() * 0.2);
+        let other = arm * turn.cos() + arm.left() * turn.sin();
+        let points = [kink - arm * random.between(0.5, 1.0), kink, kink + other * 0.7];
+        let away = kink + arm.left() * 3.0;
+        let cracks = [
+            crack(&points.map(<[f64; 2]>::from), [CrackEnd::Tip; 2]),
+            crack(&[away.into(), (away + other).into()], [CrackEnd::Tip; 2]),
+        ];
+        let tips = [End::Start, End::Last].map(|end| TipId { crack: 0, end });
+        let table = FunctionTable::new(&functions(&tips), 2, &[]).expect("functions");
+        let k = random.below(2);
+        let segment = SegmentId { crack: 0, segment: k as u32 };
+        let [a, b] = [points[k], points[k + 1]];
+        let (place, normal) = (a + (b - a) * random.between(0.1, 0.9), (b - a).unit().left());
+        let anchor = place + random.direction() * random.between(0.0, 0.1);
+        let noise = 4.0 * f64::EPSILON * (1.0 + far.length());
+        let offset = (place - anchor) + normal * random.between(-noise, noise);
+        for (side, sign) in [(Side::Above, 1.0), (Side::Below, -1.0)] {
+            let on = all(&table.on(&cracks, segment, anchor), offset, side);
+            let beside = offset + normal * (sign * 1e-8);
+            let limit = all(&table.at(&cracks, anchor), beside, side);
+            for (index, (on, limit)) in on.iter().zip(&limit).enumerate() {
+                // what the functions and their slopes change by on the way, at most 30 of 1/r²
+                for (found, expected) in [(on.v, limit.v), (on.x, limit.x), (on.y, limit.y)] {
+                    let scale = 1.0 + far.length() * f64::from(u8::from(index > 13));
+                    let apart = (found - expected).abs();
+                    assert!(apart < 1e-5 * scale, "round {round}, {index}: {found} {expected}");
+                }
+            }
+            let own = [End::Start, End::Last][k];
+            let tip = LocalTip::on(&cracks[0], segment.segment, own, anchor);
+            let left = if own == End::Last { sign } else { -sign };
+            let (_, theta) = tip.point(offset.into(), side).polar();
+            assert_eq!(theta, left * std::f64::consts::PI, "round {round}");
+        }
+    }
 }
