@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use ppum::crack::Side;
+use ppum::crack::{SegmentId, Side};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
@@ -14,7 +14,7 @@ use crate::arguments::point;
 use crate::dataset::{field, open, quantities};
 use crate::number::{Number, json};
 use crate::replacements::Replacements;
-use crate::sides::on_crack;
+use crate::sides::{on_crack, seen};
 
 /// Print exact values at points
 ///
@@ -103,13 +103,11 @@ impl Args {
 
     /// One row, on a crack one for each side.
     fn rows(&self, field: &Field<'_>, quantities: &[(String, Quantity)], at: Vec2) -> Vec<Row> {
-        let offset = self.offset.unwrap_or_default();
-        let row = |offset, side, name| self.row(field, quantities, at, (offset, side, name));
-        match on_crack(&field.step.cracks, at, offset) {
-            Some([above, below]) => {
-                vec![row(above, Side::Above, Some("above")), row(below, Side::Below, Some("below"))]
-            }
-            None => vec![row(offset, Side::Above, None)],
+        let on = on_crack(&field.step.cracks, at, self.offset.unwrap_or_default());
+        let row = |side, name| self.row(field, quantities, at, (on, side, name));
+        match on {
+            Some(_) => vec![row(Side::Above, Some("above")), row(Side::Below, Some("below"))],
+            None => vec![row(Side::Above, None)],
         }
     }
 
@@ -118,9 +116,9 @@ impl Args {
         field: &Field<'_>,
         quantities: &[(String, Quantity)],
         at: Vec2,
-        (offset, side, name): (Vec2, Side, Option<&'static str>),
+        (on, side, name): (Option<SegmentId>, Side, Option<&'static str>),
     ) -> Row {
-        let mut local = field.at(at);
+        let (mut local, offset) = (seen(field, on, at), self.offset.unwrap_or_default());
         let value = |(name, quantity): &(String, Quantity)| {
             (name.clone(), Number(quantity.at(&mut local, offset, side)))
         };

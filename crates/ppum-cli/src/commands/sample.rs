@@ -132,8 +132,7 @@ fn listed(field: &Field<'_>, quantities: &[(String, Quantity)], places: &[Place]
     let columns = head.into_iter().chain(quantities.iter().map(of)).collect();
     let mut rows = Vec::with_capacity(places.len() * (3 + quantities.len()));
     for (place, values) in places.iter().zip(values.chunks(quantities.len())) {
-        let p = place.position();
-        rows.extend([p.x, p.y, place.mark]);
+        rows.extend([place.point.x, place.point.y, place.mark]);
         rows.extend(values);
     }
     Table::new(columns, rows)

@@ -3,6 +3,7 @@
 mod awkward;
 mod corners;
 mod examples;
+mod faces;
 mod formulas;
 mod holes;
 mod intensity;

@@ -1,7 +1,7 @@
 //! Values along a crack: both sides, jumps, opening.
 
 use anyhow::{Context as _, ensure};
-use ppum::crack::{Crack, Side};
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
@@ -9,27 +9,26 @@ use ppum::vec2::Vec2;
 use super::places::{Place, evaluate};
 use super::table::{Column, Table};
 use crate::number::count as counted;
-use crate::sides::on_crack;
 
 /// A row for each of `count` points at equal distances along the crack, its ends included.
 pub(super) fn table(
     field: &Field<'_>,
     quantities: &[(String, Quantity)],
-    crack: usize,
+    index: usize,
     count: usize,
 ) -> anyhow::Result<Table> {
     let cracks = &field.step.cracks;
-    ensure!(!cracks.is_empty(), "--crack {crack}: the dataset has no cracks");
+    ensure!(!cracks.is_empty(), "--crack {index}: the dataset has no cracks");
     let number = counted(cracks.len(), "crack", "cracks");
     let crack = cracks
-        .get(crack)
-        .with_context(|| format!("--crack {crack}: the dataset has {number}, numbered from 0"))?;
-    let stations = stations(crack, count);
+        .get(index)
+        .with_context(|| format!("--crack {index}: the dataset has {number}, numbered from 0"))?;
+    let stations = stations(crack, index as u32, count);
     let components = field.data.components.iter().zip(0..);
     let components = components.map(|(name, c)| (name.clone(), Quantity::Component(c)));
     let wanted: Vec<_> = quantities.iter().cloned().chain(components).collect();
     let sides = [Side::Above, Side::Below].map(|side| {
-        let places: Vec<Place> = stations.iter().map(|s| s.place(field, side)).collect();
+        let places: Vec<Place> = stations.iter().map(|s| s.place(side)).collect();
         evaluate(field, &wanted, &places)
     });
     let mut rows = Vec::new();
@@ -63,11 +62,12 @@ struct Station {
     /// The nearer end of its segment, and the way from there.
     anchor: Vec2,
     offset: Vec2,
+    segment: SegmentId,
     /// Unit direction of the segment.
     tangent: Vec2,
 }
 
-fn stations(crack: &Crack, count: usize) -> Vec<Station> {
+fn stations(crack: &Crack, index: u32, count: usize) -> Vec<Station> {
     let mut starts = vec![0.0];
     for p in crack.points.windows(2) {
         starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
@@ -80,18 +80,17 @@ fn stations(crack: &Crack, count: usize) -> Vec<Station> {
         let (tangent, inner) = ((b - a).unit(), s - starts[segment]);
         let beyond = starts[segment + 1] - s;
         let (anchor, way) = if inner <= beyond { (a, inner) } else { (b, -beyond) };
-        Station { s, anchor, offset: tangent * way, tangent }
+        let segment = SegmentId { crack: index, segment: segment as u32 };
+        Station { s, anchor, offset: tangent * way, segment, tangent }
     };
     (0..count).map(station).collect()
 }
 
 impl Station {
-    fn place(&self, field: &Field<'_>, side: Side) -> Place {
-        let k = usize::from(side == Side::Below);
-        let on = on_crack(&field.step.cracks, self.anchor, self.offset);
-        // a tip has no sides: both are the same there
-        let offset = on.map_or(self.offset, |offsets| offsets[k]);
-        Place { anchor: self.anchor, offset, side, mark: [1.0, -1.0][k] }
+    fn place(&self, side: Side) -> Place {
+        let mark = if side == Side::Above { 1.0 } else { -1.0 };
+        let (anchor, offset) = (self.anchor, self.offset);
+        Place { point: anchor + offset, anchor, offset, on: Some(self.segment), side, mark }
     }
 
     /// Position, the quantities on both sides, the jumps of the components that follow them; normal to the

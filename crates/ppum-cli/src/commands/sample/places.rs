@@ -3,28 +3,26 @@
 use std::path::Path;
 
 use anyhow::{Context as _, bail, ensure};
-use ppum::crack::{Crack, Side};
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
-use crate::sides::on_crack;
+use crate::sides::{on_crack, seen};
 
 /// A point on a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
+    /// The point as it was meant: `anchor + offset` may round to its neighbour.
+    pub(super) point: Vec2,
     pub(super) anchor: Vec2,
     pub(super) offset: Vec2,
+    /// The segment that it lies on, if it lies on a crack.
+    pub(super) on: Option<SegmentId>,
     pub(super) side: Side,
     /// 1 above a crack, −1 below, 0 if the point is on none.
     pub(super) mark: f64,
-}
-
-impl Place {
-    pub(super) fn position(&self) -> Vec2 {
-        self.anchor + self.offset
-    }
 }
 
 /// Points that share an anchor: near each other, and few enough to be work for one thread.
@@ -38,12 +36,14 @@ pub(super) fn evaluate(
 ) -> Vec<f64> {
     let quantities: Vec<Quantity> =
         quantities.iter().map(|(_, quantity)| quantity.clone()).collect();
-    let alike = |a: &Place, b: &Place| a.anchor == b.anchor && a.side == b.side;
+    let seat = |place: &Place| (place.anchor, place.on, place.side);
+    let alike = |a: &Place, b: &Place| seat(a) == seat(b);
     let runs: Vec<&[Place]> =
         places.chunk_by(alike).flat_map(|run| run.chunks(4 * BLOCK)).collect();
     let values = |run: &&[Place]| {
         let offsets: Vec<Vec2> = run.iter().map(|place| place.offset).collect();
-        Quantity::at_many(&quantities, &mut field.at(run[0].anchor), &offsets, run[0].side)
+        let mut local = seen(field, run[0].on, run[0].anchor);
+        Quantity::at_many(&quantities, &mut local, &offsets, run[0].side)
     };
     runs.par_iter().map(values).collect::<Vec<_>>().concat()
 }
@@ -62,13 +62,13 @@ fn sided(cracks: &[Crack], points: &[Vec2]) -> Vec<Vec<Place>> {
 }
 
 fn places(cracks: &[Crack], anchor: Vec2, point: Vec2) -> Vec<Place> {
-    match on_crack(cracks, point, Vec2::ZERO) {
-        Some([above, below]) => vec![
-            Place { anchor: point, offset: above, side: Side::Above, mark: 1.0 },
-            Place { anchor: point, offset: below, side: Side::Below, mark: -1.0 },
-        ],
-        None => vec![Place { anchor, offset: point - anchor, side: Side::Above, mark: 0.0 }],
+    let on = on_crack(cracks, point, Vec2::ZERO);
+    if on.is_none() {
+        let offset = point - anchor;
+        return vec![Place { point, anchor, offset, on, side: Side::Above, mark: 0.0 }];
     }
+    let on_side = |side, mark| Place { point, anchor: point, offset: Vec2::ZERO, on, side, mark };
+    vec![on_side(Side::Above, 1.0), on_side(Side::Below, -1.0)]
 }
 
 /// Points from a to b, and how far they are from a.
@@ -171,5 +171,10 @@ mod tests {
             assert_eq!((between(a, b, 0, n), between(a, b, n - 1, n)), (a, b));
         }
         assert_eq!(between(a, b, 0, 1), (a + b) * 0.5);
+        let (_, places) = line(&[], a, b, 7);
+        assert_eq!((places[0].point, places[6].point), (a, b));
+        let bounds = Rect::new(vec2(-1.1, 0.1), vec2(0.7, 1.3));
+        let corners = grid(&[], bounds, [7, 9]);
+        assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
     }
 }
