@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p ppum-solve --example answers -- examples/edge-shear.toml …
 //!
-//! `energy`, `unknowns` and `seconds`; of each of `tips` its `crack`, `end`, place, `k1` and `k2`; of each of
+//! `energy`, `unknowns`, quadrature `points`, `reactions` (force and moment of each support) and `seconds`; of each of `tips` its `crack`, `end`, place, `k1` and `k2`; of each of
 //! `warnings` its `kind`, `value`, `limit`, `at` and `message`. A problem that is refused gives `error`.
 
 use ppum::dataset::{Dataset, Warning};
@@ -43,6 +43,8 @@ fn numbers(dataset: &Dataset) -> Value {
     json!({
         "energy": record("energy"),
         "unknowns": record("unknowns"),
+        "points": record("quadrature points"),
+        "reactions": step.reactions.iter().map(|r| json!([r.force, r.moment])).collect::<Vec<_>>(),
         "tips": step.intensities.iter().map(tip).collect::<Vec<_>>(),
         "warnings": step.warnings.iter().map(warning).collect::<Vec<_>>(),
     })

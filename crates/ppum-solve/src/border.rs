@@ -37,9 +37,19 @@ pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
 /// thousandth then, and the condition number does not suffer.
 const STIFFEST: f64 = 1e3;
 
+/// Integrals that a rule is for.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Both,
+    Stiffness,
+    Data,
+}
+
 /// A piece of a cell's border with what is given on it.
 pub(crate) struct BorderPiece<'a> {
     pub(crate) rules: Vec<EdgeRule>,
+    /// Rules for what is given that take the place of those, where they do not resolve it.
+    pub(crate) own: Option<&'a [EdgeRule]>,
     /// Components whose value is given.
     pub(crate) held: [bool; 2],
     /// The given values; tractions where not held (zero where free).
@@ -97,33 +107,44 @@ impl<'a> Border<'a> {
         system: &mut CellSystem,
     ) {
         let components = self.law.components;
-        for rule in &piece.rules {
+        let own = piece.own.unwrap_or_default().iter().map(|rule| (rule, Part::Data));
+        let part = if piece.own.is_some() { Part::Stiffness } else { Part::Both };
+        for (rule, part) in piece.rules.iter().map(|rule| (rule, part)).chain(own) {
             evaluator.evaluate_edge(rule, shapes);
             let numbers = system.functions.numbers(&rule.patches);
             let mut given = Vec::with_capacity(rule.offsets.len());
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
                 let x = rule.anchor + offset;
-                let values = (piece.values)(x, rule.normals[q]);
-                let mut loads = values;
-                for (load, held) in loads.iter_mut().zip(piece.held) {
-                    *load = if held { 0.0 } else { *load };
-                }
-                let loads = &loads[..components];
-                shapes.add_load(q, &numbers, loads, weight, &mut system.load);
                 let balance = &mut system.balance[pieces.of_border(rule, q)];
-                balance.add_load(x, loads, weight);
-                balance.add_held(x, piece.held, weight);
-                given.push(values.map(|v| v * weight.sqrt()));
+                if part != Part::Stiffness {
+                    let values = (piece.values)(x, rule.normals[q]);
+                    let mut loads = values;
+                    for (load, held) in loads.iter_mut().zip(piece.held) {
+                        *load = if held { 0.0 } else { *load };
+                    }
+                    let loads = &loads[..components];
+                    shapes.add_load(q, &numbers, loads, weight, &mut system.load);
+                    balance.add_load(x, loads, weight);
+                    given.push(values.map(|v| v * weight.sqrt()));
+                }
+                if part != Part::Data {
+                    balance.add_held(x, piece.held, weight);
+                }
             }
             shapes.scale(&rule.weights);
             for i in (0..components).filter(|&i| piece.held[i]) {
-                let given: Vec<_> = given.iter().map(|values| values[i]).collect();
-                self.hold(i, piece, rule, &numbers, shapes, &given);
+                if part != Part::Data {
+                    self.hold(i, piece, rule, &numbers, shapes);
+                }
+                if part != Part::Stiffness {
+                    let given: Vec<_> = given.iter().map(|values| values[i]).collect();
+                    self.give(i, piece, rule, &numbers, shapes, &given);
+                }
             }
         }
     }
 
-    /// Adds the points of one component whose value is given; shapes and values carry the roots of
+    /// Adds the points of one component whose value is given to the matrices; shapes carry the roots of
     /// the weights.
     fn hold(
         &mut self,
@@ -132,43 +153,63 @@ impl<'a> Border<'a> {
         rule: &EdgeRule,
         numbers: &[usize],
         shapes: &Shapes,
-        given: &[f64],
     ) {
         let length: f64 = rule.weights.iter().sum();
         self.length += length / self.law.components as f64;
         let modulus = |&o: &Vec2| self.law.at(rule.anchor + o).modulus(i);
         self.modulus = rule.offsets.iter().map(modulus).fold(self.modulus, f64::max);
-        let c = self.law.components;
         let tractions = self.tractions(i, rule, shapes);
-        let n = shapes.functions;
-        let values = shapes.rows(&shapes.value, 0..n);
+        let values = shapes.rows(&shapes.value, 0..shapes.functions);
         let product = |left: faer::MatRef<'_, f64>, right: faer::MatRef<'_, f64>| {
             let mut out = Mat::zeros(left.nrows(), right.nrows());
             matmul(out.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
             out
         };
-        let value_rows: Vec<_> = numbers.iter().map(|k| k * c + i).collect();
-        let all_rows: Vec<_> =
-            numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j)).collect();
+        let [value_rows, all_rows] = self.unknowns(i, numbers);
         let t = tractions.as_ref();
         add_at(&mut self.mass, &value_rows, &value_rows, &product(values, values));
         add_at(&mut self.consistency, &value_rows, &all_rows, &product(values, t));
         add_at(&mut self.traction, &all_rows, &all_rows, &product(t, t));
+        let support = self.support(piece.condition);
+        for k in 0..piece.motions.count() {
+            let motion = motion(piece, rule, k, i);
+            support.add(k, &motion, (t, &all_rows), (values, &value_rows));
+        }
+    }
+
+    /// Adds the values that are given for one component; shapes and values carry the roots of the
+    /// weights.
+    fn give(
+        &mut self,
+        i: usize,
+        piece: &BorderPiece<'_>,
+        rule: &EdgeRule,
+        numbers: &[usize],
+        shapes: &Shapes,
+        given: &[f64],
+    ) {
+        let tractions = self.tractions(i, rule, shapes);
+        let values = shapes.rows(&shapes.value, 0..shapes.functions);
+        let [value_rows, all_rows] = self.unknowns(i, numbers);
         for (q, g) in given.iter().enumerate() {
             for (k, &row) in value_rows.iter().enumerate() {
                 self.value_load[row] += values[(k, q)] * g;
             }
             for (k, &row) in all_rows.iter().enumerate() {
-                self.traction_load[row] += t[(k, q)] * g;
+                self.traction_load[row] += tractions[(k, q)] * g;
             }
         }
         let support = self.support(piece.condition);
         for k in 0..piece.motions.count() {
-            let points = rule.offsets.iter().zip(&rule.weights);
-            let motion = points.map(|(&o, w)| piece.motions.at(rule.anchor + o)[k][i] * w.sqrt());
-            let motion: Vec<_> = motion.collect();
-            support.add(k, &motion, (t, &all_rows), (values, &value_rows), given);
+            support.give(k, &motion(piece, rule, k, i), given);
         }
+    }
+
+    /// The cell's unknowns of component i of some functions, and all of them.
+    fn unknowns(&self, i: usize, numbers: &[usize]) -> [Vec<usize>; 2] {
+        let c = self.law.components;
+        let all = numbers.iter().flat_map(|k| (0..c).map(move |j| k * c + j));
+        [numbers.iter().map(|k| k * c + i).collect(), all.collect()]
     }
 
     /// The sums of a condition.
@@ -221,4 +262,10 @@ fn add_at(sum: &mut Mat<f64>, rows: &[usize], columns: &[usize], block: &Mat<f64
             sum[(row, column)] += block[(a, b)];
         }
     }
+}
+
+/// Component i of the k-th rigid motion at the points of a rule, times the roots of the weights.
+fn motion(piece: &BorderPiece<'_>, rule: &EdgeRule, k: usize, i: usize) -> Vec<f64> {
+    let points = rule.offsets.iter().zip(&rule.weights);
+    points.map(|(&o, w)| piece.motions.at(rule.anchor + o)[k][i] * w.sqrt()).collect()
 }

@@ -22,6 +22,13 @@ use ppum::vec2::Vec2;
 /// Data given at a point: position → values, one a component.
 pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
+/// The source, and rules for it in a cell that take the place of the cell's.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    pub(crate) values: Data<'a>,
+    pub(crate) rules: Option<&'a [Rule]>,
+}
+
 /// The contribution of one cell. Unknown (function a, component i) is row a · components + i.
 #[derive(Clone, Debug)]
 pub(crate) struct CellSystem {
@@ -146,7 +153,7 @@ impl<'s> CellAssembler<'s> {
         &mut self,
         cell: usize,
         rules: &[Rule],
-        source: Option<Data<'_>>,
+        source: Option<Source<'_>>,
         border: &[BorderPiece<'_>],
     ) -> Result<CellSystem, EigenError> {
         let functions = CellFunctions::new(self.space, self.basis, cell);
@@ -161,8 +168,16 @@ impl<'s> CellAssembler<'s> {
         };
         let products = || Products { xx: square(n), xy: square(n), yy: square(n) };
         let mut products: Vec<_> = self.law.terms.iter().map(|_| products()).collect();
+        let own = source.and_then(|source| Some((source.values, source.rules?)));
+        let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
         for rule in rules {
-            self.volume(rule, source, &mut products, &mut system);
+            self.volume(rule, shared, &mut products, &mut system);
+        }
+        if let Some((values, rules)) = own {
+            for rule in rules {
+                self.evaluate(rule);
+                self.load(rule, values, &mut system);
+            }
         }
         for (products, term) in products.iter().zip(&self.law.terms) {
             products.add_to(&mut system.matrix, term, components);
@@ -184,6 +199,23 @@ impl<'s> CellAssembler<'s> {
         Ok(system)
     }
 
+    /// The functions at the points of a rule.
+    fn evaluate(&mut self, rule: &Rule) {
+        self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut self.shapes);
+    }
+
+    /// Adds the source at the points of the rule that was evaluated last.
+    fn load(&self, rule: &Rule, source: Data<'_>, system: &mut CellSystem) {
+        let numbers = system.functions.numbers(&rule.patches);
+        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+            let x = rule.anchor + offset;
+            let values = source(x);
+            let values = &values[..self.law.components];
+            self.shapes.add_load(q, &numbers, values, weight, &mut system.load);
+            system.balance[self.pieces.of(x)].add_load(x, values, weight);
+        }
+    }
+
     fn volume(
         &mut self,
         rule: &Rule,
@@ -191,18 +223,12 @@ impl<'s> CellAssembler<'s> {
         products: &mut [Products],
         system: &mut CellSystem,
     ) {
-        let shapes = &mut self.shapes;
-        self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-        let numbers = system.functions.numbers(&rule.patches);
+        self.evaluate(rule);
         if let Some(source) = source {
-            for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
-                let x = rule.anchor + offset;
-                let values = source(x);
-                let values = &values[..self.law.components];
-                shapes.add_load(q, &numbers, values, weight, &mut system.load);
-                system.balance[self.pieces.of(x)].add_load(x, values, weight);
-            }
+            self.load(rule, source, system);
         }
+        let shapes = &mut self.shapes;
+        let numbers = system.functions.numbers(&rule.patches);
         if self.law.is_uniform() {
             shapes.scale(&rule.weights);
             products[0].add(&numbers, shapes, shapes);

@@ -52,6 +52,7 @@ mod gauge;
 pub mod inspect;
 pub mod intensity;
 pub mod law;
+mod loads;
 pub mod norms;
 mod pencil;
 mod pieces;

@@ -38,14 +38,13 @@ impl Support {
     }
 
     /// Adds the values that motion `k` takes at points, times the roots of their weights: rows of
-    /// tractions and values are functions at these points, `given` are the data, all times the roots.
+    /// tractions and values are functions at these points, times the roots.
     pub(crate) fn add(
         &mut self,
         k: usize,
         motion: &[f64],
         (tractions, traction_rows): Rows<'_>,
         (values, value_rows): Rows<'_>,
-        given: &[f64],
     ) {
         for (q, m) in motion.iter().enumerate() {
             for (a, &row) in traction_rows.iter().enumerate() {
@@ -54,8 +53,12 @@ impl Support {
             for (a, &row) in value_rows.iter().enumerate() {
                 self.value[k][row] += m * values[(a, q)];
             }
-            self.given[k] += m * given[q];
         }
+    }
+
+    /// Adds the data that are given at points where motion `k` has these values, all times the roots.
+    pub(crate) fn give(&mut self, k: usize, motion: &[f64], given: &[f64]) {
+        self.given[k] += motion.iter().zip(given).map(|(m, g)| m * g).sum::<f64>();
     }
 
     /// The reaction as a function of the cell's unknowns, now that β is known.

@@ -4,8 +4,8 @@
 //! if it uses polar coordinates, and those it declares. How fast it grows there is measured. The
 //! Westergaard functions of a tip are known: half powers of r times smooth functions of θ.
 //!
-//! Body forces and data on the border need nothing: the method is not better than the quadrature of
-//! its own functions, which is used for them as well.
+//! Body forces and data on the border have places of their own, [`Smoothness::with_data`]; they matter in
+//! the integrals of these data alone.
 
 mod growth;
 mod pieces;
@@ -18,15 +18,16 @@ use crate::quadrature::{Geometry, Kink, Singular};
 use ppum::crack::Crack;
 use ppum::dataset::{Equation, FieldData, Partition, Step};
 use ppum::domain::Hole;
+use ppum::expression::Expression;
 use ppum::formula::Table;
 use ppum::function::{Function, FunctionError};
 use ppum::vec2::Vec2;
 use probe::ProbeList;
 use std::sync::Arc;
-use traits::{Surroundings, Traits, traits_of_coefficient};
+use traits::{Surroundings, Traits, traits_of_coefficient, traits_of_data};
 
 /// Where a step is not smooth; owns what a [`Geometry`] borrows.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Smoothness {
     singular: Vec<Singular>,
     patch_singular: Vec<Vec<u32>>,
@@ -87,6 +88,24 @@ impl Smoothness {
             all.patch_probes.push(union(|indices| &indices.probes));
         }
         Ok(all)
+    }
+
+    /// The same for integrals with data, each with the mean of its absolute value, and where the data are
+    /// not smooth; none if they are polynomials.
+    pub(crate) fn with_data(&self, data: &[(&Expression, f64)]) -> Option<(Self, Vec<Kink>)> {
+        let all = data.iter().filter_map(|(data, mean)| traits_of_data(data, *mean));
+        let all: Vec<Traits> = all.collect();
+        if all.is_empty() {
+            return None;
+        }
+        let (mut extended, mut places) = (self.clone(), Vec::new());
+        for traits in all {
+            places.extend(traits.kinks.iter().cloned());
+            let Indices { kinks, probes, .. } = extended.add(traits);
+            extended.common_kinks.extend(kinks);
+            extended.common_probes.extend(probes);
+        }
+        Some((extended, places))
     }
 
     /// Where the space over a partition is not smooth.

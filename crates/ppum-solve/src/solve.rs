@@ -12,8 +12,8 @@ use crate::problem::Problem;
 use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
-use crate::system::{System, assemble, slivers};
-use crate::warnings::judge;
+use crate::system::{System, Unresolved, assemble, slivers};
+use crate::warnings::{judge, of_quadrature};
 use ppum::dataset::{Attribute, Dataset, Reaction, Record, Step};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
@@ -98,7 +98,8 @@ pub enum SolveError {
 /// `residual`; `dependent`, unknowns left out because they depend on those of other patches; `crossed
 /// twice`, patches that hold several runs of one crack and so glue two of their parts together (use smaller
 /// cells there); `nitsche`, the largest penalty β of a cell in units of stiffness over cell width, 3 to 36
-/// in whole cells and more in slivers; `pieces` and their `free motions`.
+/// in whole cells and more in slivers; `pieces` and their `free motions`; `quadrature points` of the
+/// system's integrals.
 ///
 /// # Errors
 /// See [`SolveError`].
@@ -107,7 +108,8 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     report(Progress { phase: Phase::Cover, done: 0, total: 1 });
     let mut step = discretise(problem)?;
     clock.lap(Phase::Cover);
-    let solution = Solver { problem, step: &step }.run(&mut clock, report)?;
+    let mut solution = Solver { problem, step: &step }.run(&mut clock, report)?;
+    let unresolved = std::mem::take(&mut solution.unresolved);
     solution.store(&mut step, problem.components());
     let mut dataset = dataset(problem, step);
     report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
@@ -118,6 +120,7 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
     step.warnings = warnings;
+    step.warnings.extend(of_quadrature(&unresolved));
     step.history.extend(clock.records);
     Ok(dataset)
 }
@@ -201,6 +204,10 @@ struct Solution {
     imbalance: f64,
     /// What the supports exert on the plate.
     reactions: Vec<Reaction>,
+    /// Quadrature points of the system.
+    points: usize,
+    /// What they do not resolve.
+    unresolved: Vec<Unresolved>,
 }
 
 impl Solver<'_> {
@@ -228,6 +235,8 @@ impl Solver<'_> {
             pieces: pieces.all().len(),
             free_motions: gauge.len(),
             imbalance,
+            points: system.points,
+            unresolved: system.unresolved,
             reactions: system.reactions.of(self.problem, &system.matrix, &solution.unknowns),
         })
     }
@@ -322,6 +331,7 @@ impl Solution {
             record("pieces", self.pieces as f64),
             record("free motions", self.free_motions as f64),
             record("imbalance", self.imbalance),
+            record("quadrature points", self.points as f64),
         ]);
     }
 }

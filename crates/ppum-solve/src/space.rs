@@ -92,7 +92,21 @@ impl<'d> Space<'d> {
     /// default, for errors.
     #[must_use]
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
-        let geometry = self.smoothness.geometry(self.partition, &self.step.cracks, self.holes);
+        self.quadrature_of(&self.smoothness, extra)
+    }
+
+    /// Where the functions of the space and the coefficients are not smooth.
+    pub(crate) fn smoothness(&self) -> &Smoothness {
+        &self.smoothness
+    }
+
+    /// The quadrature of integrands that are smooth elsewhere.
+    pub(crate) fn quadrature_of<'q>(
+        &'q self,
+        smoothness: &'q Smoothness,
+        extra: usize,
+    ) -> Quadrature<'q> {
+        let geometry = smoothness.geometry(self.partition, &self.step.cracks, self.holes);
         let orders = match extra {
             0 => self.orders,
             _ => orders(self.partition, self.degree() + extra),

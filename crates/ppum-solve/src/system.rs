@@ -5,12 +5,13 @@ use crate::basis::StableBasis;
 use crate::batch::in_batches;
 use crate::block_matrix::{BlockMatrix, BlockPattern};
 use crate::border::BorderPiece;
-use crate::cell::{CellAssembler, CellSystem, Data};
+use crate::cell::{CellAssembler, CellSystem, Data, Source};
 use crate::eigen::EigenError;
 use crate::law::Law;
+use crate::loads::{LoadRules, of_condition, of_source};
 use crate::pieces::Pieces;
 use crate::problem::{BorderPart, BoundaryCondition, Problem};
-use crate::quadrature::{EdgeRule, Face, Quadrature};
+use crate::quadrature::{Doubt, EdgeRule, Face, Quadrature, Rule};
 use crate::reaction::{Reactions, motions};
 use crate::space::Space;
 use ppum::crack::Side;
@@ -28,6 +29,22 @@ pub(crate) struct System {
     pub(crate) nitsche: f64,
     /// What the supports exert on the plate.
     pub(crate) reactions: Reactions,
+    /// Number of quadrature points, those of loads that have their own among them.
+    pub(crate) points: usize,
+    /// Loads and data, functions and coefficients that are not resolved.
+    pub(crate) unresolved: Vec<Unresolved>,
+}
+
+/// Something that quadrature does not resolve.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Unresolved {
+    /// What it is, in words of the problem; functions of the space and coefficients if there are none.
+    pub(crate) load: Option<String>,
+    /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions that of
+    /// their integrals over a piece of a cell.
+    pub(crate) error: f64,
+    /// Where most of it is.
+    pub(crate) at: Vec2,
 }
 
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
@@ -51,7 +68,8 @@ pub(crate) fn slivers(
     let quadrature = space.quadrature(0);
     let conditions = problem.boundary.iter().enumerate();
     let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
-    let given: Vec<_> = holding.map(Given::new).collect();
+    let given: Vec<_> =
+        holding.map(|(k, condition)| Given::new(k, condition, LoadRules::default())).collect();
     let mut found = Ok(Vec::new());
     in_batches(
         if given.is_empty() { 0 } else { space.partition.len() },
@@ -63,8 +81,8 @@ pub(crate) fn slivers(
                 return Ok(None);
             }
             let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
-            let part =
-                assembler.assemble(cell, &quadrature.cell(rect, coverers), None, &on_border)?;
+            let rules = quadrature.cell(rect, coverers);
+            let part = assembler.assemble(cell, &rules, None, &on_border)?;
             let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
             let is_large = part.penalty * width(rect) > SLIVER;
             Ok(is_large.then_some((rules, part.penalty)))
@@ -99,8 +117,12 @@ pub(crate) fn assemble(
     let source = |x: Vec2| source_at(problem, x);
     let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
     let source: Option<Data<'_>> = has_source.then_some(&source);
-    let given: Vec<_> = problem.boundary.iter().enumerate().map(Given::new).collect();
-    let mut failed = None;
+    let source_rules = of_source(problem, space);
+    let conditions = problem.boundary.iter().enumerate();
+    let given = conditions.map(|(k, c)| Given::new(k, c, of_condition(problem, space, c)));
+    let given: Vec<_> = given.collect();
+    system.unresolved = unresolved_loads(&source_rules, &given, problem);
+    let (mut failed, mut doubt) = (None, Doubt::default());
     in_batches(
         space.partition.len(),
         || CellAssembler::new(space, basis, law, pieces),
@@ -109,9 +131,15 @@ pub(crate) fn assemble(
             let rules = quadrature.cell(rect, coverers);
             let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
             let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
-            assembler.assemble(cell, &rules, source, &pieces)
+            let own = source_rules.of(cell);
+            let source = source.map(|values| Source { values, rules: own });
+            let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
+            let part = assembler.assemble(cell, &rules, source, &pieces);
+            (part, points, doubt_of(&rules, &pieces))
         },
-        |cell, part| {
+        |cell, (part, points, left)| {
+            system.points += points;
+            doubt.add(&left);
             match part {
                 Ok(part) => {
                     system.nitsche =
@@ -124,7 +152,48 @@ pub(crate) fn assemble(
             progress(cell + 1);
         },
     );
+    if doubt.functions > 0.0 {
+        system.unresolved.push(Unresolved { load: None, error: doubt.functions, at: doubt.at });
+    }
     failed.map_or(Ok(system), Err)
+}
+
+fn n_cell_points(rules: &[Rule]) -> usize {
+    rules.iter().map(|rule| rule.weights.len()).sum()
+}
+
+fn n_points(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> usize {
+    let own = |piece: &BorderPiece<'_>| piece.own.map_or(0, n_edge_points);
+    let border = pieces.iter().map(|piece| n_edge_points(&piece.rules) + own(piece));
+    n_cell_points(rules) + border.sum::<usize>()
+}
+
+fn n_edge_points(rules: &[EdgeRule]) -> usize {
+    rules.iter().map(|rule| rule.weights.len()).sum()
+}
+
+/// What the rules of a cell and of its border do not resolve.
+fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
+    let border = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
+    let mut sum = Doubt::default();
+    rules.iter().map(|rule| &rule.doubt).chain(border).for_each(|doubt| sum.add(doubt));
+    sum
+}
+
+/// The loads and data that their own rules do not resolve.
+fn unresolved_loads(
+    source: &LoadRules<Rule>,
+    given: &[Given<'_>],
+    problem: &Problem,
+) -> Vec<Unresolved> {
+    let unresolved = |what: String, (error, at)| Unresolved { load: Some(what), error, at };
+    let name = if problem.components() == 1 { "the source" } else { "the body force" };
+    let inside = source.doubt().map(|doubt| unresolved(name.into(), doubt));
+    let of_given = |g: &Given<'_>| {
+        let what = format!("what is given on {}", g.condition.on);
+        g.own.doubt().map(|doubt| unresolved(what, doubt))
+    };
+    inside.into_iter().chain(given.iter().filter_map(of_given)).collect()
 }
 
 /// A boundary condition with its data as a function of position and normal.
@@ -132,11 +201,13 @@ struct Given<'p> {
     number: usize,
     condition: &'p BoundaryCondition,
     values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
+    /// Rules for the data where those of the system do not resolve them.
+    own: LoadRules<EdgeRule>,
 }
 
 impl<'p> Given<'p> {
-    fn new((number, condition): (usize, &'p BoundaryCondition)) -> Self {
-        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)) }
+    fn new(number: usize, condition: &'p BoundaryCondition, own: LoadRules<EdgeRule>) -> Self {
+        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)), own }
     }
 
     fn piece(
@@ -150,6 +221,7 @@ impl<'p> Given<'p> {
         let rules = border_rules(problem, self.condition.on, quadrature, rect, coverers);
         BorderPiece {
             rules,
+            own: self.own.of(cell),
             held: self.condition.held(),
             values: &*self.values,
             condition: self.number,
@@ -159,7 +231,7 @@ impl<'p> Given<'p> {
 }
 
 /// The rules on a part of the border in one cell.
-fn border_rules(
+pub(crate) fn border_rules(
     problem: &Problem,
     on: BorderPart,
     quadrature: &Quadrature<'_>,
@@ -222,6 +294,8 @@ impl System {
             balance: Balance::of(pieces, components),
             nitsche: 0.0,
             reactions: Reactions::default(),
+            points: 0,
+            unresolved: Vec::new(),
         }
     }
 

@@ -9,10 +9,15 @@
 //! A layer along a side of a piece may be so thin that no Gauss point sees it. Therefore Gauss rules
 //! are also compared with rules that have points as good as on the border. What vanishes at all
 //! points of these rules is not seen.
+//!
+//! Of loads only the integral of f itself is held, and to a part of all the load: they may be singular,
+//! and vanish almost everywhere. Where division ends before, the error that is left is a [`Doubt`].
 
+use super::doubt::Doubt;
 use super::gauss::{Rules1d, closed, gauss};
 use super::geometry::Probes;
 use ppum::vec2::Vec2;
+use std::cell::Cell;
 
 /// Differences that are left, relative to the integral over all parts.
 const ACCURACY: f64 = 1e-10;
@@ -22,6 +27,9 @@ const AREA_ACCURACY: f64 = 1e-8;
 
 /// Most parts that one piece is divided into.
 const BUDGET: usize = 400;
+
+/// Most divisions in one cell, or along one line through it. Documented in docs/problem-file.md.
+pub(super) const MOST_DIVISIONS: usize = 10_000;
 
 /// Number of parts from which on errors must come down whenever it doubles. A layer of 1e-9 of a
 /// piece is found with fewer.
@@ -33,6 +41,10 @@ const SHARE: f64 = 0.8;
 
 /// Most divisions one inside the other. Halves of halves are rounding before.
 const DEPTH: usize = 45;
+
+/// Depth from which on a load is asked whether it is finite at all points of its rule: there the rounding of
+/// coordinates may put one on a singular point.
+const DEEP: usize = 20;
 
 /// Functions below this size are zero: their squares are not numbers any more.
 const NOTHING: f64 = 1e-140;
@@ -73,6 +85,16 @@ pub(super) struct Demand<'a> {
     pub(super) size: f64,
     /// Gauss points in each direction of the rules that are compared.
     pub(super) points: usize,
+    /// Those of the rules that are used.
+    pub(super) order: usize,
+    /// Divisions that are left for the cell.
+    pub(super) left: &'a Cell<usize>,
+}
+
+/// Parts that were divided, and what they do not resolve.
+pub(super) struct Refined<P> {
+    pub(super) parts: Vec<P>,
+    pub(super) doubt: Doubt,
 }
 
 /// An integral, and the integral of the absolute value.
@@ -86,6 +108,10 @@ struct Integral {
 struct Entry<P> {
     part: P,
     depth: usize,
+    /// Its area or length.
+    measure: f64,
+    /// A point of it.
+    at: Vec2,
     integrals: Vec<Integral>,
     errors: Vec<f64>,
     divisions: Vec<Division<P>>,
@@ -99,26 +125,39 @@ struct Division<P> {
 
 /// The parts divided until their rules resolve the functions that are demanded; as they are if
 /// division does not help.
-pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Vec<P> {
+pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Refined<P> {
     if demand.active.is_empty() && !demand.curved {
-        return parts;
+        return Refined { parts, doubt: Doubt::default() };
     }
     let mut entries: Vec<Entry<P>> =
         parts.iter().map(|part| demand.entry(part.clone(), 0)).collect();
+    let helped = divide(&mut entries, demand);
+    let doubt = demand.doubt(&entries);
+    // what is known of a load is kept
+    let keep = helped || doubt.load > 0.0;
+    Refined {
+        parts: if keep { entries.into_iter().map(|e| e.part).collect() } else { parts },
+        doubt,
+    }
+}
+
+/// Divides the worst part again and again; false if errors do not come down.
+fn divide<P: Part>(entries: &mut Vec<Entry<P>>, demand: &Demand<'_>) -> bool {
     let mut progress = Progress { check: FIRST_CHECK, before: f64::INFINITY };
-    while entries.len() < BUDGET {
-        let allowed = demand.allowed(&entries);
-        let Some(at) = worst(&entries, &allowed) else { break };
-        if progress.has_stopped(entries.len(), || excess(&entries, &allowed)) {
-            return parts;
+    while entries.len() < BUDGET && demand.left.get() > 0 {
+        let allowed = demand.allowed(entries);
+        let Some(at) = worst(entries, &allowed) else { break };
+        if progress.has_stopped(entries.len(), || excess(entries, &allowed)) {
+            return false;
         }
         let depth = entries[at].depth + 1;
         let Some(halves) = entries[at].best_halves(&allowed) else { break };
+        demand.left.set(demand.left.get() - 1);
         let [first, second] = halves.map(|part| demand.entry(part, depth));
         entries[at] = first;
         entries.push(second);
     }
-    entries.into_iter().map(|e| e.part).collect()
+    true
 }
 
 /// Watches whether errors come down.
@@ -228,8 +267,9 @@ impl Demand<'_> {
         } else {
             Vec::new()
         };
+        let finite = |halves: &[P; 2]| depth < DEEP || halves.iter().all(|h| self.is_finite(h));
         let mut divisions = Vec::with_capacity(ways.len());
-        for halves in ways {
+        for halves in ways.into_iter().filter(finite) {
             let mut changes = differences(&self.sums(&halves, gauss), &whole.gauss);
             errors = larger(errors, &changes);
             if hidden {
@@ -238,9 +278,46 @@ impl Demand<'_> {
             divisions.push(Division { halves, changes });
         }
         if divisions.is_empty() {
-            errors.fill(0.0);
+            self.forget(&mut errors);
         }
-        Entry { part, depth, integrals: whole.larger(), errors, divisions }
+        let measure = inside.weights.iter().sum();
+        let at = self.anchor + inside.offsets.first().copied().unwrap_or(Vec2::ZERO);
+        Entry { part, depth, measure, at, integrals: whole.larger(), errors, divisions }
+    }
+
+    /// False if a load is not finite at a point of the rule that a part gets in the end.
+    fn is_finite<P: Part>(&self, part: &P) -> bool {
+        let (mut offsets, mut values) = (Vec::new(), Vec::new());
+        part.nodes(gauss, self.order, &mut |x, _| offsets.push(x));
+        let loads = self.active.iter().filter(|&&f| self.probes.load(f).is_some());
+        loads.for_each(|&f| self.probes.evaluate(f, self.anchor, &offsets, &mut values));
+        values.iter().all(|value| value[0].is_finite())
+    }
+
+    /// What cannot be divided any more has no error but that of loads.
+    fn forget(&self, errors: &mut [f64]) {
+        let is_load =
+            |k: usize| k < 3 * self.active.len() && self.probes.load(self.active[k / 3]).is_some();
+        errors.iter_mut().enumerate().filter(|(k, _)| !is_load(*k)).for_each(|(_, e)| *e = 0.0);
+    }
+
+    /// What parts do not resolve.
+    fn doubt<P>(&self, entries: &[Entry<P>]) -> Doubt {
+        let allowed = self.allowed(entries);
+        let cut = entries.len() >= BUDGET || self.left.get() == 0;
+        let mut doubt = Doubt::default();
+        for (k, allowed) in allowed.iter().enumerate() {
+            let error: f64 = entries.iter().map(|e| e.errors[k]).sum();
+            let worst = entries.iter().max_by(|a, b| a.errors[k].total_cmp(&b.errors[k]));
+            let Some(worst) = worst.filter(|_| error > *allowed) else { continue };
+            let is_load = self.active.get(k / 3).is_some_and(|&f| self.probes.load(f).is_some());
+            if is_load {
+                doubt.add(&Doubt::of_load(error, worst.at));
+            } else if cut {
+                doubt.add(&Doubt::of_functions(ACCURACY * error / allowed, worst.at));
+            }
+        }
+        doubt
     }
 
     /// The functions at the points of a rule of a part.
@@ -262,6 +339,9 @@ impl Demand<'_> {
         for k in 0..self.active.len() {
             let mut three = [Integral::default(); 3];
             samples.of(k).for_each(|(w, q)| add(&mut three, w, q));
+            if self.probes.load(self.active[k]).is_some() {
+                three[1..].fill(Integral::default());
+            }
             all.extend(three);
         }
         if self.curved {
@@ -283,12 +363,15 @@ impl Demand<'_> {
     }
 
     /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over
-    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding.
+    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding. That of a
+    /// load may be a part of the mean load.
     fn allowed<P>(&self, entries: &[Entry<P>]) -> Vec<f64> {
         let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
+        let measure: f64 = entries.iter().map(|e| e.measure).sum();
         let of_function = |k: usize| {
             let [value, square, gradient] = [0, 1, 2].map(|i| size(3 * k + i));
-            [value, square, gradient + square / (self.size * self.size)]
+            let elsewhere = self.probes.load(self.active[k]).map_or(0.0, |mean| mean * measure);
+            [value + elsewhere, square, gradient + square / (self.size * self.size)]
         };
         let functions = (0..self.active.len()).flat_map(of_function).map(|s| ACCURACY * s);
         let area = self.curved.then(|| AREA_ACCURACY * size(3 * self.active.len()));

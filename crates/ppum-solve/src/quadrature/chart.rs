@@ -58,7 +58,13 @@ pub(super) struct LevelOn<'c> {
 impl LevelOn<'_> {
     /// The function's value at coordinates of the chart.
     pub(super) fn at(&self, p: [f64; 2]) -> f64 {
-        tame((self.level)(self.anchor + self.chart.at(p).0))
+        self.sample(p).1
+    }
+
+    /// The place that coordinates of the chart stand for, and the function's value there.
+    pub(super) fn sample(&self, p: [f64; 2]) -> (Vec2, f64) {
+        let place = self.anchor + self.chart.at(p).0;
+        (place, tame((self.level)(place)))
     }
 }
 

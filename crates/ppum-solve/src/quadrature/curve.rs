@@ -32,6 +32,17 @@ const FLAT: f64 = 1e-11;
 /// Values below this part of a level function's size are zero.
 const ZERO: f64 = 1e-14;
 
+/// Distances to a curve below this part of the coordinates are rounding: of two level functions with the
+/// same zero set one has such values where the other is zero, and must not cut slivers off there.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Differences of values below this many times what counts as zero are rounding.
+const ROUNDED: f64 = 4.0;
+
+/// Neighbours in a grid that are nearer to each other than this part of the largest distance of two do
+/// not say how steep a level function is.
+const PINCHED: f64 = 1e-3;
+
 /// Distances of crossings below this part of a window are rounding.
 const COINCIDENT: f64 = 1e-12;
 
@@ -82,12 +93,21 @@ pub(super) fn cut_all<'c>(
     curves: &[&'c Level],
     anchor: Vec2,
 ) -> (Vec<Window<'c>>, bool) {
+    // Slivers between curves that coincide do not say how steep a level function is; whole pieces do.
+    let rounding = |&level: &&'c Level| {
+        let of_window = |window: &Window<'c>| {
+            let chart = Rc::clone(&window.chart);
+            Grid::new(&LevelOn { chart, anchor, level }, window, COARSE, 0.0).rounding
+        };
+        windows.iter().map(of_window).fold(0.0, f64::max)
+    };
+    let zeros: Vec<f64> = curves.iter().map(rounding).collect();
     let mut any = false;
-    for &level in curves {
+    for (&level, zero) in curves.iter().zip(zeros) {
         let mut parts = Vec::new();
         for window in windows {
             let mut looks = LOOKS;
-            match cut(&window, level, anchor, &mut looks, DEPTH) {
+            match cut(&window, Curve { level, anchor, zero }, &mut looks, DEPTH) {
                 Some(cut) => {
                     any = true;
                     parts.extend(cut);
@@ -100,20 +120,28 @@ pub(super) fn cut_all<'c>(
     (windows, any)
 }
 
+/// A level function of offsets from an anchor.
+#[derive(Clone, Copy)]
+struct Curve<'c> {
+    level: &'c Level,
+    anchor: Vec2,
+    /// Values up to this are rounding.
+    zero: f64,
+}
+
 /// False if samples say that the curve stays well away from a rectangle.
 pub(super) fn may_meet(level: &Level, rect: &Rect) -> bool {
     let corners = [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)];
     let chart = Rc::new(Chart::Quadrilateral(corners.map(|p| p - rect.min)));
     let level = LevelOn { chart, anchor: rect.min, level };
     let window = Window { chart: Rc::clone(&level.chart), range: UNIT };
-    !Grid::new(&level, &window, COARSE).is_clear()
+    !Grid::new(&level, &window, COARSE, 0.0).is_clear()
 }
 
 /// The parts of a window on both sides of a curve; none if the curve does not run through it.
 fn cut<'c>(
     window: &Window<'c>,
-    level: &'c Level,
-    anchor: Vec2,
+    curve: Curve<'c>,
     looks: &mut usize,
     depth: usize,
 ) -> Option<Vec<Window<'c>>> {
@@ -121,21 +149,22 @@ fn cut<'c>(
         return None;
     }
     *looks -= 1;
+    let Curve { level, anchor, zero } = curve;
     let level_on = LevelOn { chart: Rc::clone(&window.chart), anchor, level };
-    if Grid::new(&level_on, window, COARSE).is_clear() {
+    if Grid::new(&level_on, window, COARSE, zero).is_clear() {
         return None;
     }
-    let grid = Grid::new(&level_on, window, FINE);
+    let grid = Grid::new(&level_on, window, FINE, zero);
     if grid.is_clear() {
         return None;
     }
     if let Some(height) = grid.height() {
-        return strips(window, &level_on, height, grid.size * ZERO);
+        return strips(window, &level_on, height, grid.zero);
     }
     let mut any = false;
     let mut parts = Vec::new();
     for half in window.halves(grid.uneven()) {
-        let found = cut(&half, level, anchor, looks, depth - 1);
+        let found = cut(&half, curve, looks, depth - 1);
         any |= found.is_some();
         parts.extend(found.unwrap_or_else(|| vec![half]));
     }
@@ -185,17 +214,26 @@ struct Grid {
     values: Vec<f64>,
     /// Largest absolute value.
     size: f64,
+    /// Values up to this are zero.
+    zero: f64,
+    /// What rounding of the coordinates makes of values.
+    rounding: f64,
 }
 
 impl Grid {
-    fn new(level: &LevelOn<'_>, window: &Window<'_>, steps: usize) -> Self {
+    /// Samples a level function whose values up to `zero` are rounding.
+    fn new(level: &LevelOn<'_>, window: &Window<'_>, steps: usize, zero: f64) -> Self {
         let part = |axis: usize, k: usize| window.between(axis, k as f64 / steps as f64);
-        let values: Vec<f64> = (0..=steps)
+        let (points, mut values): (Vec<Vec2>, Vec<f64>) = (0..=steps)
             .flat_map(|j| (0..=steps).map(move |i| (i, j)))
-            .map(|(i, j)| level.at([part(0, i), part(1, j)]))
-            .collect();
+            .map(|(i, j)| level.sample([part(0, i), part(1, j)]))
+            .unzip();
         let size = values.iter().fold(0.0, |size: f64, v| size.max(v.abs()));
-        Self { steps, values, size }
+        let far = points.iter().fold(0.0, |far: f64, p| far.max(p.x.abs()).max(p.y.abs()));
+        let rounding = ROUNDING * far * slope(&points, &values, steps + 1);
+        let zero = zero.max(ZERO * size);
+        values.iter_mut().filter(|v| v.abs() <= zero).for_each(|v| *v = 0.0);
+        Self { steps, values, size, zero, rounding }
     }
 
     /// Differences between neighbours along the k-th line of an axis.
@@ -247,7 +285,7 @@ impl Grid {
             let (least, most) =
                 lines.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
             let size = least.abs().max(most.abs());
-            if size <= FLAT * self.size {
+            if size <= FLAT * self.size + ROUNDED * self.zero {
                 return true;
             }
             let first = sign == 0.0;
@@ -258,4 +296,17 @@ impl Grid {
             near >= EVEN * far && far > 0.0
         })
     }
+}
+
+/// The steepest slope between neighbours in a grid with `n` points a row.
+fn slope(points: &[Vec2], values: &[f64], n: usize) -> f64 {
+    let beside = (0..points.len()).filter(|k| k % n > 0).map(|k| (k - 1, k));
+    let above = (n..points.len()).map(|k| (k - n, k));
+    let steps = beside
+        .chain(above)
+        .map(|(a, b)| ((points[b] - points[a]).length(), (values[b] - values[a]).abs()));
+    let steps: Vec<(f64, f64)> = steps.collect();
+    let longest = steps.iter().fold(0.0, |most: f64, step| most.max(step.0));
+    let wide = steps.iter().filter(|step| step.0 > PINCHED * longest);
+    wide.fold(0.0, |most: f64, (way, change)| most.max(change / way))
 }

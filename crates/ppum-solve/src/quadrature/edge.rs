@@ -1,6 +1,7 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
-use super::adapt::{Demand, Part as _, refined};
+use super::adapt::{Demand, MOST_DIVISIONS, Part as _, Refined, refined};
+use super::doubt::Doubt;
 use super::gauss::gauss;
 use super::orders::Active;
 use super::polygon::line_side;
@@ -11,6 +12,7 @@ use super::stretch::{Path, Stretch};
 use super::{Kink, Level, Quadrature, Singular, TOLERANCE, cutting_line};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::vec2::{Rect, Vec2};
+use std::cell::Cell;
 
 /// Values of a level function below this part of its size on a segment are zero.
 const ZERO: f64 = 1e-14;
@@ -62,12 +64,15 @@ pub struct EdgeRule {
     /// The face that the points lie on, if they are on one. Rounding may put them on either side of the
     /// crack: what has sides there takes that of the face.
     pub face: Option<Face>,
+    /// What the points do not resolve.
+    pub doubt: Doubt,
 }
 
 impl EdgeRule {
     pub(super) fn empty(anchor: Vec2, patches: &[u32]) -> Self {
         let (offsets, weights, normals) = (Vec::new(), Vec::new(), Vec::new());
-        Self { anchor, offsets, weights, patches: patches.to_vec(), normals, face: None }
+        let doubt = Doubt::default();
+        Self { anchor, offsets, weights, patches: patches.to_vec(), normals, face: None, doubt }
     }
 
     pub(super) fn push(&mut self, offset: Vec2, weight: f64, normal: Vec2) {
@@ -116,7 +121,8 @@ impl Quadrature<'_> {
         let inside = line.inside(cell, ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
         let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
-        let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new() };
+        let left = Cell::new(MOST_DIVISIONS);
+        let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new(), left };
         run.add(lo, hi, coverers);
         run.rules
     }
@@ -206,6 +212,8 @@ struct Run<'a> {
     tolerance: f64,
     cell: &'a Rect,
     rules: Vec<EdgeRule>,
+    /// Divisions that are left.
+    left: Cell<usize>,
 }
 
 impl Run<'_> {
@@ -351,6 +359,8 @@ impl Run<'_> {
             curved: false,
             size: self.cell.size().length(),
             points: order.saturating_sub(orders.reserve).max(1),
+            order,
+            left: &self.left,
         };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
         let at = self.rules.iter().position(same).unwrap_or_else(|| {
@@ -358,7 +368,9 @@ impl Run<'_> {
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];
-        for stretch in refined(stretches, &demand) {
+        let Refined { parts, doubt } = refined(stretches, &demand);
+        rule.doubt.add(&doubt);
+        for stretch in parts {
             stretch.nodes(gauss, order, &mut |x, w| {
                 rule.push(x, w, self.line.normal);
             });

@@ -214,6 +214,13 @@ impl fmt::Debug for Kink {
 pub trait Probes: Sync {
     /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`.
     fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>);
+
+    /// Of a load the mean of |f| over all that it acts on: integrals of f alone count, and errors that
+    /// are small against the load as a whole do not. None for functions of a space and coefficients.
+    fn load(&self, function: u32) -> Option<f64> {
+        let _ = function;
+        None
+    }
 }
 
 /// No functions.

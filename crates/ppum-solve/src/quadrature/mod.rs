@@ -24,6 +24,7 @@
 mod adapt;
 mod chart;
 mod curve;
+mod doubt;
 mod edge;
 mod gauss;
 mod geometry;
@@ -39,6 +40,7 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 
+pub use doubt::Doubt;
 pub use edge::{EdgeRule, Face};
 pub use gauss::{GaussRule, MAX_POINTS, gauss};
 pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
@@ -50,6 +52,7 @@ use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use singular::Pieces;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Lengths below this part of a cell are rounding.
@@ -72,6 +75,8 @@ pub struct Rule {
     pub weights: Vec<f64>,
     /// The patches whose open supports hold the points, ascending.
     pub patches: Vec<u32>,
+    /// What the points do not resolve.
+    pub doubt: Doubt,
 }
 
 impl Rule {
@@ -101,8 +106,8 @@ impl Rules {
     fn rule(&mut self, patches: &[u32], anchor: Vec2) -> &mut Rule {
         let same = |r: &Rule| r.anchor == anchor && r.patches == patches;
         let at = self.0.iter().position(same).unwrap_or_else(|| {
-            let (offsets, weights) = (Vec::new(), Vec::new());
-            self.0.push(Rule { anchor, offsets, weights, patches: patches.to_vec() });
+            let (offsets, weights, doubt) = (Vec::new(), Vec::new(), Doubt::default());
+            self.0.push(Rule { anchor, offsets, weights, patches: patches.to_vec(), doubt });
             self.0.len() - 1
         });
         &mut self.0[at]
@@ -180,8 +185,8 @@ impl<'a> Quadrature<'a> {
         let segments = self.segments_near(cell).collect();
         let size = cell.size();
         let least = LEAST_AREA * size.x * size.y;
-        let rules = Rules::default();
-        let mut run = Run { quadrature: self, cell, orders, disc, segments, least, rules };
+        let (rules, left) = (Rules::default(), Cell::new(adapt::MOST_DIVISIONS));
+        let mut run = Run { quadrature: self, cell, orders, disc, segments, least, rules, left };
         let mut sorted = coverers.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
@@ -227,6 +232,8 @@ struct Run<'a> {
     segments: Vec<[Vec2; 2]>,
     least: f64,
     rules: Rules,
+    /// Divisions that are left.
+    left: Cell<usize>,
 }
 
 impl Run<'_> {
@@ -268,6 +275,7 @@ impl Run<'_> {
             curves: &curves,
             holes: &holes::near(geometry.holes, rect),
             probes: (geometry.probes, &active),
+            left: &self.left,
         };
         for polygon in polygons {
             pieces.add(anchor, &polygon, &singular);
@@ -310,6 +318,20 @@ fn cutting_line(kink: &Kink, rect: &Rect) -> Option<[Vec2; 2]> {
         Kink::Line(line) => Some(line),
         Kink::Segment([a, b]) => meets(rect, a, b).then_some([a, b]),
         Kink::Curve(_) => None,
+    }
+}
+
+impl Kink {
+    /// False if it certainly stays away from a rectangle.
+    pub(crate) fn may_meet(&self, rect: &Rect) -> bool {
+        match self {
+            Self::Line([a, b]) => {
+                let side = corners(rect).map(|p| line_side(*a, *b, p));
+                !(side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0))
+            }
+            Self::Segment([a, b]) => meets(rect, *a, *b),
+            Self::Curve(level) => curve::may_meet(level.as_ref(), rect),
+        }
     }
 }
 

@@ -1,13 +1,15 @@
 //! Rules along the rims of holes.
 
+use super::adapt::{Demand, MOST_DIVISIONS, Part, Refined, refined};
 use super::edge::EdgeRule;
-use super::gauss::{MAX_POINTS, gauss};
+use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
 use super::split::{breaks, component, divided, kinks};
 use super::{Kink, Quadrature, Singular, TOLERANCE, cutting_line};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Longest part of an arc that gets one rule, in radians. A polynomial of degree 2p of the position
@@ -60,7 +62,7 @@ impl Quadrature<'_> {
             let parts = if patches.len() > 1 { parts * self.orders.parts } else { parts };
             let singular = self.geometry.singular_points(&patches);
             for part in divided(ends.to_vec(), parts).windows(2) {
-                self.add_arc(circle, [part[0], part[1]], &singular, DEPTH, &mut rule);
+                self.add_arc(circle, [part[0], part[1]], &singular, (DEPTH, cell), &mut rule);
             }
             rules.push(rule);
         }
@@ -108,7 +110,7 @@ impl Quadrature<'_> {
         circle: &Circle,
         [from, to]: [f64; 2],
         singular: &[Singular],
-        depth: usize,
+        (depth, cell): (usize, &Rect),
         rule: &mut EdgeRule,
     ) {
         let middle = 0.5 * (from + to);
@@ -117,21 +119,61 @@ impl Quadrature<'_> {
         let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
         if nearest < length && depth > 0 {
             for half in [[from, middle], [middle, to]] {
-                self.add_arc(circle, half, singular, depth - 1, rule);
+                self.add_arc(circle, half, singular, (depth - 1, cell), rule);
             }
             return;
         }
+        let active = self.geometry.active_probes(&rule.patches);
         let order = self.orders.choose(&Active {
             patches: rule.patches.len(),
             distance: nearest / length,
             kinks: self.geometry.has_kinks(&rule.patches),
-            probes: !self.geometry.active_probes(&rule.patches).is_empty(),
+            probes: !active.is_empty(),
         });
-        for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
-            let normal = circle.normal(turn);
-            let offset = (circle.center - rule.anchor) - normal * circle.radius;
-            rule.push(offset, weight * circle.radius, normal);
+        let left = Cell::new(MOST_DIVISIONS);
+        let demand = Demand {
+            probes: self.geometry.probes,
+            active: &active,
+            anchor: rule.anchor,
+            curved: false,
+            size: cell.size().length(),
+            points: order.saturating_sub(self.orders.reserve).max(1),
+            order,
+            left: &left,
+        };
+        let arc = Arc { circle, anchor: rule.anchor, turns: [from, to] };
+        let Refined { parts, doubt } = refined(vec![arc], &demand);
+        rule.doubt.add(&doubt);
+        for Arc { turns: [from, to], .. } in parts {
+            for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
+                let normal = circle.normal(turn);
+                let offset = (circle.center - rule.anchor) - normal * circle.radius;
+                rule.push(offset, weight * circle.radius, normal);
+            }
         }
+    }
+}
+
+/// A part of a round rim.
+#[derive(Clone)]
+struct Arc<'c> {
+    circle: &'c Circle,
+    anchor: Vec2,
+    turns: [f64; 2],
+}
+
+impl Part for Arc<'_> {
+    fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
+        let [from, to] = self.turns;
+        for (turn, weight) in rules((n + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
+            push(self.circle.at(turn) - self.anchor, weight * self.circle.radius);
+        }
+    }
+
+    fn divisions(&self, _: &[Vec2]) -> Vec<[Self; 2]> {
+        let [from, to] = self.turns;
+        let middle = 0.5 * (from + to);
+        vec![[[from, middle], [middle, to]].map(|turns| Self { turns, ..self.clone() })]
     }
 }
 

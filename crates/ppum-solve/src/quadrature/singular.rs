@@ -12,7 +12,7 @@
 //! [`Growth`]: super::Growth
 
 use super::Rules;
-use super::adapt::{Demand, Part as _, refined};
+use super::adapt::{Demand, Part as _, Refined, refined};
 use super::chart::{Apex, Chart, quadrilaterals};
 use super::curve::{Window, cut_all};
 use super::gauss::gauss;
@@ -22,6 +22,7 @@ use super::piece::Piece;
 use super::polygon::Polygon;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
+use std::cell::Cell;
 use std::rc::Rc;
 
 /// Longest panel in u. The integrand's nearest singularities lie at u = ±iπ/2, so that n points
@@ -51,6 +52,8 @@ pub(super) struct Pieces<'r, 'c> {
     pub(super) holes: &'r [&'r Hole],
     /// Functions that have to be resolved: all, and the active ones.
     pub(super) probes: (&'r dyn Probes, &'r [u32]),
+    /// Divisions that are left for the cell.
+    pub(super) left: &'r Cell<usize>,
 }
 
 impl Pieces<'_, '_> {
@@ -102,9 +105,20 @@ impl Pieces<'_, '_> {
         holes::remove(self.holes, anchor, &mut parts);
         let (probes, active) = self.probes;
         let points = self.order.saturating_sub(self.reserve).max(1);
-        let demand = Demand { probes, active, anchor, curved, size: self.size, points };
+        let demand = Demand {
+            probes,
+            active,
+            anchor,
+            curved,
+            size: self.size,
+            points,
+            order: self.order,
+            left: self.left,
+        };
         let rule = self.rules.rule(self.patches, anchor);
-        for part in refined(parts, &demand) {
+        let Refined { parts, doubt } = refined(parts, &demand);
+        rule.doubt.add(&doubt);
+        for part in parts {
             part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
         }
     }

@@ -15,6 +15,8 @@ pub(crate) enum Probe {
     Function { table: FunctionTable, cracks: Arc<[Crack]> },
     /// A coefficient of the equation: a formula of x and y, its derivatives.
     Coefficient(Box<[Formula; 3]>),
+    /// A load or a given value, and the mean of its absolute value.
+    Load { formula: Formula, mean: f64 },
 }
 
 impl Probe {
@@ -73,16 +75,30 @@ impl Probe {
                 let p = anchor + offset;
                 formulas.each_ref().map(|formula| formula.evaluate(&[p.x, p.y]))
             })),
+            Self::Load { formula, .. } => {
+                let mut scratch = Vec::new();
+                out.extend(offsets.iter().map(|&offset| {
+                    let p = anchor + offset;
+                    [formula.evaluate_with(&[p.x, p.y], &mut scratch), 0.0, 0.0]
+                }));
+            }
         }
     }
 }
 
 /// The probes of a space, by their places in the list.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct ProbeList(pub(super) Vec<Probe>);
 
 impl Probes for ProbeList {
     fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
         self.0[function as usize].jets(anchor, offsets, out);
+    }
+
+    fn load(&self, function: u32) -> Option<f64> {
+        match self.0[function as usize] {
+            Probe::Load { mean, .. } => Some(mean),
+            _ => None,
+        }
     }
 }

@@ -154,15 +154,42 @@ pub(super) fn traits_of_coefficient(coefficient: &Expression) -> Traits {
         return Traits::default();
     }
     let formula = coefficient.formula();
+    let Pieces { sets, degree } = Pieces::new(formula);
+    let probe = degree.is_none().then(|| Probe::coefficient(formula).ok()).flatten();
+    Traits { kinks: in_world(sets), probe, degree: degree.unwrap_or(0), ..Traits::default() }
+}
+
+/// The traits of a load or of given values, whose absolute value has a `mean`; none of a polynomial of
+/// low degree, which every rule resolves.
+pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
+    if data.constant().is_some() {
+        return None;
+    }
+    let formula = data.formula();
+    let Pieces { mut sets, degree } = Pieces::new(formula);
+    if degree.is_some() && sets.is_empty() {
+        return None;
+    }
+    let known = |sets: &[formula::Kink], set: &formula::Kink| {
+        sets.iter().any(|known| known.value.text() == set.value.text())
+    };
+    for crest in formula.crests() {
+        if !known(&sets, &crest) {
+            sets.push(crest);
+        }
+    }
+    let probe = degree.is_none().then(|| Probe::Load { formula: formula.clone(), mean });
+    Some(Traits { kinks: in_world(sets), probe, ..Traits::default() })
+}
+
+/// Sets of a formula of the plate's x and y.
+fn in_world(sets: Vec<formula::Kink>) -> Vec<Kink> {
     let world = Axes { origin: Vec2::ZERO, x: vec2(1.0, 0.0), is_tip: false };
     let kink = |set: formula::Kink| match set.line() {
         Some(line) => Kink::Line(world.line(line)),
         None => Kink::Curve(Arc::new(move |p: Vec2| set.value.evaluate(&[p.x, p.y]))),
     };
-    let Pieces { sets, degree } = Pieces::new(formula);
-    let probe = degree.is_none().then(|| Probe::coefficient(formula).ok()).flatten();
-    let kinks = sets.into_iter().map(kink).collect();
-    Traits { kinks, probe, degree: degree.unwrap_or(0), ..Traits::default() }
+    sets.into_iter().map(kink).collect()
 }
 
 /// A frame's axes in the world.

@@ -13,7 +13,7 @@ pub use tips::relative_spread;
 use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
 use crate::problem::Problem;
 use crate::space::Space;
-use crate::system::{face_load, source_at};
+use crate::system::{Unresolved, face_load, source_at};
 use corners::of_corners;
 use faces::of_faces;
 use ppum::crack::Side;
@@ -37,6 +37,10 @@ pub const LARGE_CUT_OFF: f64 = 0.25;
 /// rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held edge 710, one along
 /// such an edge 8e4 at 1e-4 of a cell.
 pub const LARGE_NITSCHE: f64 = 1e4;
+
+/// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and coefficients
+/// over a piece of a cell: quadrature aims at 1e-10.
+pub const LARGE_ERROR: f64 = 1e-6;
 
 /// Words of the kinds of warnings.
 pub mod kind {
@@ -66,6 +70,10 @@ pub mod kind {
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
     pub const SINGULAR_POINT: &str = "singular-point";
+    /// A load or what is given on the border varies too fast to be integrated.
+    pub const LOAD: &str = "load";
+    /// A function or a coefficient varies too fast to be integrated.
+    pub const QUADRATURE: &str = "quadrature";
 }
 
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
@@ -119,6 +127,36 @@ fn of_history(step: &Step) -> Vec<Warning> {
     passed
         .map(|(kind, value, limit, message)| warning(kind, None, [value, limit], message(value)))
         .collect()
+}
+
+/// The warnings about what quadrature does not resolve.
+pub(crate) fn of_quadrature(unresolved: &[Unresolved]) -> Vec<Warning> {
+    let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
+    let warning = |found: &Unresolved| {
+        let Unresolved { load, error, at } = found;
+        let kind = if load.is_some() { kind::LOAD } else { kind::QUADRATURE };
+        warning(
+            kind,
+            Some(*at),
+            [*error, LARGE_ERROR],
+            unresolved_text(load.as_deref(), *error, *at),
+        )
+    };
+    large.map(warning).collect()
+}
+
+fn unresolved_text(load: Option<&str>, error: f64, at: Vec2) -> String {
+    let at = shown(at);
+    match load {
+        Some(load) => format!(
+            "{load} varies too fast, or grows without bound, around {at}: its resultant is off by about {error:.1e} \
+             of its magnitude; use a formula that can be integrated there, or smaller cells"
+        ),
+        None => format!(
+            "a function or a coefficient varies too fast around {at}: integrals over a piece of a cell there are \
+             off by about {error:.1e}; use smaller cells there, or a smoother formula"
+        ),
+    }
 }
 
 fn residual(value: f64) -> String {

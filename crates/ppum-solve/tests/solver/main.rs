@@ -8,6 +8,7 @@ mod formulas;
 mod holes;
 mod intensity;
 mod kernels;
+mod loads;
 mod physics;
 mod pieces;
 mod plates;

@@ -86,6 +86,21 @@ impl Formula {
         self.sets(Sets::singularities)
     }
 
+    /// The sets in which a spike, a ridge or a layer may sit that is too narrow for samples to show it, from
+    /// the operations: zeros of what is raised to an even power, and of the arguments of `exp`, `cosh`,
+    /// `tanh` and `atan`. They are found as those of [`Formula::kinks`]; the value is smooth there.
+    ///
+    /// ```
+    /// use ppum::formula::{Formula, Scope};
+    ///
+    /// let bump = Formula::parse("exp(-((x - 0.3)/1e-4)^2)", &Scope::cartesian()).expect("a formula");
+    /// assert_eq!(bump.crests()[0].line(), Some([1.0, 0.0, -0.3]));
+    /// ```
+    #[must_use]
+    pub fn crests(&self) -> Vec<Kink> {
+        self.sets(Sets::crests)
+    }
+
     /// The places in \[lo, hi\] where a formula of one variable may not be smooth, increasing: where it
     /// meets its [`kinks`](Self::kinks) and [`singularities`](Self::singularities). Those of linear
     /// functions are exact, the others are searched among 4096 intervals and refined to rounding; the
@@ -211,6 +226,14 @@ impl Sets {
                 let node = self.graph.binary(Binary::Hypot, a, b);
                 self.zero(node);
             }
+            _ => {}
+        }
+    }
+
+    fn crests(&mut self, op: Op) {
+        match op {
+            Op::Unary(Unary::Exp | Unary::Cosh | Unary::Tanh | Unary::Atan, a) => self.zero(a),
+            Op::Power(a, n) if n % 2 == 0 => self.zero(a),
             _ => {}
         }
     }

@@ -278,11 +278,43 @@ fn strips_are_divided_where_a_curve_bends() {
     let square = Chart::Quadrilateral(corners(&UNIT));
     let (windows, cut) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
     assert!(cut);
-    let demand =
-        Demand { probes: &(), active: &[], anchor: Vec2::ZERO, curved: true, size: 1.0, points: 5 };
+    let left = std::cell::Cell::new(100);
+    let demand = Demand {
+        probes: &(),
+        active: &[],
+        anchor: Vec2::ZERO,
+        curved: true,
+        size: 1.0,
+        points: 5,
+        order: 6,
+        left: &left,
+    };
     let mut below = 0.0;
-    for part in refined(windows.into_iter().map(Piece::Window).collect(), &demand) {
+    for part in refined(windows.into_iter().map(Piece::Window).collect(), &demand).parts {
         part.nodes(gauss, 6, &mut |x, w| below += if bend(x) < 0.0 { w } else { 0.0 });
     }
     assert_near(below, 0.5, 1e-9, "area below");
+}
+
+/// One circle as two formulas whose zeros differ by rounding cuts no slivers: it takes the same pieces as
+/// once, wherever it lies.
+#[test]
+fn curves_that_coincide_are_one() {
+    let mut random = crate::random::Random::new(11);
+    for _ in 0..50 {
+        let mut between = |lo: f64, hi: f64| lo + (hi - lo) * 0.5 * (1.0 + random.signed());
+        let (center, radius) = (vec2(between(-1.0, 1.0), between(-1.0, 1.0)), between(0.3, 1.5));
+        let squares =
+            move |p: Vec2| (p.x - center.x).powi(2) + (p.y - center.y).powi(2) - radius * radius;
+        let (sin, cos) = between(0.0, 6.0).sin_cos();
+        let turned = move |p: Vec2| {
+            let d = p - center;
+            (cos * d.x + sin * d.y).hypot(cos * d.y - sin * d.x) - radius
+        };
+        let (squares, turned): (&Level, &Level) = (&squares, &turned);
+        let whole = || vec![Window::whole(Chart::Quadrilateral(corners(&UNIT)))];
+        let (once, _) = cut_all(whole(), &[squares], Vec2::ZERO);
+        let (twice, _) = cut_all(whole(), &[squares, turned], Vec2::ZERO);
+        assert_eq!(once.len(), twice.len(), "{center:?} {radius}");
+    }
 }

@@ -1,0 +1,45 @@
+//! What rules do not resolve.
+
+use ppum::vec2::Vec2;
+
+/// What is left of the errors that rules are divided for, where division was ended: by its bounds, or
+/// because it did not help.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Doubt {
+    /// Estimated error of the integral of |f| of the loads, the larger of two rules' difference and what
+    /// a further division changes; zero where it is within what is allowed.
+    pub load: f64,
+    /// The same of functions and coefficients, relative to the integrals over their pieces.
+    pub functions: f64,
+    /// Where the largest part of it lies.
+    pub at: Vec2,
+    /// That part.
+    worst: f64,
+}
+
+impl Doubt {
+    /// The doubt about loads at a place.
+    pub(super) fn of_load(load: f64, at: Vec2) -> Self {
+        Self { load, functions: 0.0, at, worst: load }
+    }
+
+    /// The doubt about functions at a place.
+    pub(super) fn of_functions(functions: f64, at: Vec2) -> Self {
+        Self { load: 0.0, functions, at, worst: functions }
+    }
+
+    /// Takes the doubt of another part: errors of loads add up, relative ones do not.
+    pub fn add(&mut self, part: &Self) {
+        self.load += part.load;
+        self.functions = self.functions.max(part.functions);
+        if part.worst > self.worst {
+            (self.at, self.worst) = (part.at, part.worst);
+        }
+    }
+
+    /// True if everything is resolved.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.load == 0.0 && self.functions == 0.0
+    }
+}
