@@ -20,6 +20,7 @@ pub(crate) struct Tip {
     angle: f64,
     k1: Number,
     k2: Number,
+    /// Largest relative difference of two rings: no estimate of the error.
     spread: Number,
     rings: Vec<RingRow>,
 }
@@ -78,6 +79,12 @@ pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
             let row = format!("{:>24}  {k1:>12}  {k2:>12}  {spread:>7}", point(*at));
             writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;
         }
+    }
+    if !tips.is_empty() {
+        writeln!(
+            out,
+            "spread: relative difference between three radii, a check and no estimate of the error"
+        )?;
     }
     Ok(())
 }

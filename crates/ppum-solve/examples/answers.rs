@@ -2,7 +2,8 @@
 //!
 //!     cargo run --release -p ppum-solve --example answers -- examples/edge-shear.toml …
 //!
-//! `energy`, `unknowns`, quadrature `points`, `reactions` (force and moment of each support) and `seconds`; of each of `tips` its `crack`, `end`, place, `k1` and `k2`; of each of
+//! `energy`, `unknowns`, quadrature `points`, `reactions` (force and moment of each support) and `seconds`; of each
+//! of `tips` its `crack`, `end`, place, `k1`, `k2` and `rings`, each radius, K_I and K_II; of each of
 //! `warnings` its `kind`, `value`, `limit`, `at` and `message`. A problem that is refused gives `error`.
 
 use ppum::dataset::{Dataset, Warning};
@@ -34,7 +35,10 @@ fn numbers(dataset: &Dataset) -> Value {
     let place = |p: Vec2| json!([p.x, p.y]);
     let tip = |t: &ppum::dataset::TipIntensity| {
         let at = step.cracks[t.tip.crack as usize].end_point(t.tip.end);
-        json!({ "crack": t.tip.crack, "end": t.tip.end.name(), "at": place(at), "k1": t.k1, "k2": t.k2 })
+        let rings: Vec<_> = t.rings.iter().map(|ring| json!([ring.r2, ring.k1, ring.k2])).collect();
+        json!({
+            "crack": t.tip.crack, "end": t.tip.end.name(), "at": place(at), "k1": t.k1, "k2": t.k2, "rings": rings
+        })
     };
     let warning = |w: &Warning| {
         let at = w.at.map(place);

@@ -134,11 +134,6 @@ impl Smoothness {
         self.degree
     }
 
-    /// Lines across which coefficients of the equation may jump.
-    pub(crate) fn interfaces(&self) -> impl Iterator<Item = &Kink> {
-        self.common_kinks.iter().map(|&kink| &self.kinks[kink as usize])
-    }
-
     fn add(&mut self, traits: Traits) -> Indices {
         let singular = traits.singular.into_iter().map(|new| {
             let known = self.singular.iter().position(|known| *known == new);

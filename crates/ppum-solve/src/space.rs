@@ -5,7 +5,7 @@ use crate::enrichment::{Block, Enrichments};
 use crate::inspect::{InspectError, inspect};
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
-use crate::quadrature::{Geometry, Kink, Orders, Quadrature, Rule};
+use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
 use crate::refine::{RefineError, cover, n_crossed_twice};
 use crate::smoothness::Smoothness;
 use ppum::box_tree::BoxTree;
@@ -118,11 +118,6 @@ impl<'d> Space<'d> {
     #[must_use]
     pub fn degree(&self) -> usize {
         self.smoothness.degree()
-    }
-
-    /// Where coefficients of the equation may jump.
-    pub(crate) fn interfaces(&self) -> impl Iterator<Item = &Kink> {
-        self.smoothness.interfaces()
     }
 
     /// Number of polynomials of a patch: the functions of its first block.

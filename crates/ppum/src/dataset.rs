@@ -233,7 +233,7 @@ pub struct TipIntensity {
     pub k1: f64,
     /// Value of the preferred ring, K_II.
     pub k2: f64,
-    /// All rings.
+    /// All rings. That they agree is a check of the integrals, no estimate of the error of K.
     pub rings: Vec<Ring>,
 }
 

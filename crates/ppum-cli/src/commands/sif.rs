@@ -19,7 +19,7 @@ use crate::warnings::{WarningRow, rows, warn};
 /// Print the stress intensity factors of all crack tips
 ///
 /// They are computed from the stored field, by the interaction integral at three radii; `spread` is
-/// the largest relative difference of the three.
+/// the largest relative difference of the three: a check that they agree, no estimate of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

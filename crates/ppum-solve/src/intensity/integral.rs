@@ -1,13 +1,14 @@
 //! The interaction integral over the cells of a space.
 
-use super::{FaceLoad, Loads};
+use super::Loads;
+use super::auxiliary::{Auxiliary, Gradients, auxiliary};
+use super::faces::Faces;
 use crate::law::{Law, LawAt};
-use crate::quadrature::{Rule, gauss};
+use crate::quadrature::Rule;
 use crate::space::Space;
-use ppum::crack::{End, LocalTip, Side, TipId, TipPoint};
+use ppum::crack::{LocalTip, Side, TipId, TipPoint};
 use ppum::dataset::{Material, Ring};
 use ppum::field::{Field, LocalField};
-use ppum::function::westergaard;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
@@ -25,12 +26,8 @@ const SMALL: f64 = 0.2;
 /// Discs for each tip.
 pub(super) const RINGS: usize = 3;
 
-/// Panels of a loaded face in a disc, and Gauss points of each: loads may bend, or begin somewhere.
-const FACE_PANELS: u32 = 8;
-const FACE_ORDER: usize = 8;
-
 /// Integrals of both modes over each disc.
-type Modes = [[f64; 2]; RINGS];
+pub(super) type Modes = [[f64; 2]; RINGS];
 
 /// Integrals around a tip.
 #[derive(Clone, Copy, Default)]
@@ -51,7 +48,9 @@ pub(super) struct Found {
 pub(super) struct Interaction<'a> {
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    law: LawAt,
+    law: Law<'a>,
+    /// The law and the material at the tip, those of the auxiliary fields.
+    law_at_tip: LawAt,
     material: Material,
     tip: TipId,
     center: Vec2,
@@ -71,9 +70,10 @@ impl<'a> Interaction<'a> {
         loads: Loads<'a>,
     ) -> Option<Self> {
         let center = field.step.cracks[tip.crack as usize].end_point(tip.end);
-        let law = Law::new(field.equation).at(center);
+        let law = Law::new(field.equation);
+        let law_at_tip = law.at(center);
         let material = field.equation.elastic()?.at(center);
-        Some(Self { field, space, law, material, tip, center, radii, loads })
+        Some(Self { field, space, law, law_at_tip, material, tip, center, radii, loads })
     }
 
     fn largest(&self) -> f64 {
@@ -109,42 +109,70 @@ impl<'a> Interaction<'a> {
         local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
         let mut integrals = Integrals::default();
         for ((&offset, &weight), u) in offsets.iter().zip(&weights).zip(jets.chunks_exact(2)) {
-            let force = self.loads.force.map_or([0.0; 2], |force| force(rule.anchor + offset));
-            let part = self.at(&point(offset), &in_frame(u, tip.axis), turned(tip.axis, force));
-            integrals = sum(integrals, part.times(weight));
+            let place = Place {
+                point: point(offset),
+                world: rule.anchor + offset,
+                u: in_frame(u, tip.axis),
+                force: self.force(rule.anchor + offset, tip.axis),
+            };
+            integrals = sum(integrals, self.at(&place).times(weight));
         }
         integrals
     }
 
-    /// The integrands at a point: gradient and force in the tip's frame.
+    /// The body force in the tip's frame.
+    fn force(&self, at: Vec2, axis: Vec2) -> Vec2 {
+        self.loads.force.map_or(Vec2::ZERO, |force| turned(axis, force(at)))
+    }
+
+    /// The integrands at a point.
     ///
     /// With q,_j = q′/r x_j the parts without q are the same for all discs.
-    fn at(&self, point: &TipPoint<f64>, u: &[Vec2; 2], force: Vec2) -> Integrals {
-        let auxiliary = auxiliary(&self.material, &westergaard::<f64, 1>(point));
+    fn at(&self, place: &Place) -> Integrals {
+        let Place { point, u, .. } = place;
         let along = vec2(point.x, point.y);
-        let stress = self.law.flux(u);
+        let stresses = self.stresses(place);
+        let stress = &stresses.own;
         let energy = (0..2).map(|i| stress[i][0] * u[i].x + stress[i][1] * u[i].y).sum();
-        let parts = auxiliary
-            .map(|a| (self.flow(&stress, u, &a).dot(along), force.x * a[0].x + force.y * a[1].x));
+        let parts = self.auxiliary(point).map(|a| {
+            let flow = self.flow(&stresses, u, &a.gradient);
+            (flow.dot(along), divergence(&stresses, place.force, &a))
+        });
         let modes = self.radii.map(|radius| {
             let (q, slope) = cut_off(square(point), radius);
-            parts.map(|(flow, work)| slope * flow - q * work)
+            parts.map(|(flow, source)| slope * flow + q * source)
         });
         Integrals { modes, energy }
     }
 
-    /// σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σ_ik εᵃ_ik δ_1j, a vector over j.
-    fn flow(&self, s: &[[f64; 2]; 2], u: &[Vec2; 2], aux: &[Vec2; 2]) -> Vec2 {
-        let sa = self.law.flux(aux);
-        let work = s[0][0] * aux[0].x + s[0][1] * (aux[0].y + aux[1].x) + s[1][1] * aux[1].y;
+    fn stresses(&self, place: &Place) -> Stresses {
+        let at_tip = self.law_at_tip.flux(&place.u);
+        let uniform = self.law.is_uniform();
+        let own = if uniform { at_tip } else { self.law.at(place.world).flux(&place.u) };
+        Stresses { own, at_tip }
+    }
+
+    fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; 2] {
+        let of_order = if self.law.is_uniform() { auxiliary::<1> } else { auxiliary::<2> };
+        of_order(&self.material, point)
+    }
+
+    /// P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, a vector over j; σᵃ_ik ε_ik is the stress that
+    /// the tip's material would have, on εᵃ.
+    fn flow(&self, stresses: &Stresses, u: &Gradients, aux: &Gradients) -> Vec2 {
+        let (s, sa) = (&stresses.own, self.law_at_tip.flux(aux));
+        let work = work(&stresses.at_tip, aux);
         let flow = |j: usize| (0..2).map(|i| s[i][j] * aux[i].x + sa[i][j] * u[i].x).sum::<f64>();
         vec2(flow(0) - work, flow(1))
     }
 
-    /// −∫ t_i uᵃ_i,1 q ds over both faces: what does not come from the cells.
+    /// What does not come from the cells: the loads on the faces.
     fn start(&self) -> Integrals {
-        let Some(load) = self.loads.faces else { return Integrals::default() };
-        sum(self.face(load, Side::Above), self.face(load, Side::Below))
+        let Self { tip, material, radii, .. } = self;
+        let crack = &self.field.step.cracks[tip.crack as usize];
+        let faces = self.loads.faces.map(|load| Faces { crack, tip: *tip, material, radii, load });
+        let modes = faces.map_or_else(Modes::default, |faces| faces.integrals());
+        Integrals { modes, energy: 0.0 }
     }
 
     /// K = E′/2 M
@@ -157,39 +185,35 @@ impl<'a> Interaction<'a> {
         let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
         Found { rings, strength }
     }
-
-    /// One face. With r = R s² the integrand has no singularity.
-    fn face(&self, load: FaceLoad<'_>, side: Side) -> Integrals {
-        let crack = &self.field.step.cracks[self.tip.crack as usize];
-        let axis = crack.growth_direction(self.tip.end);
-        let mut integrals = Integrals::default();
-        for (s, ds) in (0..FACE_PANELS).flat_map(panel) {
-            let (r, dr) = (self.largest() * s * s, 2.0 * self.largest() * s * ds);
-            let point = on_face(r, self.tip.end, side);
-            let traction = load(self.tip.crack, side, self.center - axis * r);
-            let t = turned(axis, traction);
-            let auxiliary = auxiliary(&self.material, &westergaard::<f64, 1>(&point));
-            let modes = self.radii.map(|radius| {
-                let (q, _) = cut_off(r * r, radius);
-                auxiliary.map(|a| -dr * q * (t.x * a[0].x + t.y * a[1].x))
-            });
-            integrals = sum(integrals, Integrals { modes, energy: 0.0 });
-        }
-        integrals
-    }
 }
 
-/// Nodes and weights on a panel of the unit interval.
-fn panel(k: u32) -> impl Iterator<Item = (f64, f64)> {
-    let at = |k: u32| f64::from(k) / f64::from(FACE_PANELS);
-    gauss(FACE_ORDER).on(at(k), at(k + 1))
+/// A point, and the field there in the tip's frame.
+struct Place {
+    point: TipPoint<f64>,
+    world: Vec2,
+    u: Gradients,
+    force: Vec2,
 }
 
-/// The point of a face at the distance `r` behind the tip. *Above* is the tip's left at the last
-/// vertex and its right at the first.
-fn on_face(r: f64, end: End, side: Side) -> TipPoint<f64> {
-    let left = (end == End::Last) == (side == Side::Above);
-    TipPoint { x: -r, y: 0.0, sign: if left { 1.0 } else { -1.0 }, branch: 1.0 }
+/// Stresses of one strain.
+struct Stresses {
+    /// σ
+    own: [[f64; 2]; 2],
+    /// In a body of the tip's material.
+    at_tip: [[f64; 2]; 2],
+}
+
+/// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without it:
+/// what σ exceeds the stress of the tip's material by, on εᵃ,_1.
+fn divergence(stresses: &Stresses, force: Vec2, aux: &Auxiliary) -> f64 {
+    let Stresses { own, at_tip } = stresses;
+    let excess = std::array::from_fn(|i| std::array::from_fn(|j| own[i][j] - at_tip[i][j]));
+    work(&excess, &aux.along) - (force.x * aux.gradient[0].x + force.y * aux.gradient[1].x)
+}
+
+/// σ_ij g_i,j of a symmetric stress.
+fn work(s: &[[f64; 2]; 2], g: &Gradients) -> f64 {
+    s[0][0] * g[0].x + s[0][1] * (g[0].y + g[1].x) + s[1][1] * g[1].y
 }
 
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
@@ -223,14 +247,14 @@ fn square(point: &TipPoint<f64>) -> f64 {
 }
 
 /// q and q′(r)/r for r² = `square`; zero outside the disc.
-fn cut_off(square: f64, radius: f64) -> (f64, f64) {
+pub(super) fn cut_off(square: f64, radius: f64) -> (f64, f64) {
     let base = (1.0 - square / (radius * radius)).max(0.0);
     let slope = -2.0 * f64::from(CUT_OFF_POWER) / (radius * radius);
     (base.powi(CUT_OFF_POWER), slope * base.powi(CUT_OFF_POWER - 1))
 }
 
 /// A vector in a frame with the given x axis.
-fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
+pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
     let vector = Vec2::from(vector);
     vec2(axis.dot(vector), axis.cross(vector))
 }
@@ -239,16 +263,4 @@ fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 fn in_frame(u: &[Jet<f64>], axis: Vec2) -> [Vec2; 2] {
     let (gx, gy) = (turned(axis, [u[0].x, u[0].y]), turned(axis, [u[1].x, u[1].y]));
     [gx * axis.x + gy * axis.y, gy * axis.x - gx * axis.y]
-}
-
-/// Displacement gradients of the Williams fields with K_I = 1 and with K_II = 1, in the tip's frame.
-///
-/// With the Westergaard functions F₁…F₄ and κ of Kolosov, 2μ√(2π) u is
-/// ((κ−1)F₁ + F₃, (κ+1)F₂ − F₄) and ((κ+1)F₂ + F₄, −(κ−1)F₁ + F₃).
-fn auxiliary(material: &Material, f: &[Jet<f64>; 4]) -> [[Vec2; 2]; 2] {
-    let kappa = material.kolosov();
-    let scale = 1.0 / (2.0 * material.mu() * std::f64::consts::TAU.sqrt());
-    let [f1, f2, f3, f4] = f.map(|jet| vec2(jet.x, jet.y) * scale);
-    let (less, more) = (kappa - 1.0, kappa + 1.0);
-    [[f1 * less + f3, f2 * more - f4], [f2 * more + f4, f3 - f1 * less]]
 }

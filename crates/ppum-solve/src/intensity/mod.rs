@@ -5,24 +5,33 @@
 //! of Moran & Shih 1987)
 //!
 //! ```text
-//! M = ∫ (σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σ_ik εᵃ_ik δ_1j) q_,j − b_i uᵃ_i,1 q dA − ∫ t_i uᵃ_i,1 q ds      K = E′/2 M
+//! M = ∫ P_j q_,j + P_j,j q dA − ∫ t_i uᵃ_i,1 q ds      K = E′/2 M
+//! P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j
+//! P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1
 //! ```
 //!
-//! with the body force b, and the tractions t on both faces of the crack.
+//! with the compliance S of the material, the body force b, and the tractions t on both faces of the crack.
+//! E′ and uᵃ are those of a uniform body of the material at the tip, and σᵃ is the stress in that body, in
+//! equilibrium but at odds with ε = S σ elsewhere (Dolbow & Gosz 2002): P_j,j is what that costs. It needs no
+//! derivative of the material and is of the order 1/r at the tip. In a uniform material it is the body force's
+//! part alone.
 //!
-//! The crack must be straight inside the disc and nothing else may lie in it, no interface of two
-//! materials either: the radii are chosen in the [`Room`] of the tip. The material is taken to be
-//! uniform in the disc: where it varies smoothly the values at the radii differ, and tend to the factors
-//! with the radius.
+//! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is u, so that
+//! \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al. 2009). Interfaces may lie in
+//! the disc; only a tip on one has no factors, because its field is another one. The crack must be straight inside
+//! the disc and nothing else may lie in it: the radii are chosen in the [`Room`] of the tip.
 
+mod auxiliary;
+mod faces;
 mod integral;
+mod interface;
 mod room;
 
 use crate::space::Space;
 use integral::{Found, Interaction, RINGS, found};
+pub(crate) use interface::interface_distance;
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
-use ppum::domain::Domain;
 use ppum::field::Field;
 use ppum::vec2::Vec2;
 pub use room::{Obstacle, Room};
@@ -68,6 +77,9 @@ pub struct Outcome {
     pub room: Room,
     /// The longest side of the cells it lies in.
     pub cell: f64,
+    /// Distance to the nearest interface of two materials, if it is in the room and not ample for these
+    /// cells, see [`AMPLE_ROOM`].
+    pub interface: Option<f64>,
     /// Its factors; none if there is too little room for them, see [`Outcome::needed`].
     pub factors: Option<TipIntensity>,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
@@ -98,7 +110,7 @@ pub fn intensities(
     space: &Space<'_>,
     loads: Loads<'_>,
 ) -> Vec<Outcome> {
-    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(space, &dataset.domain, tip));
+    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(dataset, space, tip));
     let mut tips: Vec<_> = tips.collect();
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
         return Vec::new();
@@ -117,10 +129,14 @@ pub fn intensities(
 }
 
 impl Outcome {
-    fn new(space: &Space<'_>, domain: &Domain, tip: TipId) -> Self {
+    fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
         let at = space.step.cracks[tip.crack as usize].end_point(tip.end);
         let own = space.partition.cell.iter().filter(|cell| cell.contains(at));
         let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);
-        Self { tip, at, room: Room::new(space, domain, tip), cell, factors: None, strength: 0.0 }
+        let room = Room::new(dataset, &space.step.cracks, tip, cell);
+        let reach = room.radius.min(AMPLE_ROOM * cell);
+        let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
+        let interface = elastic.and_then(|body| interface_distance(body, at, reach));
+        Self { tip, at, room, cell, interface, factors: None, strength: 0.0 }
     }
 }

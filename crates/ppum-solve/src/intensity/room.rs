@@ -1,18 +1,17 @@
 //! How much room a tip has: the largest disc around it in which nothing disturbs the integral.
 
-use crate::quadrature::Kink;
-use crate::space::Space;
+use super::interface::jumps;
 use ppum::crack::{Crack, TipId};
+use ppum::dataset::Dataset;
 use ppum::domain::Domain;
-use ppum::vec2::{Vec2, vec2};
-use std::f64::consts::TAU;
+use ppum::vec2::Vec2;
 
-/// Rays around a tip and steps along each on which curved interfaces are looked for.
-const RAYS: u32 = 64;
-const STEPS: u32 = 64;
+/// How far from a tip, in cells, the material is compared with the tip's: more than rounding of the
+/// coordinates, and nothing against the lengths over which a material varies smoothly.
+const BESIDE: f64 = 1e-9;
 
-/// The largest disc around a tip that holds no border, no hole, no part of a crack but the last segment of its
-/// own, and no interface of two materials.
+/// The largest disc around a tip that holds no border, no hole and no part of a crack but the last segment of its
+/// own. The material may vary and jump in it; a tip at which it jumps has no room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
     /// Its radius.
@@ -33,7 +32,7 @@ pub enum Obstacle {
     Kink,
     /// Another crack, by its index.
     Crack(usize),
-    /// An interface of two materials.
+    /// An interface of two materials, on which the tip itself lies.
     Interface,
 }
 
@@ -52,13 +51,13 @@ impl Obstacle {
 }
 
 impl Room {
-    /// The room of a tip of a space's step on a domain.
-    pub(super) fn new(space: &Space<'_>, domain: &Domain, tip: TipId) -> Self {
-        let cracks = &space.step.cracks;
+    /// The room of a tip of a dataset's step with these cracks, in cells of the size `cell`.
+    pub(super) fn new(dataset: &Dataset, cracks: &[Crack], tip: TipId, cell: f64) -> Self {
         let p = cracks[tip.crack as usize].end_point(tip.end);
-        let free = Self::among_cracks(cracks, domain, tip);
-        let apart = space.interfaces().map(|kink| interface_distance(kink, p, free.radius));
-        free.with(apart.map(|radius| Self { radius, end: Obstacle::Interface }))
+        let elastic = dataset.equation.elastic();
+        let on_interface = elastic.is_some_and(|body| jumps(body, p, BESIDE * cell));
+        let end = on_interface.then_some(Self { radius: 0.0, end: Obstacle::Interface });
+        Self::among_cracks(cracks, &dataset.domain, tip).with(end.into_iter())
     }
 
     /// The room without regard of materials.
@@ -93,25 +92,6 @@ fn behind(own: &Crack, tip: Vec2) -> f64 {
 fn nearest(points: &[Vec2], p: Vec2) -> f64 {
     points.windows(2).map(|s| segment_distance(s, p)).fold(f64::INFINITY, f64::min)
 }
-/// Distance of a point to an interface, as far as it is below `reach`; of a curve a lower bound, by the
-/// sides of points on rays.
-fn interface_distance(kink: &Kink, p: Vec2, reach: f64) -> f64 {
-    match kink {
-        Kink::Line([a, b]) => ((*b - *a).unit().cross(p - *a)).abs(),
-        Kink::Segment(ends) => segment_distance(ends, p),
-        Kink::Curve(level) => {
-            let own = level(p);
-            let crosses = |step: &u32| {
-                let radius = reach * f64::from(*step) / f64::from(STEPS);
-                let ray = |k: u32| TAU * f64::from(k) / f64::from(RAYS);
-                let point = |k: u32| p + vec2(ray(k).cos(), ray(k).sin()) * radius;
-                (0..RAYS).any(|k| level(point(k)) * own <= 0.0)
-            };
-            let first = (1..=STEPS).find(crosses).unwrap_or(STEPS + 1);
-            reach * f64::from(first - 1) / f64::from(STEPS)
-        }
-    }
-}
 
 fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
     let (d, e) = (s[1] - s[0], p - s[0]);
@@ -124,8 +104,7 @@ mod tests {
     use super::*;
     use ppum::crack::{CrackEnd, End};
     use ppum::domain::Hole;
-    use ppum::vec2::Rect;
-    use std::sync::Arc;
+    use ppum::vec2::{Rect, vec2};
 
     fn room(cracks: &[Crack], crack: u32, end: End) -> (f64, Obstacle) {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
@@ -155,19 +134,5 @@ mod tests {
         assert_eq!(room(&two, 0, End::Last), (0.125, Obstacle::Crack(1)));
         let up = [crack(&[[0.0, -0.5], [0.0, 0.5]])];
         assert_eq!(room(&up, 0, End::Last), (0.125, Obstacle::Hole(0)));
-    }
-
-    #[test]
-    fn interfaces_end_the_disc() {
-        let p = vec2(0.1, 0.2);
-        let line = Kink::Line([vec2(0.0, 0.5), vec2(1.0, 0.5)]);
-        assert!((interface_distance(&line, p, 1.0) - 0.3).abs() < 1e-15);
-        let segment = Kink::Segment([vec2(0.5, 0.5), vec2(1.0, 0.5)]);
-        assert!((interface_distance(&segment, p, 1.0) - 0.5).abs() < 1e-15);
-        let circle = Kink::Curve(Arc::new(|x: Vec2| x.dot(x) - 0.25));
-        let found = interface_distance(&circle, p, 1.0);
-        let exact = 0.5 - p.length();
-        assert!(found <= exact && found > exact - 0.02, "{found} instead of {exact}");
-        assert_eq!(interface_distance(&circle, vec2(3.0, 0.0), 1.0), 1.0);
     }
 }

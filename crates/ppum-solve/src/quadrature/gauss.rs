@@ -82,7 +82,7 @@ const INSET: f64 = 1e-6;
 ///
 /// The Lobatto rule on the interval without its outermost millionths, whose share is given to the
 /// points at their inner ends.
-pub(super) fn closed(n: usize) -> &'static GaussRule {
+pub(crate) fn closed(n: usize) -> &'static GaussRule {
     static RULES: OnceLock<Vec<GaussRule>> = OnceLock::new();
     assert!((1..=MAX_POINTS).contains(&n), "no closed rule for {n} points");
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(lobatto_inside).collect())[n - 1]

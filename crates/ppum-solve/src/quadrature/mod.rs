@@ -42,6 +42,7 @@ mod tests;
 
 pub use doubt::Doubt;
 pub use edge::{EdgeRule, Face};
+pub(crate) use gauss::closed;
 pub use gauss::{GaussRule, MAX_POINTS, gauss};
 pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
 pub use orders::Orders;

@@ -2,7 +2,8 @@
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
-//!   half the room that its stress intensity is found in.
+//!   half the room that its stress intensity is found in, and half the distance to the next interface of two
+//!   materials.
 //! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
 //!   the side, for the three or more parts it is cut into, two of which would be glued together. Nor by the rim
 //!   of a polygon, for whose two sides it has no functions of their own.
@@ -16,7 +17,7 @@ mod ligament;
 
 use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
-use crate::intensity::{AMPLE_ROOM, Room};
+use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
 use crate::problem::{Cells, Problem};
 use graded::graded;
 use ligament::ligaments;
@@ -42,7 +43,7 @@ const LARGEST: f64 = 0.25;
 const NEAR: f64 = 0.75;
 
 /// Cells at a tip that are not refined further for little room around it, in the same measure: tips
-/// nearly at the border would ask for cells without end.
+/// nearly at the border or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
 
 /// Lengths below this part of the domain's size are rounding of the end of a crack on a rim.
@@ -163,9 +164,14 @@ impl Need {
             .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
         let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
         let apart = other_tips.chain(kinks).collect();
+        let tip = crack.end_point(id.end);
         let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
+        let room = room.min(AMPLE_ROOM * LARGEST * share);
+        let elastic = problem.equation.elastic();
+        let interface = elastic.and_then(|body| interface_distance(body, tip, room));
+        let room = interface.unwrap_or(room);
         Self {
-            tip: crack.end_point(id.end),
+            tip,
             largest: (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share),
             ample: LARGEST * share,
             near: NEAR * share,

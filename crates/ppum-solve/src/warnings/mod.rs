@@ -52,6 +52,8 @@ pub mod kind {
     pub const NO_ROOM: &str = "no-room";
     /// A tip has little room, so its factors are less accurate.
     pub const LITTLE_ROOM: &str = "little-room";
+    /// A tip is close to an interface of two materials, measured by its cells.
+    pub const NEAR_INTERFACE: &str = "near-interface";
     /// The factors at the radii of a tip differ.
     pub const SPREAD: &str = "spread";
     /// A tip is close to the border, measured by the length of its crack.

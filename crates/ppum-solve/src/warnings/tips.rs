@@ -6,7 +6,7 @@ use ppum::crack::Crack;
 use ppum::dataset::{Ring, TipIntensity, Warning};
 
 /// Difference of the factors at three radii, in parts of their size, above which they are not to be
-/// trusted.
+/// trusted. Below it they may be wrong as well, see [`relative_spread`].
 pub(super) const LARGE_SPREAD: f64 = 0.01;
 
 /// Part of |K| that K_I may be negative by where it should be zero.
@@ -31,8 +31,12 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
             Some(factors) => [negative(outcome, factors), spread(outcome, factors)],
             None => [Some(no_room(outcome)), None],
         };
-        let about_place =
-            [little_room(outcome), near_border(outcome, length), coarse(outcome, length)];
+        let about_place = [
+            little_room(outcome),
+            near_interface(outcome),
+            near_border(outcome, length),
+            coarse(outcome, length),
+        ];
         about_factors.into_iter().chain(about_place).flatten()
     };
     outcomes.iter().flat_map(of_tip).collect()
@@ -40,6 +44,9 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
 
 /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
 /// the denominator; NaN where that is zero, or without rings.
+///
+/// A check that the integrals agree, and no estimate of the error of K: all radii see the same field, and
+/// most of its error enters them alike. Errors a hundred times as large are common.
 #[must_use]
 pub fn relative_spread(intensity: &TipIntensity) -> f64 {
     largest_difference(intensity) / intensity.k1.hypot(intensity.k2)
@@ -72,8 +79,8 @@ fn negative(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
 fn spread(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
     let spread = largest_difference(factors) / size(outcome, factors);
     let message = format!(
-        "tip {}: the values at three radii differ by {} %; use smaller cells there, and look for \
-         loads or materials that vary near the tip",
+        "tip {}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
+         which may be larger); use smaller cells there",
         shown(outcome.at),
         short((1e3 * spread).round() / 10.0)
     );
@@ -117,6 +124,20 @@ fn little_room(outcome: &Outcome) -> Option<Warning> {
         );
         warning(kind::LITTLE_ROOM, Some(outcome.at), [room, ample], message)
     })
+}
+
+fn near_interface(outcome: &Outcome) -> Option<Warning> {
+    let (distance, ample) = (outcome.interface?, AMPLE_ROOM * outcome.cell);
+    outcome.factors.as_ref()?;
+    let message = format!(
+        "tip {}: an interface of two materials passes at a distance of {} cells, and the factors may be \
+         off by {}; use cells of at most {} there, and a `kink` along the interface",
+        shown(outcome.at),
+        short((100.0 * distance / outcome.cell).round() / 100.0),
+        if distance < 0.5 * outcome.cell { "several %" } else { "1 %" },
+        short(distance / AMPLE_ROOM)
+    );
+    Some(warning(kind::NEAR_INTERFACE, Some(outcome.at), [distance, ample], message))
 }
 
 fn near_border(outcome: &Outcome, length: f64) -> Option<Warning> {

@@ -1,9 +1,9 @@
 //! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::PI;
 use std::path::Path;
 
-use ppum::dataset::{Dataset, Elasticity, Equation, Material, StressState};
+use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::formula::Formula;
 use ppum::function::WESTERGAARD;
@@ -11,8 +11,8 @@ use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::norms::norms;
 use ppum_solve::problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Enrichment, Expression,
-    LocalEnrichment, Order, Problem, Region, Site,
+    BorderPart, BoundaryCondition, Cells, Condition, Edge, Enrichment, LocalEnrichment, Order,
+    Problem, Region, Site,
 };
 use ppum_solve::solve::solve;
 use ppum_solve::space::{Space, discretise};
@@ -361,32 +361,6 @@ fn built_in_and_own_tip_functions_are_one() {
         step
     };
     assert_eq!(step(&built_in), step(&own));
-}
-
-/// The discs of the stress intensity factors end at an interface of two materials.
-#[test]
-fn discs_end_at_interfaces() {
-    let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    let plate = Problem::elasticity(SQUARE, steel, Discretization::new(Cells::Level(3)))
-        .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
-        .with_boundary(Edge::Bottom, pull(-1.0))
-        .with_boundary(Edge::Top, pull(1.0));
-    let check = |young: &str, expected: &[f64]| {
-        let young: Expression = young.parse().expect("a formula");
-        let elasticity = Elasticity { young, poisson: 0.3.into(), ..steel.into() };
-        let plate = Problem { equation: Equation::Elasticity(elasticity), ..plate.clone() };
-        let intensities = solved(&plate).steps.remove(0).intensities;
-        assert_eq!(intensities.len(), expected.len());
-        for (tip, radius) in intensities.iter().zip(expected) {
-            // the largest ring has 0.9 of the free radius
-            assert!((tip.rings[2].r2 - 0.9 * radius).abs() < 1e-12, "{:?}", tip.rings);
-        }
-    };
-    check("1", &[0.5, 0.5]);
-    check("if(x - y > 0.7, 3, 1)", &[0.5, 0.2 * FRAC_1_SQRT_2]);
-    // a tip on the interface has no factors
-    check("if(x > 0.5, 3, 1)", &[0.5]);
 }
 
 /// Functions that a space cannot hold are named, with the place.

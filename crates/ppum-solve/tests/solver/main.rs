@@ -5,6 +5,7 @@ mod corners;
 mod examples;
 mod faces;
 mod formulas;
+mod graded;
 mod holes;
 mod intensity;
 mod kernels;

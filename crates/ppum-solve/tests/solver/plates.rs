@@ -2,7 +2,7 @@
 
 use crate::studies::plates::{
     Plate, centre_crack, centre_cracks, collinear_cracks, edge_cracks, end_shear, kinked_in_plane,
-    slanted_cracks, stacked_cracks,
+    oblique_crack, slanted_cracks, stacked_cracks,
 };
 use crate::studies::release::kinked_crack;
 use crate::studies::support::unknowns;
@@ -90,4 +90,15 @@ fn the_number_of_threads_does_not_matter() {
         plate
     };
     assert_eq!(solve_with(1), solve_with(2));
+}
+
+/// Higher orders lower the error in the energy norm of an oblique crack; its rates are in docs/validation.md.
+#[test]
+fn orders_beside_a_tip() {
+    let errors = [1, 2, 3].map(|order| oblique_crack(3, order).0);
+    println!("{errors:?}");
+    assert!(
+        errors[0] < 0.12 && errors[1] < 0.25 * errors[0] && errors[2] < 0.25 * errors[1],
+        "{errors:?}"
+    );
 }

@@ -66,7 +66,13 @@ impl TipProblem {
         self.problem_of(MATERIAL, field, set)
     }
 
-    fn problem_of(&self, material: Material, field: &Williams, set: Discretization) -> Problem {
+    /// The same in another material, which is the field's.
+    pub(crate) fn problem_of(
+        &self,
+        material: Material,
+        field: &Williams,
+        set: Discretization,
+    ) -> Problem {
         let back = self.tip.x - self.domain.min.x;
         let mouth = vec2(self.domain.min.x, self.tip.y - back * self.angle.tan());
         let plate = Problem::elasticity(self.domain, material, set);
