@@ -15,6 +15,7 @@ mod pieces;
 mod plates;
 mod positions;
 mod problem_files;
+mod random;
 mod reactions;
 #[path = "../studies/mod.rs"]
 mod studies;
