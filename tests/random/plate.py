@@ -283,7 +283,9 @@ class Plate:
     def text_of_hole(self, hole):
         if "radius" in hole:
             return f"[[hole]]\ncenter = {self.at(hole['center'])}\nradius = {self.length(hole['radius'])}\n"
-        return f"[[hole]]\npoints = {[self.at(p) for p in hole['points']]}\n"
+        points = [self.at(p) for p in hole["points"]]
+        # either direction is allowed
+        return f"[[hole]]\npoints = {points if len(points) % 2 else points[::-1]}\n"
 
 
 def rim(points):

@@ -20,6 +20,7 @@ import tempfile
 import tomllib
 
 import generate
+import shapes
 
 VALUES = pathlib.Path(__file__).parent / "values.json"
 # A reference has to be ten times as accurate as what it judges: K to 5e-3, energy to 1e-3.
@@ -28,6 +29,14 @@ K_LIMIT, ENERGY_LIMIT = 5e-4, 1e-4
 ACCURACIES = ("", "--order 12", "--order 14 --levels 14")
 SECONDS = 120
 NAMES = {name: getattr(math, name) for name in ("exp", "sin", "cos", "pi")}
+
+
+def counterclockwise(text, data):
+    """The file with the polygons of holes in this direction: the reference does not cut out others."""
+    for points in (hole["points"] for hole in data.get("hole", []) if "points" in hole):
+        if sum(a[0] * b[1] - a[1] * b[0] for a, b in shapes.segments(points, closed=True)) < 0:
+            text = text.replace(f"points = {points}", f"points = {points[::-1]}")
+    return text
 
 
 def run(program, file, options):
@@ -70,16 +79,16 @@ def size(tip, suffix=""):
 
 def doubt(found, k_scale):
     """How far the reference's own estimates are beyond the limits: at most 1 if it can judge."""
-    k = [size(t, "_error") / max(size(t), 0.1 * k_scale) / K_LIMIT for t in found["tips"] if "k1" in t]
+    k = [size(t, "_error") / max(size(t), 0.2 * k_scale) / K_LIMIT for t in found["tips"] if "k1" in t]
     return max([*k, found["energy_error"] / found["energy"] / ENERGY_LIMIT])
 
 
 def values(program, number, folder):
     """The values of a problem, or the reason to leave it out."""
     text = generate.problem(number)
-    file = pathlib.Path(folder) / f"{number:03}.toml"
-    file.write_text(text)
     data = tomllib.loads(text)
+    file = pathlib.Path(folder) / f"{number:03}.toml"
+    file.write_text(counterclockwise(text, data))
     first = text.splitlines()[0]
     told = first.removeprefix("# reference:").strip() if first.startswith("# reference:") else ""
     reason = ""

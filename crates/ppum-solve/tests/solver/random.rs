@@ -17,6 +17,9 @@ use crate::studies::support::solved;
 const K: f64 = 5e-3;
 const ENERGY: f64 = 1e-3;
 
+/// Smaller K than this part of the problem's scale of K, the strongest tip's or σ √(πa), are measured against it.
+const WEAK: f64 = 0.2;
+
 /// An estimate of an error is of the right size within this factor, either way.
 const FACTOR: f64 = 10.0;
 
@@ -68,14 +71,13 @@ fn known_error(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// |ΔK| / |K| with K = (K_I, K_II); weak tips are measured against a tenth of the problem's scale of K, that of
+/// |ΔK| / |K| with K = (K_I, K_II); weak tips are measured against a part of the problem's scale of K, that of
 /// its strongest tip or σ √(πa). Infinite for a tip without factors.
 fn error_of_k(tips: &[TipIntensity], known: &Value, scale: f64) -> f64 {
-    let is_it = |t: &&TipIntensity| {
-        known["crack"] == t.tip.crack && known["end"] == t.tip.end.name()
-    };
+    let is_it =
+        |t: &&TipIntensity| known["crack"] == t.tip.crack && known["end"] == t.tip.end.name();
     let [k1, k2] = ["k1", "k2"].map(|name| number(&known[name]));
-    let size = k1.hypot(k2).max(0.1 * scale);
+    let size = k1.hypot(k2).max(WEAK * scale);
     let error = |t: &TipIntensity| (t.k1 - k1).hypot(t.k2 - k2) / size;
     tips.iter().find(is_it).map_or(f64::INFINITY, |tip| known_error(error(tip)))
 }
