@@ -175,7 +175,10 @@ impl Case {
                 let [a, b] = [&edges, &faces].map(|field| value(field, name, p));
                 let apart = (a - b - expected).abs() / (1.0 + a.abs());
                 worst = worst.max(apart);
-                assert!(std::env::var("LOOSE").is_ok() || apart < EQUAL, "{name} at {p:?}: {apart:e} {self:?}");
+                assert!(
+                    std::env::var("LOOSE").is_ok() || apart < EQUAL,
+                    "{name} at {p:?}: {apart:e} {self:?}"
+                );
             }
         }
         println!("fields apart {worst:.1e}");
