@@ -117,8 +117,8 @@ impl Quadrature<'_> {
         normal: Vec2,
     ) -> Vec<EdgeRule> {
         let line = Line::new(cell.center(), [from, to], normal);
-        let ends = [from, to].map(|p| line.tangent.dot(p - line.anchor));
-        let inside = line.inside(cell, ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
+        let inside =
+            line.inside(cell, line.ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
         let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
         let left = Cell::new(MOST_DIVISIONS);
@@ -134,8 +134,9 @@ struct Line {
     tangent: Vec2,
     normal: Vec2,
     foot: Vec2,
-    /// The segment that the points are on.
+    /// The segment that the points are on, and s at its ends.
     segment: [Vec2; 2],
+    ends: [f64; 2],
 }
 
 impl Line {
@@ -145,7 +146,8 @@ impl Line {
         // the nearer end: the line passes through it but for the rounding of a short way
         let near = if from.length() < to.length() { from } else { to };
         let foot = tangent.left() * tangent.left().dot(near);
-        Self { anchor, tangent, normal, foot, segment }
+        let ends = [tangent.dot(from), tangent.dot(to)];
+        Self { anchor, tangent, normal, foot, segment, ends }
     }
 
     /// The part of \[ends\] inside a box, if it has a length. A line along a border is inside for a
@@ -161,8 +163,7 @@ impl Line {
                     return None;
                 }
             } else {
-                let slope = component(self.tangent, axis);
-                let [a, b] = [min, max].map(|at| (at - component(self.foot, axis)) / slope);
+                let [a, b] = [rect.min, rect.max].map(|p| self.crossing(axis, component(p, axis)));
                 (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
             }
         }
@@ -194,9 +195,15 @@ impl Line {
 
     /// s of the point whose coordinate along an axis is `at`; none on a line across the axis.
     fn parameter(&self, axis: usize, at: f64) -> Option<f64> {
-        let slope = component(self.tangent, axis);
-        let way = at - component(self.anchor, axis) - component(self.foot, axis);
-        (slope != 0.0).then(|| way / slope)
+        (component(self.tangent, axis) != 0.0).then(|| self.crossing(axis, at))
+    }
+
+    /// The same on a line that is not across the axis. Counted from the nearer end of the segment, so that
+    /// all cells find the same point, however small the angle to their border.
+    fn crossing(&self, axis: usize, at: f64) -> f64 {
+        let ways = self.segment.map(|end| at - component(end, axis));
+        let k = usize::from(ways[1].abs() < ways[0].abs());
+        self.ends[k] + ways[k] / component(self.tangent, axis)
     }
 
     /// s of a point's foot on the line, and the point's distance to the line.
