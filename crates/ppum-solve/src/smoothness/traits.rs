@@ -178,8 +178,12 @@ pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
             sets.push(crest);
         }
     }
-    let probe = degree.is_none().then(|| Probe::Load { formula: formula.clone(), mean });
-    Some(Traits { kinks: in_world(sets), probe, ..Traits::default() })
+    let kinks = in_world(sets);
+    // the sides of curves are looked at, too: rules of pieces with such sides are not exact
+    let curved = kinks.iter().any(|kink| matches!(kink, Kink::Curve(_)));
+    let is_probed = degree.is_none() || curved;
+    let probe = is_probed.then(|| Probe::Load { formula: formula.clone(), mean });
+    Some(Traits { kinks, probe, ..Traits::default() })
 }
 
 /// Sets of a formula of the plate's x and y.
