@@ -8,6 +8,7 @@ mod formulas;
 
 use std::collections::BTreeSet;
 
+use crate::cover::OVERLAP;
 use crate::crack::Crack;
 use crate::dataset::{
     Dataset, Equation, FieldData, MAX_DEGREE, Partition, Reaction, Step, TipIntensity, Warning,
@@ -171,6 +172,10 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     Ok(())
 }
 
+/// Stretch of a support over its cell below which strips of overlap are thinner than any cover's; a hair below
+/// the bound of covers, for rounding.
+const LEAST_STRETCH: f64 = 1.01 - 1e-9;
+
 fn check_partition(partition: &Partition) -> Checked {
     let n = partition.len();
     require(n > 0, "center", || "there is no patch".into())?;
@@ -193,6 +198,24 @@ fn check_partition(partition: &Partition) -> Checked {
     check_all("cell", &partition.cell, is_box, |c| {
         format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
     })?;
+    let strips = |(half, cell): (&Vec2, &Rect)| {
+        let size = cell.size();
+        [2.0 * half.x / size.x, 2.0 * half.y / size.y]
+    };
+    let stretches: Vec<_> = partition.half.iter().zip(&partition.cell).map(strips).collect();
+    let thin = |stretch: &f64| *stretch > 1.0 && *stretch < LEAST_STRETCH;
+    check_all(
+        "half",
+        &stretches,
+        |stretch| !stretch.iter().any(thin),
+        |[x, y]| {
+            format!(
+                "makes the support {x} × {y} times its cell: patches overlap in strips too thin for their \
+                 numbers, give them {} at least",
+                OVERLAP.start()
+            )
+        },
+    )?;
     let points = partition.points.len();
     check_all(
         "point",
@@ -452,6 +475,7 @@ mod tests {
         };
         assert_eq!(place(|p| p.half.clear()), "half");
         assert_eq!(place(|p| p.half[0].y = 0.0), "half[0]");
+        assert_eq!(place(|p| p.half[0].y = 0.5 * (1.0 + 1e-12)), "half[0]");
         assert_eq!(place(|p| p.scale[0].x = -1.0), "scale[0]");
         assert_eq!(place(|p| p.origin[0].x = f64::NAN), "origin[0]");
         assert_eq!(place(|p| p.cell[0].max.x = -1.0), "cell[0]");

@@ -1,5 +1,6 @@
 //! What the values of a problem must obey, whether it was read from a file or built in code.
 
+use ppum::cover::OVERLAP;
 use ppum::dataset::{Equation, MAX_DEGREE};
 use ppum::domain::Domain;
 use ppum::vec2::Rect;
@@ -154,9 +155,13 @@ fn check_discretization(problem: &Problem) -> Vec<Violation> {
         }
     };
     rule(
-        overlap > 1.0 && overlap < 2.0,
+        OVERLAP.contains(&overlap),
         "overlap",
-        format!("`overlap` is {overlap}, but 1 < α < 2; 1.3 to 1.5 is the useful range"),
+        format!(
+            "`overlap` is {overlap}, but must be {} to {}; 1.3 to 1.5 is the useful range",
+            OVERLAP.start(),
+            OVERLAP.end()
+        ),
     );
     rule(
         tip_degree <= MAX_DEGREE,

@@ -1,9 +1,10 @@
 //! All weights of the library.
 
+use ppum::cover::OVERLAP;
 use ppum::library::WEIGHTS;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
-use ppum_solve::problem::{Cells, Problem};
+use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{errors, solved};
@@ -32,5 +33,25 @@ fn every_weight_of_the_library_passes_the_patch_test() {
         let error = patch_test(weight, 2);
         println!("{}: {error:.1e}", entry.name);
         assert!(error < 5e-8, "{}: {error}", entry.name);
+    }
+}
+
+/// K_I of the centre crack at the bounds of the overlap, on cells graded to the tips: 1.6715603 (hpfem of order 10, and the
+/// series solution to 1e-7). α = 1.3 leaves 5e-6; 1 + 1e-12 gave K = 0.
+#[test]
+fn k_is_right_at_the_bounds_of_the_overlap() {
+    for alpha in [*OVERLAP.start(), *OVERLAP.end()] {
+        let mut set = Discretization::new(Cells::Level(3));
+        (set.order, set.overlap) = (Order::Uniform(4), alpha);
+        let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+        let problem = Problem::elasticity(SQUARE, MATERIAL, set)
+            .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
+            .with_boundary(Edge::Bottom, pull(-1.0))
+            .with_boundary(Edge::Top, pull(1.0));
+        for tip in &solved(&problem).steps[0].intensities {
+            let error = (tip.k1 / 1.671_560_3 - 1.0).hypot(tip.k2);
+            println!("α = {alpha}: K off by {error:.1e}");
+            assert!(error < 2e-5, "α = {alpha}: {error}");
+        }
     }
 }

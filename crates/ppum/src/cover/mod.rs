@@ -34,6 +34,7 @@ use crate::morton::morton;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use grid::{Grid, TreeCell};
+use std::ops::RangeInclusive;
 
 /// How often a root cell can be halved: a 10⁻⁹th of its width, finer than any cover needs.
 pub const MAX_LEVEL: u8 = 30;
@@ -44,12 +45,18 @@ pub const MAX_CELLS: usize = 1 << 24;
 /// Largest absolute value of a domain's coordinates: their products with grid indices stay finite.
 const MAX_COORDINATE: f64 = 1e280;
 
+/// Overlaps α that the numbers bear. ∇φ is of the size 1/((α − 1) h): below, the patches are glued along lines, which
+/// costs more of the accuracy than digits, and in the end all digits; above, patches meet the neighbours of their
+/// neighbours.
+pub const OVERLAP: RangeInclusive<f64> = 1.01..=1.99;
+
 /// Why a cover could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CoverError {
-    /// The overlap α is not in (1, 2).
-    #[error("overlap {0} is not between 1 and 2: 1.3 suits most problems")]
+    /// The overlap α is not in [`OVERLAP`].
+    #[error("overlap {0} is not between {least} and {most}: 1.3 suits most problems",
+        least = OVERLAP.start(), most = OVERLAP.end())]
     Overlap(f64),
     /// The domain is empty, not finite or too far out.
     #[error("the domain x {} … {}, y {} … {} is not a finite box with max above min",
@@ -252,9 +259,9 @@ impl Cover {
     /// polynomial frame is the patch: origin c_i, scale α h_i.
     ///
     /// # Errors
-    /// α not in (1, 2).
+    /// α not in [`OVERLAP`].
     pub fn partition(&self, alpha: f64, weight: WeightFunction) -> Result<Partition, CoverError> {
-        if !(alpha > 1.0 && alpha < 2.0) {
+        if !OVERLAP.contains(&alpha) {
             return Err(CoverError::Overlap(alpha));
         }
         let leaves = self.leaves();

@@ -251,7 +251,7 @@ fn flat_tops_exist_below_five_thirds() {
 #[test]
 fn what_cannot_be_is_said() {
     let cover = Cover::uniform(SQUARE, 1).unwrap();
-    for alpha in [1.0, 2.0, 0.0, f64::NAN] {
+    for alpha in [1.0, 1.0 + 1e-12, 1.0099, 1.9901, 2.0, 0.0, f64::NAN] {
         let error = cover.partition(alpha, WeightFunction::Linear).unwrap_err();
         assert!(matches!(error, CoverError::Overlap(_)));
     }

@@ -371,8 +371,8 @@ fn bad_values() {
             ("level = 4", "level = 4\norder = 9", 19, 9, "the order is 9"),
             ("max = [1.0, 1.0]", "max = [1e31, 1.0]", 4, 7, "choose another unit of length"),
             ("level = 4", "level = 4\nenrichment_radius = 1", 19, 21, "are only 1 apart"),
-            ("level = 4", "level = 4\noverlap = 1", 19, 11, "1 < α < 2"),
-            ("level = 4", "level = 4\noverlap = 2.0", 19, 11, "1 < α < 2"),
+            ("level = 4", "level = 4\noverlap = 1", 19, 11, "1.01 to 1.99"),
+            ("level = 4", "level = 4\noverlap = 2.0", 19, 11, "1.01 to 1.99"),
             ("level = 4", "level = 4\ntip_degree = 9", 19, 14, "must be 0 to 8"),
             ("level = 4", "level = 4\nenrichment_radius = 0", 19, 21, "must be positive"),
             (
