@@ -8,7 +8,7 @@
 
 use crate::batch::in_batches;
 use crate::eigen::{EigenError, SymmetricEigen};
-use crate::quadrature::EdgeRule;
+use crate::quadrature::{EdgeRule, Rule};
 use crate::shape::{ShapeEvaluator, Shapes};
 use crate::space::Space;
 use crate::system::Penalty;
@@ -19,6 +19,7 @@ use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// The stable basis of every patch.
 #[derive(Debug)]
@@ -35,8 +36,8 @@ impl StableBasis {
     /// Functions that are not finite.
     pub(crate) fn new(space: &Space<'_>) -> Result<Self, EigenError> {
         let grams = grams(space);
-        let transform = |(i, gram): (usize, &Mat<f64>)| {
-            Transform::new(gram.as_ref(), space.n_polynomials(i), CUT_OFF)
+        let transform = |(i, Gram { weighted, plain }): (usize, &Gram)| {
+            Transform::new(weighted.as_ref(), plain, space.n_polynomials(i), CUT_OFF)
         };
         let transforms: Vec<_> =
             grams.par_iter().enumerate().map(transform).collect::<Result<_, _>>()?;
@@ -175,27 +176,66 @@ impl<'s> BasisEvaluator<'s> {
     }
 }
 
-/// Per patch, the scalar Gram matrix M_i = ∫ ∇(φ_i ψ)·∇(φ_i ψ′) + h_i⁻² φ_i² ψ ψ′ over the domain.
-fn grams(space: &Space<'_>) -> Vec<Mat<f64>> {
+/// What the functions of a patch are measured by.
+#[derive(Clone, Debug)]
+struct Gram {
+    /// ∫ ∇(φψ)·∇(φψ′) + h⁻² φ² ψ ψ′
+    weighted: Mat<f64>,
+    /// ∫ h⁻² ψ²
+    plain: Vec<f64>,
+}
+
+impl Gram {
+    fn zero(functions: usize) -> Self {
+        Self { weighted: Mat::zeros(functions, functions), plain: vec![0.0; functions] }
+    }
+
+    fn add_part(&mut self, part: &Self) {
+        self.weighted += &part.weighted;
+        self.plain.iter_mut().zip(&part.plain).for_each(|(sum, part)| *sum += part);
+    }
+
+    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ = 1.
+    fn add(&mut self, shapes: &Shapes, range: Range<usize>, weights: &[f64], half: Vec2) {
+        let h2 = 1.0 / (half.x * half.y);
+        for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, h2)] {
+            let rows = shapes.rows(array, range.clone());
+            let sum = self.weighted.as_mut();
+            matmul(sum, Accum::Add, rows, rows.transpose(), factor, Par::Seq);
+        }
+        let rows = shapes.rows(&shapes.value, range);
+        for (q, weight) in weights.iter().enumerate().filter(|&(q, _)| rows[(0, q)] > LEAST) {
+            for (k, sum) in self.plain.iter_mut().enumerate() {
+                *sum += h2 * weight * (rows[(k, q)] / rows[(0, q)]).powi(2);
+            }
+        }
+    }
+}
+
+/// φ at which nothing of φψ is left but rounding.
+const LEAST: f64 = 1e-280;
+
+/// The Gram matrix of every patch, over the domain.
+fn grams(space: &Space<'_>) -> Vec<Gram> {
     let quadrature = space.quadrature(0);
-    let mut grams: Vec<_> = space.sizes.iter().map(|&n| Mat::<f64>::zeros(n, n)).collect();
+    let mut grams: Vec<_> = space.sizes.iter().map(|&n| Gram::zero(n)).collect();
     in_batches(
         space.partition.len(),
         || (ShapeEvaluator::new(space), Shapes::default()),
         |(evaluator, shapes), cell| {
             let coverers = &space.coverers[cell];
-            let size = |&p: &u32| space.sizes[p as usize];
-            let mut parts: Vec<_> = coverers.iter().map(|p| Mat::zeros(size(p), size(p))).collect();
+            let mut parts: Vec<_> =
+                coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
             for rule in quadrature.cell(&space.partition.cell[cell], coverers) {
                 evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
                 shapes.scale(&rule.weights);
-                add_grams(space, &rule.patches, coverers, shapes, &mut parts);
+                add_grams(space, &rule, coverers, shapes, &mut parts);
             }
             parts
         },
         |cell, parts| {
             for (&patch, part) in space.coverers[cell].iter().zip(&parts) {
-                grams[patch as usize] += part;
+                grams[patch as usize].add_part(part);
             }
         },
     );
@@ -205,22 +245,16 @@ fn grams(space: &Space<'_>) -> Vec<Mat<f64>> {
 /// Adds the points of shapes that carry the roots of the weights.
 fn add_grams(
     space: &Space<'_>,
-    patches: &[u32],
+    rule: &Rule,
     coverers: &[u32],
     shapes: &Shapes,
-    parts: &mut [Mat<f64>],
+    parts: &mut [Gram],
 ) {
     let mut first = 0;
-    for &patch in patches {
+    for &patch in &rule.patches {
         let range = first..first + space.sizes[patch as usize];
-        let half = space.partition.half[patch as usize];
-        let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
-        for (array, factor) in
-            [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, 1.0 / (half.x * half.y))]
-        {
-            let rows = shapes.rows(array, range.clone());
-            matmul(parts[k].as_mut(), Accum::Add, rows, rows.transpose(), factor, Par::Seq);
-        }
         first = range.end;
+        let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
+        parts[k].add(shapes, range, &rule.weights, space.partition.half[patch as usize]);
     }
 }

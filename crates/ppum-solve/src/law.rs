@@ -122,6 +122,12 @@ impl LawAt {
         self.tensor[i][i][i][i]
     }
 
+    /// λ: the stress along one axis of a unit stretch along the other.
+    #[must_use]
+    pub fn lambda(&self) -> f64 {
+        self.tensor[0][0][1][1]
+    }
+
     /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
     pub fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {

@@ -53,6 +53,7 @@ pub mod inspect;
 pub mod intensity;
 pub mod law;
 mod loads;
+pub mod locking;
 pub mod norms;
 mod pencil;
 mod pieces;

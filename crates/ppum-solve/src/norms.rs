@@ -66,6 +66,37 @@ pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -
     parts.iter().map(|part| 0.5 * part.energy).sum()
 }
 
+/// Σ ∫ λ (div u − d)² over the cells, d the mean of div u in the cell, weighted with λ, over ∫ σ:ε: the part of the energy
+/// that the fluctuation of the volume within cells stores.
+///
+/// # Panics
+/// If the field is not of the step of `space`.
+#[must_use]
+pub(crate) fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
+    let add = |sum: &mut Volume, at: &Place, u: &[Jet<f64>; 2], weight| {
+        sum.norms.add(&at.law, u, weight);
+        let (lambda, d) = (weight * at.law.lambda(), u[0].x + u[1].y);
+        sum.lambda += lambda;
+        sum.mean += lambda * d;
+        sum.square += lambda * d * d;
+    };
+    let parts = over_cells(field, space, 0, add);
+    let of_cell = |v: &Volume| match v.lambda {
+        0.0 => 0.0,
+        lambda => (v.square - v.mean * v.mean / lambda).max(0.0),
+    };
+    parts.iter().map(of_cell).sum::<f64>() / parts.iter().map(|v| v.norms.energy).sum::<f64>()
+}
+
+/// Sums over a cell of λ, λ div u and λ (div u)².
+#[derive(Default)]
+struct Volume {
+    norms: Norms,
+    lambda: f64,
+    mean: f64,
+    square: f64,
+}
+
 /// A point of integration.
 struct Place {
     anchor: Vec2,

@@ -13,7 +13,7 @@ use crate::rigid::PerMotion;
 use crate::space::{Space, SpaceError, discretise};
 pub use crate::spectrum::Spectrum;
 use crate::system::{System, Unresolved, assemble, slivers};
-use crate::warnings::{judge, of_quadrature};
+use crate::warnings::{judge, of_quadrature, rounding};
 use ppum::dataset::{Attribute, Dataset, Reaction, Record, Step};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
@@ -99,7 +99,7 @@ pub enum SolveError {
 /// twice`, patches that hold several runs of one crack and so glue two of their parts together (use smaller
 /// cells there); `nitsche`, the largest penalty β of a cell in units of stiffness over cell width, 3 to 36
 /// in whole cells and more in slivers; `pieces` and their `free motions`; `quadrature points` of the
-/// system's integrals.
+/// system's integrals; `rounding`, the relative error of stresses evaluated in double precision, see [`rounding`].
 ///
 /// # Errors
 /// See [`SolveError`].
@@ -116,11 +116,13 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     let value = stored_energy(&dataset)?;
     dataset.steps[0].history.push(Record { name: "energy".into(), value, unit: String::new() });
     let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
+    let (rounding, _) = rounding(&dataset, 0)?;
     clock.lap(Phase::Intensity);
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
     step.warnings = warnings;
     step.warnings.extend(of_quadrature(&unresolved));
+    step.history.push(Record { name: "rounding".into(), value: rounding, unit: String::new() });
     step.history.extend(clock.records);
     Ok(dataset)
 }

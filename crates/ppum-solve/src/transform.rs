@@ -5,7 +5,7 @@
 //! enrichments E after them,
 //!
 //! ```text
-//! M_kl = ∫ ∇(φ ψ_k)·∇(φ ψ_l) + h⁻² φ² ψ_k ψ_l dx,     D = diag(M)^−½,     M ← D M D
+//! M_kl = ∫ ∇(φ ψ_k)·∇(φ ψ_l) + h⁻² φ² ψ_k ψ_l dx,     D = diag(M)^−½, for E ≤ κ/n,     M ← D M D
 //! M_PP = U Λ Uᵀ,   keep λ > ε λ_max,   T_P = Λ^−½ Uᵀ
 //! Q    = T_P M_PE
 //! S    = M_EE − Qᵀ Q = U Λ Uᵀ,   keep λ > ε,   T_E = Λ^−½ Uᵀ [−Qᵀ T_P | I]
@@ -16,7 +16,13 @@
 //! coefficients are u = Tᵀ ũ. An enrichment is
 //! cut off only if the polynomials and the other enrichments reproduce it, polynomials never give
 //! way to enrichments. The limit of the Schur complement S is absolute because its functions have
-//! norm one after the scaling.
+//! norm one after the scaling, or less:
+//!
+//! A crack may leave a corner of the patch where φ is nearly nothing, the less the smoother the weight: a jump
+//! there has a tiny norm, and made to have norm one it gets coefficients that hide the field elsewhere, where
+//! they have to cancel. n² = ∫ h⁻² ψ² dx, without φ, tells such a function from one that is merely small: no
+//! function is scaled beyond κ/n, with κ = [`REACH`]. What φ reaches with less than √ε/κ is cut off, and
+//! coefficients are at most κ/(n √ε).
 //!
 //! The construction follows Schweitzer, "Stable enrichment and local preconditioning in the
 //! particle-partition of unity method", Numer. Math. 118 (2011), with another inner product: one
@@ -33,6 +39,13 @@ use crate::eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 /// eigenvalues, 1e−15. `docs/decisions/0002-stable-basis.md` has the measurements.
 pub(crate) const CUT_OFF: f64 = 1e-13;
 
+/// Ratio κ of the norms of ψ and of φψ beyond which an enrichment is out of φ's reach.
+///
+/// Large enough to leave alone whatever has a share in the solution, small enough to bound coefficients: those of
+/// a field of size one stay below κ/√ε times its error of discretisation. `docs/decisions/0002-stable-basis.md`
+/// has the measurements.
+pub(crate) const REACH: f64 = 100.0;
+
 /// Diagonal entries up to this fraction of the largest belong to functions that vanish on the
 /// patch. Smaller ones would ask for coefficients beyond 1e20, which single precision cannot hold.
 const VANISHING: f64 = 1e-40;
@@ -48,7 +61,8 @@ pub(crate) struct Transform {
 
 impl Transform {
     /// The transformation of a patch with the Gram matrix `gram` [n × n, symmetric], whose first
-    /// `n_polynomials` functions are the polynomials, with cut-off `eps` (usually [`CUT_OFF`]).
+    /// `n_polynomials` functions are the polynomials, with cut-off `eps` (usually [`CUT_OFF`]); `plain` are the
+    /// squares of the norms of the functions without φ, n².
     ///
     /// # Errors
     /// An entry of the Gram matrix that is not finite.
@@ -57,12 +71,16 @@ impl Transform {
     /// If `gram` is not square or has fewer than `n_polynomials` rows.
     pub(crate) fn new(
         gram: MatRef<'_, f64>,
+        plain: &[f64],
         n_polynomials: usize,
         eps: f64,
     ) -> Result<Self, EigenError> {
         let (n, p) = (gram.nrows(), n_polynomials);
         assert!(n == gram.ncols() && p <= n, "a square Gram matrix with the polynomials first");
-        let d = inverse_root_diagonal(gram, VANISHING);
+        let mut d = inverse_root_diagonal(gram, VANISHING);
+        for (d, n2) in d.iter_mut().zip(plain).skip(p).filter(|(d, _)| d.is_finite()) {
+            *d = d.min(REACH / n2.sqrt());
+        }
         let m = scaled(gram, &d);
         let polynomials = orthonormal_polynomials(m.submatrix(0, 0, p, p), eps)?;
         let enrichments = orthonormal_enrichments(m.as_ref(), polynomials.as_ref(), eps)?;
@@ -116,6 +134,12 @@ mod tests {
         &values * values.transpose() * faer::Scale(2.0 / count as f64)
     }
 
+    /// The transformation of functions that nothing multiplies.
+    fn within_reach(m: MatRef<'_, f64>, n_polynomials: usize) -> Result<Transform, EigenError> {
+        let plain: Vec<_> = (0..m.nrows()).map(|k| m[(k, k)]).collect();
+        Transform::new(m, &plain, n_polynomials, CUT_OFF)
+    }
+
     fn distance_to_identity(transform: &Transform, gram: &Mat<f64>) -> f64 {
         let t = &transform.matrix;
         (t * gram * t.transpose() - Mat::<f64>::identity(t.nrows(), t.nrows())).norm_max()
@@ -131,7 +155,7 @@ mod tests {
             &|x| x * (x - 0.3).signum(),
             &|x| (x + 1.0).sqrt(),
         ]);
-        let transform = Transform::new(m.as_ref(), 3, CUT_OFF).unwrap();
+        let transform = within_reach(m.as_ref(), 3).unwrap();
         assert_eq!(transform.dropped, 0);
         assert!(distance_to_identity(&transform, &m) < 1e-10);
         // The new polynomials are polynomials still.
@@ -142,7 +166,7 @@ mod tests {
     fn orthogonal_functions_are_only_scaled() {
         // Legendre polynomials, ∫ P_k² = 2 / (2k + 1), with exact entries.
         let m = Mat::from_fn(4, 4, |i, j| if i == j { 2.0 / (2 * i + 1) as f64 } else { 0.0 });
-        let transform = Transform::new(m.as_ref(), 2, CUT_OFF).unwrap();
+        let transform = within_reach(m.as_ref(), 2).unwrap();
         let squares = transform.matrix.transpose() * &transform.matrix;
         for k in 0..4 {
             assert!((squares[(k, k)] - (2 * k + 1) as f64 / 2.0).abs() < 1e-14);
@@ -154,7 +178,7 @@ mod tests {
         for distance in [0.0, 1e-13, 1e-7] {
             let m = gram(&[&|_| 1.0, &|x| x, &|x| 1.0 + distance * (7.0 * x).sin()]);
             for n_polynomials in [1, 2, 3] {
-                let transform = Transform::new(m.as_ref(), n_polynomials, CUT_OFF).unwrap();
+                let transform = within_reach(m.as_ref(), n_polynomials).unwrap();
                 assert_eq!((transform.matrix.nrows(), transform.dropped), (2, 1));
                 assert!(distance_to_identity(&transform, &m) < 1e-6);
             }
@@ -164,7 +188,7 @@ mod tests {
     #[test]
     fn a_function_at_a_distance_above_the_cut_off_is_kept() {
         let m = gram(&[&|_| 1.0, &|x| x, &|x| 1.0 + 1e-3 * (7.0 * x).sin()]);
-        let transform = Transform::new(m.as_ref(), 2, CUT_OFF).unwrap();
+        let transform = within_reach(m.as_ref(), 2).unwrap();
         assert_eq!(transform.dropped, 0);
         assert!(distance_to_identity(&transform, &m) < 1e-8);
     }
@@ -172,13 +196,13 @@ mod tests {
     #[test]
     fn functions_that_vanish_are_cut_off_wherever_they_stand() {
         let m = gram(&[&|_| 1.0, &|_| 0.0, &|x| x, &|_| 0.0, &|x| x.abs(), &|x| 1e-25 * x.cos()]);
-        let transform = Transform::new(m.as_ref(), 3, CUT_OFF).unwrap();
+        let transform = within_reach(m.as_ref(), 3).unwrap();
         assert_eq!(transform.dropped, 3);
         assert!(distance_to_identity(&transform, &m) < 1e-12);
         for j in [1, 3, 5] {
             assert!(transform.matrix.col(j).iter().all(|&entry| entry == 0.0));
         }
-        let nothing = Transform::new(Mat::zeros(3, 3).as_ref(), 2, CUT_OFF).unwrap();
+        let nothing = within_reach(Mat::zeros(3, 3).as_ref(), 2).unwrap();
         assert_eq!((nothing.matrix.nrows(), nothing.matrix.ncols(), nothing.dropped), (0, 3, 3));
     }
 
@@ -189,7 +213,7 @@ mod tests {
                 (2, 2) => value,
                 _ => f64::from(u8::from(i == j)),
             });
-            assert!(Transform::new(m.as_ref(), 2, CUT_OFF).is_err());
+            assert!(within_reach(m.as_ref(), 2).is_err());
         }
     }
 
@@ -200,11 +224,28 @@ mod tests {
         let m = &factor * factor.transpose();
         let scales: Vec<f64> = (0..12).map(|k| 10.0_f64.powi(k - 6)).collect();
         let rescaled = scaled(m.as_ref(), &scales);
-        let plain = Transform::new(m.as_ref(), 7, CUT_OFF).unwrap();
-        let transform = Transform::new(rescaled.as_ref(), 7, CUT_OFF).unwrap();
+        let plain = within_reach(m.as_ref(), 7).unwrap();
+        let transform = within_reach(rescaled.as_ref(), 7).unwrap();
         assert_eq!((plain.dropped, transform.dropped), (0, 0));
         assert!(distance_to_identity(&transform, &rescaled) < 1e-9);
         let back = Mat::from_fn(12, 12, |k, j| transform.matrix[(k, j)] * scales[j]);
         assert!((back - &plain.matrix).norm_max() < 1e-7 * plain.matrix.norm_max());
+    }
+
+    /// Functions 1, x and what is left of a jump and of a jump times x where a factor takes all but `part` of it.
+    #[test]
+    fn a_function_out_of_reach_gets_no_large_coefficients() {
+        let bound = REACH / CUT_OFF.sqrt();
+        for part in [1.0, 1e-3, 1e-6, 1e-9, 1e-15] {
+            let jump = |x: f64| if x > 0.6 { 1.0 } else { 0.0 };
+            let m = gram(&[&|_| 1.0, &|x| x, &|x| part * jump(x), &|x| part * jump(x) * x]);
+            let plain: Vec<_> = [2.0, 2.0 / 3.0, 0.4, (1.0 - 0.216) / 3.0].into();
+            let transform = Transform::new(m.as_ref(), &plain, 2, CUT_OFF).unwrap();
+            let rows =
+                transform.matrix.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>());
+            let largest = rows.fold(0.0_f64, |most, entry| most.max(entry.abs()));
+            assert!(largest < 2.0 * bound, "{part}: {largest:e}");
+            assert_eq!(transform.dropped, if part > 1e-8 { 0 } else { 2 }, "{part}");
+        }
     }
 }

@@ -13,9 +13,10 @@ pub struct Discretization {
     pub cells: Cells,
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
-    /// Degree of the local polynomials.
+    /// Degree of the local polynomials. Problem files that give none get
+    /// [`default_order`](crate::locking::default_order).
     pub order: Order,
-    /// α: a patch is its cell enlarged by this factor, 1 < α < 2.
+    /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,
     /// The weight function.
     pub weight: WeightFunction,

@@ -5,16 +5,20 @@
 //! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset.
 
 mod corners;
+mod digits;
 mod faces;
 mod tips;
 
+pub use digits::{FEW_DIGITS, rounding};
 pub use tips::relative_spread;
 
 use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
+use crate::locking::locking;
 use crate::problem::Problem;
 use crate::space::Space;
 use crate::system::{Unresolved, face_load, source_at};
 use corners::of_corners;
+use digits::of_digits;
 use faces::of_faces;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Record, Step, Warning};
@@ -41,6 +45,8 @@ pub const LARGE_NITSCHE: f64 = 1e4;
 /// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and coefficients
 /// over a piece of a cell: quadrature aims at 1e-10.
 pub const LARGE_ERROR: f64 = 1e-6;
+/// Part of the energy that may be lost to locking.
+pub const LARGE_LOCKING: f64 = 2e-3;
 
 /// Words of the kinds of warnings.
 pub mod kind {
@@ -68,6 +74,10 @@ pub mod kind {
     pub const CUT_OFF: &str = "cut-off";
     /// A crack cuts a cell at a held edge into a sliver.
     pub const NITSCHE: &str = "nitsche";
+    /// Coefficients cancel, and few digits of the stresses remain.
+    pub const DIGITS: &str = "digits";
+    /// The order is too low for a plate that is nearly incompressible.
+    pub const LOCKING: &str = "locking";
     /// Patches remain that a crack, or the rim of a hole, crosses twice.
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
@@ -105,12 +115,25 @@ pub fn judge(
         warnings.extend(of_corners(problem, &field, &space, energy));
     }
     warnings.extend(of_history(field.step));
+    warnings.extend(of_digits(dataset, step)?);
+    warnings.extend(of_locking(&field, &space));
     Ok((tips, warnings))
 }
 
 /// A number of the solver's report.
 fn recorded(step: &Step, name: &str) -> Option<f64> {
     step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value)
+}
+
+/// The warning about an order too low for a plate that hardly changes its volume.
+fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
+    let lost = locking(field, space);
+    let message = format!(
+        "the plate is nearly incompressible, and polynomials of this order make it too stiff: about {} % of the \
+         energy is error; leave out `order`, or use order = 4 or more, or smaller cells",
+        short((1e4 * lost).round() / 1e2)
+    );
+    (lost > LARGE_LOCKING).then(|| warning(kind::LOCKING, None, [lost, LARGE_LOCKING], message))
 }
 
 /// The warnings about the solution as a whole, from the solver's report in the step's history.

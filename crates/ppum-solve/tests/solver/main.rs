@@ -7,6 +7,7 @@ mod faces;
 mod formulas;
 mod graded;
 mod holes;
+mod incompressible;
 mod intensity;
 mod kernels;
 mod loads;
@@ -17,6 +18,7 @@ mod positions;
 mod problem_files;
 mod random;
 mod reactions;
+mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
 mod warnings;

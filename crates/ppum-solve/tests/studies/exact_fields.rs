@@ -21,7 +21,8 @@ pub(crate) fn discretization(cells: Cells, order: usize) -> Discretization {
     set
 }
 
-fn expressions<const N: usize>(texts: [String; N]) -> Vec<Expression> {
+/// Formulas.
+pub(crate) fn expressions<const N: usize>(texts: [String; N]) -> Vec<Expression> {
     texts.iter().map(|t| Expression::parse(t).expect("a formula of the testkit")).collect()
 }
 

@@ -207,7 +207,8 @@ fn minus(p: Point, q: Vec2) -> Point {
     [p[0] - q.x, p[1] - q.y]
 }
 
-/// w(|s|); the derivative of |s| at 0 is +1.
+/// w(|s|); the derivative of |s| at 0 is +1. A weight by formula has the digits of f64: it multiplies sums,
+/// and cancels nowhere.
 fn spline(weight: &WeightFunction, s: Dual) -> Dual {
     let t = if s.v >= 0.0 { s } else { -s };
     let one = Dual::constant(1.0);
@@ -218,7 +219,10 @@ fn spline(weight: &WeightFunction, s: Dual) -> Dual {
         WeightFunction::Quadratic => rest * rest * 1.5,
         WeightFunction::Cubic if t.v <= 0.5 => one - t * t * 6.0 + t * t * t * 6.0,
         WeightFunction::Cubic => rest * rest * rest * 2.0,
-        other => panic!("no extended evaluation of {other:?}"),
+        formula => {
+            let [value, slope, _] = formula.spline(t.v.to_f64());
+            t.chain(value.into(), slope.into())
+        }
     }
 }
 

@@ -23,7 +23,8 @@ use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
-use super::{BorderPart, Problem, Solver, SolverKind, scopes};
+use super::{BorderPart, Order, Problem, Solver, SolverKind, scopes};
+use crate::locking::default_order;
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
@@ -178,6 +179,10 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
+    let mut discretization = discretization?;
+    if root.section("discretization").is_some_and(|section| !section.mentions("order")) {
+        discretization.order = Order::Uniform(default_order(&equation, &domain));
+    }
     Some(Problem {
         title: title.to_owned(),
         cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),
@@ -189,7 +194,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         quantities,
         tables,
         enrichments,
-        discretization: discretization?,
+        discretization,
         solver,
         text: None,
     })
