@@ -37,14 +37,19 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
-    let all: Vec<_> = (0..space.partition.len()).collect();
-    let parts = over_cells(field, space, &all, EXTRA, |sums: &mut [Norms; 3], at, u, weight| {
-        let e = exact(at.anchor, at.offset);
-        let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
-        for (sum, v) in sums.iter_mut().zip([*u, e, difference]) {
-            sum.add(&at.law, &v, weight);
-        }
-    });
+    let parts = over_cells(
+        field,
+        space,
+        &all_cells(space),
+        EXTRA,
+        |sums: &mut [Norms; 3], at, u, weight| {
+            let e = exact(at.anchor, at.offset);
+            let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
+            for (sum, v) in sums.iter_mut().zip([*u, e, difference]) {
+                sum.add(&at.law, &v, weight);
+            }
+        },
+    );
     parts.into_iter().fold([Norms::default(); 3], |a, b| {
         std::array::from_fn(|k| Norms { energy: a[k].energy + b[k].energy, l2: a[k].l2 + b[k].l2 })
     })
@@ -56,7 +61,7 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
-    energy_of(field, space, &(0..space.partition.len()).collect::<Vec<_>>())
+    energy_of(field, space, &all_cells(space))
 }
 
 /// The part of the [`energy`] in some cells, by their indices.
@@ -80,7 +85,7 @@ pub(crate) fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
         sum.mean += lambda * d;
         sum.square += lambda * d * d;
     };
-    let parts = over_cells(field, space, 0, add);
+    let parts = over_cells(field, space, &all_cells(space), 0, add);
     let of_cell = |v: &Volume| match v.lambda {
         0.0 => 0.0,
         lambda => (v.square - v.mean * v.mean / lambda).max(0.0),
@@ -95,6 +100,10 @@ struct Volume {
     lambda: f64,
     mean: f64,
     square: f64,
+}
+
+fn all_cells(space: &Space<'_>) -> Vec<usize> {
+    (0..space.partition.len()).collect()
 }
 
 /// A point of integration.

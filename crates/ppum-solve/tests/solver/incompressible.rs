@@ -113,7 +113,7 @@ fn manufactured(level: u32, order: usize) -> Errors {
 fn the_default_order_keeps_its_rate() {
     let found = [1, 2, 3].map(|level| manufactured(level, 4).energy);
     let rates = found.windows(2).map(|e| (e[0] / e[1]).log2());
-    println!("errors {found:.2e?}, rates {:.2?}", rates.clone().collect::<Vec<_>>());
+    println!("errors {found:?}, rates {:.2?}", rates.clone().collect::<Vec<_>>());
     assert!(rates.min_by(f64::total_cmp) > Some(3.8) && found[2] < 1e-3);
     assert!(manufactured(3, 1).energy > 1.0);
 }
