@@ -34,6 +34,8 @@ pub(crate) struct Enrichments<'p> {
     pub(crate) table: Vec<Function>,
     problem: &'p Problem,
     instances: Vec<Instance<'p>>,
+    /// Those of the problem's own among the instances.
+    own: Range<usize>,
 }
 
 /// Functions that go together.
@@ -55,6 +57,8 @@ enum Patches<'p> {
     Behind(TipId, f64),
     /// Those where the expression is positive.
     Where(Expression),
+    /// These, ascending.
+    Listed(Vec<u32>),
 }
 
 /// What patches can be near to.
@@ -69,6 +73,8 @@ enum Shape {
 enum Degree {
     /// That of the patch's smooth polynomials.
     OfPatch,
+    /// One less: the functions vanish like a distance.
+    BelowPatch,
     Fixed(u8),
     /// This degree on patches that hold the point, else 0.
     Holding(Vec2, u8),
@@ -89,7 +95,7 @@ struct Place {
 impl<'p> Enrichments<'p> {
     pub(crate) fn new(problem: &'p Problem) -> Self {
         let one = Function { name: "one".into(), kind: FunctionKind::One };
-        let mut all = Self { table: vec![one], problem, instances: Vec::new() };
+        let mut all = Self { table: vec![one], problem, instances: Vec::new(), own: 0..0 };
         let mode = problem.discretization.enrichment;
         if mode.has_jumps() {
             problem.cracks.iter().enumerate().for_each(|(k, crack)| all.add_jump(k, crack));
@@ -100,7 +106,9 @@ impl<'p> Enrichments<'p> {
         if mode == Enrichment::AdditiveOnly {
             all.extend_along_cracks();
         }
+        let first = all.instances.len();
         problem.enrichments.iter().for_each(|own| all.add(own));
+        all.own = first..all.instances.len();
         all
     }
 
@@ -151,6 +159,7 @@ impl<'p> Enrichments<'p> {
         for instance in self.instances.iter().filter(|new| patch.is_of(&new.patches)) {
             let degree = match instance.degree {
                 Degree::OfPatch => degree,
+                Degree::BelowPatch => degree.saturating_sub(1),
                 Degree::Fixed(degree) => degree,
                 Degree::Holding(p, inside) => {
                     if patch.holds(p) {
@@ -228,6 +237,7 @@ fn functions(new: &LocalEnrichment, place: &Place) -> Vec<Function> {
 
 /// A patch as the rules see it.
 struct Patch<'p> {
+    index: u32,
     cracks: &'p [Crack],
     holes: &'p [Hole],
     support: Rect,
@@ -241,6 +251,7 @@ impl<'p> Patch<'p> {
     fn new(partition: &Partition, patch: usize, problem: &'p Problem) -> Self {
         let (support, half) = (partition.support(patch), partition.half[patch]);
         Self {
+            index: patch as u32,
             cracks: &problem.cracks,
             holes: &problem.domain.holes,
             support,
@@ -266,6 +277,7 @@ impl<'p> Patch<'p> {
                     && self.is_cut(crack)
                     && self.nearest_tip(crack) == Some(tip.end)
             }
+            Patches::Listed(all) => all.binary_search(&self.index).is_ok(),
             Patches::Where(expression) => self.looks().any(|p| expression.value(p) > 0.0),
         }
     }
@@ -296,5 +308,7 @@ impl<'p> Patch<'p> {
     }
 }
 
+mod interfaces;
+pub(crate) use interfaces::KINK;
 #[cfg(test)]
 mod tests;

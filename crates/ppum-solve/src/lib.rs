@@ -51,6 +51,7 @@ mod enrichment;
 mod gauge;
 pub mod inspect;
 pub mod intensity;
+mod interfaces;
 pub mod law;
 mod loads;
 pub mod locking;

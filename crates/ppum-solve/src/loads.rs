@@ -8,7 +8,7 @@
 use crate::batch::in_batches;
 use crate::problem::{BoundaryCondition, Condition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Kink, Quadrature, Rule};
-use crate::smoothness::Smoothness;
+use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
 use crate::system::{border_rules, source_at};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -166,7 +166,7 @@ impl<R: Points> Load<'_, R> {
 
     fn extended(&self, space: &Space<'_>, mean: f64) -> Option<(Smoothness, Vec<Kink>)> {
         let data: Vec<_> = self.formulas.iter().map(|&formula| (formula, mean)).collect();
-        space.smoothness().with_data(&data)
+        space.smoothness().with_data(&box_of(space.partition), &data)
     }
 
     /// The rules that resolve the load up to parts of a mean; with a mean of zero those of the system, to

@@ -14,6 +14,7 @@ mod probe;
 mod tests;
 mod traits;
 
+use crate::interfaces::proportional;
 use crate::quadrature::{Geometry, Kink, Singular};
 use ppum::crack::Crack;
 use ppum::dataset::{Equation, FieldData, Partition, Step};
@@ -21,10 +22,15 @@ use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::formula::Table;
 use ppum::function::{Function, FunctionError};
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
+pub(crate) use probe::Probe;
 use probe::ProbeList;
 use std::sync::Arc;
+pub(crate) use traits::box_of;
 use traits::{Surroundings, Traits, traits_of_coefficient, traits_of_data};
+
+/// Part of the domain's size that two lines may be apart by rounding.
+const ROUNDING: f64 = 1e-14;
 
 /// Where a step is not smooth; owns what a [`Geometry`] borrows.
 #[derive(Clone, Debug, Default)]
@@ -68,12 +74,12 @@ impl Smoothness {
         for (index, function) in step.functions.iter().enumerate() {
             let traits = surroundings.traits(function).map_err(|e| FunctionError { index, ..e })?;
             degrees.push(traits.degree);
-            of_functions.push(all.add(traits));
+            of_functions.push(all.add(traits, &surroundings.domain));
         }
         let blocks = data.block_function.iter().zip(&data.block_degree);
         let degree = blocks.map(|(&function, &d)| usize::from(d) + degrees[function as usize]);
         all.degree = degree.max().unwrap_or(0);
-        all.add_coefficients(equation);
+        all.add_coefficients(equation, &surroundings.domain);
         for patch in 0..step.partition.len() {
             let functions = data.blocks(patch).map(|b| data.block_function[b] as usize);
             let of_patch: Vec<_> = functions.map(|function| &of_functions[function]).collect();
@@ -92,7 +98,11 @@ impl Smoothness {
 
     /// The same for integrals with data, each with the mean of its absolute value, and where the data are
     /// not smooth; none if they are polynomials.
-    pub(crate) fn with_data(&self, data: &[(&Expression, f64)]) -> Option<(Self, Vec<Kink>)> {
+    pub(crate) fn with_data(
+        &self,
+        domain: &Rect,
+        data: &[(&Expression, f64)],
+    ) -> Option<(Self, Vec<Kink>)> {
         let all = data.iter().filter_map(|(data, mean)| traits_of_data(data, *mean));
         let all: Vec<Traits> = all.collect();
         if all.is_empty() {
@@ -101,7 +111,7 @@ impl Smoothness {
         let (mut extended, mut places) = (self.clone(), Vec::new());
         for traits in all {
             places.extend(traits.kinks.iter().cloned());
-            let Indices { kinks, probes, .. } = extended.add(traits);
+            let Indices { kinks, probes, .. } = extended.add(traits, domain);
             extended.common_kinks.extend(kinks);
             extended.common_probes.extend(probes);
         }
@@ -134,7 +144,17 @@ impl Smoothness {
         self.degree
     }
 
-    fn add(&mut self, traits: Traits) -> Indices {
+    /// The index of a kink, of an equal one if there is one: a curve that several functions have in common
+    /// is cut along once.
+    fn add_kink(&mut self, new: Kink, domain: &Rect) -> u32 {
+        let known = self.kinks.iter().position(|known| same(known, &new, domain));
+        known.unwrap_or_else(|| {
+            self.kinks.push(new);
+            self.kinks.len() - 1
+        }) as u32
+    }
+
+    fn add(&mut self, traits: Traits, domain: &Rect) -> Indices {
         let singular = traits.singular.into_iter().map(|new| {
             let known = self.singular.iter().position(|known| *known == new);
             let index = known.unwrap_or(self.singular.len());
@@ -144,23 +164,42 @@ impl Smoothness {
             index as u32
         });
         let singular = singular.collect();
-        let first = self.kinks.len() as u32;
-        self.kinks.extend(traits.kinks);
-        let kinks = (first..self.kinks.len() as u32).collect();
+        let mut kinks: Vec<u32> =
+            traits.kinks.into_iter().map(|kink| self.add_kink(kink, domain)).collect();
+        kinks.sort_unstable();
+        kinks.dedup();
         let first = self.probes.0.len() as u32;
         self.probes.0.extend(traits.probe);
         let probes = (first..self.probes.0.len() as u32).collect();
         Indices { singular, kinks, probes }
     }
 
-    fn add_coefficients(&mut self, equation: &Equation) {
+    fn add_coefficients(&mut self, equation: &Equation, domain: &Rect) {
         for (_, coefficient) in equation.constants() {
             let traits = traits_of_coefficient(coefficient);
             self.degree += traits.degree.div_ceil(2);
-            let Indices { kinks, probes, .. } = self.add(traits);
+            let Indices { kinks, probes, .. } = self.add(traits, domain);
             self.common_kinks.extend(kinks);
             self.common_probes.extend(probes);
         }
+    }
+}
+
+/// True if two kinks are the same line, segment or curve.
+fn same(known: &Kink, new: &Kink, domain: &Rect) -> bool {
+    match (known, new) {
+        (Kink::Line([a, b]), Kink::Line(line)) => {
+            let reach = ROUNDING * domain.size().length();
+            let c = domain.center();
+            let foot = *a + (*b - *a) * ((c - *a).dot(*b - *a) / (*b - *a).dot(*b - *a));
+            let way = (*b - *a).unit() * domain.size().length();
+            let [p, q] = line;
+            let off = |x: Vec2| (x - *p).cross((*q - *p).unit()).abs();
+            off(foot) <= reach && off(foot + way) <= reach
+        }
+        (Kink::Segment(a), Kink::Segment(b)) => a == b,
+        (Kink::Curve(f), Kink::Curve(g)) => proportional(f.as_ref(), g.as_ref(), domain),
+        _ => false,
     }
 }
 

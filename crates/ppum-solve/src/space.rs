@@ -189,7 +189,8 @@ pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
     let partition =
         cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
     let partition = solid_part(partition, &problem.domain.holes)?;
-    let enrichments = Enrichments::new(problem);
+    let mut enrichments = Enrichments::new(problem);
+    enrichments.add_interfaces(&partition).map_err(InspectError::from)?;
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
         let degree = set.order.at(partition.center[patch])? as u8;

@@ -22,6 +22,8 @@ pub struct Discretization {
     pub weight: WeightFunction,
     /// Where the local spaces are enriched.
     pub enrichment: Enrichment,
+    /// Resolve jumps of the material: kinks of the solution on patches that an interface cuts.
+    pub interfaces: bool,
     /// Radius of the zone around each tip; `None` for
     /// [the default](super::Problem::enrichment_radius).
     pub enrichment_radius: Option<f64>,
@@ -52,7 +54,7 @@ pub enum Order {
 /// Which functions the local spaces hold beside polynomials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Enrichment {
-    /// None: the crack is not seen.
+    /// None: neither cracks nor interfaces are seen.
     None,
     /// Jumps on patches cut through, nothing at tips: leaves them to
     /// [`LocalEnrichment`](super::LocalEnrichment).
@@ -79,6 +81,7 @@ impl Discretization {
             overlap: 1.3,
             weight: WeightFunction::default(),
             enrichment: Enrichment::default(),
+            interfaces: true,
             enrichment_radius: None,
             tip_degree: 1,
         }

@@ -130,7 +130,7 @@ struct Curve<'c> {
 }
 
 /// False if samples say that the curve stays well away from a rectangle.
-pub(super) fn may_meet(level: &Level, rect: &Rect) -> bool {
+pub(crate) fn may_meet(level: &Level, rect: &Rect) -> bool {
     let corners = [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)];
     let chart = Rc::new(Chart::Quadrilateral(corners.map(|p| p - rect.min)));
     let level = LevelOn { chart, anchor: rect.min, level };

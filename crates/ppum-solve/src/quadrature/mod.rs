@@ -40,6 +40,7 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use curve::may_meet;
 pub use doubt::Doubt;
 pub use edge::{EdgeRule, Face};
 pub(crate) use gauss::closed;

@@ -4,6 +4,8 @@
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
 //!   half the room that its stress intensity is found in, and half the distance to the next interface of two
 //!   materials.
+//! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
+//!   unless the problem has functions of its own: the field is singular there.
 //! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
 //!   the side, for the three or more parts it is cut into, two of which would be glued together. Nor by the rim
 //!   of a polygon, for whose two sides it has no functions of their own.
@@ -18,7 +20,8 @@ mod ligament;
 use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
 use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
-use crate::problem::{Cells, Problem};
+use crate::interfaces::Interfaces;
+use crate::problem::{Cells, Enrichment, Problem};
 use graded::graded;
 use ligament::ligaments;
 use ppum::cover::{Cover, CoverError};
@@ -45,6 +48,10 @@ const NEAR: f64 = 0.75;
 /// Cells at a tip that are not refined further for little room around it, in the same measure: tips
 /// nearly at the border or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
+
+/// Levels by which cells are refined at singular points of interfaces. Of r^λ with λ ≈ 0.8 each takes two
+/// thirds of the error of the energy away.
+const AT_INTERFACES: u8 = 3;
 
 /// Lengths below this part of the domain's size are rounding of the end of a crack on a rim.
 const BEYOND: f64 = 1e-8;
@@ -78,19 +85,32 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
     let graded = graded(problem, &corners(problem), cover.n_cells(), largest);
     let ligaments = ligaments(problem, largest);
     let alpha = problem.discretization.overlap;
+    let interfaces = Interfaces::new(&problem.equation, &problem.domain);
+    let are_resolved = resolves_interfaces(problem);
+    let base = cover.cells().iter().map(|(_, level)| *level).min().unwrap_or(0);
     for _ in 0..DEEPEST {
-        let asks = |cell: Rect, _| {
+        let asks = |cell: Rect, level: u8| {
             let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
             needs.iter().any(|need| need.asks(&cell, &patch))
                 || graded.iter().any(|graded| graded.asks(&cell))
                 || ligaments.iter().any(|ligament| ligament.asks(&cell))
                 || is_crossed_twice(problem, &patch, LEAST_GAP)
+                || (are_resolved && level < base + AT_INTERFACES && {
+                    let part = patch.intersection(&problem.domain.bounds);
+                    interfaces.trouble(&part, &problem.cracks).is_some()
+                })
         };
         if cover.refine(asks)? == 0 {
             return Ok(cover);
         }
     }
     Err(RefineError::Unresolved)
+}
+
+/// True if the program resolves interfaces of materials.
+pub(crate) fn resolves_interfaces(problem: &Problem) -> bool {
+    let set = &problem.discretization;
+    set.interfaces && set.enrichment != Enrichment::None && problem.enrichments.is_empty()
 }
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {

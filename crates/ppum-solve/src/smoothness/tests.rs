@@ -4,7 +4,7 @@ use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::formula::{Formula, Scope, Table};
 use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -56,7 +56,13 @@ fn surroundings() -> Surroundings<'static> {
         points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0), vec2(1.0, 1.0)],
         ends: [CrackEnd::Mouth, CrackEnd::Tip],
     };
-    Surroundings { cracks: vec![kinked].into(), tables: &[], reach: 10.0, scale: 0.1 }
+    Surroundings {
+        cracks: vec![kinked].into(),
+        tables: &[],
+        domain: Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0)),
+        reach: 10.0,
+        scale: 0.1,
+    }
 }
 
 fn traits(text: &str, frame: Frame) -> Traits {

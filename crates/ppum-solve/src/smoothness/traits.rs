@@ -5,7 +5,7 @@ use super::pieces::{Pieces, rays};
 use super::probe::Probe;
 use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::Crack;
-use ppum::dataset::Step;
+use ppum::dataset::{Partition, Step};
 use ppum::expression::Expression;
 use ppum::formula::{self, Formula, Table};
 use ppum::function::{
@@ -41,21 +41,29 @@ impl Traits {
 pub(super) struct Surroundings<'s> {
     pub(super) cracks: Arc<[Crack]>,
     pub(super) tables: &'s [Arc<Table>],
+    /// What the cells cover.
+    pub(super) domain: Rect,
     /// A length longer than the domain.
     pub(super) reach: f64,
     /// Half the width of the smallest patch.
     pub(super) scale: f64,
 }
 
+/// The box of all cells.
+pub(crate) fn box_of(partition: &Partition) -> Rect {
+    let first = partition.cell.first().copied().unwrap_or(Rect::new(Vec2::ZERO, Vec2::ZERO));
+    partition.cell.iter().fold(first, |all, cell| all.union(cell))
+}
+
 impl<'s> Surroundings<'s> {
     pub(super) fn new(step: &Step, tables: &'s [Arc<Table>]) -> Self {
         let partition = &step.partition;
-        let first = partition.cell.first().copied().unwrap_or(Rect::new(Vec2::ZERO, Vec2::ZERO));
-        let domain = partition.cell.iter().fold(first, |all, cell| all.union(cell));
+        let domain = box_of(partition);
         let halves = partition.half.iter().map(|half| half.x.min(half.y));
         Self {
             cracks: step.cracks.as_slice().into(),
             tables,
+            domain,
             reach: 2.0 * domain.size().length(),
             scale: halves.fold(f64::INFINITY, f64::min),
         }

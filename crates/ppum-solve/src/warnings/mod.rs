@@ -7,6 +7,7 @@
 mod corners;
 mod digits;
 mod faces;
+mod interfaces;
 mod tips;
 
 pub use digits::{FEW_DIGITS, rounding};
@@ -20,6 +21,7 @@ use crate::system::{Unresolved, face_load, source_at};
 use corners::of_corners;
 use digits::of_digits;
 use faces::of_faces;
+use interfaces::of_interfaces;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::field::{Field, FieldError};
@@ -74,6 +76,8 @@ pub mod kind {
     pub const CUT_OFF: &str = "cut-off";
     /// A crack cuts a cell at a held edge into a sliver.
     pub const NITSCHE: &str = "nitsche";
+    /// Interfaces of materials are not resolved somewhere.
+    pub const INTERFACE: &str = "interface";
     /// Coefficients cancel, and few digits of the stresses remain.
     pub const DIGITS: &str = "digits";
     /// The order is too low for a plate that is nearly incompressible.
@@ -114,6 +118,7 @@ pub fn judge(
     if let Some((problem, energy)) = problem.zip(recorded(field.step, "energy")) {
         warnings.extend(of_corners(problem, &field, &space, energy));
     }
+    warnings.extend(of_interfaces(&field, dataset));
     warnings.extend(of_history(field.step));
     warnings.extend(of_digits(dataset, step)?);
     warnings.extend(of_locking(&field, &space));

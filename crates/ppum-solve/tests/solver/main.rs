@@ -9,6 +9,7 @@ mod graded;
 mod holes;
 mod incompressible;
 mod intensity;
+mod interfaces;
 mod kernels;
 mod loads;
 mod physics;

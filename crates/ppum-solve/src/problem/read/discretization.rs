@@ -13,7 +13,7 @@ use super::super::{points, scopes};
 use super::Files;
 use super::enrichment::is_word;
 
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "level",
     "cells",
     "points",
@@ -22,6 +22,7 @@ const KEYS: [&str; 10] = [
     "overlap",
     "weight",
     "enrichment",
+    "interfaces",
     "enrichment_radius",
     "tip_degree",
 ];
@@ -48,6 +49,7 @@ pub(super) fn discretization(
     replace(&mut new.overlap, number("overlap"));
     replace(&mut new.weight, get("weight").and_then(|value| weight(&value, tables)));
     replace(&mut new.enrichment, get("enrichment").and_then(|value| value.choice(&enrichments)));
+    replace(&mut new.interfaces, get("interfaces").and_then(|value| value.boolean()));
     new.enrichment_radius = number("enrichment_radius");
     replace(&mut new.tip_degree, whole("tip_degree").map(|degree| degree as usize));
     Some(Discretization { cells: cells?, ..new })

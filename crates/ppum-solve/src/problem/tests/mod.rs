@@ -137,7 +137,7 @@ fn everything_said() {
         &edited(PLATE, "title = \"Centre crack\"\n", "[solver]\nkind = \"direct\"\n"),
         "level = 4",
         "cells = [3, 5]\nrefine = false\norder = \"if(x > 0, 2.4, 1.5)\"\noverlap = 1.5\nweight = \"cubic\"\n\
-         enrichment = \"additive-only\"\nenrichment_radius = 0.2\ntip_degree = 0",
+         enrichment = \"additive-only\"\nenrichment_radius = 0.2\ntip_degree = 0\ninterfaces = false",
     );
     let problem = good(&text);
     let discretization = &problem.discretization;
@@ -151,6 +151,7 @@ fn everything_said() {
         overlap: 1.5,
         weight: WeightFunction::Cubic,
         enrichment: Enrichment::AdditiveOnly,
+        interfaces: false,
         enrichment_radius: Some(0.2),
         tip_degree: 0,
     };
