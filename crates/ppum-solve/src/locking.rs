@@ -58,14 +58,17 @@ pub fn default_order(equation: &Equation, domain: &Domain) -> usize {
     if stiffness_ratio(equation, domain) > STIFF { FREE } else { 2 }
 }
 
-/// Estimated part of a solution's energy that is lost to locking; zero where the plate is compressible.
+/// Estimated part of a solution's energy that is lost to locking; zero where the plate is compressible, and where
+/// no polynomials of low order are.
 ///
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn locking(field: &Field<'_>, space: &Space<'_>) -> f64 {
     let ratio = stiffness_ratio(field.equation, field.domain);
-    if ratio <= STIFF {
+    let (data, n_patches) = (space.data, space.partition.len());
+    let order = |patch: usize| usize::from(data.block_degree[data.blocks(patch).start]);
+    if ratio <= STIFF || (0..n_patches).all(|patch| order(patch) >= FREE) {
         return 0.0;
     }
     -(-0.5 * fluctuation(field, space) * ratio.ln()).exp_m1()

@@ -21,7 +21,7 @@ use sectors::{Sector, Surroundings};
 /// Lengths below this part of the domain's longer side count as zero, as they do for cracks.
 const TOUCH: f64 = 1e-9;
 
-/// What takes the place of 1 − λ where a load ends: u ~ r ln r.
+/// What takes the place of 1 − λ where loads jump.
 const LOGARITHM: f64 = 0.3;
 
 /// A singular point.
@@ -38,7 +38,7 @@ pub(crate) struct Corner {
 }
 
 impl Corner {
-    /// How much of the field around the point is not smooth: 1 − λ, and a constant where loads begin.
+    /// How much of the field around the point is not smooth: 1 − λ, and a constant where loads jump.
     pub(crate) fn weakness(&self) -> f64 {
         match self.nature {
             Nature::Load => LOGARITHM,
@@ -56,7 +56,8 @@ pub(crate) enum Nature {
     Corner,
     /// The end of what is held.
     Support,
-    /// The end of a loaded piece of an edge, where u ~ r ln r.
+    /// Loads that no uniform stress has: a loaded piece of an edge ends, or a sheared side meets a free one.
+    /// u ~ r ln r, or r times a function of the angle.
     Load,
 }
 
@@ -67,7 +68,7 @@ impl Nature {
             Self::Kink(crack) => format!("the kink of crack {crack}"),
             Self::Corner => "the corner".into(),
             Self::Support => "the end of the support".into(),
-            Self::Load => "the end of the load".into(),
+            Self::Load => "the jump of the load".into(),
         }
     }
 }
@@ -91,12 +92,12 @@ pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
         let constants = Constants::at(&problem.equation, at);
         let exponents = sectors.iter().map(|sector| (smallest(sector, constants), sector));
         let (exponent, sector) = exponents.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let nature = match exponent < 1.0 {
-            true => nature(problem, sector, at, touch),
-            false => Nature::Load,
-        };
-        let singular = exponent < 1.0 || around.load_jumps(at, room);
-        singular.then_some(Corner { at, exponent, room, nature })
+        if exponent < 1.0 {
+            let nature = nature(problem, sector, at, touch);
+            return Some(Corner { at, exponent, room, nature });
+        }
+        let unfit = sectors.iter().any(|sector| is_unfit(sector, problem.components()));
+        unfit.then_some(Corner { at, exponent, room, nature: Nature::Load })
     };
     places.iter().filter_map(corner).collect()
 }
@@ -113,6 +114,24 @@ impl Constants {
     fn at(equation: &Equation, p: Vec2) -> Self {
         equation.elastic().map_or(Self::Poisson, |elastic| Self::Elastic(elastic.at(p).kolosov()))
     }
+}
+
+/// Part of the loads at a point by which they may differ from those of a uniform stress.
+const UNFIT: f64 = 1e-9;
+
+/// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ n₂ need
+/// n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a straight border.
+fn is_unfit(sector: &Sector, components: usize) -> bool {
+    let [n1, n2] = sector.normals();
+    let [t1, t2] = sector.load.map(Vec2::from);
+    let size = t1.length() + t2.length();
+    let is_straight = n1.cross(n2).abs() < UNFIT && n1.dot(n2) > 0.0;
+    let apart = match components {
+        _ if is_straight => (t1 - t2).length(),
+        1 => 0.0,
+        _ => (n2.dot(t1) - n1.dot(t2)).abs(),
+    };
+    sector.held == [[false; 2]; 2] && apart > UNFIT * size
 }
 
 fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {

@@ -1,6 +1,7 @@
 //! What the plate looks like around a point of its border: sectors of material between rays.
 
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
+use crate::problem::{BorderPart, Edge, Problem};
+use ppum::crack::Side;
 use ppum::domain::{Hole, segment_distance};
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
@@ -20,13 +21,51 @@ pub(super) struct Sector {
     pub(super) opening: f64,
     /// On each ray, of each component whether its value is given.
     pub(super) held: [[bool; 2]; 2],
+    /// On each ray, the traction (the flux) at the point.
+    pub(super) load: [[f64; 2]; 2],
+}
+
+impl Sector {
+    /// The unit normals out of the material on the two rays.
+    pub(super) fn normals(&self) -> [Vec2; 2] {
+        let way = |angle: f64| vec2(angle.cos(), angle.sin());
+        [-way(self.from).left(), way(self.from + self.opening).left()]
+    }
 }
 
 /// A ray along which the border, or a crack, leaves a point.
 #[derive(Clone, Copy)]
 struct Ray {
     angle: f64,
-    held: [bool; 2],
+    on: On,
+}
+
+/// What a ray runs on.
+#[derive(Clone, Copy)]
+enum On {
+    /// An edge, with its own coordinate a step from the point.
+    Edge(Edge, f64),
+    /// The rim of a hole.
+    Hole(usize),
+    /// A crack, in its direction or against it.
+    Crack { crack: usize, ahead: bool },
+}
+
+impl On {
+    /// True if conditions on a part of the border hold here. The material is on the left of a first ray.
+    fn is_part_of(self, part: BorderPart, is_first: bool) -> bool {
+        match (self, part) {
+            (Self::Edge(edge, s), BorderPart::Edge { edge: other, from, to }) => {
+                other == edge && from < s && s < to
+            }
+            (Self::Hole(hole), BorderPart::Hole(other)) => hole == other,
+            (Self::Crack { crack, ahead }, BorderPart::Crack { crack: other, face }) => {
+                let side = if ahead == is_first { Side::Above } else { Side::Below };
+                crack == other && face.is_none_or(|face| face == side)
+            }
+            _ => false,
+        }
+    }
 }
 
 /// The plate around points.
@@ -62,39 +101,30 @@ impl Surroundings<'_> {
         rays.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         rays.dedup_by(|b, a| b.angle - a.angle < SAME_RAY);
         let n = rays.len();
-        let sector = |k: usize| {
-            let (first, second) = (rays[k], rays[(k + 1) % n]);
-            let opening = (second.angle - first.angle).rem_euclid(TAU);
-            let held = [first.held, second.held];
-            Sector { from: first.angle, opening, held }
-        };
+        let sector = |k: usize| self.sector(p, [rays[k], rays[(k + 1) % n]]);
         let sectors = (0..if n < 2 { 0 } else { n }).map(sector);
         sectors.filter(|sector| self.is_material(p, sector, LOOK * room)).collect()
     }
 
-    /// True if the load on an edge jumps at a point between the edge's ends.
-    pub(super) fn load_jumps(&self, p: Vec2, room: f64) -> bool {
-        let bounds = &self.problem.domain.bounds;
-        let jumps = |edge: &Edge| {
-            let [start, end] = edge.range(bounds);
-            let first = edge.point(bounds, start);
-            let s = start + (edge.point(bounds, end) - first).unit().dot(p - first);
-            let is_inside = !self.is_on(s - start) && !self.is_on(end - s);
-            let at = [s - LOOK * room, s + LOOK * room];
-            let [before, after] = at.map(|beside| self.load(*edge, beside, p));
-            self.is_on(edge.depth(bounds, p).abs()) && is_inside && before != after
-        };
-        Edge::ALL.iter().any(jumps)
-    }
-
-    /// The loads at `p` of the conditions on an edge that hold at its coordinate `s`.
-    fn load(&self, edge: Edge, s: f64, p: Vec2) -> [f64; 2] {
-        let there = self.problem.boundary.iter().filter(|condition| match condition.on {
-            BorderPart::Edge { edge: other, from, to } => other == edge && from < s && s < to,
-            _ => false,
-        });
-        let loads = there.map(|condition| condition.loads(p, edge.normal()));
-        loads.fold([0.0; 2], |sum, load| [sum[0] + load[0], sum[1] + load[1]])
+    fn sector(&self, p: Vec2, rays: [Ray; 2]) -> Sector {
+        let (from, to) = (rays[0].angle, rays[1].angle);
+        let opening = (to - from).rem_euclid(TAU);
+        let mut sector =
+            Sector { from, opening, held: Default::default(), load: Default::default() };
+        let normals = sector.normals();
+        for (k, ray) in rays.into_iter().enumerate() {
+            for condition in &self.problem.boundary {
+                if !ray.on.is_part_of(condition.on, k == 0) {
+                    continue;
+                }
+                let (held, load) = (condition.held(), condition.loads(p, normals[k]));
+                for i in 0..2 {
+                    sector.held[k][i] |= held[i];
+                    sector.load[k][i] += load[i];
+                }
+            }
+        }
+        sector
     }
 
     fn is_on(&self, distance: f64) -> bool {
@@ -112,17 +142,22 @@ impl Surroundings<'_> {
             rays.extend(self.along_edge(edge, p, LOOK * room));
         }
         for (index, hole) in self.problem.domain.holes.iter().enumerate() {
-            let held = self.held(|on| on == BorderPart::Hole(index));
-            rays.extend(self.along_rim(hole, p).into_iter().map(|way| ray(way, held)));
+            rays.extend(self.along_rim(hole, p).into_iter().map(|way| ray(way, On::Hole(index))));
         }
-        for segment in self.problem.cracks.iter().flat_map(|crack| crack.points.windows(2)) {
-            let ways = self.along([segment[0], segment[1]], p);
-            rays.extend(ways.map(|way| ray(way, [false; 2])));
+        for (crack, index) in self.problem.cracks.iter().zip(0..) {
+            for segment in crack.points.windows(2) {
+                let on = |way: Vec2| On::Crack {
+                    crack: index,
+                    ahead: way.dot(segment[1] - segment[0]) > 0.0,
+                };
+                let ways = self.along([segment[0], segment[1]], p);
+                rays.extend(ways.map(|way| ray(way, on(way))));
+            }
         }
         rays
     }
 
-    /// The rays along an edge, with what is held a step from the point.
+    /// The rays along an edge.
     fn along_edge(&self, edge: Edge, p: Vec2, step: f64) -> Vec<Ray> {
         let bounds = &self.problem.domain.bounds;
         if !self.is_on(edge.depth(bounds, p).abs()) {
@@ -133,14 +168,7 @@ impl Surroundings<'_> {
         let own = start + ahead.unit().dot(p - edge.point(bounds, start));
         let ways = [(ahead, end - own, own + step), (-ahead, own - start, own - step)];
         let inside = ways.into_iter().filter(|(_, left, _)| !self.is_on(*left));
-        let ray = |(way, _, s): (Vec2, f64, f64)| {
-            let holds = |on| match on {
-                BorderPart::Edge { edge: other, from, to } => other == edge && from < s && s < to,
-                _ => false,
-            };
-            ray(way, self.held(holds))
-        };
-        inside.map(ray).collect()
+        inside.map(|(way, _, s)| ray(way, On::Edge(edge, s))).collect()
     }
 
     fn along_rim(&self, hole: &Hole, p: Vec2) -> Vec<Vec2> {
@@ -160,14 +188,8 @@ impl Surroundings<'_> {
         let touch = self.touch;
         [a - p, b - p].into_iter().filter(move |way| on && way.length() > touch)
     }
-
-    /// The components that the conditions on a part of the border hold.
-    fn held(&self, is_there: impl Fn(BorderPart) -> bool) -> [bool; 2] {
-        let there = self.problem.boundary.iter().filter(|condition| is_there(condition.on));
-        there.map(BoundaryCondition::held).fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]])
-    }
 }
 
-fn ray(way: Vec2, held: [bool; 2]) -> Ray {
-    Ray { angle: way.y.atan2(way.x), held }
+fn ray(way: Vec2, on: On) -> Ray {
+    Ray { angle: way.y.atan2(way.x), on }
 }

@@ -8,7 +8,7 @@ const FREE: [bool; 2] = [false; 2];
 const HELD: [bool; 2] = [true; 2];
 
 fn wedge(from: f64, opening: f64, held: [[bool; 2]; 2], kappa: f64) -> f64 {
-    smallest(&Sector { from, opening, held }, Constants::Elastic(kappa))
+    smallest(&Sector { from, opening, held, load: [[0.0; 2]; 2] }, Constants::Elastic(kappa))
 }
 
 /// The smallest root in (lo, 1) of a real function that changes its sign there.
@@ -151,6 +151,33 @@ fn crossing_rims_make_corners() {
     let mut all = found(&problem);
     all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
     assert_eq!(all, [at(-1.0), at(-0.25), at(0.25), at(1.0)]);
+}
+
+/// A uniform stress loads a plate with a crack and a notch without any corner; a shear that one of its sides
+/// lacks makes one at both ends of the side and at a mouth in it, whatever is pulled.
+#[test]
+fn loads_that_no_stress_has_make_corners() {
+    let traction = |t: [f64; 2]| t.map(|t| Condition::Neumann(t.into())).to_vec();
+    let sheared = |top: f64| {
+        plate()
+            .with_crack(&[[0.25, 1.0], [0.3, 0.5]])
+            .with_boundary(Edge::Left, traction([-2.0, -0.5]))
+            .with_boundary(Edge::Right, traction([2.0, 0.5]))
+            .with_boundary(Edge::Bottom, traction([-0.5, -1.0]))
+            .with_boundary(Edge::Top, traction([top, 1.0]))
+    };
+    let at = |x: f64, y: f64| (vec2(x, y), 1.0, Nature::Load);
+    // the free faces of the crack: 0.5 of shear and 1 of tension are missing there
+    assert_eq!(found(&sheared(0.5)), [at(0.25, 1.0)]);
+    assert_eq!(found(&sheared(0.0)), [at(1.0, 1.0), at(-1.0, 1.0), at(0.25, 1.0)]);
+    let mut piece = plate();
+    let on = BorderPart::Edge { edge: Edge::Top, from: -0.25, to: 0.25 };
+    piece.boundary.push(BoundaryCondition::pressure(on, 1.0.into()));
+    assert_eq!(found(&piece), [at(-0.25, 1.0), at(0.25, 1.0)]);
+    // the same load goes on beside it
+    let next = BorderPart::Edge { edge: Edge::Top, from: 0.25, to: 1.0 };
+    piece.boundary.push(BoundaryCondition::new(next, traction([0.0, -1.0])));
+    assert_eq!(found(&piece), [at(-0.25, 1.0)]);
 }
 
 #[test]

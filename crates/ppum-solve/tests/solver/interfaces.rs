@@ -122,7 +122,7 @@ fn disc_in_a_field(k: f64) -> Problem {
 #[test]
 fn rates_at_a_round_inclusion() {
     for problem in [goodier(20.0, 0.2, "plane-strain"), disc_in_a_field(20.0)] {
-        for (order, levels) in [(1, [2, 3, 4]), (2, [2, 3, 4]), (3, [1, 2, 3])] {
+        for (order, levels) in [(1, [2, 3, 4]), (2, [2, 3, 4]), (3, [2, 3, 4])] {
             let (_, rate) = study(levels, |level| error(&with(&problem, order, level)));
             assert!(
                 (order as f64 - 0.35..order as f64 + 0.3).contains(&rate),

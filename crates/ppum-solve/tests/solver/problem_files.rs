@@ -9,13 +9,14 @@ use ppum_solve::problem::{Cells, Problem};
 
 use crate::studies::support::{Both, errors, solved};
 
-/// A problem file of the examples at a level, with its enrichments or without.
+/// A problem file of the examples at a level, with its enrichments or without any, at interfaces neither.
 fn example(name: &str, level: u32, enriched: bool) -> Problem {
     let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut problem = Problem::read(&folder.join(name)).expect("an example");
     problem.discretization.cells = Cells::Level(level);
     if !enriched {
         problem.enrichments.clear();
+        problem.discretization.interfaces = false;
     }
     problem
 }
