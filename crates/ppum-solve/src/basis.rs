@@ -226,10 +226,10 @@ fn grams(space: &Space<'_>) -> Vec<Gram> {
             let coverers = &space.coverers[cell];
             let mut parts: Vec<_> =
                 coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
-            for rule in quadrature.cell(&space.partition.cell[cell], coverers) {
+            for rule in space.rules(&quadrature, cell).iter() {
                 evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
                 shapes.scale(&rule.weights);
-                add_grams(space, &rule, coverers, shapes, &mut parts);
+                add_grams(space, rule, coverers, shapes, &mut parts);
             }
             parts
         },

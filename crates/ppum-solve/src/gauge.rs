@@ -174,7 +174,7 @@ impl Gauge {
             |(evaluator, shapes), cell| {
                 let functions = CellFunctions::new(space, basis, cell);
                 let mut parts = vec![vec![0.0; functions.len() * components]; self.motions.len()];
-                for rule in quadrature.cell(&space.partition.cell[cell], &space.coverers[cell]) {
+                for rule in space.rules(&quadrature, cell).iter() {
                     evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
                     let numbers = functions.numbers(&rule.patches);
                     for (q, (&offset, &weight)) in

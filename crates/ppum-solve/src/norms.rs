@@ -122,9 +122,13 @@ fn over_cells<S: Default + Send>(
     add: impl Fn(&mut S, &Place, &[Jet<f64>; 2], f64) + Sync,
 ) -> Vec<S> {
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
+    let rules = |c: usize| match extra {
+        0 => space.rules(&quadrature, c),
+        _ => quadrature.cell(&space.partition.cell[c], &space.coverers[c]).into(),
+    };
     let cell = |&c: &usize| {
         let mut sum = S::default();
-        for rule in quadrature.cell(&space.partition.cell[c], &space.coverers[c]) {
+        for rule in rules(c).iter() {
             let local = field.at(rule.anchor);
             for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
                 let mut u = [Jet::constant(0.0); 2];

@@ -139,6 +139,12 @@ impl Smoothness {
         }
     }
 
+    /// True if quadrature has to look at formulas where one of these patches is active.
+    pub(crate) fn has_probes(&self, patches: &[u32]) -> bool {
+        let own = |&patch: &u32| !self.patch_probes[patch as usize].is_empty();
+        !self.common_probes.is_empty() || patches.iter().any(own)
+    }
+
     /// Degree that quadrature has to be for.
     pub(crate) fn degree(&self) -> usize {
         self.degree

@@ -16,7 +16,8 @@ use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::vec2::Rect;
 use ppum::weight::WeightFunction;
-use std::sync::Arc;
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
 
 /// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
 /// linear weights.
@@ -48,6 +49,8 @@ pub struct Space<'d> {
     pub shifts: Vec<f64>,
     smoothness: Smoothness,
     orders: Orders,
+    /// Of each cell where formulas are probed, its rules once they are made.
+    probed: Vec<OnceLock<Vec<Rule>>>,
 }
 
 impl<'d> Space<'d> {
@@ -84,6 +87,7 @@ impl<'d> Space<'d> {
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(step, data),
             orders: orders(partition, smoothness.degree()),
+            probed: vec![OnceLock::new(); partition.len()],
             smoothness,
         })
     }
@@ -93,6 +97,18 @@ impl<'d> Space<'d> {
     #[must_use]
     pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
         self.quadrature_of(&self.smoothness, extra)
+    }
+
+    /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to seconds, and
+    /// are made once.
+    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
+        let coverers = &self.coverers[cell];
+        let rules = || quadrature.cell(&self.partition.cell[cell], coverers);
+        if self.smoothness.has_probes(coverers) {
+            Cow::Borrowed(self.probed[cell].get_or_init(rules))
+        } else {
+            Cow::Owned(rules())
+        }
     }
 
     /// Where the functions of the space and the coefficients are not smooth.

@@ -80,11 +80,10 @@ pub(crate) fn slivers(
             if on_border.is_empty() {
                 return Ok(None);
             }
-            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
-            let rules = quadrature.cell(rect, coverers);
+            let rules = space.rules(&quadrature, cell);
             let part = assembler.assemble(cell, &rules, None, &on_border)?;
             let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
-            let is_large = part.penalty * width(rect) > SLIVER;
+            let is_large = part.penalty * width(&space.partition.cell[cell]) > SLIVER;
             Ok(is_large.then_some((rules, part.penalty)))
         },
         |_, part: Result<Option<Penalty>, EigenError>| match (&mut found, part) {
@@ -127,8 +126,7 @@ pub(crate) fn assemble(
         space.partition.len(),
         || CellAssembler::new(space, basis, law, pieces),
         |assembler, cell| {
-            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
-            let rules = quadrature.cell(rect, coverers);
+            let rules = space.rules(&quadrature, cell);
             let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
             let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
             let own = source_rules.of(cell);

@@ -164,7 +164,7 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     for (k, hole) in holes.iter().enumerate() {
         all.extend(holes[..k].iter().flat_map(|other| rims_crossing(hole, other)));
     }
-    all.extend(problem.cracks.iter().flat_map(|crack| vertices(crack)));
+    all.extend(problem.cracks.iter().flat_map(vertices));
     all
 }
 

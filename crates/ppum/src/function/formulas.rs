@@ -1,5 +1,6 @@
 //! Formulas in one frame, evaluated together.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::Frame;
@@ -126,6 +127,24 @@ pub(super) struct LocalFormulas<'t> {
     cracks: Vec<Option<LocalCrack>>,
 }
 
+/// Lanes of the widest vector there is.
+const LANES: usize = 16;
+
+thread_local! {
+    /// What evaluation at a point writes into: allocating it each time would cost as much as the formulas.
+    static WORKSPACE: RefCell<Workspace> = RefCell::default();
+}
+
+/// Numbers of one evaluation, in rows of one a lane, and of one lane of it.
+#[derive(Clone, Debug, Default)]
+struct Workspace {
+    rows: Vec<[f64; LANES]>,
+    inputs: Vec<f64>,
+    scratch: Vec<f64>,
+    numbers: Vec<f64>,
+    results: Vec<[f64; LANES]>,
+}
+
 impl LocalFormulas<'_> {
     fn len(&self) -> usize {
         self.compiled.formulas.len()
@@ -138,30 +157,43 @@ impl LocalFormulas<'_> {
         side: Side,
         out: &mut [Jet<R>],
     ) {
+        WORKSPACE.with_borrow_mut(|workspace| {
+            self.evaluate_in::<R, D>(workspace, offset, side, out);
+        });
+    }
+
+    fn evaluate_in<R: Real, const D: usize>(
+        &self,
+        workspace: &mut Workspace,
+        offset: [R; 2],
+        side: Side,
+        out: &mut [Jet<R>],
+    ) {
         let like = offset[0];
-        let uses = self.compiled.uses.as_slice();
         let jets = &self.compiled.jets[D];
-        // 16 lanes are the widest vector there is.
-        let mut rows = vec![[R::Scalar::default(); 16]; uses.len()];
+        let Workspace { rows, inputs, scratch, numbers, results } = workspace;
+        rows.resize(self.compiled.uses.len(), [0.0; LANES]);
+        inputs.resize(self.compiled.uses.len(), 0.0);
+        results.resize(jets.n_outputs(), [0.0; LANES]);
+        numbers.resize(jets.n_outputs(), 0.0);
         let polar = self.polar(offset, side);
         for (index, row) in rows.iter_mut().enumerate() {
-            self.input(index, &polar, offset, side).store(row);
+            let mut lanes = [R::Scalar::default(); LANES];
+            self.input(index, &polar, offset, side).store(&mut lanes);
+            row.iter_mut().zip(lanes).take(R::LANES).for_each(|(to, lane)| *to = lane.to_f64());
         }
-        let mut results = vec![[R::Scalar::default(); 16]; jets.n_outputs()];
-        let (mut inputs, mut scratch) = (vec![0.0; uses.len()], Vec::new());
-        let mut numbers = vec![0.0; jets.n_outputs()];
         for lane in 0..R::LANES {
-            inputs.iter_mut().zip(&rows).for_each(|(input, row)| *input = row[lane].to_f64());
-            jets.evaluate(&inputs, &mut scratch, &mut numbers);
-            for (row, &number) in results.iter_mut().zip(&numbers) {
-                row[lane] = R::Scalar::from_f64(number);
-            }
+            inputs.iter_mut().zip(&*rows).for_each(|(input, row)| *input = row[lane]);
+            jets.evaluate(inputs, scratch, numbers);
+            results.iter_mut().zip(&*numbers).for_each(|(row, &number)| row[lane] = number);
         }
         let axis = self.frame.axis();
         for (entry, out) in out.iter_mut().enumerate().take(self.len()) {
             let rows = &results[entry * SIZE[D]..];
             let mut values = [like.lit(0.0); 6];
-            values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(v, row)| *v = like.load(row));
+            values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(value, row)| {
+                *value = like.load(&row.map(R::Scalar::from_f64));
+            });
             *out = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
         }
     }
