@@ -26,8 +26,8 @@ use ppum::vec2::{Rect, Vec2};
 pub(crate) use probe::Probe;
 use probe::ProbeList;
 use std::sync::Arc;
-pub(crate) use traits::box_of;
 use traits::{Surroundings, Traits, traits_of_coefficient, traits_of_data};
+pub(crate) use traits::{box_of, levels_of_data};
 
 /// Part of the domain's size that two lines may be apart by rounding.
 const ROUNDING: f64 = 1e-14;

@@ -10,7 +10,9 @@ mod exponent;
 mod sectors;
 
 use crate::clip::rim_crossings;
-use crate::problem::{BorderPart, Problem};
+use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
+use crate::quadrature::{sign_changes, tame};
+use crate::smoothness::levels_of_data;
 use exponent::smallest;
 use ppum::crack::{Crack, tips};
 use ppum::dataset::Equation;
@@ -116,8 +118,9 @@ impl Constants {
     }
 }
 
-/// Part of the loads at a point by which they may differ from those of a uniform stress.
-const UNFIT: f64 = 1e-9;
+/// Part of the loads at a point by which they may differ from those of a uniform stress: more than smooth loads
+/// change on the short way on which they are looked at.
+const UNFIT: f64 = 1e-4;
 
 /// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ n₂ need
 /// n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a straight border.
@@ -152,7 +155,8 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     let mut all = corners_of(bounds).to_vec();
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge, from, to } = condition.on {
-            all.extend([from, to].map(|s| edge.point(bounds, s)));
+            let inner = jumps(condition, edge, [from, to], bounds);
+            all.extend(inner.chain([from, to]).map(|s| edge.point(bounds, s)));
         }
     }
     let holes = &problem.domain.holes;
@@ -166,6 +170,23 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     }
     all.extend(problem.cracks.iter().flat_map(vertices));
     all
+}
+
+/// Where the loads of a condition on an edge may jump, in the edge's own coordinate.
+fn jumps<'c>(
+    condition: &'c BoundaryCondition,
+    edge: Edge,
+    [from, to]: [f64; 2],
+    bounds: &'c Rect,
+) -> impl Iterator<Item = f64> + 'c {
+    let levels = condition.load_formulas().flat_map(levels_of_data);
+    levels.flat_map(move |level| {
+        let value = |s: f64| {
+            let p = edge.point(bounds, s);
+            tame(level.evaluate(&[p.x, p.y]))
+        };
+        sign_changes(&value, from, to)
+    })
 }
 
 /// Vertices of a crack that are no tips.

@@ -40,6 +40,9 @@ struct Ray {
     on: On,
 }
 
+/// Distance at which loads are looked at, in parts of the room around the point.
+const BESIDE: f64 = 1e-6;
+
 /// What a ray runs on.
 #[derive(Clone, Copy)]
 enum On {
@@ -101,12 +104,12 @@ impl Surroundings<'_> {
         rays.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         rays.dedup_by(|b, a| b.angle - a.angle < SAME_RAY);
         let n = rays.len();
-        let sector = |k: usize| self.sector(p, [rays[k], rays[(k + 1) % n]]);
+        let sector = |k: usize| self.sector(p, [rays[k], rays[(k + 1) % n]], BESIDE * room);
         let sectors = (0..if n < 2 { 0 } else { n }).map(sector);
         sectors.filter(|sector| self.is_material(p, sector, LOOK * room)).collect()
     }
 
-    fn sector(&self, p: Vec2, rays: [Ray; 2]) -> Sector {
+    fn sector(&self, p: Vec2, rays: [Ray; 2], beside: f64) -> Sector {
         let (from, to) = (rays[0].angle, rays[1].angle);
         let opening = (to - from).rem_euclid(TAU);
         let mut sector =
@@ -117,7 +120,8 @@ impl Surroundings<'_> {
                 if !ray.on.is_part_of(condition.on, k == 0) {
                     continue;
                 }
-                let (held, load) = (condition.held(), condition.loads(p, normals[k]));
+                let place = p + vec2(ray.angle.cos(), ray.angle.sin()) * beside;
+                let (held, load) = (condition.held(), condition.loads(place, normals[k]));
                 for i in 0..2 {
                     sector.held[k][i] |= held[i];
                     sector.load[k][i] += load[i];

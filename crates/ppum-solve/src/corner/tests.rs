@@ -1,5 +1,5 @@
 use super::*;
-use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge};
+use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge, Expression};
 use ppum::dataset::{Material, StressState};
 use std::f64::consts::PI;
 
@@ -174,6 +174,23 @@ fn loads_that_no_stress_has_make_corners() {
     let on = BorderPart::Edge { edge: Edge::Top, from: -0.25, to: 0.25 };
     piece.boundary.push(BoundaryCondition::pressure(on, 1.0.into()));
     assert_eq!(found(&piece), [at(-0.25, 1.0), at(0.25, 1.0)]);
+    // a formula that is zero elsewhere, or only bent there, or varies fast
+    let whole = |text: &str| {
+        let load = Expression::parse(text).expect("a formula");
+        let on = BorderPart::edge(Edge::Top, &BOUNDS);
+        let mut problem = plate();
+        problem.boundary.push(BoundaryCondition::pressure(on, load));
+        found(&problem).into_iter().map(|(p, ..)| (p.x * 1e6).round() / 1e6).collect::<Vec<_>>()
+    };
+    let near = |jumps: &[f64], text: &str| {
+        let mut found = whole(text);
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found, jumps, "{text}");
+    };
+    near(&[-0.25, 0.25], "if(abs(x) < 0.25, 1, 0)");
+    near(&[-0.5], "if(x < -0.5, 1 - x, x)*(1 - x^2)");
+    near(&[], "abs(x - 0.3)*(1 - x^2)");
+    near(&[], "sin(40*x)*(1 - x^2)");
     // the same load goes on beside it
     let next = BorderPart::Edge { edge: Edge::Top, from: 0.25, to: 1.0 };
     piece.boundary.push(BoundaryCondition::new(next, traction([0.0, -1.0])));

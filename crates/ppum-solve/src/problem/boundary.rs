@@ -204,6 +204,15 @@ impl BoundaryCondition {
         held
     }
 
+    /// The formulas of its tractions (fluxes).
+    pub(crate) fn load_formulas(&self) -> impl Iterator<Item = &Expression> {
+        let loads = self.components.iter().filter_map(|component| match component {
+            Condition::Neumann(load) => Some(load),
+            Condition::Free | Condition::Dirichlet(_) => None,
+        });
+        loads.chain(&self.pressure)
+    }
+
     /// The tractions (fluxes) at a point, zero where a value is given.
     pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
         let (held, values) = (self.held(), self.values(x, normal));

@@ -47,6 +47,7 @@ pub(crate) use gauss::closed;
 pub use gauss::{GaussRule, MAX_POINTS, gauss};
 pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
 pub use orders::Orders;
+pub(crate) use roots::{sign_changes, tame};
 
 use orders::Active;
 use polygon::{Polygon, line_side};

@@ -11,13 +11,13 @@ const TOUCHES: usize = 8;
 const EVALUATIONS: usize = 120;
 
 /// A function value that is a number: what is not, or is infinite, still has a side.
-pub(super) fn tame(value: f64) -> f64 {
+pub(crate) fn tame(value: f64) -> f64 {
     if value.is_nan() { 1.0 } else { value.clamp(-1e100, 1e100) }
 }
 
 /// Zeros of `f` in the open interval at which it changes its sign, ascending, as far as samples at
 /// equal distances and the extrema between them show them.
-pub(super) fn sign_changes(f: &dyn Fn(f64) -> f64, lo: f64, hi: f64) -> Vec<f64> {
+pub(crate) fn sign_changes(f: &dyn Fn(f64) -> f64, lo: f64, hi: f64) -> Vec<f64> {
     let at = |k: usize| lo + (hi - lo) * (k as f64 / STEPS as f64);
     let samples: Vec<[f64; 2]> = (0..=STEPS).map(|k| [at(k), f(at(k))]).collect();
     let mut samples: Vec<[f64; 2]> = samples.into_iter().filter(|s| s[1] != 0.0).collect();

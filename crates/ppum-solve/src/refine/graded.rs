@@ -1,6 +1,6 @@
 //! Cells that shrink towards what polynomials see badly: singular points of the border, and round rims.
 //!
-//! A cell at a distance d is at most [slope](Graded) · d large, down to a finest size. At a singular point
+//! A cell at a distance d is at most slope · d large, down to a finest size. At a singular point
 //! u ~ r^λ the energy that cells of size h miss is C (1 − λ) (h/R)^{2λ} of that of the surroundings, R away
 //! from what is next: it vanishes with the singularity. What remains beside that is missed ring by ring, the
 //! same part in each, and does not depend on the finest size.

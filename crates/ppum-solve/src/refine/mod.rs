@@ -12,7 +12,7 @@
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
-//! Other singular points, and round rims, have no such functions: cells are [graded] towards them.
+//! Other singular points, and round rims, have no such functions: cells are graded towards them.
 
 mod graded;
 mod ligament;

@@ -194,6 +194,14 @@ pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
     Some(Traits { kinks, probe, ..Traits::default() })
 }
 
+/// Level functions of the plate's x and y on whose zero sets a load may jump.
+pub(crate) fn levels_of_data(data: &Expression) -> Vec<Formula> {
+    if data.constant().is_some() {
+        return Vec::new();
+    }
+    Pieces::new(data.formula()).sets.into_iter().map(|set| set.value).collect()
+}
+
 /// Sets of a formula of the plate's x and y.
 fn in_world(sets: Vec<formula::Kink>) -> Vec<Kink> {
     let world = Axes { origin: Vec2::ZERO, x: vec2(1.0, 0.0), is_tip: false };
