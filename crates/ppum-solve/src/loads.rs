@@ -29,6 +29,11 @@ const MEAN_FOUND: [f64; 2] = [0.5, 10.0];
 /// Most times rules are made.
 const ROUNDS: usize = 4;
 
+/// Divisions that one load may cost in all cells together, and in each at least: a load that oscillates without
+/// end is not to take minutes.
+const DIVISIONS: usize = 50_000;
+const LEAST_DIVISIONS: usize = 100;
+
 /// Polynomials of a cell whose products with a load are compared.
 const MOMENTS: usize = 6;
 
@@ -92,6 +97,11 @@ impl<R: Points> LoadRules<R> {
         let error = self.doubt.load;
         (error > 0.0).then(|| (error / self.magnitude.max(f64::MIN_POSITIVE), self.doubt.at))
     }
+}
+
+/// Divisions that a load may cost in a cell.
+fn divisions(space: &Space<'_>) -> usize {
+    (DIVISIONS / space.partition.len()).max(LEAST_DIVISIONS)
 }
 
 /// A load: its formulas, its values at places with their normals, and the rules that a quadrature has for the
@@ -179,7 +189,7 @@ impl<R: Points> Load<'_, R> {
         mean: f64,
     ) -> Round<R> {
         let [plain, finer] = [0, EXTRA].map(|extra| space.quadrature(extra));
-        let own = space.quadrature_of(smoothness, 0);
+        let own = space.quadrature_of(smoothness, 0).with_divisions(divisions(space));
         let same = mean * if places.is_empty() { SAME_OF_SMOOTH } else { SAME };
         let mut round = Round { rules: LoadRules::default(), measure: 0.0 };
         in_batches(

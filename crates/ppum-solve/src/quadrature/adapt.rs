@@ -42,10 +42,6 @@ const SHARE: f64 = 0.8;
 /// Most divisions one inside the other. Halves of halves are rounding before.
 const DEPTH: usize = 45;
 
-/// Depth from which on a load is asked whether it is finite at all points of its rule: there the rounding of
-/// coordinates may put one on a singular point.
-const DEEP: usize = 20;
-
 /// Functions below this size are zero: their squares are not numbers any more.
 const NOTHING: f64 = 1e-140;
 
@@ -267,7 +263,7 @@ impl Demand<'_> {
         } else {
             Vec::new()
         };
-        let finite = |halves: &[P; 2]| depth < DEEP || halves.iter().all(|h| self.is_finite(h));
+        let finite = |halves: &[P; 2]| halves.iter().all(|half| self.is_finite(half));
         let mut divisions = Vec::with_capacity(ways.len());
         for halves in ways.into_iter().filter(finite) {
             let mut changes = differences(&self.sums(&halves, gauss), &whole.gauss);
@@ -287,9 +283,12 @@ impl Demand<'_> {
 
     /// False if a load is not finite at a point of the rule that a part gets in the end.
     fn is_finite<P: Part>(&self, part: &P) -> bool {
+        let mut loads = self.active.iter().filter(|&&f| self.probes.load(f).is_some()).peekable();
+        if loads.peek().is_none() {
+            return true;
+        }
         let (mut offsets, mut values) = (Vec::new(), Vec::new());
         part.nodes(gauss, self.order, &mut |x, _| offsets.push(x));
-        let loads = self.active.iter().filter(|&&f| self.probes.load(f).is_some());
         loads.for_each(|&f| self.probes.evaluate(f, self.anchor, &offsets, &mut values));
         values.iter().all(|value| value[0].is_finite())
     }

@@ -1,6 +1,6 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
-use super::adapt::{Demand, MOST_DIVISIONS, Part as _, Refined, refined};
+use super::adapt::{Demand, Part as _, Refined, refined};
 use super::doubt::Doubt;
 use super::gauss::gauss;
 use super::orders::Active;
@@ -121,7 +121,7 @@ impl Quadrature<'_> {
             line.inside(cell, line.ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
         let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
-        let left = Cell::new(MOST_DIVISIONS);
+        let left = Cell::new(self.divisions);
         let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new(), left };
         run.add(lo, hi, coverers);
         run.rules

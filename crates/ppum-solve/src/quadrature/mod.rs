@@ -126,6 +126,8 @@ pub struct Quadrature<'a> {
     segments: Vec<[Vec2; 2]>,
     /// Round rims: at least as many as there are round holes.
     circles: Vec<Arc<Level>>,
+    /// Most divisions in one cell, or along one line through it.
+    divisions: usize,
 }
 
 /// A disc around a point at which the integrand is singular.
@@ -143,7 +145,13 @@ impl<'a> Quadrature<'a> {
         let of_cracks = geometry.cracks.iter().flat_map(of_crack);
         let segments = of_cracks.chain(geometry.holes.iter().flat_map(Hole::sides)).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
-        Self { geometry, orders, segments, circles }
+        Self { geometry, orders, segments, circles, divisions: adapt::MOST_DIVISIONS }
+    }
+
+    /// The same with fewer divisions of a cell where formulas are probed.
+    #[must_use]
+    pub(crate) fn with_divisions(self, most: usize) -> Self {
+        Self { divisions: most.min(self.divisions), ..self }
     }
 
     /// The rules on a cell. `coverers` are the patches whose open supports meet the cell; more of
@@ -188,7 +196,7 @@ impl<'a> Quadrature<'a> {
         let segments = self.segments_near(cell).collect();
         let size = cell.size();
         let least = LEAST_AREA * size.x * size.y;
-        let (rules, left) = (Rules::default(), Cell::new(adapt::MOST_DIVISIONS));
+        let (rules, left) = (Rules::default(), Cell::new(self.divisions));
         let mut run = Run { quadrature: self, cell, orders, disc, segments, least, rules, left };
         let mut sorted = coverers.to_vec();
         sorted.sort_unstable();

@@ -1,6 +1,6 @@
 //! Rules along the rims of holes.
 
-use super::adapt::{Demand, MOST_DIVISIONS, Part, Refined, refined};
+use super::adapt::{Demand, Part, Refined, refined};
 use super::edge::EdgeRule;
 use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::orders::Active;
@@ -130,7 +130,7 @@ impl Quadrature<'_> {
             kinks: self.geometry.has_kinks(&rule.patches),
             probes: !active.is_empty(),
         });
-        let left = Cell::new(MOST_DIVISIONS);
+        let left = Cell::new(self.divisions);
         let demand = Demand {
             probes: self.geometry.probes,
             active: &active,

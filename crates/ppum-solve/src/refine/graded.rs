@@ -31,11 +31,8 @@ const STEEP: f64 = 0.35;
 /// Exponents of a support that are near 1/2.
 const STRONG: f64 = 0.6;
 
-/// Cells that are added without asking; beyond them, and four times the base cover, all is resolved less finely.
-const FREE_CELLS: f64 = 20_000.0;
-
 /// Smallest cells that are asked for, in parts of the base cover's: what is smaller is not resolved.
-const SMALLEST: f64 = 1.0 / 16_384.0;
+pub(super) const SMALLEST: f64 = 1.0 / 16_384.0;
 
 /// Cells of a ring around a point, at slope 1.
 const RING: f64 = 12.0;
@@ -54,23 +51,13 @@ enum Shape {
     Circle(Vec2, f64),
 }
 
-/// What the singular points and the round rims of a problem ask of a base cover of `n_base` cells, the largest of
-/// the given size.
-pub(super) fn graded(
-    problem: &Problem,
-    corners: &[Corner],
-    n_base: usize,
-    size: f64,
-) -> Vec<Graded> {
+/// What the singular points and the round rims of a problem ask of a base cover with cells of the given size.
+pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
     let plate = problem.domain.bounds.size();
     let at_corners = corners.iter().filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
     let rims = problem.domain.holes.iter().filter_map(Graded::rim);
     let mut all: Vec<_> = at_corners.chain(rims).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));
-    let most = FREE_CELLS.max(4.0 * n_base as f64);
-    while all.iter().map(|graded| graded.cells(size)).sum::<f64>() > most {
-        all.iter_mut().for_each(|graded| graded.finest *= 2.0);
-    }
     all
 }
 
@@ -106,8 +93,13 @@ impl Graded {
         size > self.finest && size > self.slope * self.from.distance(cell)
     }
 
+    /// Asks for half as fine cells.
+    pub(super) fn coarsen(&mut self) {
+        self.finest *= 2.0;
+    }
+
     /// About how many cells are added to cells of a size.
-    fn cells(&self, size: f64) -> f64 {
+    pub(super) fn cells(&self, size: f64) -> f64 {
         let rings = (size / self.finest).log2().max(0.0);
         let on_rim = match self.from {
             Shape::Circle(_, radius) if rings > 0.0 => radius / self.finest,

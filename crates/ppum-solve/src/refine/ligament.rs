@@ -1,6 +1,7 @@
 //! Cells in ligaments: where little material is left between a hole and an edge, another hole or a crack, the
 //! plate bends like a beam, and a few cells must lie across.
 
+use super::graded::SMALLEST;
 use crate::problem::{Edge, Problem};
 use ppum::domain::{Hole, segment_distance};
 use ppum::vec2::{Rect, Vec2};
@@ -40,7 +41,7 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
         let all = edges.chain(others).chain(cracks);
         found.extend(all.filter_map(|other| {
             let width = width(hole, other);
-            let finest = ACROSS * width;
+            let finest = (ACROSS * width).max(SMALLEST * size);
             (width > thinnest && finest < size).then_some(Ligament { hole, other, finest })
         }));
     }
@@ -48,6 +49,20 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
 }
 
 impl Ligament<'_> {
+    /// Asks for half as fine cells.
+    pub(super) fn coarsen(&mut self) {
+        self.finest *= 2.0;
+    }
+
+    /// About how many cells are added to cells of a size: a few across, along where it is about as thin.
+    pub(super) fn cells(&self, size: f64) -> f64 {
+        let length = match self.hole {
+            Hole::Circle { radius, .. } => 2.0 * (2.0 * radius * self.finest / ACROSS).sqrt(),
+            Hole::Polygon { .. } => self.hole.bounds().size().length(),
+        };
+        if self.finest < size { 2.0 * length / (ACROSS * self.finest) } else { 0.0 }
+    }
+
     /// True if a cell is too large for what is left where it lies.
     pub(super) fn asks(&self, cell: &Rect) -> bool {
         let (size, center) = (cell.size().x.max(cell.size().y), cell.center());

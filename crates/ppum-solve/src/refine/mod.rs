@@ -22,8 +22,8 @@ use crate::corner::corners;
 use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
 use crate::interfaces::Interfaces;
 use crate::problem::{Cells, Enrichment, Problem};
-use graded::graded;
-use ligament::ligaments;
+use graded::{Graded, graded};
+use ligament::{Ligament, ligaments};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
@@ -38,6 +38,10 @@ const NO_GAP: f64 = 1.0 / 1024.0;
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
 const DEEPEST: usize = 16;
+
+/// Cells that are added without asking, for all but tips; beyond them, and four times the base cover, all is
+/// resolved less finely.
+const FREE_CELLS: usize = 6_000;
 
 /// Largest cells around a tip, in parts of the crack length belonging to it.
 const LARGEST: f64 = 0.25;
@@ -77,34 +81,86 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
     if !problem.discretization.refine {
         return Ok(cover);
     }
-    let needs: Vec<_> = tips(&problem.cracks)
-        .map(|tip| Need::new(problem, tip))
-        .chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)))
-        .collect();
-    let largest = cover.cells().iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
-    let graded = graded(problem, &corners(problem), cover.n_cells(), largest);
-    let ligaments = ligaments(problem, largest);
-    let alpha = problem.discretization.overlap;
-    let interfaces = Interfaces::new(&problem.equation, &problem.domain);
-    let are_resolved = resolves_interfaces(problem);
-    let base = cover.cells().iter().map(|(_, level)| *level).min().unwrap_or(0);
+    let (needs, wishes) = (needs(problem), Wishes::new(problem, &cover));
+    let must = |cell: &Rect| {
+        let patch = patch_of(cell, problem);
+        needs.iter().any(|need| need.asks(cell, &patch))
+            || is_crossed_twice(problem, &patch, LEAST_GAP)
+    };
     for _ in 0..DEEPEST {
-        let asks = |cell: Rect, level: u8| {
-            let patch = Rect::around(cell.center(), cell.size() * (0.5 * alpha));
-            needs.iter().any(|need| need.asks(&cell, &patch))
-                || graded.iter().any(|graded| graded.asks(&cell))
-                || ligaments.iter().any(|ligament| ligament.asks(&cell))
-                || is_crossed_twice(problem, &patch, LEAST_GAP)
-                || (are_resolved && level < base + AT_INTERFACES && {
-                    let part = patch.intersection(&problem.domain.bounds);
-                    interfaces.trouble(&part, &problem.cracks).is_some()
-                })
-        };
+        let affordable = cover.n_cells() < wishes.most_cells;
+        let asks = |cell: Rect, level: u8| must(&cell) || affordable && wishes.asks(&cell, level);
         if cover.refine(asks)? == 0 {
             return Ok(cover);
         }
     }
-    Err(RefineError::Unresolved)
+    // what is only wished for may remain
+    let resolved = !cover.cells().iter().any(|(cell, _)| must(cell));
+    resolved.then_some(cover).ok_or(RefineError::Unresolved)
+}
+
+/// What tips and the mouths of cracks need.
+fn needs(problem: &Problem) -> Vec<Need> {
+    let tips = tips(&problem.cracks).map(|tip| Need::new(problem, tip));
+    tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem))).collect()
+}
+
+fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
+    Rect::around(cell.center(), cell.size() * (0.5 * problem.discretization.overlap))
+}
+
+/// What makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
+/// ligaments, and at singular points of interfaces.
+struct Wishes<'p> {
+    problem: &'p Problem,
+    graded: Vec<Graded>,
+    ligaments: Vec<Ligament<'p>>,
+    interfaces: Option<Interfaces<'p>>,
+    /// The level of cells at singular points of interfaces.
+    at_interfaces: u8,
+    /// Cells from which on nothing more is wished for.
+    most_cells: usize,
+}
+
+impl<'p> Wishes<'p> {
+    fn new(problem: &'p Problem, base: &Cover) -> Self {
+        let cells = base.cells();
+        let size = cells.iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
+        let mut graded = graded(problem, &corners(problem), size);
+        let mut ligaments = ligaments(problem, size);
+        let budget = FREE_CELLS.max(4 * cells.len());
+        let cost = |graded: &[Graded], ligaments: &[Ligament<'_>]| {
+            let at_points: f64 = graded.iter().map(|graded| graded.cells(size)).sum();
+            at_points + ligaments.iter().map(|ligament| ligament.cells(size)).sum::<f64>()
+        };
+        while cost(&graded, &ligaments) > budget as f64 {
+            graded.iter_mut().for_each(Graded::coarsen);
+            ligaments.iter_mut().for_each(Ligament::coarsen);
+        }
+        let lowest = cells.iter().map(|(_, level)| *level).min().unwrap_or(0);
+        Self {
+            problem,
+            graded,
+            ligaments,
+            interfaces: resolves_interfaces(problem)
+                .then(|| Interfaces::new(&problem.equation, &problem.domain)),
+            at_interfaces: lowest + AT_INTERFACES,
+            most_cells: cells.len() + 2 * budget,
+        }
+    }
+
+    fn asks(&self, cell: &Rect, level: u8) -> bool {
+        self.graded.iter().any(|graded| graded.asks(cell))
+            || self.ligaments.iter().any(|ligament| ligament.asks(cell))
+            || level < self.at_interfaces && self.at_interface(cell)
+    }
+
+    /// True if a patch holds a singular point of an interface.
+    fn at_interface(&self, cell: &Rect) -> bool {
+        let part = patch_of(cell, self.problem).intersection(&self.problem.domain.bounds);
+        let trouble = |all: &Interfaces<'_>| all.trouble(&part, &self.problem.cracks).is_some();
+        self.interfaces.as_ref().is_some_and(trouble)
+    }
 }
 
 /// True if the program resolves interfaces of materials.

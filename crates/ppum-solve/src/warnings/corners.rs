@@ -38,7 +38,7 @@ pub(super) fn of_corners(
 fn unresolved(corner: &Corner, size: f64, missed: f64) -> Warning {
     let message = format!(
         "{}: stresses are infinite at {} (displacements grow like r^{}), and cells {} wide miss about {} % of the \
-         energy there; use smaller cells there, or `refine = true`",
+         energy there; use smaller cells, and leave out `refine = false`",
         shown(corner.at),
         corner.nature.name(),
         short((1e3 * corner.exponent).round() / 1e3),
