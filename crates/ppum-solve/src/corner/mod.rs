@@ -31,7 +31,7 @@ const LOGARITHM: f64 = 0.3;
 pub(crate) struct Corner {
     /// Where it is.
     pub(crate) at: Vec2,
-    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads.
+    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where values jump.
     pub(crate) exponent: f64,
     /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
     pub(crate) room: f64,
@@ -61,6 +61,8 @@ pub(crate) enum Nature {
     /// Loads that no uniform stress has: a loaded piece of an edge ends, or a sheared side meets a free one.
     /// u ~ r ln r, or r times a function of the angle.
     Load,
+    /// A jump of given values, whose field has infinite energy.
+    Jump,
 }
 
 impl Nature {
@@ -71,6 +73,7 @@ impl Nature {
             Self::Corner => "the corner".into(),
             Self::Support => "the end of the support".into(),
             Self::Load => "the jump of the load".into(),
+            Self::Jump => "the jump of the given values".into(),
         }
     }
 }
@@ -81,6 +84,7 @@ pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
     let touch = TOUCH * size.x.max(size.y);
     let places = distinct(places(problem), touch);
     let around = Surroundings { problem, touch };
+    let scale = scale_of_values(problem);
     let tips: Vec<_> = tips(&problem.cracks)
         .map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end))
         .collect();
@@ -91,6 +95,9 @@ pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
         };
         let room = around.distance(at).min(apart(&places)).min(apart(&tips));
         let sectors = around.sectors(at, room);
+        if sectors.iter().any(|sector| values_jump(sector, scale)) {
+            return Some(Corner { at, exponent: 0.0, room, nature: Nature::Jump });
+        }
         let constants = Constants::at(&problem.equation, at);
         let exponents = sectors.iter().map(|sector| (smallest(sector, constants), sector));
         let (exponent, sector) = exponents.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -137,6 +144,29 @@ fn is_unfit(sector: &Sector, components: usize) -> bool {
     sector.held == [[false; 2]; 2] && apart > UNFIT * size
 }
 
+/// True if the given values of a component jump from ray to ray, measured by the size of all of them.
+fn values_jump(sector: &Sector, scale: f64) -> bool {
+    let jumps = |i: usize| {
+        let is_held = sector.held[0][i] && sector.held[1][i];
+        is_held && (sector.value[0][i] - sector.value[1][i]).abs() > UNFIT * scale
+    };
+    jumps(0) || jumps(1)
+}
+
+/// The size of the values given on edges, at their ends and quarters.
+fn scale_of_values(problem: &Problem) -> f64 {
+    let sizes = problem.boundary.iter().flat_map(|condition| {
+        let BorderPart::Edge { edge, from, to } = condition.on else { return Vec::new() };
+        let at =
+            |k: u32| edge.point(&problem.domain.bounds, from + (to - from) * f64::from(k) / 4.0);
+        let (held, all) = (condition.held(), (0..=4).map(at));
+        let values = all.map(|p| condition.values(p, edge.normal()));
+        let size = |v: [f64; 2]| [0, 1].map(|i| if held[i] { v[i].abs() } else { 0.0 });
+        values.flat_map(size).collect()
+    });
+    sizes.fold(0.0, f64::max)
+}
+
 fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
     let inner = |crack: &Crack| {
         let inner = &crack.points[1..crack.points.len() - 1];
@@ -172,14 +202,14 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     all
 }
 
-/// Where the loads of a condition on an edge may jump, in the edge's own coordinate.
+/// Where what a condition on an edge gives may jump, in the edge's own coordinate.
 fn jumps<'c>(
     condition: &'c BoundaryCondition,
     edge: Edge,
     [from, to]: [f64; 2],
     bounds: &'c Rect,
 ) -> impl Iterator<Item = f64> + 'c {
-    let levels = condition.load_formulas().flat_map(levels_of_data);
+    let levels = condition.formulas().flat_map(levels_of_data);
     levels.flat_map(move |level| {
         let value = |s: f64| {
             let p = edge.point(bounds, s);

@@ -23,6 +23,8 @@ pub(super) struct Sector {
     pub(super) held: [[bool; 2]; 2],
     /// On each ray, the traction (the flux) at the point.
     pub(super) load: [[f64; 2]; 2],
+    /// On each ray, the given values at the point.
+    pub(super) value: [[f64; 2]; 2],
 }
 
 impl Sector {
@@ -41,7 +43,7 @@ struct Ray {
 }
 
 /// Distance at which loads are looked at, in parts of the room around the point.
-const BESIDE: f64 = 1e-6;
+const BESIDE: f64 = 1e-9;
 
 /// What a ray runs on.
 #[derive(Clone, Copy)]
@@ -112,8 +114,8 @@ impl Surroundings<'_> {
     fn sector(&self, p: Vec2, rays: [Ray; 2], beside: f64) -> Sector {
         let (from, to) = (rays[0].angle, rays[1].angle);
         let opening = (to - from).rem_euclid(TAU);
-        let mut sector =
-            Sector { from, opening, held: Default::default(), load: Default::default() };
+        let (held, load, value) = Default::default();
+        let mut sector = Sector { from, opening, held, load, value };
         let normals = sector.normals();
         for (k, ray) in rays.into_iter().enumerate() {
             for condition in &self.problem.boundary {
@@ -122,9 +124,11 @@ impl Surroundings<'_> {
                 }
                 let place = p + vec2(ray.angle.cos(), ray.angle.sin()) * beside;
                 let (held, load) = (condition.held(), condition.loads(place, normals[k]));
+                let values = condition.values(place, normals[k]);
                 for i in 0..2 {
                     sector.held[k][i] |= held[i];
                     sector.load[k][i] += load[i];
+                    sector.value[k][i] += if held[i] { values[i] } else { 0.0 };
                 }
             }
         }

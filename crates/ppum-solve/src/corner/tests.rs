@@ -8,7 +8,10 @@ const FREE: [bool; 2] = [false; 2];
 const HELD: [bool; 2] = [true; 2];
 
 fn wedge(from: f64, opening: f64, held: [[bool; 2]; 2], kappa: f64) -> f64 {
-    smallest(&Sector { from, opening, held, load: [[0.0; 2]; 2] }, Constants::Elastic(kappa))
+    smallest(
+        &Sector { from, opening, held, load: [[0.0; 2]; 2], value: [[0.0; 2]; 2] },
+        Constants::Elastic(kappa),
+    )
 }
 
 /// The smallest root in (lo, 1) of a real function that changes its sign there.
@@ -195,6 +198,27 @@ fn loads_that_no_stress_has_make_corners() {
     let next = BorderPart::Edge { edge: Edge::Top, from: 0.25, to: 1.0 };
     piece.boundary.push(BoundaryCondition::new(next, traction([0.0, -1.0])));
     assert_eq!(found(&piece), [at(-0.25, 1.0)]);
+}
+
+/// Values that jump on an edge, at the end of a piece and at a corner, and those that do not.
+#[test]
+fn jumps_of_given_values_are_found() {
+    let given =
+        |text: &str| vec![Condition::Dirichlet(Expression::parse(text).expect("a formula"))];
+    let potential = |bottom: &str, left: &str| {
+        let problem = Problem::poisson(BOUNDS, 1.0, Discretization::new(Cells::Level(3)));
+        let problem = problem.with_boundary(Edge::Bottom, given(bottom));
+        found(&problem.with_boundary(Edge::Left, given(left)))
+    };
+    let places = |all: &[(Vec2, f64, Nature)]| -> Vec<Vec2> {
+        all.iter().filter(|corner| corner.2 == Nature::Jump).map(|corner| corner.0).collect()
+    };
+    assert_eq!(places(&potential("x + 1", "0")), []);
+    assert_eq!(places(&potential("exp(3*x)*cos(y)", "exp(-3)*cos(y)")), []);
+    // a layer beside the corner
+    assert_eq!(places(&potential("1 - exp(-(x + 1)/1e-3)", "0")), []);
+    assert_eq!(places(&potential("1", "0")), [vec2(-1.0, -1.0)]);
+    assert_eq!(places(&potential("if(x > 0.25, 1, 0)", "0")), [vec2(0.25, -1.0)]);
 }
 
 #[test]

@@ -204,13 +204,13 @@ impl BoundaryCondition {
         held
     }
 
-    /// The formulas of its tractions (fluxes).
-    pub(crate) fn load_formulas(&self) -> impl Iterator<Item = &Expression> {
-        let loads = self.components.iter().filter_map(|component| match component {
-            Condition::Neumann(load) => Some(load),
-            Condition::Free | Condition::Dirichlet(_) => None,
+    /// The formulas of what it gives.
+    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expression> {
+        let given = self.components.iter().filter_map(|component| match component {
+            Condition::Neumann(given) | Condition::Dirichlet(given) => Some(given),
+            Condition::Free => None,
         });
-        loads.chain(&self.pressure)
+        given.chain(&self.pressure)
     }
 
     /// The tractions (fluxes) at a point, zero where a value is given.

@@ -65,7 +65,9 @@ impl Graded {
     /// What a singular point asks on a plate of the given size; none where it is gentle.
     fn corner(corner: &Corner, plate: f64) -> Option<Self> {
         let Corner { at, exponent, room, nature } = *corner;
-        if matches!(nature, Nature::Kink(_)) && exponent > GENTLE {
+        let is_gentle = matches!(nature, Nature::Kink(_)) && exponent > GENTLE;
+        // cells of any size see the same of a field of infinite energy
+        if is_gentle || nature == Nature::Jump {
             return None;
         }
         // a small room holds a small part of the energy

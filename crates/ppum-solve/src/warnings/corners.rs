@@ -1,7 +1,7 @@
 //! Warnings about singular points of the border that the cells do not resolve.
 
 use super::{kind, short, shown, warning};
-use crate::corner::{Corner, corners};
+use crate::corner::{Corner, Nature, corners};
 use crate::norms::energy_of;
 use crate::problem::Problem;
 use crate::space::Space;
@@ -23,6 +23,9 @@ pub(super) fn of_corners(
     energy: f64,
 ) -> Vec<Warning> {
     let of_corner = |corner: &Corner| {
+        if corner.nature == Nature::Jump {
+            return Some(infinite(corner));
+        }
         let cells = &space.partition.cell;
         let touching = (0..cells.len()).filter(|&c| cells[c].distance(corner.at) == 0.0);
         let touching: Vec<_> = touching.collect();
@@ -35,13 +38,30 @@ pub(super) fn of_corners(
     corners(problem).iter().filter_map(of_corner).collect()
 }
 
+/// How displacements grow at a singular point.
+fn growth(corner: &Corner) -> String {
+    match corner.nature {
+        Nature::Load => "r ln r".into(),
+        _ => format!("r^{}", short((1e3 * corner.exponent).round() / 1e3)),
+    }
+}
+
+fn infinite(corner: &Corner) -> Warning {
+    let message = format!(
+        "{}: the values given on the border jump there; such a field has infinite energy, and energies, reactions \
+         and stresses nearby depend on the cells; make the values continuous",
+        shown(corner.at)
+    );
+    warning(kind::SINGULAR_POINT, Some(corner.at), [1.0, LARGE_MISS], message)
+}
+
 fn unresolved(corner: &Corner, size: f64, missed: f64) -> Warning {
     let message = format!(
-        "{}: stresses are infinite at {} (displacements grow like r^{}), and cells {} wide miss about {} % of the \
+        "{}: stresses are infinite at {} (displacements grow like {}), and cells {} wide miss about {} % of the \
          energy there; use smaller cells, and leave out `refine = false`",
         shown(corner.at),
         corner.nature.name(),
-        short((1e3 * corner.exponent).round() / 1e3),
+        growth(corner),
         short(size),
         short((1e3 * missed).round() / 10.0)
     );

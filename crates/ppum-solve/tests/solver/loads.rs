@@ -215,9 +215,10 @@ fn loads_that_cannot_be_integrated() {
     for (load, at) in [("1/abs(x - 0.1)", Some(0.1)), ("1/x", Some(0.0)), ("1 + sin(1e9*x)", None)]
     {
         let dataset = plate(&top(load), 2, 2);
-        let [warning] = warnings(&dataset) else { panic!("{load}: {:?}", warnings(&dataset)) };
+        let about_loads = warnings(&dataset).iter().filter(|warning| warning.kind == kind::LOAD);
+        let about_loads: Vec<_> = about_loads.collect();
+        let [warning] = about_loads[..] else { panic!("{load}: {:?}", warnings(&dataset)) };
         println!("{}", warning.message);
-        assert_eq!(warning.kind, kind::LOAD);
         assert!(warning.value > 1e-3 && warning.message.contains("the top edge"), "{warning:?}");
         let place = warning.at.expect("a place");
         assert!(place.y == 1.0 && at.is_none_or(|x| (place.x - x).abs() < 1e-6), "{place:?}");
