@@ -158,6 +158,21 @@ fn what_coarse_cells_miss_is_told() {
     }
 }
 
+/// A displacement that jumps along an edge has infinite energy: that is told, with the place, and nothing is told
+/// of one that bends.
+#[test]
+fn given_values_that_jump_are_told() {
+    let held = |value: &str| {
+        let tables = format!("[[boundary]]\non = \"bottom\"\ndisplacement = [\"{value}\", 0.0]\n");
+        let dataset = solved(&tables);
+        let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
+        all.filter(|w| w.message.contains("infinite energy")).map(|w| w.at).collect::<Vec<_>>()
+    };
+    let [Some(at)] = held("if(x > 0.1, 0.3, 0)")[..] else { panic!("one place") };
+    assert!((at.x - 0.1).abs() < 1e-9 && at.y == -1.0, "{at:?}");
+    assert_eq!(held("max(x - 0.1, 0)"), []);
+}
+
 /// A quarter turn of everything turns cells and solution.
 #[test]
 fn a_quarter_turn_changes_nothing() {
