@@ -10,7 +10,9 @@ mod commands;
 mod dataset;
 mod families;
 mod given;
+mod memory;
 mod number;
+mod panics;
 mod progress;
 mod replacements;
 mod sides;
@@ -25,7 +27,8 @@ use clap::Parser as _;
 
 fn main() -> ExitCode {
     let mut out = io::stdout().lock();
-    let done = cli::Cli::parse().command.run(&mut out).and_then(|()| Ok(out.flush()?));
+    let command = cli::Cli::parse().command;
+    let done = panics::guarded(|| command.run(&mut out).and_then(|()| Ok(out.flush()?)));
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

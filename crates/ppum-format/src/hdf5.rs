@@ -10,4 +10,4 @@ mod read;
 mod write;
 
 pub(crate) use read::from_bytes;
-pub(crate) use write::{to_bytes, to_compressed_bytes};
+pub(crate) use write::{check_texts, to_bytes, to_compressed_bytes};

@@ -56,6 +56,16 @@ pub fn to_bytes(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     hdf5::to_bytes(&content)
 }
 
+/// Makes sure that a dataset can be written and read again, before it is.
+///
+/// # Errors
+///
+/// As [`to_bytes`].
+pub fn check(dataset: &Dataset) -> Result<(), WriteError> {
+    dataset.check()?;
+    hdf5::check_texts(&encode::content(dataset)?)
+}
+
 /// The dataset in the bytes of an HDF5 file.
 ///
 /// # Errors

@@ -18,7 +18,6 @@ use crate::cell::{CellSystem, square};
 use crate::eigen::EigenError;
 use crate::law::Law;
 use crate::pencil::largest_eigenvalue;
-use crate::pieces::Pieces;
 use crate::quadrature::EdgeRule;
 use crate::reaction::Support;
 use crate::rigid::RigidMotions;
@@ -58,6 +57,14 @@ pub(crate) struct BorderPiece<'a> {
     pub(crate) condition: usize,
     /// The motions that reactions do work on.
     pub(crate) motions: RigidMotions,
+}
+
+impl BorderPiece<'_> {
+    /// The given tractions (fluxes) at a place with its normal, zero where a value is given.
+    pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        let values = (self.values)(x, normal);
+        [0, 1].map(|k| if self.held[k] { 0.0 } else { values[k] })
+    }
 }
 
 /// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
@@ -101,7 +108,6 @@ impl<'a> Border<'a> {
     pub(crate) fn add(
         &mut self,
         piece: &BorderPiece<'_>,
-        pieces: &Pieces,
         evaluator: &mut BasisEvaluator<'_>,
         shapes: &mut Shapes,
         system: &mut CellSystem,
@@ -115,20 +121,11 @@ impl<'a> Border<'a> {
             let mut given = Vec::with_capacity(rule.offsets.len());
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
                 let x = rule.anchor + offset;
-                let balance = &mut system.balance[pieces.of_border(rule, q)];
                 if part != Part::Stiffness {
+                    let loads = piece.loads(x, rule.normals[q]);
+                    shapes.add_load(q, &numbers, &loads[..components], weight, &mut system.load);
                     let values = (piece.values)(x, rule.normals[q]);
-                    let mut loads = values;
-                    for (load, held) in loads.iter_mut().zip(piece.held) {
-                        *load = if held { 0.0 } else { *load };
-                    }
-                    let loads = &loads[..components];
-                    shapes.add_load(q, &numbers, loads, weight, &mut system.load);
-                    balance.add_load(x, loads, weight);
                     given.push(values.map(|v| v * weight.sqrt()));
-                }
-                if part != Part::Data {
-                    balance.add_held(x, piece.held, weight);
                 }
             }
             shapes.scale(&rule.weights);

@@ -4,13 +4,11 @@
 //! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
 //! ```
 
-use crate::balance::Balance;
 use crate::basis::{BasisEvaluator, StableBasis};
 use crate::block_matrix::BlockMatrix;
 use crate::border::{Border, BorderPiece};
 use crate::eigen::EigenError;
 use crate::law::{Law, LawAt};
-use crate::pieces::Pieces;
 use crate::quadrature::Rule;
 use crate::reaction::CellReaction;
 use crate::shape::Shapes;
@@ -38,8 +36,6 @@ pub(crate) struct CellSystem {
     pub(crate) matrix: Mat<f64>,
     /// Right-hand side.
     pub(crate) load: Vec<f64>,
-    /// Supports and loads of each piece of the plate, as far as they are in the cell.
-    pub(crate) balance: Vec<Balance>,
     /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.
     pub(crate) penalty: f64,
     /// What the supports in the cell exert, one a condition that gives values.
@@ -129,20 +125,14 @@ pub(crate) struct CellAssembler<'s> {
     space: &'s Space<'s>,
     basis: &'s StableBasis,
     law: &'s Law<'s>,
-    pieces: &'s Pieces,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
 
 impl<'s> CellAssembler<'s> {
-    pub(crate) fn new(
-        space: &'s Space<'s>,
-        basis: &'s StableBasis,
-        law: &'s Law<'s>,
-        pieces: &'s Pieces,
-    ) -> Self {
+    pub(crate) fn new(space: &'s Space<'s>, basis: &'s StableBasis, law: &'s Law<'s>) -> Self {
         let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
-        Self { space, basis, law, pieces, evaluator, shapes }
+        Self { space, basis, law, evaluator, shapes }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -161,7 +151,6 @@ impl<'s> CellAssembler<'s> {
         let mut system = CellSystem {
             matrix: square(n * components),
             load: vec![0.0; n * components],
-            balance: Balance::of(self.pieces, components),
             penalty: 0.0,
             reactions: Vec::new(),
             functions,
@@ -185,13 +174,7 @@ impl<'s> CellAssembler<'s> {
         if !border.is_empty() {
             let mut on_border = Border::new(self.law, n * components);
             for piece in border {
-                on_border.add(
-                    piece,
-                    self.pieces,
-                    &mut self.evaluator,
-                    &mut self.shapes,
-                    &mut system,
-                );
+                on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
             }
             let size = self.space.partition.cell[cell].size();
             on_border.finish(size.x.max(size.y), &mut system)?;
@@ -212,7 +195,6 @@ impl<'s> CellAssembler<'s> {
             let values = source(x);
             let values = &values[..self.law.components];
             self.shapes.add_load(q, &numbers, values, weight, &mut system.load);
-            system.balance[self.pieces.of(x)].add_load(x, values, weight);
         }
     }
 

@@ -17,10 +17,10 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
     SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{FaerError, SparseColMat};
+use faer::sparse::{FaerError, SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
-use crate::block_matrix::BlockMatrix;
+use crate::block_matrix::{BlockMatrix, BlockPattern};
 
 /// A pivot L_kk² up to this fraction of K_kk is rounding noise and counts as zero. In a system
 /// after the stable transformation the fraction is at least the reciprocal condition number, seen
@@ -236,6 +236,46 @@ fn analyse(lower: &SparseColMat<usize, f64>) -> Result<SymbolicCholesky<usize>, 
     factorize_symbolic_cholesky(lower.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
 }
 
+/// What elimination makes of a pattern of blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fill {
+    /// Values of the factor.
+    pub(crate) values: f64,
+    /// Operations of the factorisation.
+    pub(crate) operations: f64,
+}
+
+/// The factor of a matrix with `sizes[i]` unknowns in patch i, counted without its values: elimination on the graph
+/// of the patches, in the order in which they would be eliminated. An estimate, as the order of the unknowns may differ.
+pub(crate) fn fill(pattern: &BlockPattern, sizes: &[usize]) -> Fill {
+    let n = pattern.len();
+    let mut starts = vec![0];
+    let mut columns = Vec::new();
+    for i in 0..n {
+        columns.extend(pattern.row(i).iter().map(|&j| j as usize));
+        starts.push(columns.len());
+    }
+    // row i of the upper triangle is column i of the lower one
+    let lower = SymbolicSparseColMat::new_checked(n, n, starts, None, columns);
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+        ..Default::default()
+    };
+    let order = SymmetricOrdering::Amd;
+    let factor = factorize_symbolic_cholesky(lower.as_ref(), Side::Lower, order, params);
+    let beyond = Fill { values: f64::INFINITY, operations: f64::INFINITY };
+    let Ok(factor) = factor else { return beyond };
+    let SymbolicCholeskyRaw::Simplicial(columns) = factor.raw() else { return beyond };
+    let size = |k: usize| sizes[original_index(&factor, k)] as f64;
+    let mut fill = Fill { values: 0.0, operations: 0.0 };
+    for (k, ends) in columns.col_ptr().windows(2).enumerate() {
+        let below: f64 = columns.row_idx()[ends[0]..ends[1]].iter().map(|&row| size(row)).sum();
+        fill.values += size(k) * below;
+        fill.operations += size(k) * below * below;
+    }
+    fill
+}
+
 /// The values of L of a matrix with ones on its diagonal, in the order of the symbolic factorisation;
 /// none if a pivot vanishes.
 fn definite(
@@ -416,6 +456,22 @@ mod tests {
         assert_eq!(solution.relative_residual, 0.0);
         let empty = BlockMatrix::new(&[0], BlockPattern::new(vec![0, 1], vec![0]));
         assert!(Cholesky::new(&empty).unwrap().solve(&[]).unwrap().unknowns.is_empty());
+    }
+
+    /// Elimination on the graph of patches counts what elimination on the unknowns has.
+    #[test]
+    fn the_factor_is_as_large_as_estimated() {
+        for n in [7, 24] {
+            let matrix = dominant(n);
+            let sizes: Vec<_> = (0..n * n).map(|i| matrix.unknowns(i).len()).collect();
+            let found = fill(&grid(n), &sizes);
+            let factor = Cholesky::new(&matrix).unwrap();
+            let ratio = found.values / factor.symbolic.len_val() as f64;
+            assert!((0.7..1.3).contains(&ratio), "{n}: {ratio}");
+            // a dense matrix takes n³/3 multiplications and as many additions
+            let unknowns = matrix.n_unknowns() as f64;
+            assert!(found.operations <= unknowns.powi(3) + 1.0, "{n}: {}", found.operations);
+        }
     }
 
     #[test]

@@ -12,8 +12,10 @@
 //! functions, beside jumps where they are cut.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use crate::clip::{distance, inside, length_inside, segment_inside};
+use crate::placed::{Placed, around, wider};
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::Partition;
@@ -34,6 +36,8 @@ pub(crate) struct Enrichments<'p> {
     pub(crate) table: Vec<Function>,
     problem: &'p Problem,
     instances: Vec<Instance<'p>>,
+    /// The numbers of the instances, by the places of their patches, once all are there.
+    placed: OnceLock<Placed<usize>>,
     /// Those of the problem's own among the instances.
     own: Range<usize>,
 }
@@ -95,7 +99,13 @@ struct Place {
 impl<'p> Enrichments<'p> {
     pub(crate) fn new(problem: &'p Problem) -> Self {
         let one = Function { name: "one".into(), kind: FunctionKind::One };
-        let mut all = Self { table: vec![one], problem, instances: Vec::new(), own: 0..0 };
+        let mut all = Self {
+            table: vec![one],
+            problem,
+            instances: Vec::new(),
+            placed: OnceLock::new(),
+            own: 0..0,
+        };
         let mode = problem.discretization.enrichment;
         if mode.has_jumps() {
             problem.cracks.iter().enumerate().for_each(|(k, crack)| all.add_jump(k, crack));
@@ -135,6 +145,7 @@ impl<'p> Enrichments<'p> {
         let first = self.table.len() as u32;
         self.table.extend(functions);
         let functions = first..self.table.len() as u32;
+        self.placed.take();
         self.instances.push(Instance { functions, patches, degree });
     }
 
@@ -156,7 +167,8 @@ impl<'p> Enrichments<'p> {
     pub(crate) fn blocks(&self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
         let patch = Patch::new(partition, patch, self.problem);
         let mut blocks = vec![(0, degree)];
-        for instance in self.instances.iter().filter(|new| patch.is_of(&new.patches)) {
+        let near = self.placed().near(&patch.support).map(|&k| &self.instances[k]);
+        for instance in near.filter(|new| patch.is_of(&new.patches)) {
             let degree = match instance.degree {
                 Degree::OfPatch => degree,
                 Degree::BelowPatch => degree.saturating_sub(1),
@@ -172,6 +184,28 @@ impl<'p> Enrichments<'p> {
             blocks.extend(instance.functions.clone().map(|function| (function, degree)));
         }
         blocks
+    }
+}
+
+impl Enrichments<'_> {
+    fn placed(&self) -> &Placed<usize> {
+        let instances = self.instances.iter().enumerate();
+        let place = |(k, new): (usize, &Instance<'_>)| (new.patches.place(self.problem), k);
+        self.placed.get_or_init(|| Placed::new(instances.map(place)))
+    }
+}
+
+impl Patches<'_> {
+    /// A box that all of the patches meet.
+    fn place(&self, problem: &Problem) -> Rect {
+        let everywhere = wider(&problem.domain.bounds, problem.domain.bounds.size().length());
+        match self {
+            Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
+            Patches::Cut(crack) => around(&crack.points),
+            Patches::Near(Shape::Point(p), radius) => wider(&around(&[*p]), *radius),
+            Patches::Near(Shape::Segment(ends), radius) => wider(&around(ends), *radius),
+            Patches::Behind(tip, _) => around(&problem.cracks[tip.crack as usize].points),
+        }
     }
 }
 

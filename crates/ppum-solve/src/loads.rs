@@ -6,11 +6,11 @@
 //! they agree the rule of the system stays, else the other one takes its place for this load.
 
 use crate::batch::in_batches;
+use crate::given::{border_rules, source_at};
 use crate::problem::{BoundaryCondition, Condition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Kink, Quadrature, Rule};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
-use crate::system::{border_rules, source_at};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Difference of moments up to which the rule of the system stays, as a part of the mean load: of formulas

@@ -4,16 +4,20 @@ use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
 use crate::cholesky::Cholesky;
 use crate::eigen::EigenError;
+pub use crate::estimate::Estimate;
+use crate::estimate::gibibytes;
 use crate::gauge::Gauge;
+use crate::given::Given;
 use crate::law::Law;
 use crate::norms::energy;
 use crate::pieces::{Piece, Pieces};
 use crate::problem::Problem;
 use crate::rigid::PerMotion;
-use crate::space::{Space, SpaceError, discretise};
+use crate::space::{Space, SpaceError, discretise_within};
 pub use crate::spectrum::Spectrum;
 use crate::system::{System, Unresolved, assemble, slivers};
 use crate::warnings::{judge, of_quadrature, rounding};
+use ppum::check::CheckError;
 use ppum::dataset::{Attribute, Dataset, Reaction, Record, Step};
 use ppum::field::{Field, FieldError};
 use ppum::function::{FunctionError, FunctionTable};
@@ -87,6 +91,21 @@ pub enum SolveError {
     /// The field that was found.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// A dataset that nothing could read again.
+    #[error("the solution could not be stored: {0}")]
+    Dataset(#[from] CheckError),
+    /// More than the memory holds.
+    #[error(
+        "the solution needs more memory than the {} that may be used: {needs}; use fewer cells, a lower \
+         order, or a machine with more memory",
+        gibibytes(*memory as f64)
+    )]
+    TooLarge {
+        /// What it needs, at least.
+        needs: Estimate,
+        /// The memory [bytes].
+        memory: u64,
+    },
 }
 
 /// Solves a problem: one step, one field. `report` is told what is being done.
@@ -104,27 +123,7 @@ pub enum SolveError {
 /// # Errors
 /// See [`SolveError`].
 pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Dataset, SolveError> {
-    let mut clock = Clock::new();
-    report(Progress { phase: Phase::Cover, done: 0, total: 1 });
-    let mut step = discretise(problem)?;
-    clock.lap(Phase::Cover);
-    let mut solution = Solver { problem, step: &step }.run(&mut clock, report)?;
-    let unresolved = std::mem::take(&mut solution.unresolved);
-    solution.store(&mut step, problem.components());
-    let mut dataset = dataset(problem, step);
-    report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
-    let value = stored_energy(&dataset)?;
-    dataset.steps[0].history.push(Record { name: "energy".into(), value, unit: String::new() });
-    let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
-    let (rounding, _) = rounding(&dataset, 0)?;
-    clock.lap(Phase::Intensity);
-    let step = &mut dataset.steps[0];
-    step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
-    step.warnings = warnings;
-    step.warnings.extend(of_quadrature(&unresolved));
-    step.history.push(Record { name: "rounding".into(), value: rounding, unit: String::new() });
-    step.history.extend(clock.records);
-    Ok(dataset)
+    Plan::new(problem, None, report)?.solve(report)
 }
 
 /// The extreme eigenvalues of the system of a problem, to a thousandth: the condition number of its
@@ -133,11 +132,133 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
 /// # Errors
 /// See [`SolveError`].
 pub fn spectrum(problem: &Problem) -> Result<Spectrum, SolveError> {
-    let step = discretise(problem)?;
-    let solver = Solver { problem, step: &step };
+    let plan = Plan::new(problem, None, &mut |_| {})?;
+    let solver = plan.solver();
+    let space = solver.space()?;
     let Assembled { system, .. } =
-        solver.assemble(&solver.space()?, &mut Clock::new(), &mut |_| {})?;
+        solver.assemble(&space, solver.loaded(&space)?, &mut Clock::new(), &mut |_| {})?;
     Ok(Spectrum::new(&system.matrix, &Cholesky::new(&system.matrix)?)?)
+}
+
+/// A problem whose cover and functions are known, and with them what its solution takes.
+///
+/// ```
+/// use ppum::vec2::{Rect, vec2};
+/// use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Problem};
+/// use ppum_solve::solve::{Plan, SolveError};
+///
+/// let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+/// let plate = |level| {
+///     Problem::poisson(domain, 1.0, Discretization::new(Cells::Level(level)))
+///         .with_boundary(Edge::Left, vec![Condition::Dirichlet(0.0.into())])
+/// };
+/// let (small, large) = (plate(3), plate(10));
+/// let memory = Some(1 << 30);
+/// let plan = Plan::new(&small, memory, &mut |_| {})?;
+/// assert_eq!(plan.estimate().patches, 64.0);
+/// plan.check()?;
+/// let refused = Plan::new(&large, memory, &mut |_| {});
+/// assert!(matches!(refused, Err(SolveError::TooLarge { .. })));
+/// # Ok::<(), SolveError>(())
+/// ```
+pub struct Plan<'p> {
+    problem: &'p Problem,
+    /// The dataset with all coefficients zero.
+    dataset: Dataset,
+    estimate: Estimate,
+    clock: Clock,
+}
+
+impl<'p> Plan<'p> {
+    /// The plan of a problem, whose solution may take so much memory [bytes].
+    ///
+    /// # Errors
+    /// A space that cannot be built, functions that are not finite, a solution that takes more memory or could not
+    /// be stored.
+    pub fn new(
+        problem: &'p Problem,
+        memory: Option<u64>,
+        report: &mut dyn FnMut(Progress),
+    ) -> Result<Self, SolveError> {
+        let mut clock = Clock::new();
+        report(Progress { phase: Phase::Cover, done: 0, total: 1 });
+        fits(Estimate::least(problem), memory)?;
+        let most = memory.map_or(usize::MAX, |memory| Estimate::most_cells(problem, memory));
+        let dataset = dataset(problem, discretise_within(problem, most)?);
+        dataset.check()?;
+        let solver = Solver { problem, step: &dataset.steps[0] };
+        let estimate = fits(Estimate::of_space(problem, &solver.space()?), memory)?;
+        clock.lap(Phase::Cover);
+        Ok(Self { problem, dataset, estimate, clock })
+    }
+
+    /// What the solution takes.
+    #[must_use]
+    pub fn estimate(&self) -> &Estimate {
+        &self.estimate
+    }
+
+    /// The dataset before the solution is known: all coefficients are zero.
+    #[must_use]
+    pub fn dataset(&self) -> &Dataset {
+        &self.dataset
+    }
+
+    /// Looks whether the loads on each piece of the plate balance, or something holds it. That takes their
+    /// integrals, and no system.
+    ///
+    /// # Errors
+    /// Loads without support, data that are not finite.
+    pub fn check(&self) -> Result<(), SolveError> {
+        let solver = self.solver();
+        solver.loaded(&solver.space()?).map(drop)
+    }
+
+    /// Solves the problem.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub fn solve(mut self, report: &mut dyn FnMut(Progress)) -> Result<Dataset, SolveError> {
+        let solver = Solver { problem: self.problem, step: &self.dataset.steps[0] };
+        let mut solution = solver.run(&mut self.clock, report)?;
+        let unresolved = std::mem::take(&mut solution.unresolved);
+        solution.store(&mut self.dataset.steps[0], self.problem.components());
+        self.judged(&unresolved, report)
+    }
+
+    fn solver(&self) -> Solver<'_> {
+        Solver { problem: self.problem, step: &self.dataset.steps[0] }
+    }
+
+    /// The dataset of a solution with its stress intensity factors, and what is to be said of it.
+    fn judged(
+        mut self,
+        unresolved: &[Unresolved],
+        report: &mut dyn FnMut(Progress),
+    ) -> Result<Dataset, SolveError> {
+        report(Progress { phase: Phase::Intensity, done: 0, total: 1 });
+        let record = |name: &str, value| Record { name: name.into(), value, unit: String::new() };
+        let energy = record("energy", stored_energy(&self.dataset)?);
+        self.dataset.steps[0].history.push(energy);
+        let (tips, warnings) = judge(&self.dataset, 0, Some(self.problem))?;
+        let (rounding, _) = rounding(&self.dataset, 0)?;
+        self.clock.lap(Phase::Intensity);
+        let step = &mut self.dataset.steps[0];
+        step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
+        step.warnings = warnings;
+        step.warnings.extend(of_quadrature(unresolved));
+        step.history.push(record("rounding", rounding));
+        step.history.extend(self.clock.records);
+        Ok(self.dataset)
+    }
+}
+
+/// The estimate, if what it needs is there.
+fn fits(needs: Estimate, memory: Option<u64>) -> Result<Estimate, SolveError> {
+    match memory {
+        Some(memory) if needs.memory > memory as f64 => Err(SolveError::TooLarge { needs, memory }),
+        _ => Ok(needs),
+    }
 }
 
 fn dataset(problem: &Problem, step: Step) -> Dataset {
@@ -220,8 +341,10 @@ impl Solver<'_> {
     ) -> Result<Solution, SolveError> {
         let components = self.problem.components();
         let space = self.space()?;
-        let Assembled { basis, pieces, system, gauge, imbalance } =
-            self.assemble(&space, clock, report)?;
+        let loaded = self.loaded(&space)?;
+        let imbalance = loaded.imbalance();
+        let Assembled { basis, pieces, system, gauge } =
+            self.assemble(&space, loaded, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
         let solver = Cholesky::new(&system.matrix)?;
         let mut solution = solver.solve(&system.load)?;
@@ -253,29 +376,54 @@ impl Solver<'_> {
         Ok(space)
     }
 
+    /// The loads, and what they meet.
+    fn loaded(&self, space: &Space<'_>) -> Result<Loaded<'_>, SolveError> {
+        let pieces = Pieces::new(&self.problem.domain, &self.problem.cracks);
+        let given = Given::new(self.problem, space);
+        let balance = given.balance(space, &pieces);
+        let free = free_motions(&balance, &pieces)?;
+        Ok(Loaded { given, pieces, balance, free })
+    }
+
     fn assemble(
         &self,
         space: &Space<'_>,
+        loaded: Loaded<'_>,
         clock: &mut Clock,
         report: &mut dyn FnMut(Progress),
     ) -> Result<Assembled, SolveError> {
+        let Loaded { given, pieces, balance, free } = loaded;
         let law = Law::new(&self.problem.equation);
-        let pieces = Pieces::new(&self.problem.domain, &self.problem.cracks);
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let mut basis = StableBasis::new(space).map_err(SolveError::Basis)?;
-        let slivers = slivers(self.problem, space, &basis, &law, &pieces)?;
+        let slivers = slivers(self.problem, space, &basis, &law)?;
         basis.damp(space, &slivers)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
-        let free = free_motions(&system.balance, &pieces)?;
-        let balances = system.balance.iter().zip(&free);
-        let imbalance = balances.map(|(b, free)| b.imbalance(free)).fold(0.0, f64::max);
-        let gauge = Gauge::new(space, &basis, &pieces, &system.balance, &free, &system.matrix);
+        let mut system = assemble(&given, space, &basis, &law, &mut tell)?;
+        let gauge = Gauge::new(space, &basis, &pieces, &balance, &free, &system.matrix);
         gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
-        Ok(Assembled { basis, pieces, system, gauge, imbalance })
+        Ok(Assembled { basis, pieces, system, gauge })
+    }
+}
+
+/// What loads and holds the pieces of the plate, which is in equilibrium.
+struct Loaded<'p> {
+    given: Given<'p>,
+    pieces: Pieces,
+    /// Of each piece.
+    balance: Vec<Balance>,
+    /// Of each piece, the rigid motions that nothing holds.
+    free: Vec<Vec<PerMotion>>,
+}
+
+impl Loaded<'_> {
+    /// Largest part of the loads on a piece that does not balance.
+    fn imbalance(&self) -> f64 {
+        let pieces = self.balance.iter().zip(&self.free);
+        pieces.map(|(balance, free)| balance.imbalance(free)).fold(0.0, f64::max)
     }
 }
 
@@ -285,8 +433,6 @@ struct Assembled {
     pieces: Pieces,
     system: System,
     gauge: Gauge,
-    /// See [`Solution::imbalance`].
-    imbalance: f64,
 }
 
 /// The free motions of each piece, after a check that the loads leave them alone.

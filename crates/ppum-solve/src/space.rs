@@ -3,6 +3,7 @@
 
 use crate::enrichment::{Block, Enrichments};
 use crate::inspect::{InspectError, inspect};
+use crate::placed::Placed;
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
@@ -14,7 +15,7 @@ use ppum::dataset::{Attribute, Equation, FieldData, Partition, Record, Step, mon
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
-use ppum::vec2::Rect;
+use ppum::vec2::{Rect, vec2};
 use ppum::weight::WeightFunction;
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
@@ -201,9 +202,18 @@ pub enum SpaceError {
 /// A cover that cannot be built or refined, an order formula that gives no order, a function that is
 /// not finite on its patches.
 pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
+    discretise_within(problem, usize::MAX)
+}
+
+/// The same on a cover of at most so many cells, before those in holes are left out.
+///
+/// # Errors
+/// See [`discretise`]; a cover with more cells.
+pub(crate) fn discretise_within(problem: &Problem, most: usize) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
-    let partition =
-        cover(problem)?.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
+    let partition = cover(problem, most)?
+        .partition(set.overlap, set.weight.clone())
+        .map_err(RefineError::from)?;
     let partition = solid_part(partition, &problem.domain.holes)?;
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition).map_err(InspectError::from)?;
@@ -239,11 +249,14 @@ fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceEr
     }
     let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
+    let placed = Placed::new(holes.iter().map(|hole| (hole.bounds(), hole)));
     let is_solid = |(index, cell): (u32, &Rect)| {
         let size = cell.size();
-        let touched = holes.iter().any(|hole| hole.bounds().overlaps(cell));
+        let near: Vec<_> = placed.near(cell).copied().collect();
         let area = |rules: Vec<Rule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
-        !touched || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
+        near.is_empty()
+            || has_room(cell, &near)
+            || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
     };
     let solid: Vec<bool> = (0..).zip(&partition.cell).map(is_solid).collect();
     if !solid.contains(&true) {
@@ -259,6 +272,22 @@ fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceEr
         point: kept(&partition.point, &solid),
         ..partition
     })
+}
+
+/// Places of a cell in each direction that are looked at before its area is integrated.
+const LOOKS: u32 = 5;
+
+/// Distance from the rims, in sizes of a cell, of a place that shows enough of the material.
+const ROOM: f64 = 1e-5;
+
+/// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be solid so.
+fn has_room(cell: &Rect, holes: &[&Hole]) -> bool {
+    let size = cell.size();
+    let along = |k: u32| (f64::from(k) + 0.5) / f64::from(LOOKS);
+    let all = (0..LOOKS * LOOKS).map(|k| vec2(along(k % LOOKS), along(k / LOOKS)));
+    let mut places = all.map(|at| cell.min + vec2(at.x * size.x, at.y * size.y));
+    let room = ROOM * size.x.min(size.y);
+    places.any(|p| holes.iter().all(|hole| !hole.contains(p) && hole.rim_distance(p) > room))
 }
 
 /// The entries that are kept.

@@ -1,18 +1,16 @@
 //! The whole system in the stable basis, summed over the cells.
 
-use crate::balance::Balance;
 use crate::basis::StableBasis;
 use crate::batch::in_batches;
 use crate::block_matrix::{BlockMatrix, BlockPattern};
 use crate::border::BorderPiece;
-use crate::cell::{CellAssembler, CellSystem, Data, Source};
+use crate::cell::{CellAssembler, CellSystem};
 use crate::eigen::EigenError;
+use crate::given::Given;
 use crate::law::Law;
-use crate::loads::{LoadRules, of_condition, of_source};
-use crate::pieces::Pieces;
-use crate::problem::{BorderPart, BoundaryCondition, Problem};
-use crate::quadrature::{Doubt, EdgeRule, Face, Quadrature, Rule};
-use crate::reaction::{Reactions, motions};
+use crate::problem::{BorderPart, Problem};
+use crate::quadrature::{Doubt, EdgeRule, Rule};
+use crate::reaction::Reactions;
 use crate::space::Space;
 use ppum::crack::Side;
 use ppum::domain::segment_distance;
@@ -23,8 +21,6 @@ pub(crate) struct System {
     pub(crate) matrix: BlockMatrix,
     /// Right-hand side, in the order of the matrix.
     pub(crate) load: Vec<f64>,
-    /// Supports and loads of each piece of the plate.
-    pub(crate) balance: Vec<Balance>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub(crate) nitsche: f64,
     /// What the supports exert on the plate.
@@ -63,20 +59,15 @@ pub(crate) fn slivers(
     space: &Space<'_>,
     basis: &StableBasis,
     law: &Law<'_>,
-    pieces: &Pieces,
 ) -> Result<Vec<Penalty>, EigenError> {
     let quadrature = space.quadrature(0);
-    let conditions = problem.boundary.iter().enumerate();
-    let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
-    let given: Vec<_> =
-        holding.map(|(k, condition)| Given::new(k, condition, LoadRules::default())).collect();
+    let given = Given::supports(problem);
     let mut found = Ok(Vec::new());
     in_batches(
         if given.is_empty() { 0 } else { space.partition.len() },
-        || CellAssembler::new(space, basis, law, pieces),
+        || CellAssembler::new(space, basis, law),
         |assembler, cell| {
-            let on_border = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
-            let on_border: Vec<_> = on_border.filter(|p| !p.rules.is_empty()).collect();
+            let on_border = given.border(space, &quadrature, cell);
             if on_border.is_empty() {
                 return Ok(None);
             }
@@ -99,38 +90,29 @@ fn width(cell: &Rect) -> f64 {
     cell.size().x.max(cell.size().y)
 }
 
-/// Assembles the system of a problem on a space. `progress` is told the cells that are done.
+/// Assembles the system of what is given on a space. `progress` is told the cells that are done.
 ///
 /// # Errors
 /// Data that are not finite.
 pub(crate) fn assemble(
-    problem: &Problem,
+    given: &Given<'_>,
     space: &Space<'_>,
     basis: &StableBasis,
     law: &Law<'_>,
-    pieces: &Pieces,
     progress: &mut dyn FnMut(usize),
 ) -> Result<System, EigenError> {
     let quadrature = space.quadrature(0);
-    let mut system = System::new(space, basis, pieces, law.components);
-    let source = |x: Vec2| source_at(problem, x);
-    let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
-    let source: Option<Data<'_>> = has_source.then_some(&source);
-    let source_rules = of_source(problem, space);
-    let conditions = problem.boundary.iter().enumerate();
-    let given = conditions.map(|(k, c)| Given::new(k, c, of_condition(problem, space, c)));
-    let given: Vec<_> = given.collect();
-    system.unresolved = unresolved_loads(&source_rules, &given, problem);
+    let mut system = System::new(space, basis, law.components);
+    system.unresolved = given.unresolved();
     let (mut failed, mut doubt) = (None, Doubt::default());
     in_batches(
         space.partition.len(),
-        || CellAssembler::new(space, basis, law, pieces),
+        || CellAssembler::new(space, basis, law),
         |assembler, cell| {
             let rules = space.rules(&quadrature, cell);
-            let pieces = given.iter().map(|g| g.piece(problem, space, &quadrature, cell));
-            let pieces: Vec<_> = pieces.filter(|p| !p.rules.is_empty()).collect();
-            let own = source_rules.of(cell);
-            let source = source.map(|values| Source { values, rules: own });
+            let pieces = given.border(space, &quadrature, cell);
+            let source = given.source(cell);
+            let own = source.and_then(|source| source.rules);
             let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
             let part = assembler.assemble(cell, &rules, source, &pieces);
             (part, points, doubt_of(&rules, &pieces))
@@ -178,79 +160,6 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
     sum
 }
 
-/// The loads and data that their own rules do not resolve.
-fn unresolved_loads(
-    source: &LoadRules<Rule>,
-    given: &[Given<'_>],
-    problem: &Problem,
-) -> Vec<Unresolved> {
-    let unresolved = |what: String, (error, at)| Unresolved { load: Some(what), error, at };
-    let name = if problem.components() == 1 { "the source" } else { "the body force" };
-    let inside = source.doubt().map(|doubt| unresolved(name.into(), doubt));
-    let of_given = |g: &Given<'_>| {
-        let what = format!("what is given on {}", g.condition.on);
-        g.own.doubt().map(|doubt| unresolved(what, doubt))
-    };
-    inside.into_iter().chain(given.iter().filter_map(of_given)).collect()
-}
-
-/// A boundary condition with its data as a function of position and normal.
-struct Given<'p> {
-    number: usize,
-    condition: &'p BoundaryCondition,
-    values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
-    /// Rules for the data where those of the system do not resolve them.
-    own: LoadRules<EdgeRule>,
-}
-
-impl<'p> Given<'p> {
-    fn new(number: usize, condition: &'p BoundaryCondition, own: LoadRules<EdgeRule>) -> Self {
-        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)), own }
-    }
-
-    fn piece(
-        &self,
-        problem: &Problem,
-        space: &Space<'_>,
-        quadrature: &Quadrature<'_>,
-        cell: usize,
-    ) -> BorderPiece<'_> {
-        let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
-        let rules = border_rules(problem, self.condition.on, quadrature, rect, coverers);
-        BorderPiece {
-            rules,
-            own: self.own.of(cell),
-            held: self.condition.held(),
-            values: &*self.values,
-            condition: self.number,
-            motions: motions(problem),
-        }
-    }
-}
-
-/// The rules on a part of the border in one cell.
-pub(crate) fn border_rules(
-    problem: &Problem,
-    on: BorderPart,
-    quadrature: &Quadrature<'_>,
-    rect: &Rect,
-    coverers: &[u32],
-) -> Vec<EdgeRule> {
-    match on {
-        BorderPart::Edge { edge, from, to } => {
-            let ends = [from, to].map(|s| edge.point(&problem.domain.bounds, s));
-            quadrature.edge(rect, coverers, ends, edge.normal())
-        }
-        BorderPart::Hole(hole) => quadrature.rim(rect, coverers, &problem.domain.holes[hole]),
-        BorderPart::Crack { crack, face } => {
-            let both = [Side::Above, Side::Below];
-            let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
-            let faces = sides.flat_map(|side| Face::of(&problem.cracks[crack], crack, side));
-            faces.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
-        }
-    }
-}
-
 /// The traction on a face of a crack at a point of it.
 pub(crate) fn face_load(problem: &Problem, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
     let segments = problem.cracks[crack].points.windows(2);
@@ -270,26 +179,13 @@ pub(crate) fn face_load(problem: &Problem, crack: usize, side: Side, x: Vec2) ->
     sum
 }
 
-/// The right-hand side of a problem at a point.
-pub(crate) fn source_at(problem: &Problem, x: Vec2) -> [f64; 2] {
-    values(problem.source.iter().map(|e| e.value(x)))
-}
-
-/// Up to two values as an array, zero beyond.
-fn values(from: impl Iterator<Item = f64>) -> [f64; 2] {
-    let mut out = [0.0; 2];
-    out.iter_mut().zip(from).for_each(|(out, value)| *out = value);
-    out
-}
-
 impl System {
-    fn new(space: &Space<'_>, basis: &StableBasis, pieces: &Pieces, components: usize) -> Self {
+    fn new(space: &Space<'_>, basis: &StableBasis, components: usize) -> Self {
         let sizes: Vec<_> = basis.sizes.iter().map(|n| n * components).collect();
         let matrix = BlockMatrix::new(&sizes, pattern(space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
             matrix,
-            balance: Balance::of(pieces, components),
             nitsche: 0.0,
             reactions: Reactions::default(),
             points: 0,
@@ -311,12 +207,11 @@ impl System {
                 self.matrix.add_block(p, q as usize, block.as_ref());
             }
         }
-        self.balance.iter_mut().zip(&part.balance).for_each(|(sum, part)| sum.add(part));
     }
 }
 
 /// Two patches are coupled when their open supports meet.
-fn pattern(space: &Space<'_>) -> BlockPattern {
+pub(crate) fn pattern(space: &Space<'_>) -> BlockPattern {
     let support = |p: u32| space.partition.support(p as usize);
     let mut rows = vec![Vec::new(); space.partition.len()];
     for patches in &space.coverers {

@@ -147,6 +147,15 @@ pub struct FieldData {
 /// Highest polynomial degree of a block.
 pub const MAX_DEGREE: usize = 8;
 
+/// Most tables of a dataset. Each formula knows all of them.
+pub const MAX_TABLES: usize = 256;
+
+/// Most quantities that a dataset may name. Each is read with all before it, so time grows as the square.
+pub const MAX_QUANTITIES: usize = 256;
+
+/// Longest the formulas of these quantities may be together, in bytes.
+pub const MAX_QUANTITY_TEXT: usize = 1 << 16;
+
 /// Number of monomials of total degree at most `degree`: (d + 1)(d + 2)/2.
 #[must_use]
 pub const fn monomials(degree: usize) -> usize {

@@ -9,9 +9,11 @@ use ppum::dataset::{Dataset, Record, Step};
 use ppum::formula::one_line;
 use ppum::weight::WeightFunction;
 use ppum_solve::problem::Problem;
-use ppum_solve::solve::solve;
+use ppum_solve::solve::Plan;
 
+use crate::arguments::positive;
 use crate::families::{Family, blocks, families};
+use crate::memory;
 use crate::number::trimmed;
 use crate::progress::Bar;
 use crate::threads;
@@ -28,9 +30,12 @@ pub(crate) struct Args {
     /// Dataset to write [default: beside the problem file, with the extension .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Read and check the problem file, and stop there
+    /// Find everything that would be refused, tell what the solution takes, and stop there
     #[arg(long)]
     check: bool,
+    /// Memory that may be used, in GiB [default: what is free]
+    #[arg(long, value_name = "GIB", value_parser = positive)]
+    memory: Option<f64>,
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -45,20 +50,45 @@ Examples:
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let problem = Problem::read(&self.problem)?;
-        if self.check {
-            writeln!(out, "{}: nothing wrong", self.problem.display())?;
-            return Ok(());
-        }
         let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
         self.check_target(&target)?;
+        if self.check {
+            return self.tell(out, &problem);
+        }
         let dataset = {
             let bar = Bar::new();
-            threads::with(self.threads, || solve(&problem, &mut |progress| bar.show(progress)))??
+            let mut show = |progress| bar.show(progress);
+            let memory = self.memory();
+            let solve = || {
+                let plan = Plan::new(&problem, memory, &mut show)?;
+                ppum_format::check(plan.dataset())?;
+                anyhow::Ok(plan.solve(&mut show)?)
+            };
+            threads::with(self.threads, solve)??
         };
         ppum_format::write(&dataset, &target)?;
         summary(out, &dataset)?;
         writeln!(out, "wrote {}", target.display())?;
         Ok(())
+    }
+
+    /// Does all but solving: what is refused is told now.
+    fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
+        let checked = || {
+            let plan = Plan::new(problem, self.memory(), &mut |_| {})?;
+            plan.check()?;
+            ppum_format::check(plan.dataset())?;
+            anyhow::Ok(*plan.estimate())
+        };
+        let estimate = threads::with(self.threads, checked)??;
+        writeln!(out, "{}: nothing wrong", self.problem.display())?;
+        writeln!(out, "{estimate}")?;
+        Ok(())
+    }
+
+    /// The memory that the solution may take [bytes].
+    fn memory(&self) -> Option<u64> {
+        self.memory.map(|gibibytes| (gibibytes * f64::from(1 << 30)) as u64).or_else(memory::free)
     }
 
     /// Refuses now what could not be written after minutes of work.

@@ -93,6 +93,14 @@ fn fill(parent: &mut impl Parent, entries: &[Entry], compressed: bool) -> Result
     Ok(())
 }
 
+/// Makes sure that all texts can be stored.
+pub(crate) fn check_texts(content: &Content) -> Result<(), WriteError> {
+    content.iter().try_for_each(|(name, array)| match &array.values {
+        Values::Text(texts) => check_text(name, texts).map(drop),
+        _ => Ok(()),
+    })
+}
+
 /// Strings are padded with NUL in the file, and where a reader finds U+FFFD something was not UTF-8.
 fn check_text<'a>(name: &str, texts: &'a [String]) -> Result<Vec<&'a str>, WriteError> {
     if texts.iter().any(|t| t.contains(['\0', char::REPLACEMENT_CHARACTER])) {

@@ -1,6 +1,9 @@
 //! What the values of a problem must obey, whether it was read from a file or built in code.
 
+use std::collections::BTreeMap;
+
 use ppum::cover::OVERLAP;
+use ppum::crack::Side;
 use ppum::dataset::{Equation, MAX_DEGREE};
 use ppum::domain::Domain;
 use ppum::vec2::Rect;
@@ -238,16 +241,62 @@ fn check_order(order: &Order, domain: &Rect) -> Option<Violation> {
 }
 
 fn check_boundary(problem: &Problem) -> Vec<Violation> {
-    let mut found = Vec::new();
-    for (index, condition) in problem.boundary.iter().enumerate() {
-        found.extend(check_part(index, condition, problem));
-        let earlier = problem.boundary[..index].iter().enumerate();
-        found.extend(earlier.filter_map(|(other, earlier)| {
-            let message = contradiction(earlier, condition)?;
-            Some(Violation::new(on(index), message).with_other(on(other)))
-        }));
-    }
+    let parts = problem.boundary.iter().enumerate();
+    let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
+    found.extend(check_contradictions(&problem.boundary));
     found
+}
+
+/// A component of which a condition says something, on a stretch of a part of the border.
+struct Claim {
+    /// Kind and number of the part, face, component.
+    place: (u8, usize, u8, usize),
+    stretch: [f64; 2],
+    condition: usize,
+}
+
+fn claims(index: usize, condition: &BoundaryCondition) -> Vec<Claim> {
+    let [both, above, below] = [vec![0, 1], vec![0], vec![1]];
+    let (kind, number, faces, stretch) = match condition.on {
+        BorderPart::Edge { edge, from, to } => (0, edge as usize, above, [from, to]),
+        BorderPart::Hole(hole) => (1, hole, above, [0.0, 1.0]),
+        BorderPart::Crack { crack, face } => {
+            let faces = face.map_or(both, |side| if side == Side::Above { above } else { below });
+            (2, crack, faces, [0.0, 1.0])
+        }
+    };
+    let components = (0..condition.components.len()).filter(|&k| condition.says(k));
+    let claim = |(component, face)| Claim {
+        place: (kind, number, face, component),
+        stretch,
+        condition: index,
+    };
+    components.flat_map(|k| faces.iter().map(move |&face| (k, face))).map(claim).collect()
+}
+
+/// No component is given twice at a place. Of the conditions that an earlier one contradicts each is told once.
+fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<Violation> {
+    let mut all: Vec<_> =
+        boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part)).collect();
+    all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
+    let mut pairs = BTreeMap::new();
+    let mut claims = all.iter();
+    let Some(mut farthest) = claims.next() else { return Vec::new() };
+    for claim in claims {
+        let meets = claim.place == farthest.place && claim.stretch[0] < farthest.stretch[1];
+        if meets && claim.condition != farthest.condition {
+            let (a, b) = (claim.condition, farthest.condition);
+            pairs.entry(a.max(b)).or_insert(a.min(b));
+        }
+        if !meets || claim.stretch[1] > farthest.stretch[1] {
+            farthest = claim;
+        }
+    }
+    let violation = |(later, earlier): (usize, usize)| {
+        let message = contradiction(&boundary[earlier], &boundary[later])?;
+        Some(Violation::new(on(later), message).with_other(on(earlier)))
+    };
+    pairs.into_iter().filter_map(violation).collect()
 }
 
 fn on(index: usize) -> Key {

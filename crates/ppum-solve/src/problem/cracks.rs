@@ -1,5 +1,7 @@
 //! Cracks as a problem gives them: what their ends are, and where they may lie.
 
+use std::collections::BTreeMap;
+
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
@@ -7,6 +9,8 @@ use ppum::vec2::{Rect, Vec2};
 use super::boundary::Edge;
 use super::check::Violation;
 use super::key::Key;
+use super::nearby::{Nearby, Segment, TooDense, first_pair};
+use crate::placed::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.
@@ -16,14 +20,39 @@ pub(super) const TOUCH: f64 = 1e-9;
 /// 10⁻⁹ of the domain's size), are mouths, all others tips.
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
+    let lines = std::iter::once(points);
+    cracks(lines, domain).pop().unwrap_or(Crack { points: Vec::new(), ends: [CrackEnd::Tip; 2] })
+}
+
+/// Cracks along polylines, with their ends as [`crack`] has them.
+pub(super) fn cracks(lines: impl Iterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
+    let holes = holes_of(domain, touch);
     let end = |point: Option<&Vec2>| match point {
         Some(p) if edges_at(*p, &domain.bounds, 0.0).next().is_some() => CrackEnd::Mouth,
-        Some(p) if domain.holes.iter().any(|hole| reaches(hole, *p, touch)) => CrackEnd::Mouth,
+        Some(p) if holes_at(&holes, *p).any(|(_, hole)| reaches(hole, *p, touch)) => {
+            CrackEnd::Mouth
+        }
         _ => CrackEnd::Tip,
     };
-    let ends = [end(points.first()), end(points.last())];
-    Crack { points, ends }
+    let crack = |points: Vec<Vec2>| {
+        let ends = [end(points.first()), end(points.last())];
+        Crack { points, ends }
+    };
+    lines.map(crack).collect()
+}
+
+/// Holes with their numbers.
+type Holes<'h> = Placed<(usize, &'h Hole)>;
+
+fn holes_of(domain: &Domain, touch: f64) -> Holes<'_> {
+    let holes = domain.holes.iter().enumerate();
+    Placed::new(holes.map(|hole| (wider(&hole.1.bounds(), 2.0 * touch), hole)))
+}
+
+/// The holes that may reach a point.
+fn holes_at<'a, 'h>(holes: &'a Holes<'h>, p: Vec2) -> impl Iterator<Item = &'a (usize, &'h Hole)> {
+    holes.near(&Rect::new(p, p))
 }
 
 /// The length below which things touch.
@@ -46,32 +75,65 @@ fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
 pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<Violation> {
     let touch = touch(&domain.bounds);
+    let holes = holes_of(domain, touch);
     let mut found = Vec::new();
+    let mut in_order = Vec::new();
     for (index, crack) in cracks.iter().enumerate() {
-        let points = Key::new("crack").index(index).name("points");
-        let mut broken = check_crack(&crack.points, &domain.bounds, touch, &points);
-        broken.extend(check_at_holes(crack, &domain.holes, touch, &points));
-        let in_order = broken.is_empty();
+        let key = points_of(index);
+        let mut broken = check_crack(&crack.points, &domain.bounds, touch, &key);
+        broken.extend(check_at_holes(crack, &holes, touch, &key));
+        in_order.extend(broken.is_empty().then_some(index));
         found.extend(broken);
-        if in_order {
-            let earlier = cracks[..index].iter().enumerate();
-            found.extend(earlier.filter_map(|(other, earlier)| {
-                let segment = first_touch(&crack.points, &earlier.points, touch)?;
-                let message = "the crack crosses or touches another one, which is not supported yet in \
-                               this version; move them apart";
-                let other = Key::new("crack").index(other).name("points");
-                Some(Violation::new(points.clone().index(segment), message).with_other(other))
-            }));
-        }
     }
+    found.extend(check_contacts(cracks, &in_order, touch));
     found
 }
 
+fn points_of(crack: usize) -> Key {
+    Key::new("crack").index(crack).name("points")
+}
+
+/// Most contacts that are told.
+const MOST_CONTACTS: usize = 100;
+
+/// No two of the cracks touch.
+fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Violation> {
+    let pieces = in_order.iter().flat_map(|&crack| {
+        let segments = cracks[crack].points.windows(2).enumerate();
+        segments.map(move |(k, pair)| (crack, k, [pair[0], pair[1]]))
+    });
+    let pieces: Vec<(usize, usize, Segment)> = pieces.collect();
+    let segments: Vec<_> = pieces.iter().map(|&(.., segment)| segment).collect();
+    let nearby = Nearby::new(&segments, touch);
+    let mut contacts = BTreeMap::new();
+    for &(crack, k, segment) in &pieces {
+        let Ok(near) = nearby.of(segment) else {
+            return vec![Violation::new(Key::new("crack"), TooDense::message("the cracks"))];
+        };
+        let earlier = near.into_iter().take_while(|&other| pieces[other].0 < crack);
+        for other in earlier.filter(|&other| distance(segment, segments[other]) <= touch) {
+            contacts.entry((crack, pieces[other].0)).or_insert(k);
+        }
+        if contacts.len() >= MOST_CONTACTS {
+            break;
+        }
+    }
+    contacts.into_iter().take(MOST_CONTACTS).map(contact).collect()
+}
+
+/// What is wrong where a crack, at its segment `k`, touches another one.
+fn contact(((crack, other), k): ((usize, usize), usize)) -> Violation {
+    let message = "the crack crosses or touches another one, which is not supported yet in this version; \
+                   move them apart";
+    Violation::new(points_of(crack).index(k), message).with_other(points_of(other))
+}
+
 /// Some of the crack lies in the material, and no tip too near to a rim to be meant.
-fn check_at_holes(crack: &Crack, holes: &[Hole], touch: f64, key: &Key) -> Option<Violation> {
+fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<Violation> {
     let lost = |hole: &Hole| crack.points.iter().all(|p| reaches(hole, *p, touch));
     let convex = |hole: &Hole| matches!(hole, Hole::Circle { .. });
-    let hole = holes.iter().position(|hole| convex(hole) && lost(hole))?;
+    let first = *crack.points.first()?;
+    let hole = holes_at(holes, first).find(|(_, hole)| convex(hole) && lost(hole))?.0;
     let message = format!("the crack lies in hole {hole}; move it out, or leave it out");
     Some(Violation::new(key.clone(), message))
 }
@@ -138,7 +200,10 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
 
 /// No crossing with itself, and no hook.
 fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<Violation> {
-    if let Some((first, second)) = self_touch(points, touch) {
+    let Ok(touching) = self_touch(points, touch) else {
+        return Some(Violation::new(key.clone(), TooDense::message("parts of the crack")));
+    };
+    if let Some((first, second)) = touching {
         let message = format!(
             "the crack crosses, touches or folds back on itself: its segments {} and {} meet; \
              separate them",
@@ -168,26 +233,31 @@ fn hook(points: &[Vec2], domain: &Rect, touch: f64) -> Option<usize> {
 }
 
 /// Two sides of a closed polygon that touch where they should not.
-pub(super) fn crosses_itself(sides: &[[Vec2; 2]], touch: f64) -> Option<(usize, usize)> {
+///
+/// # Errors
+/// The sides lie too close together to look at all pairs.
+pub(super) fn crosses_itself(
+    sides: &[Segment],
+    touch: f64,
+) -> Result<Option<(usize, usize)>, TooDense> {
     let n = sides.len();
-    let meet = |i: usize, j: usize| match (j - i, n - (j - i)) {
+    first_pair(sides, touch, |i, j| match (j - i, n - (j - i)) {
         (1, _) => folds_back(sides[i], sides[j], touch),
         (_, 1) => folds_back(sides[j], sides[i], touch),
         _ => distance(sides[i], sides[j]) <= touch,
-    };
-    let pairs = (1..n).flat_map(|j| (0..j).map(move |i| (i, j)));
-    pairs.into_iter().find(|&(i, j)| meet(i, j))
+    })
 }
 
 /// The first two segments of one crack that touch where they should not.
-fn self_touch(points: &[Vec2], touch: f64) -> Option<(usize, usize)> {
-    let segments: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let meet = |i: usize, j: usize| match j - i {
+///
+/// # Errors
+/// The segments lie too close together to look at all pairs.
+fn self_touch(points: &[Vec2], touch: f64) -> Result<Option<(usize, usize)>, TooDense> {
+    let segments: Vec<Segment> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    first_pair(&segments, touch, |i, j| match j - i {
         1 => folds_back(segments[i], segments[j], touch),
         _ => distance(segments[i], segments[j]) <= touch,
-    };
-    let pairs = (1..segments.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
-    pairs.into_iter().find(|&(i, j)| meet(i, j))
+    })
 }
 
 /// True if the second segment runs back along the first one, with which it shares a vertex.
@@ -197,14 +267,8 @@ fn folds_back([a, b]: [Vec2; 2], [_, c]: [Vec2; 2], touch: f64) -> bool {
     back.dot(on) > 0.0 && back.unit().cross(on.unit()).abs() * reach <= touch
 }
 
-/// The first segment of crack `a` that touches crack `b`.
-fn first_touch(a: &[Vec2], b: &[Vec2], touch: f64) -> Option<usize> {
-    let near = |s: &[Vec2]| b.windows(2).any(|t| distance([s[0], s[1]], [t[0], t[1]]) <= touch);
-    a.windows(2).position(near)
-}
-
 /// Distance of two segments, zero if they cross.
-fn distance(s: [Vec2; 2], t: [Vec2; 2]) -> f64 {
+pub(super) fn distance(s: Segment, t: Segment) -> f64 {
     if splits(s, t) && splits(t, s) {
         return 0.0;
     }
@@ -263,8 +327,8 @@ mod tests {
     #[test]
     fn sharp_kinks_are_no_folds() {
         let kinked = |x, y| [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(x, y)];
-        assert_eq!(self_touch(&kinked(0.5, 1e-6), 1e-9), None);
-        assert_eq!(self_touch(&kinked(0.5, 0.0), 1e-9), Some((0, 1)));
-        assert_eq!(self_touch(&kinked(2.0, 0.0), 1e-9), None);
+        assert_eq!(self_touch(&kinked(0.5, 1e-6), 1e-9), Ok(None));
+        assert_eq!(self_touch(&kinked(0.5, 0.0), 1e-9), Ok(Some((0, 1))));
+        assert_eq!(self_touch(&kinked(2.0, 0.0), 1e-9), Ok(None));
     }
 }

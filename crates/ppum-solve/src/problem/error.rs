@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Everything found wrong with a problem, in the order of the file.
 ///
-/// Renders one finding a line, e.g.
+/// Renders one finding a line, the first hundred of them, e.g.
 /// ``plate.toml:12:1: unknown key `yong` in [material]; did you mean `young`?``
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", lines(.findings))]
@@ -75,6 +75,15 @@ impl fmt::Display for Place {
     }
 }
 
+/// Findings that are shown; nobody reads more of them at a time.
+const SHOWN: usize = 100;
+
 fn lines(findings: &[Finding]) -> String {
-    findings.iter().map(Finding::to_string).collect::<Vec<_>>().join("\n")
+    let mut lines: Vec<_> = findings.iter().take(SHOWN).map(Finding::to_string).collect();
+    match findings.len().saturating_sub(SHOWN) {
+        0 => {}
+        1 => lines.push("… and one mistake more".to_owned()),
+        more => lines.push(format!("… and {more} mistakes more")),
+    }
+    lines.join("\n")
 }

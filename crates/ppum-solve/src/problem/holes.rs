@@ -6,6 +6,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use super::check::Violation;
 use super::cracks::{TOUCH, crosses_itself};
 use super::key::Key;
+use super::nearby::TooDense;
 use crate::clip::meets;
 
 /// Most circles and corners of polygons together, as in a dataset.
@@ -70,7 +71,10 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
     if let Some(k) = sides.iter().position(|[a, b]| (*b - *a).length() <= touch) {
         return Some(format!("the points {k} and the next one are equal; remove one of them"));
     }
-    if let Some((first, second)) = crosses_itself(&sides, touch) {
+    let Ok(crossing) = crosses_itself(&sides, touch) else {
+        return Some(TooDense::message("parts of the rim"));
+    };
+    if let Some((first, second)) = crossing {
         return Some(format!(
             "the polygon crosses or touches itself: its sides {first} and {second} meet; give its \
              corners in order, once each"

@@ -38,6 +38,7 @@ mod error;
 mod expression;
 mod holes;
 mod key;
+mod nearby;
 mod points;
 pub(crate) mod quantities;
 mod read;

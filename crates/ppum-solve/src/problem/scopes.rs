@@ -30,5 +30,5 @@ pub(super) fn weight(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
 }
 
 fn with_tables(scope: Scope, tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
-    tables.iter().try_fold(scope, |scope, table| scope.with_table(Arc::clone(table)))
+    scope.with_tables(tables)
 }

@@ -6,6 +6,7 @@
 //! same part in each, and does not depend on the finest size.
 
 use crate::corner::{Corner, Nature};
+use crate::placed::{around, wider};
 use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -86,6 +87,17 @@ impl Graded {
                 Some(Self { from, finest: ROUND * radius, slope: SLOPE })
             }
             Hole::Polygon { .. } => None,
+        }
+    }
+
+    /// How far from a cell something can be that asks it to be smaller, in sizes of the cell.
+    pub(super) const REACH: f64 = 1.0 / STEEP;
+
+    /// The box of what cells are graded towards.
+    pub(super) fn place(&self) -> Rect {
+        match self.from {
+            Shape::Point(p) => around(&[p]),
+            Shape::Circle(center, radius) => wider(&around(&[center]), radius),
         }
     }
 

@@ -20,6 +20,9 @@ pub(super) struct Ligament<'p> {
     finest: f64,
 }
 
+/// Most ligaments of a hole, the narrowest ones: what is farther away lies behind others.
+const MOST: usize = 16;
+
 /// What a ligament ends at.
 #[derive(Clone, Copy)]
 enum Other<'p> {
@@ -39,16 +42,29 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
         let others = holes[..k].iter().map(Other::Hole);
         let cracks = problem.cracks.iter().map(|crack| Other::Crack(&crack.points));
         let all = edges.chain(others).chain(cracks);
-        found.extend(all.filter_map(|other| {
-            let width = width(hole, other);
-            let finest = (ACROSS * width).max(SMALLEST * size);
-            (width > thinnest && finest < size).then_some(Ligament { hole, other, finest })
-        }));
+        let mut own: Vec<_> = all
+            .filter_map(|other| {
+                let width = width(hole, other);
+                let finest = (ACROSS * width).max(SMALLEST * size);
+                (width > thinnest && finest < size).then_some(Ligament { hole, other, finest })
+            })
+            .collect();
+        own.sort_by(|a, b| a.finest.total_cmp(&b.finest));
+        own.truncate(MOST);
+        found.extend(own);
     }
     found
 }
 
 impl Ligament<'_> {
+    /// How far from a cell a hole can be whose ligament asks it to be smaller, in sizes of the cell.
+    pub(super) const REACH: f64 = 1.0 / ACROSS;
+
+    /// The box of the hole.
+    pub(super) fn place(&self) -> Rect {
+        self.hole.bounds()
+    }
+
     /// Asks for half as fine cells.
     pub(super) fn coarsen(&mut self) {
         self.finest *= 2.0;

@@ -21,6 +21,7 @@ use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
 use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
 use crate::interfaces::Interfaces;
+use crate::placed::{Placed, around, wider};
 use crate::problem::{Cells, Enrichment, Problem};
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
@@ -73,21 +74,33 @@ pub enum RefineError {
          tip and a kink, are too close together: move them apart or start from smaller cells"
     )]
     Unresolved,
+    /// More cells than the memory holds.
+    #[error(
+        "the cover needs more than {most} cells, and the memory does not hold the system on them; leave out \
+         cracks, or what asks for small cells, or give more memory"
+    )]
+    TooMany {
+        /// Cells that the memory holds.
+        most: usize,
+    },
 }
 
-/// The cover of a problem, refined at its tips unless the problem says otherwise.
-pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
+/// The cover of a problem, refined at its tips unless the problem says otherwise, of at most so many cells.
+pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
     if !problem.discretization.refine {
         return Ok(cover);
     }
-    let (needs, wishes) = (needs(problem), Wishes::new(problem, &cover));
+    let (needs, wishes) = (Needs::new(problem), Wishes::new(problem, &cover));
+    let crossings = Crossings::new(problem);
     let must = |cell: &Rect| {
         let patch = patch_of(cell, problem);
-        needs.iter().any(|need| need.asks(cell, &patch))
-            || is_crossed_twice(problem, &patch, LEAST_GAP)
+        needs.asks(cell, &patch) || crossings.has_two(&patch, LEAST_GAP)
     };
     for _ in 0..DEEPEST {
+        if cover.n_cells() > most {
+            return Err(RefineError::TooMany { most });
+        }
         let affordable = cover.n_cells() < wishes.most_cells;
         let asks = |cell: Rect, level: u8| must(&cell) || affordable && wishes.asks(&cell, level);
         if cover.refine(asks)? == 0 {
@@ -99,10 +112,32 @@ pub(crate) fn cover(problem: &Problem) -> Result<Cover, RefineError> {
     resolved.then_some(cover).ok_or(RefineError::Unresolved)
 }
 
-/// What tips and the mouths of cracks need.
-fn needs(problem: &Problem) -> Vec<Need> {
-    let tips = tips(&problem.cracks).map(|tip| Need::new(problem, tip));
-    tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem))).collect()
+/// What tips and the mouths of cracks need, and all tips.
+struct Needs {
+    needs: Placed<Need>,
+    tips: Placed<Vec2>,
+}
+
+impl Needs {
+    fn new(problem: &Problem) -> Self {
+        let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
+        let points: Vec<_> = tips(&problem.cracks).map(tip).collect();
+        let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, tip));
+        let all = at_tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)));
+        let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
+        Self {
+            needs: Placed::new(all.map(place)),
+            tips: Placed::new(points.into_iter().map(|p| (around(&[p]), p))),
+        }
+    }
+
+    fn asks(&self, cell: &Rect, patch: &Rect) -> bool {
+        self.needs.near(patch).any(|need| need.asks(cell, patch)) || self.holds_two_tips(patch)
+    }
+
+    fn holds_two_tips(&self, patch: &Rect) -> bool {
+        self.tips.near(patch).filter(|tip| patch.contains(**tip)).nth(1).is_some()
+    }
 }
 
 fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
@@ -113,8 +148,8 @@ fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
 /// ligaments, and at singular points of interfaces.
 struct Wishes<'p> {
     problem: &'p Problem,
-    graded: Vec<Graded>,
-    ligaments: Vec<Ligament<'p>>,
+    graded: Placed<Graded>,
+    ligaments: Placed<Ligament<'p>>,
     interfaces: Option<Interfaces<'p>>,
     /// The level of cells at singular points of interfaces.
     at_interfaces: u8,
@@ -140,8 +175,8 @@ impl<'p> Wishes<'p> {
         let lowest = cells.iter().map(|(_, level)| *level).min().unwrap_or(0);
         Self {
             problem,
-            graded,
-            ligaments,
+            graded: Placed::new(graded.into_iter().map(|graded| (graded.place(), graded))),
+            ligaments: Placed::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
             interfaces: resolves_interfaces(problem)
                 .then(|| Interfaces::new(&problem.equation, &problem.domain)),
             at_interfaces: lowest + AT_INTERFACES,
@@ -150,8 +185,9 @@ impl<'p> Wishes<'p> {
     }
 
     fn asks(&self, cell: &Rect, level: u8) -> bool {
-        self.graded.iter().any(|graded| graded.asks(cell))
-            || self.ligaments.iter().any(|ligament| ligament.asks(cell))
+        let around = |reach: f64| wider(cell, reach * cell.size().x.max(cell.size().y));
+        self.graded.near(&around(Graded::REACH)).any(|graded| graded.asks(cell))
+            || self.ligaments.near(&around(Ligament::REACH)).any(|ligament| ligament.asks(cell))
             || level < self.at_interfaces && self.at_interface(cell)
     }
 
@@ -194,29 +230,57 @@ fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
 /// Number of patches that still hold several runs of one crack or rim: two of the parts they are cut into
 /// are glued together.
 pub(crate) fn n_crossed_twice(problem: &Problem, partition: &Partition) -> usize {
-    let is_crossed = |&patch: &usize| is_crossed_twice(problem, &partition.support(patch), NO_GAP);
+    let crossings = Crossings::new(problem);
+    let is_crossed = |&patch: &usize| crossings.has_two(&partition.support(patch), NO_GAP);
     (0..partition.len()).filter(is_crossed).count()
 }
 
-/// True if a patch, as far as the domain reaches, holds several runs of a crack, or of the rim of a polygon, and is
-/// larger than a part of it.
-fn is_crossed_twice(problem: &Problem, patch: &Rect, part: f64) -> bool {
-    let Problem { domain, cracks, discretization, .. } = problem;
-    let size = patch.size().x.max(patch.size().y) / discretization.overlap;
-    let inside = patch.intersection(&domain.bounds);
-    let by_crack = |crack: &Crack| {
-        let points = &crack.points;
-        points.len() > 2 && size > part * crack.length() && runs_inside(points, &inside) > 1
-    };
-    let by_hole = |hole: &Hole| match hole {
-        Hole::Circle { .. } => false,
-        Hole::Polygon { points } => {
-            let whole = hole.bounds().size();
-            // a rim is free: little is glued together at its sharp corners
-            size > part.max(LEAST_GAP) * whole.x.max(whole.y) && runs_of_rim(points, &inside) > 1
+/// Lines that can cross a patch twice.
+struct Crossings<'p> {
+    domain: Rect,
+    overlap: f64,
+    lines: Placed<Line<'p>>,
+}
+
+enum Line<'p> {
+    Crack(&'p Crack),
+    /// The rim of a polygon, with its size.
+    Rim(&'p [Vec2], f64),
+}
+
+impl<'p> Crossings<'p> {
+    fn new(problem: &'p Problem) -> Self {
+        let bent = problem.cracks.iter().filter(|crack| crack.points.len() > 2);
+        let cracks = bent.map(|crack| (around(&crack.points), Line::Crack(crack)));
+        let rims = problem.domain.holes.iter().filter_map(|hole| match hole {
+            Hole::Circle { .. } => None,
+            Hole::Polygon { points } => {
+                let size = hole.bounds().size();
+                Some((hole.bounds(), Line::Rim(points, size.x.max(size.y))))
+            }
+        });
+        Self {
+            domain: problem.domain.bounds,
+            overlap: problem.discretization.overlap,
+            lines: Placed::new(cracks.chain(rims)),
         }
-    };
-    cracks.iter().any(by_crack) || domain.holes.iter().any(by_hole)
+    }
+
+    /// True if a patch, as far as the domain reaches, holds several runs of a crack, or of the rim of a polygon,
+    /// and is larger than a part of it.
+    fn has_two(&self, patch: &Rect, part: f64) -> bool {
+        let size = patch.size().x.max(patch.size().y) / self.overlap;
+        let inside = patch.intersection(&self.domain);
+        self.lines.near(patch).any(|line| match line {
+            Line::Crack(crack) => {
+                size > part * crack.length() && runs_inside(&crack.points, &inside) > 1
+            }
+            // a rim is free: little is glued together at its sharp corners
+            Line::Rim(points, whole) => {
+                size > part.max(LEAST_GAP) * whole && runs_of_rim(points, &inside) > 1
+            }
+        })
+    }
 }
 
 /// What one tip asks of the cells around it.
@@ -227,7 +291,7 @@ struct Need {
     ample: f64,
     /// Radius of what is near.
     near: f64,
-    /// Other tips, and the kinks of its own crack.
+    /// The kinks of its own crack, or what is beyond a hole.
     apart: Vec<Vec2>,
 }
 
@@ -235,11 +299,6 @@ impl Need {
     fn new(problem: &Problem, id: TipId) -> Self {
         let crack = &problem.cracks[id.crack as usize];
         let share = crack.length() / crack.tips().count() as f64;
-        let other_tips = tips(&problem.cracks)
-            .filter(|other| *other != id)
-            .map(|other| problem.cracks[other.crack as usize].end_point(other.end));
-        let kinks = crack.points[1..crack.points.len() - 1].iter().copied();
-        let apart = other_tips.chain(kinks).collect();
         let tip = crack.end_point(id.end);
         let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
         let room = room.min(AMPLE_ROOM * LARGEST * share);
@@ -251,7 +310,7 @@ impl Need {
             largest: (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share),
             ample: LARGEST * share,
             near: NEAR * share,
-            apart,
+            apart: crack.points[1..crack.points.len() - 1].to_vec(),
         }
     }
 

@@ -13,11 +13,12 @@ mod tips;
 pub use digits::{FEW_DIGITS, rounding};
 pub use tips::relative_spread;
 
+use crate::given::source_at;
 use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
 use crate::locking::locking;
 use crate::problem::Problem;
 use crate::space::Space;
-use crate::system::{Unresolved, face_load, source_at};
+use crate::system::{Unresolved, face_load};
 use corners::of_corners;
 use digits::of_digits;
 use faces::of_faces;

@@ -2,6 +2,7 @@
 
 mod awkward;
 mod corners;
+mod estimate;
 mod examples;
 mod faces;
 mod formulas;

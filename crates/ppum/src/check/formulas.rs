@@ -5,20 +5,11 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use super::{CheckError, Checked, check_names, fail, require};
-use crate::dataset::{Dataset, NamedQuantity, Step};
+use crate::dataset::{Dataset, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step};
 use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 use crate::function::{CompileError, FunctionTable};
 use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
-
-/// Most quantities a dataset may name. Each is read with all before it, so time grows as the square.
-const MAX_QUANTITIES: usize = 256;
-
-/// Longest their formulas may be together, in bytes.
-const MAX_QUANTITY_TEXT: usize = 1 << 16;
-
-/// Most tables a dataset may have. Each formula knows all of them.
-const MAX_TABLES: usize = 256;
 
 /// Checks names of tables, then all formulas but those of quantities, which need checked fields.
 pub(super) fn check(dataset: &Dataset) -> Checked {

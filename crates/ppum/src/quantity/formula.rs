@@ -161,9 +161,7 @@ impl QuantityFormula {
         let definitions: Vec<_> = vocabulary.definitions().collect();
         let names = inputs.iter().map(|(name, _)| name).chain(definitions.iter().map(|(n, _)| n));
         let names: Vec<_> = names.map(String::as_str).collect();
-        let mut tables = vocabulary.tables.iter();
-        let scope = tables
-            .try_fold(Scope::new(&names)?, |scope, table| scope.with_table(Arc::clone(table)))?;
+        let scope = Scope::new(&names)?.with_tables(vocabulary.tables)?;
         let parse =
             |(name, text): &(String, &str)| Ok((name.clone(), Formula::parse(text, &scope)?));
         let definitions: Result<Vec<_>, FormulaError> = definitions.iter().map(parse).collect();

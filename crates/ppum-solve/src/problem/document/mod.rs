@@ -4,6 +4,7 @@ mod nearest;
 mod value;
 
 use std::cell::RefCell;
+use std::iter;
 
 use toml::de::{DeTable, DeValue};
 
@@ -15,13 +16,21 @@ pub(super) use value::Value;
 pub(super) struct Report<'a> {
     file: &'a str,
     text: &'a str,
+    /// Bytes at which the lines of the text begin: files may have as many mistakes as lines.
+    lines: Vec<usize>,
     /// With the offset in the text, by which they are sorted in the end.
     findings: RefCell<Vec<(usize, Finding)>>,
 }
 
 impl<'a> Report<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, findings: RefCell::default() }
+        let starts = text.match_indices('\n').map(|(newline, _)| newline + 1);
+        Self {
+            file,
+            text,
+            lines: iter::once(0).chain(starts).collect(),
+            findings: RefCell::default(),
+        }
     }
 
     /// Reports a mistake at a byte of the text.
@@ -36,9 +45,11 @@ impl<'a> Report<'a> {
         self.findings.borrow_mut().push((offset, finding));
     }
 
-    /// Line and column in characters, from 1.
+    /// Line and column in characters, from 1, of a byte of the text.
     pub(super) fn position(&self, offset: usize) -> (usize, usize) {
-        position(self.text, offset)
+        let line = self.lines.partition_point(|start| *start <= offset);
+        let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
+        (line, before.chars().count() + 1)
     }
 
     /// The findings in the order of the text.
@@ -47,13 +58,6 @@ impl<'a> Report<'a> {
         findings.sort_by_key(|(offset, _)| *offset);
         findings.into_iter().map(|(_, finding)| finding).collect()
     }
-}
-
-/// Line and column in characters, from 1, of a byte of `text`.
-fn position(text: &str, offset: usize) -> (usize, usize) {
-    let before = text.get(..offset).unwrap_or(text);
-    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
 }
 
 /// A table of the document.
@@ -156,6 +160,14 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// The tables `[[key]]`; none, and a mistake, if there are more than a dataset can hold.
+    pub(super) fn sections_at_most(&self, most: usize, key: &str) -> Vec<Section<'a>> {
+        let sections = self.sections(key);
+        let Some(first) = sections.get(most) else { return sections };
+        first.error(format!("there are {} [[{key}]], but at most {most} may be", sections.len()));
+        Vec::new()
+    }
+
     /// The tables `[[key]]`; none if absent.
     pub(super) fn sections(&self, key: &str) -> Vec<Section<'a>> {
         let Some(item) = self.table.get(key) else { return Vec::new() };
@@ -212,9 +224,10 @@ mod tests {
     #[test]
     fn positions_count_characters_and_lines_from_one() {
         let text = "ä = 1\r\nβγ = 2\n";
-        assert_eq!(position(text, 0), (1, 1));
-        assert_eq!(position(text, text.find('=').expect("there")), (1, 3));
-        assert_eq!(position(text, text.find('2').expect("there")), (2, 6));
-        assert_eq!(position(text, text.len()), (3, 1));
+        let report = Report::new("plate.toml", text);
+        assert_eq!(report.position(0), (1, 1));
+        assert_eq!(report.position(text.find('=').expect("there")), (1, 3));
+        assert_eq!(report.position(text.find('2').expect("there")), (2, 6));
+        assert_eq!(report.position(text.len()), (3, 1));
     }
 }

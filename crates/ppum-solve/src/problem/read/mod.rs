@@ -10,6 +10,7 @@ mod hole;
 mod quantity;
 mod table;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use ppum::dataset::{Dataset, Elasticity, Equation, Material, StressState};
@@ -19,7 +20,6 @@ use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
 
 use super::check::violations;
-use super::cracks::crack;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
@@ -72,12 +72,11 @@ const IN_ARRAY: &str = "missing comma between array elements";
 /// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it, and
 /// nothing after an open bracket.
 fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
-    let mut seen = Vec::new();
+    let mut seen = BTreeSet::new();
     for error in errors {
         let offset = error.span().map_or(0, |span| span.start);
         let (line, _) = report.position(offset);
-        if !seen.contains(&line) {
-            seen.push(line);
+        if seen.insert(line) {
             report.at(offset, format!("the file is no valid TOML here: {}", error.message()));
         }
         if error.message().starts_with(IN_ARRAY) {
@@ -185,7 +184,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     }
     Some(Problem {
         title: title.to_owned(),
-        cracks: cracks.into_iter().map(|points| crack(points, &domain)).collect(),
+        cracks: super::cracks::cracks(cracks.into_iter(), &domain),
         domain,
         equation,
         boundary,

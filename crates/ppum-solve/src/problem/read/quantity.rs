@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ppum::dataset::NamedQuantity;
+use ppum::dataset::{MAX_QUANTITIES, MAX_QUANTITY_TEXT, NamedQuantity};
 use ppum::equation::Equation;
 use ppum::formula::Table;
 use ppum::quantity::QuantityFormulaError;
@@ -17,12 +17,30 @@ pub(super) fn quantities(
     tables: &[Arc<Table>],
 ) -> Vec<NamedQuantity> {
     let mut found = Vec::new();
-    for section in root.sections("quantity") {
+    let sections = root.sections_at_most(MAX_QUANTITIES, "quantity");
+    if is_too_long(&sections) {
+        return found;
+    }
+    for section in sections {
         found.extend(quantity(&section.only(&["name", "formula", "unit"], &[]), |text| {
             parse(text, equation, tables, &found).map(|_| ())
         }));
     }
     found
+}
+
+/// Reports formulas that are longer together than a dataset can hold: each is read with all before it.
+fn is_too_long(sections: &[Section<'_>]) -> bool {
+    let mut sum = 0;
+    let too_long = sections.iter().find(|section| {
+        let formula = section.get("formula");
+        sum += formula.and_then(|value| value.as_text()).map_or(0, str::len);
+        sum > MAX_QUANTITY_TEXT
+    });
+    let message = format!(
+        "the formulas of the quantities are longer than {MAX_QUANTITY_TEXT} bytes together; leave some out"
+    );
+    too_long.inspect(|section| section.error(message)).is_some()
 }
 
 fn quantity(

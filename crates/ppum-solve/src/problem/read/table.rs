@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ppum::dataset::Equation;
+use ppum::dataset::{Equation, MAX_TABLES};
 use ppum::formula::{Table, TableError};
 
 use super::super::document::{Section, Value};
@@ -19,7 +19,7 @@ pub(super) fn tables(root: &Section<'_>, files: Files<'_>, equation: &Equation) 
         Files::Stored(dataset) => return dataset.tables.clone(),
     };
     let mut found = Vec::new();
-    for section in root.sections("table") {
+    for section in root.sections_at_most(MAX_TABLES, "table") {
         let section = section.only(&["name", "x", "y", "values", "file"], &[]);
         let name = section.require("name", "name = \"stiffness\"");
         let data = data(&section, folder);

@@ -1,0 +1,94 @@
+//! What a solution takes, told before it is computed.
+
+use ppum::dataset::{Material, StressState};
+use ppum::vec2::{Rect, vec2};
+use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
+use ppum_solve::solve::{Plan, SolveError, solve};
+
+const STEEL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+
+fn plate(level: u32, order: usize) -> Problem {
+    let square = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+    let mut discretization = Discretization::new(Cells::Level(level));
+    discretization.order = Order::Uniform(order);
+    let hold = vec![Condition::Dirichlet(0.0.into()); 2];
+    let pull = vec![Condition::Neumann(0.0.into()), Condition::Neumann(1.0.into())];
+    Problem::elasticity(square, STEEL, discretization)
+        .with_crack(&[[-0.4, 0.1], [0.3, 0.1]])
+        .with_boundary(Edge::Bottom, hold)
+        .with_boundary(Edge::Top, pull)
+}
+
+fn refused(problem: &Problem, memory: u64) -> bool {
+    matches!(Plan::new(problem, Some(memory), &mut |_| {}), Err(SolveError::TooLarge { .. }))
+}
+
+/// The patches and unknowns are those of the solution; the memory grows with the problem.
+#[test]
+fn an_estimate_counts_what_the_solution_has() {
+    let mut memory = 0.0;
+    for (level, order) in [(2, 1), (3, 1), (3, 3), (4, 3)] {
+        let problem = plate(level, order);
+        let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
+        let estimate = *plan.estimate();
+        let step = solve(&problem, &mut |_| {}).expect("a solution").steps.remove(0);
+        let unknowns = step.history.iter().find(|r| r.name == "unknowns").expect("a record").value;
+        assert_eq!(estimate.patches, step.partition.len() as f64);
+        assert_eq!(estimate.unknowns, unknowns);
+        assert!(estimate.factor >= estimate.nonzeros && estimate.nonzeros > unknowns);
+        assert!(estimate.memory > memory, "{level} {order}: {estimate}");
+        memory = estimate.memory;
+    }
+}
+
+/// A memory is enough or not, to the byte; what is known before there is a cover never refuses what fits.
+#[test]
+fn what_the_memory_does_not_hold_is_refused() {
+    for (level, order) in [(1, 1), (3, 2), (4, 4)] {
+        let problem = plate(level, order);
+        let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
+        let needs = plan.estimate().memory.ceil() as u64;
+        assert!(!refused(&problem, needs), "{level} {order}");
+        assert!(refused(&problem, needs - 1), "{level} {order}");
+    }
+}
+
+/// A million patches of order 8 would take hours to look at: they are refused at once, with numbers.
+#[test]
+fn what_no_machine_holds_is_refused_without_a_cover() {
+    let problem = plate(10, 8);
+    assert_eq!(problem.check(), Ok(()));
+    let error = Plan::new(&problem, Some(1 << 35), &mut |_| {}).err().expect("too large");
+    let SolveError::TooLarge { needs, .. } = &error else { panic!("{error}") };
+    assert!(needs.unknowns >= 9e7 && needs.memory > 1e12, "{needs:?}");
+    let text = error.to_string();
+    assert!(text.contains("32 GiB") && text.contains("94 million unknowns"), "{text}");
+}
+
+/// Ten thousand cracks are looked at in seconds, and their cover ends where the memory does.
+#[test]
+fn many_cracks_are_refused_soon() {
+    let mut problem = plate(2, 2);
+    problem.cracks.clear();
+    for k in 0..10_000 {
+        let (x, y) = (f64::from(k % 100), f64::from(k / 100));
+        let at = |x: f64, y: f64| [-0.99 + 0.0198 * x, -0.99 + 0.0198 * y];
+        problem = problem.with_crack(&[at(x + 0.2, y + 0.5), at(x + 0.8, y + 0.6)]);
+    }
+    assert_eq!(problem.check(), Ok(()));
+    let plan = Plan::new(&problem, Some(1 << 28), &mut |_| {});
+    let error = plan.err().expect("too many").to_string();
+    assert!(error.contains("memory"), "{error}");
+}
+
+/// Loads that nothing bears are found without a system.
+#[test]
+fn loads_without_support_are_found_before_anything_is_solved() {
+    let mut problem = plate(3, 2);
+    problem.boundary.remove(0);
+    let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
+    assert!(matches!(plan.check(), Err(SolveError::Unbalanced(_))));
+    let early = plan.check().expect_err("unbalanced").to_string();
+    let late = solve(&problem, &mut |_| {}).expect_err("unbalanced").to_string();
+    assert_eq!(early, late);
+}
