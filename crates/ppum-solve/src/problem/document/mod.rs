@@ -4,6 +4,7 @@ mod nearest;
 mod value;
 
 use std::cell::RefCell;
+use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
 
@@ -17,11 +18,13 @@ pub(super) struct Report<'a> {
     text: &'a str,
     /// With the offset in the text, by which they are sorted in the end.
     findings: RefCell<Vec<(usize, Finding)>>,
+    /// Files that the text names, as far as they were asked for.
+    files: RefCell<Vec<PathBuf>>,
 }
 
 impl<'a> Report<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, findings: RefCell::default() }
+        Self { file, text, findings: RefCell::default(), files: RefCell::default() }
     }
 
     /// Reports a mistake at a byte of the text.
@@ -39,6 +42,11 @@ impl<'a> Report<'a> {
     /// Line and column in characters, from 1.
     pub(super) fn position(&self, offset: usize) -> (usize, usize) {
         position(self.text, offset)
+    }
+
+    /// The files that the text names, as far as they were asked for.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.files.borrow().clone()
     }
 
     /// The findings in the order of the text.
