@@ -2,6 +2,8 @@
 //!
 //! Results go to standard output, everything else to standard error. The exit status is 0 only when
 //! the work was done.
+// what is shown goes through `output`, which escapes it
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod arguments;
 mod backend;
@@ -11,9 +13,12 @@ mod dataset;
 mod families;
 mod given;
 mod number;
+mod output;
 mod progress;
 mod replacements;
 mod sides;
+mod signals;
+mod target;
 mod threads;
 mod tips;
 mod warnings;
@@ -22,11 +27,23 @@ use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use output::{Output, show, tell};
 
 fn main() -> ExitCode {
-    let mut out = io::stdout().lock();
-    let done = cli::Cli::parse().command.run(&mut out).and_then(|()| Ok(out.flush()?));
-    match done {
+    signals::watch();
+    match cli::Cli::try_parse() {
+        Ok(cli) => run(&cli.command),
+        Err(message) => {
+            show(&message);
+            ExitCode::from(if message.use_stderr() { 2 } else { 0 })
+        }
+    }
+}
+
+fn run(command: &cli::Command) -> ExitCode {
+    let mut out = Output::stdout();
+    let done = threads::check().and_then(|()| command.run(&mut out));
+    match done.and_then(|()| Ok(out.flush()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             report(&error);
@@ -43,7 +60,7 @@ fn report(error: &anyhow::Error) {
         return;
     }
     for line in message(error).lines() {
-        let _ = writeln!(io::stderr(), "error: {line}");
+        tell(&format!("error: {line}"));
     }
 }
 

@@ -2,9 +2,8 @@
 
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{bail, ensure};
 use ppum::dataset::{Dataset, Record, Step};
 use ppum::formula::one_line;
 use ppum::weight::WeightFunction;
@@ -14,6 +13,7 @@ use ppum_solve::solve::solve;
 use crate::families::{Family, blocks, families};
 use crate::number::trimmed;
 use crate::progress::Bar;
+use crate::target;
 use crate::threads;
 use crate::tips::{Tip, table};
 use crate::warnings::{rows, warn};
@@ -28,11 +28,11 @@ pub(crate) struct Args {
     /// Dataset to write [default: beside the problem file, with the extension .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Read and check the problem file, and stop there
+    /// Check the problem file and whether the dataset can be written, and stop there
     #[arg(long)]
     check: bool,
     /// Number of threads [default: all cores]; the result does not depend on it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     threads: Option<NonZeroUsize>,
 }
 
@@ -45,12 +45,13 @@ Examples:
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let problem = Problem::read(&self.problem)?;
+        let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
+        let inputs = [&self.problem].into_iter().chain(&problem.files).map(PathBuf::as_path);
+        target::check(&target, target::Kind::Dataset, inputs)?;
         if self.check {
             writeln!(out, "{}: nothing wrong", self.problem.display())?;
             return Ok(());
         }
-        let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
-        self.check_target(&target)?;
         let dataset = {
             let bar = Bar::new();
             threads::with(self.threads, || solve(&problem, &mut |progress| bar.show(progress)))??
@@ -59,25 +60,6 @@ impl Args {
         summary(out, &dataset)?;
         writeln!(out, "wrote {}", target.display())?;
         Ok(())
-    }
-
-    /// Refuses now what could not be written after minutes of work.
-    fn check_target(&self, target: &Path) -> anyhow::Result<()> {
-        ensure!(
-            target != self.problem,
-            "{}: the dataset would replace the problem file; give another file with -o",
-            target.display()
-        );
-        if target.is_dir() {
-            bail!("{}: is a folder; give a file with -o", target.display());
-        }
-        let folder = target.parent().filter(|f| !f.as_os_str().is_empty());
-        match folder {
-            Some(folder) if !folder.is_dir() => {
-                bail!("cannot write {}: there is no folder {}", target.display(), folder.display())
-            }
-            _ => Ok(()),
-        }
     }
 }
 
