@@ -3,19 +3,28 @@
 //! Titles, names and units come from files, and may hold whatever their writers like.
 
 use std::borrow::Cow;
-use std::io::{self, IsTerminal as _, StdoutLock, Write};
+use std::io::{self, IsTerminal as _, Stderr, StdoutLock, Write};
 
 use ppum::printable::printable;
 
-/// Standard output. Texts for people and JSON are written to it as to any writer, and escaped.
+/// A standard stream. Texts for people and JSON are written to it as to any writer, and escaped.
 pub(crate) struct Output<W: Write = StdoutLock<'static>> {
     out: W,
     is_terminal: bool,
 }
 
 impl Output {
+    /// Standard output, for results.
     pub(crate) fn stdout() -> Self {
         let out = io::stdout().lock();
+        Self { is_terminal: out.is_terminal(), out }
+    }
+}
+
+impl Output<Stderr> {
+    /// Standard error, for all that is no result.
+    pub(crate) fn stderr() -> Self {
+        let out = io::stderr();
         Self { is_terminal: out.is_terminal(), out }
     }
 }
@@ -42,7 +51,7 @@ impl<W: Write> Write for Output<W> {
 
 /// Writes a line to standard error. If that is closed nobody can be told.
 pub(crate) fn tell(line: &str) {
-    let _ = io::stderr().write_all(format!("{}\n", printable(line)).as_bytes());
+    let _ = Output::stderr().write_all(format!("{line}\n").as_bytes());
 }
 
 /// Shows clap's help, version or error, in its colours unless it quotes what must not be shown.

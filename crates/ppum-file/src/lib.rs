@@ -1,6 +1,6 @@
 //! The one place where files are read and written.
 //!
-//! [`read`] and [`text`] take whole files, within a limit that the caller states, and refuse what has
+//! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what has
 //! no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether it could.
 //! A program that is told to end calls [`abandon`].
 //!

@@ -30,7 +30,7 @@ pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
 /// The text of a regular file of at most `limit` bytes.
 ///
 /// # Errors
-/// As [`read`]; bytes that are no UTF-8.
+/// As [`read()`]; bytes that are no UTF-8.
 pub fn text(path: &Path, limit: u64) -> io::Result<String> {
     read(path, limit).and_then(utf8)
 }

@@ -97,7 +97,7 @@ pub struct Problem {
 }
 
 /// Longest problem file, in bytes: a hundred thousand cracks take some.
-const LONGEST: u64 = 16 << 20;
+pub const MAX_LENGTH: u64 = 16 << 20;
 
 /// How the system is made and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +127,7 @@ pub enum SolverKind {
 }
 
 impl Problem {
-    /// Reads a problem file of at most 16 MiB. Paths in it are relative to its folder, and lead to files of at
+    /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its folder, and lead to files of at
     /// most 64 MiB.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl Problem {
     /// mistakes; or that the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
-        let text = ppum_file::text(path, LONGEST).map_err(|error| Finding {
+        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Finding {
             place: Place::File(file.clone()),
             message: format!("cannot read the problem file: {error}"),
         })?;
