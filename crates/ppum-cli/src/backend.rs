@@ -14,6 +14,7 @@ use ppum_render::raster::Sample;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
+use crate::output::tell;
 use crate::threads;
 
 /// What draws, as it was asked for.
@@ -26,7 +27,7 @@ pub(crate) struct Engine {
     #[arg(long, value_enum)]
     precision: Option<Precision>,
     /// Number of threads of the CPU [default: all cores]; the picture does not depend on it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     threads: Option<NonZeroUsize>,
 }
 
@@ -84,7 +85,7 @@ impl Engine {
             Backend::Auto => match on_gpu(job, Choice::Real, Method::Gather) {
                 Ok(drawn) => drawn,
                 Err(error) => {
-                    note(&error).iter().for_each(|note| eprintln!("{note}"));
+                    note(&error).iter().for_each(|note| tell(note));
                     self.on_cpu(job)
                 }
             },

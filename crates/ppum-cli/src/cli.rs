@@ -1,12 +1,11 @@
 //! The command line as a whole.
 
-use std::io::Write;
-
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
     bench, completions, demo, formula, info, man, probe, render, sample, sif, solve,
 };
+use crate::output::Output;
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
 /// result exactly at every pixel.
@@ -46,7 +45,7 @@ pub(crate) enum Command {
 
 impl Command {
     /// Does the work; results are written to `out`.
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         match self {
             Self::Demo(args) => args.run(out),
             Self::Solve(args) => args.run(out),

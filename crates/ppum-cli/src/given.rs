@@ -1,6 +1,11 @@
 //! Formulas on the command line.
 
+use std::path::Path;
+
 use anyhow::Context as _;
+
+/// Longest file, in bytes: far above the longest formula.
+const LONGEST: u64 = 1 << 20;
 
 /// A formula as it was given: itself, or the content of the file named after `@`.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,11 +17,12 @@ pub(crate) struct Given {
 impl Given {
     /// Reads the file, if one is named.
     pub(crate) fn read(given: &str) -> anyhow::Result<Self> {
-        let Some(file) = given.trim().strip_prefix('@') else {
+        let Some(path) = file(given) else {
             return Ok(Self { text: given.to_owned(), file: None });
         };
-        let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {file}"))?;
-        Ok(Self { text, file: Some(file.to_owned()) })
+        let file = path.display().to_string();
+        let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {file}"))?;
+        Ok(Self { text, file: Some(file) })
     }
 
     /// The name the text may be, if it stands on the command line itself.
@@ -35,6 +41,11 @@ impl Given {
             None => result,
         }
     }
+}
+
+/// The file of a formula that is given as `@FILE`.
+pub(crate) fn file(given: &str) -> Option<&Path> {
+    given.trim().strip_prefix('@').map(Path::new)
 }
 
 /// The parts of a list: what commas separate that stand in no parentheses and no comment.

@@ -2,6 +2,8 @@
 //!
 //! Results go to standard output, everything else to standard error. The exit status is 0 only when
 //! the work was done.
+// what is shown goes through `output`, which escapes it
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod arguments;
 mod backend;
@@ -12,10 +14,13 @@ mod families;
 mod given;
 mod memory;
 mod number;
+mod output;
 mod panics;
 mod progress;
 mod replacements;
 mod sides;
+mod signals;
+mod target;
 mod threads;
 mod tips;
 mod warnings;
@@ -24,12 +29,27 @@ use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use output::{Output, show, tell};
 
 fn main() -> ExitCode {
-    let mut out = io::stdout().lock();
-    let command = cli::Cli::parse().command;
-    let done = panics::guarded(|| command.run(&mut out).and_then(|()| Ok(out.flush()?)));
-    match done {
+    signals::watch();
+    match cli::Cli::try_parse() {
+        Ok(cli) => run(&cli.command),
+        Err(message) => {
+            show(&message);
+            ExitCode::from(if message.use_stderr() { 2 } else { 0 })
+        }
+    }
+}
+
+fn run(command: &cli::Command) -> ExitCode {
+    let mut out = Output::stdout();
+    let work = || {
+        threads::check()?;
+        command.run(&mut out)?;
+        Ok(out.flush()?)
+    };
+    match panics::guarded(work) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             report(&error);
@@ -46,7 +66,7 @@ fn report(error: &anyhow::Error) {
         return;
     }
     for line in message(error).lines() {
-        let _ = writeln!(io::stderr(), "error: {line}");
+        tell(&format!("error: {line}"));
     }
 }
 

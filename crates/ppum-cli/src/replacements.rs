@@ -1,11 +1,13 @@
 //! What is done to a dataset before anything is evaluated: a part chosen, functions replaced.
 
+use std::path::Path;
+
 use anyhow::Context as _;
 use ppum::dataset::{Dataset, Step};
 use ppum::decompose::Part;
 
 use crate::arguments::assignment;
-use crate::given::Given;
+use crate::given::{Given, file};
 
 /// Which part is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
@@ -41,6 +43,12 @@ impl Replacements {
             given.explain(replaced).context("--weight")?;
         }
         Ok(())
+    }
+
+    /// The files that formulas are read from.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let functions = self.function.iter().map(|(_, given)| given);
+        functions.chain(&self.weight).filter_map(|given| file(given))
     }
 
     /// Puts a part of the first field in its place.

@@ -4,6 +4,7 @@ use ppum::dataset::Warning;
 use serde::Serialize;
 
 use crate::number::Number;
+use crate::output::tell;
 
 /// A warning about a step.
 #[derive(Debug, Serialize)]
@@ -29,7 +30,7 @@ pub(crate) fn rows(step: usize, warnings: &[Warning]) -> Vec<WarningRow> {
 /// Writes warnings to standard error.
 pub(crate) fn warn(warnings: &[WarningRow]) {
     for warning in warnings {
-        eprintln!("warning: {}", warning.message);
+        tell(&format!("warning: {}", warning.message));
     }
 }
 

@@ -117,7 +117,7 @@ fn shorten(text: &mut String) {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The file system refused.
+    /// The file system refused, or the target is nothing that may be replaced.
     #[error("cannot write {}: {source}", path.display())]
     Io {
         /// The file.
@@ -125,13 +125,14 @@ pub enum WriteError {
         /// The reason.
         source: std::io::Error,
     },
-    /// The target exists and must not be replaced.
-    #[error("cannot write {}: it {reason}", path.display())]
-    Protected {
-        /// The target.
-        path: PathBuf,
-        /// Why not.
-        reason: &'static str,
+    /// Longer than what is read.
+    #[error(
+        "the file would have {length} bytes, at most {} are read; choose fewer cells or a lower order",
+        crate::MAX_LENGTH
+    )]
+    TooLong {
+        /// Length in bytes.
+        length: u64,
     },
     /// The dataset has no meaning.
     #[error("the dataset is inconsistent: {0}")]
@@ -153,10 +154,6 @@ pub enum WriteError {
 }
 
 impl WriteError {
-    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
-        Self::Io { path: path.to_owned(), source }
-    }
-
     pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
         Self::Object { object: object.to_owned(), problem: problem.into() }
     }

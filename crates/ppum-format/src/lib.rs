@@ -33,7 +33,7 @@ mod names;
 use ppum::dataset::Dataset;
 
 pub use error::{ReadError, WriteError};
-pub use file::{read, write};
+pub use file::{MAX_LENGTH, read, write};
 
 /// Version of the format as (major, minor). A reader takes every minor version of its own major
 /// version; what it does not know is optional.

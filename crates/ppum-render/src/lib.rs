@@ -3,7 +3,7 @@
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
 //! [`Raster`](raster::Raster), [`Picture`](picture::Picture) gives its values colours, and
-//! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] writes the result
+//! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] encodes the result
 //! together with what it shows. Nothing is resampled, interpolated or triangulated on the way.
 //!
 //! [`reference`](mod@reference) evaluates a picture point by point; the renderer is held to it.

@@ -1,41 +1,24 @@
 //! PNG files that say what they show.
 //!
-//! Texts are stored as `tEXt` chunks, as `iTXt` (UTF-8) where they need it; see
+//! Texts are stored as `tEXt` chunks, as `iTXt` (UTF-8) where they need it, with what is not
+//! [printable](mod@ppum::printable) escaped: programs show them on terminals. See
 //! [`Picture::description`](crate::picture::Picture::description) for the keys.
 
 use std::borrow::Cow;
-#[cfg(not(target_family = "wasm"))]
-use std::path::Path;
-use std::path::PathBuf;
+
+use ppum::printable::printable;
 
 use crate::image::Image;
 
 /// A key of 1 to 79 Latin-1 characters and its text.
 pub type Text = (String, String);
 
-/// Why no file was written.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PngError {
-    /// The picture or a text cannot be encoded.
-    #[error("cannot encode the picture: {0}")]
-    Encode(#[from] ::png::EncodingError),
-    /// The file system refused.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file asked for.
-        path: PathBuf,
-        /// The system's reason.
-        source: std::io::Error,
-    },
-}
-
 /// The picture as the bytes of a PNG file, sRGB, 8 bits a channel; without opacity if all of it is
 /// opaque.
 ///
 /// # Errors
 /// A key that is empty, too long or not Latin-1; a picture without pixels.
-pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, PngError> {
+pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, ::png::EncodingError> {
     let (color, data) = color_data(image);
     let mut bytes = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut bytes, image.size[0], image.size[1]);
@@ -43,10 +26,11 @@ pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, PngError> {
     encoder.set_depth(::png::BitDepth::Eight);
     encoder.set_source_srgb(::png::SrgbRenderingIntent::Perceptual);
     for (key, text) in texts {
+        let text = printable(text).into_owned();
         if text.chars().all(|c| u32::from(c) < 256) {
-            encoder.add_text_chunk(key.clone(), text.clone())?;
+            encoder.add_text_chunk(key.clone(), text)?;
         } else {
-            encoder.add_itxt_chunk(key.clone(), text.clone())?;
+            encoder.add_itxt_chunk(key.clone(), text)?;
         }
     }
     let mut writer = encoder.write_header()?;
@@ -63,32 +47,6 @@ fn color_data(image: &Image) -> (::png::ColorType, Cow<'_, [u8]>) {
     } else {
         (::png::ColorType::Rgba, Cow::Borrowed(&image.rgba))
     }
-}
-
-/// Writes the picture to a file. The file appears whole or not at all: it is written beside its place
-/// under another name and then moved there.
-///
-/// # Errors
-/// As [`encode`]; whatever the file system refuses.
-#[cfg(not(target_family = "wasm"))]
-pub fn write(path: &Path, image: &Image, texts: &[Text]) -> Result<(), PngError> {
-    let bytes = encode(image, texts)?;
-    write_whole(path, &bytes).map_err(|source| PngError::Write { path: path.to_owned(), source })
-}
-
-#[cfg(not(target_family = "wasm"))]
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let no_name = || std::io::Error::new(std::io::ErrorKind::InvalidInput, "no file name");
-    let mut name = std::ffi::OsString::from(".");
-    name.push(path.file_name().ok_or_else(no_name)?);
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(name);
-    let done = std::fs::write(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
-    if done.is_err() {
-        // The first error is the one to report; a file that never came to be cannot be removed.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    done
 }
 
 #[cfg(test)]
@@ -133,28 +91,17 @@ mod tests {
     }
 
     #[test]
+    fn texts_obey_no_terminal() {
+        let text = ("Title".to_owned(), "a\0b\u{1b}]0;c\u{7}\u{9b}\nσ\u{202e}".to_owned());
+        let (_, found, _) = read(&encode(&Image::filled([1, 1], [0; 4]), &[text]).unwrap());
+        assert_eq!(found[0].1, "a\\u0000b\\u001b]0;c\\u0007\\u009b\nσ\\u202e");
+    }
+
+    #[test]
     fn impossible_keys_are_errors() {
         let image = Image::filled([1, 1], [0; 4]);
         for key in ["", "κ", &"k".repeat(80)] {
             assert!(encode(&image, &[(key.to_owned(), "text".to_owned())]).is_err(), "{key}");
         }
-    }
-
-    #[test]
-    fn files_appear_whole_and_alone() {
-        let folder = std::env::temp_dir().join(format!("ppum-png-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("picture.png");
-        for value in [1, 2] {
-            let image = Image::filled([2, 2], [value; 4]);
-            write(&path, &image, &texts()).unwrap();
-            assert_eq!(read(&std::fs::read(&path).unwrap()).0, image);
-        }
-        let names: Vec<_> = std::fs::read_dir(&folder).unwrap().collect();
-        assert_eq!(names.len(), 1, "a temporary file was left behind: {names:?}");
-        let nowhere = folder.join("missing").join("picture.png");
-        let error = write(&nowhere, &Image::filled([2, 2], [0; 4]), &[]).unwrap_err().to_string();
-        assert!(error.contains("picture.png"), "{error}");
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -4,6 +4,7 @@
 use std::sync::LazyLock;
 
 use ab_glyph::{Font as _, FontRef, Glyph, Point, PxScale, ScaleFont as _, point};
+use ppum::printable::printable;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::image::Mask;
@@ -26,8 +27,10 @@ fn px_scale(size: f64) -> PxScale {
 const SUBSCRIPT: f64 = 0.72;
 const LOWERED: f64 = 0.17;
 
-/// The glyphs of a line that starts at the origin, and its length.
+/// The glyphs of a line that starts at the origin, and its length. What is not printable is drawn by its
+/// number, ends of lines and tabs are blanks.
 fn glyphs(text: &str, size: f64) -> (Vec<Glyph>, f64) {
+    let text = printable(text).replace(['\n', '\t'], " ");
     let (mut line, mut x) = (Vec::new(), 0.0);
     for (index, piece) in text.split("_{").enumerate() {
         let (subscript, plain) = match piece.split_once('}') {
@@ -135,6 +138,21 @@ mod tests {
             (0..60).filter(covered).max().unwrap()
         };
         assert!(lowest("_{H}") > lowest("H") + 3);
+    }
+
+    #[test]
+    fn what_is_not_printable_is_drawn_by_its_number() {
+        for (text, shown) in
+            [("a\u{1b}[31mb", r"a\u001b[31mb"), ("a\u{202e}b", r"a\u202eb"), ("a\nb", "a b")]
+        {
+            assert_eq!(width(text, 20.0), width(shown, 20.0));
+            let drawn = |text: &str| {
+                let mut mask = Mask::new([200, 30]);
+                draw(&mut mask, text, 20.0, vec2(2.0, 20.0));
+                (0..6000).map(|k| mask.coverage(k % 200, k / 200)).collect::<Vec<_>>()
+            };
+            assert_eq!(drawn(text), drawn(shown));
+        }
     }
 
     #[test]

@@ -7,18 +7,19 @@ use std::process::Command;
 use serde_json::Value;
 
 /// What each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 7] = [
+const ARROWS: [(&str, &[&str]); 8] = [
     ("ppum", &[]),
-    ("ppum-format", &["ppum"]),
-    ("ppum-solve", &["ppum"]),
+    ("ppum-file", &[]),
+    ("ppum-format", &["ppum", "ppum-file"]),
+    ("ppum-solve", &["ppum", "ppum-file"]),
     ("ppum-render", &["ppum"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
-    ("ppum-cli", &["ppum", "ppum-format", "ppum-gpu", "ppum-render", "ppum-solve"]),
+    ("ppum-cli", &["ppum", "ppum-file", "ppum-format", "ppum-gpu", "ppum-render", "ppum-solve"]),
     ("ppum-testkit", &["ppum"]),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 10] = [
+const DOORS: [(&str, &str); 11] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
@@ -26,6 +27,7 @@ const DOORS: [(&str, &str); 10] = [
     ("hdf5-pure", "ppum-format"),
     ("naga", "ppum-testkit"),
     ("png", "ppum-render"),
+    ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
     ("toml", "ppum-solve"),
     ("wgpu", "ppum-gpu"),
@@ -120,6 +122,35 @@ fn foreign_crates_have_one_door() {
     for name in NOT_IN_PPUM {
         assert!(!found["ppum"].contains(name), "ppum depends on {name}");
     }
+}
+
+/// Calls that read or write files.
+const FILE_CALLS: [&str; 5] =
+    ["fs::read", "fs::write", "File::open", "File::create", "OpenOptions"];
+
+/// Whatever reads or writes a file goes through `ppum-file`, which knows limits and loses nothing.
+#[test]
+fn files_have_one_door() {
+    let others = ARROWS.map(|(name, _)| name);
+    for name in others.into_iter().filter(|name| !["ppum-file", "ppum-testkit"].contains(name)) {
+        let sources = sources(&root().join("crates").join(name).join("src"));
+        assert!(sources.len() > 5, "there are sources of {name}");
+        for path in sources {
+            let text = std::fs::read_to_string(&path).expect("a source file");
+            let code = text.split("mod tests {").next().unwrap_or_default();
+            let call = FILE_CALLS.iter().find(|call| code.contains(*call));
+            assert_eq!(call, None, "{}", path.display());
+        }
+    }
+}
+
+/// All files in a folder and those below, but for files of tests.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries =
+        std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let is_test = |path: &PathBuf| path.file_stem().is_some_and(|stem| stem == "tests");
+    let below = |path: PathBuf| if path.is_dir() { sources(&path) } else { vec![path] };
+    entries.filter(|path| !is_test(path)).flat_map(below).collect()
 }
 
 /// So `cargo run` in the root needs no `--bin`.

@@ -14,6 +14,7 @@
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
+//! - [`printable`](mod@printable) is how texts of files may be shown.
 //!
 //! No files, no threads, no graphics.
 //!
@@ -213,6 +214,7 @@ pub mod jet;
 pub mod library;
 mod morton;
 pub mod polynomial;
+pub mod printable;
 pub mod quantity;
 #[cfg(test)]
 mod random;

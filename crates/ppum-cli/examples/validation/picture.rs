@@ -29,6 +29,6 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     };
     let texts = picture.description(&dataset.title, "", name);
     let image = figure(&picture, &labels, &field.step.cracks, SIZE)?;
-    png::write(path, &image, &texts)?;
+    std::fs::write(path, png::encode(&image, &texts)?)?;
     Ok(())
 }

@@ -1,14 +1,15 @@
 //! `ppum demo`: a guided tour, made of the program's own commands.
 
 use std::ffi::OsString;
-use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail, ensure};
 use clap::Parser as _;
 
 use crate::cli::Cli;
+use crate::output::Output;
+use crate::target;
 
 /// Solve the centre crack and draw it
 ///
@@ -28,7 +29,7 @@ Examples:
 
 /// The problem: one text for the demonstration and the examples.
 const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
-const NAME: &str = "centre-crack";
+const PROBLEM_FILE: &str = "centre-crack.toml";
 
 /// The commands that are run. `@` stands for the folder.
 const TOUR: [&str; 5] = [
@@ -49,9 +50,11 @@ const NEXT: [&str; 5] = [
 ];
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        self.write_problem()?;
-        writeln!(out, "wrote {}", self.path(&format!("{NAME}.toml")).display())?;
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        let problem = self.output.join(PROBLEM_FILE);
+        self.check(&problem)?;
+        target::save(&problem, |out| out.write_all(PROBLEM.as_bytes()))?;
+        writeln!(out, "wrote {}", problem.display())?;
         for line in TOUR {
             writeln!(out, "\n$ {}", self.shown(line))?;
             out.flush()?;
@@ -64,21 +67,30 @@ impl Args {
         Ok(())
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.output.join(name)
-    }
-
-    fn write_problem(&self) -> anyhow::Result<()> {
-        let context = |path: &Path| format!("cannot write {}", path.display());
-        fs::create_dir_all(&self.output).with_context(|| context(&self.output))?;
-        let path = self.path(&format!("{NAME}.toml"));
-        fs::write(&path, PROBLEM).with_context(|| context(&path))
+    /// Makes the folder; refuses before any work what could not be written, and a problem that is the user's.
+    fn check(&self, problem: &Path) -> anyhow::Result<()> {
+        let own = "give another folder with -o, or remove it";
+        match ppum_file::text(problem, PROBLEM.len() as u64) {
+            Ok(text) => ensure!(text == PROBLEM, "{}: was edited; {own}", problem.display()),
+            Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
+            Err(e) if matches!(e.kind(), ErrorKind::FileTooLarge | ErrorKind::InvalidData) => {
+                bail!("{}: is another file; {own}", problem.display())
+            }
+            Err(e) => return Err(e).with_context(|| format!("cannot read {}", problem.display())),
+        }
+        target::make_folder(&self.output)?;
+        let words = TOUR.iter().flat_map(|line| line.split(' '));
+        for name in words.filter_map(|word| word.strip_suffix(".png")?.strip_prefix("@/")) {
+            let picture = self.output.join(name).with_extension("png");
+            target::check(&picture, target::Kind::Picture, [problem])?;
+        }
+        Ok(())
     }
 
     /// The command line, word by word.
     fn words(&self, line: &str) -> Vec<OsString> {
         let word = |word: &str| match word.strip_prefix("@/") {
-            Some(name) => self.path(name).into_os_string(),
+            Some(name) => self.output.join(name).into_os_string(),
             None => word.into(),
         };
         ["ppum"].into_iter().chain(line.split(' ')).map(word).collect()

@@ -1,14 +1,13 @@
 //! `ppum man`: manual pages.
 
-use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context as _;
 use clap::CommandFactory as _;
-use clap_mangen::{Man, generate_to};
+use clap_mangen::Man;
 
 use crate::cli::Cli;
+use crate::target;
 
 /// Print the manual page, or write the pages of all commands
 #[derive(Debug, clap::Args)]
@@ -32,10 +31,19 @@ impl Args {
             out.write_all(&page)?;
             return Ok(());
         };
-        let context = || format!("cannot write {}", folder.display());
-        fs::create_dir_all(folder).with_context(context)?;
-        generate_to(Cli::command(), folder).with_context(context)?;
+        target::make_folder(folder)?;
+        for page in pages() {
+            target::save(&folder.join(page.get_filename()), |out| page.render(out))?;
+        }
         writeln!(out, "wrote the manual pages to {}", folder.display())?;
         Ok(())
     }
+}
+
+/// The pages of the program and of all its commands.
+fn pages() -> Vec<Man> {
+    let mut program = Cli::command().disable_help_subcommand(true);
+    program.build();
+    let commands: Vec<_> = program.get_subcommands().cloned().collect();
+    [program].into_iter().chain(commands).map(Man::new).collect()
 }

@@ -10,7 +10,7 @@ use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
-use ppum_render::colormap::{Colormap, NAMES};
+use ppum_render::colormap::{Colormap, LONGEST, NAMES};
 use ppum_render::figure::{Labels, figure, plot_area};
 use ppum_render::image::Image;
 use ppum_render::overlay;
@@ -23,8 +23,10 @@ use ppum_render::view::View;
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
 use crate::dataset::{field, open, quantity};
+use crate::given;
 use crate::number::trimmed;
 use crate::replacements::Replacements;
+use crate::target;
 use window::{Frame, Window};
 
 /// Draw a quantity, exactly at every pixel
@@ -105,7 +107,8 @@ const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        self.check()?;
+        target::check(&self.output, target::Kind::Picture, self.inputs())?;
+        self.engine.check()?;
         let mut dataset = open(&self.file)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
@@ -126,7 +129,8 @@ impl Args {
         let mut texts = picture.description(&dataset.title, &file, &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
-        png::write(&self.output, &image, &texts)?;
+        let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
+        target::save(&self.output, |out| out.write_all(&bytes))?;
         let [columns, rows] = image.size;
         let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
         let target = self.output.display();
@@ -137,11 +141,11 @@ impl Args {
         Ok(())
     }
 
-    /// What clap cannot see.
-    fn check(&self) -> anyhow::Result<()> {
-        let is_png = self.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
-        ensure!(is_png, "{}: pictures are PNG files; end the name in .png", self.output.display());
-        self.engine.check()
+    /// The files that are read.
+    fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let files = [self.file.as_path(), Path::new(&self.colormap)];
+        let formula = self.quantity.as_deref().and_then(given::file);
+        files.into_iter().chain(formula).chain(self.replacements.files())
     }
 
     fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
@@ -186,13 +190,16 @@ fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
     }
 }
 
-/// The built-in map of that name, or that of a file.
+/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too,
+/// to say why it cannot be.
 fn style(name: &str) -> anyhow::Result<Style> {
     let path = Path::new(name);
-    if !path.is_file() {
-        return Ok(Style::named(name)?);
+    match Style::named(name) {
+        Ok(style) if !path.is_file() => return Ok(style),
+        Err(error) if !path.exists() => return Err(error.into()),
+        _ => {}
     }
-    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {name}"))?;
+    let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {name}"))?;
     Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
 }
 

@@ -4,8 +4,8 @@ mod along;
 mod places;
 mod table;
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 
 use anyhow::{bail, ensure};
 use ppum::field::Field;
@@ -14,7 +14,10 @@ use ppum::vec2::Rect;
 
 use crate::arguments::{corners, ends, size};
 use crate::dataset::{field, open, quantities};
+use crate::given::{self, parts};
+use crate::output::Output;
 use crate::replacements::Replacements;
+use crate::target;
 use places::{Place, evaluate};
 use table::{Column, Table};
 
@@ -77,22 +80,31 @@ const COUNT: usize = 201;
 const MOST: usize = 20_000_000;
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let format = self.output.as_deref().map(table::Format::of).transpose()?;
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        if let Some(output) = &self.output {
+            target::check(output, target::Kind::Table, self.inputs())?;
+        }
         let mut dataset = open(&self.file)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
         let quantities = quantities(&field, &self.quantity)?;
         let table = self.table(&field, &quantities)?;
         table.check_names()?;
-        match (&self.output, format) {
-            (Some(path), Some(format)) => {
-                table.save(path, format)?;
+        match &self.output {
+            Some(path) => {
+                table.save(path)?;
                 writeln!(out, "wrote {}: {}", path.display(), table.summary())?;
             }
-            _ => table.write_csv(out)?,
+            None => table.write_csv(out.exact())?,
         }
         Ok(())
+    }
+
+    /// The files that are read.
+    fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let files = [&self.file].into_iter().chain(&self.points).map(PathBuf::as_path);
+        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        files.chain(formulas).chain(self.replacements.files())
     }
 
     fn table(&self, field: &Field<'_>, quantities: &[(String, Quantity)]) -> anyhow::Result<Table> {
@@ -111,7 +123,6 @@ impl Args {
         }
         if let Some(path) = &self.points {
             let points = places::read(path)?;
-            ensure!(points.len() <= MOST, "{}: more than {MOST} points", path.display());
             return Ok(listed(field, quantities, &places::both_sides(cracks, &points)));
         }
         let Some([nx, ny]) = self.grid else { bail!("give --line, --points, --grid or --crack") };

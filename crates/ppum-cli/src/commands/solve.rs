@@ -2,9 +2,8 @@
 
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{bail, ensure};
 use ppum::dataset::{Dataset, Record, Step};
 use ppum::formula::one_line;
 use ppum::weight::WeightFunction;
@@ -16,6 +15,7 @@ use crate::families::{Family, blocks, families};
 use crate::memory;
 use crate::number::trimmed;
 use crate::progress::Bar;
+use crate::target;
 use crate::threads;
 use crate::tips::{Tip, table};
 use crate::warnings::{rows, warn};
@@ -37,7 +37,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "GIB", value_parser = positive)]
     memory: Option<f64>,
     /// Number of threads [default: all cores]; the result does not depend on it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     threads: Option<NonZeroUsize>,
 }
 
@@ -51,7 +51,8 @@ impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let problem = Problem::read(&self.problem)?;
         let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
-        self.check_target(&target)?;
+        let inputs = [&self.problem].into_iter().chain(&problem.files).map(PathBuf::as_path);
+        target::check(&target, target::Kind::Dataset, inputs)?;
         if self.check {
             return self.tell(out, &problem);
         }
@@ -89,25 +90,6 @@ impl Args {
     /// The memory that the solution may take [bytes].
     fn memory(&self) -> Option<u64> {
         self.memory.map(|gibibytes| (gibibytes * f64::from(1 << 30)) as u64).or_else(memory::free)
-    }
-
-    /// Refuses now what could not be written after minutes of work.
-    fn check_target(&self, target: &Path) -> anyhow::Result<()> {
-        ensure!(
-            target != self.problem,
-            "{}: the dataset would replace the problem file; give another file with -o",
-            target.display()
-        );
-        if target.is_dir() {
-            bail!("{}: is a folder; give a file with -o", target.display());
-        }
-        let folder = target.parent().filter(|f| !f.as_os_str().is_empty());
-        match folder {
-            Some(folder) if !folder.is_dir() => {
-                bail!("cannot write {}: there is no folder {}", target.display(), folder.display())
-            }
-            _ => Ok(()),
-        }
     }
 }
 

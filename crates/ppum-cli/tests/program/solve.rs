@@ -69,7 +69,7 @@ fn outputs_that_cannot_be_written_are_refused_at_once() {
     std::fs::create_dir(lab.path("folder")).unwrap();
     assert!(lab.fail("solve plate.toml -o nowhere/x.h5").contains("no folder nowhere"));
     assert!(lab.fail("solve plate.toml -o folder").contains("is a folder"));
-    assert!(lab.fail("solve plate.toml -o plate.toml").contains("replace the problem file"));
+    assert!(lab.fail("solve plate.toml -o plate.toml").contains("would replace plate.toml"));
     assert!(lab.fail("solve plate.toml --threads 0").contains("--threads"));
     assert_eq!(std::fs::read_to_string(lab.path("plate.toml")).unwrap(), CRACKED);
 }

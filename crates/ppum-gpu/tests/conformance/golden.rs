@@ -87,7 +87,7 @@ fn picture<T: Sample>(golden: &Golden, raster: &Raster<T>) -> Image {
 fn kept(golden: &Golden, image: &Image) -> Image {
     let path = path(golden.name);
     if std::env::var_os("PPUM_GOLDEN").is_some() {
-        good(png::write(&path, image, &[]));
+        good(std::fs::write(&path, good(png::encode(image, &[]))));
     }
     let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     decode(&bytes)

@@ -77,8 +77,8 @@ pub enum ColormapError {
     },
 }
 
-/// Longest file, in bytes; a colour map needs some thousands.
-const LONGEST: usize = 1 << 24;
+/// Longest text of a file, in bytes; a colour map needs some thousands.
+pub const LONGEST: u64 = 1 << 24;
 
 impl Colormap {
     /// The built-in map of that name; `_r` behind it reverses the map.
@@ -186,7 +186,7 @@ impl Colormap {
 /// Reads a file of any form.
 fn read(text: &str) -> Result<Stops, Wrong> {
     let text = text.trim_start_matches('\u{feff}');
-    if text.len() > LONGEST {
+    if text.len() as u64 > LONGEST {
         return Err(wrong(
             "the whole file",
             "has more than 16 MiB; a colour map has some thousand colours",

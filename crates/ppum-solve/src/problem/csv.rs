@@ -34,22 +34,35 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
         .map(|(number, content)| Line { number, words: words(content) })
 }
 
+/// Most words of a line that are looked at: as many values as a dataset holds in tables.
+const MOST_WORDS: usize = 1 << 20;
+
 fn words(content: &str) -> Vec<Word<'_>> {
     let mut next = 1;
-    let word = |text: &'_ str| {
-        let column = next + text.chars().take_while(|c| c.is_whitespace()).count();
+    let word = |text| {
+        let column = next + str::chars(text).take_while(|c| c.is_whitespace()).count();
         next += text.chars().count() + 1;
-        column
+        Word { column, text: text.trim() }
     };
-    let columns: Vec<_> = content.split(',').map(word).collect();
-    let texts = content.split(',').map(str::trim);
-    columns.into_iter().zip(texts).map(|(column, text)| Word { column, text }).collect()
+    content.split(',').take(MOST_WORDS).map(word).collect()
 }
+
+/// Longest file, in bytes: a million lines, most points that cells can be made of and most values that a
+/// dataset holds in tables, take some ten MiB.
+const LONGEST: u64 = 64 << 20;
+
+/// Most mistakes of one file that are told: a file of another kind has one on every line.
+pub(super) const MOST_FINDINGS: usize = 100;
 
 /// The text of a file, or what to say of it: `what` cannot be read.
 pub(super) fn read(path: &Path, what: &str) -> Result<String, Finding> {
-    std::fs::read_to_string(path)
+    ppum_file::text(path, LONGEST)
         .map_err(|error| of_file(path, format!("cannot read the {what}: {error}")))
+}
+
+/// True if no more findings need to be looked for.
+pub(super) fn is_enough(findings: &[Finding]) -> bool {
+    findings.len() >= MOST_FINDINGS
 }
 
 /// A finding about a file as a whole.

@@ -47,7 +47,7 @@ mod table_file;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ppum::crack::{Crack, TipId, tips};
@@ -93,7 +93,12 @@ pub struct Problem {
     pub solver: Solver,
     /// The problem file's text, if there was one.
     pub text: Option<String>,
+    /// The files that the text names, which were read with it: tables and points.
+    pub files: Vec<PathBuf>,
 }
+
+/// Longest problem file, in bytes: a hundred thousand cracks take some.
+pub const MAX_LENGTH: u64 = 16 << 20;
 
 /// How the system is made and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,14 +128,15 @@ pub enum SolverKind {
 }
 
 impl Problem {
-    /// Reads a problem file. Paths in it are relative to its folder.
+    /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its folder, and lead to files of at
+    /// most 64 MiB.
     ///
     /// # Errors
-    /// Everything that is wrong, with file, line, column and remedy; or that the file cannot be
-    /// read.
+    /// Everything that is wrong, with file, line, column and remedy, of a file of numbers the first 100
+    /// mistakes; or that the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Finding {
+        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Finding {
             place: Place::File(file.clone()),
             message: format!("cannot read the problem file: {error}"),
         })?;
@@ -194,6 +200,7 @@ impl Problem {
             discretization,
             solver: Solver::default(),
             text: None,
+            files: Vec::new(),
         }
     }
 

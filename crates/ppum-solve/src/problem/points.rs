@@ -28,6 +28,9 @@ fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Finding>> {
             Ok(point) => points.push((line.number, point)),
             Err((column, message)) => findings.push(finding(file, line.number, column, message)),
         }
+        if csv::is_enough(&findings) {
+            return Err(findings);
+        }
     }
     findings.extend(duplicates(&points, file));
     if findings.is_empty() {
@@ -58,6 +61,7 @@ fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Finding> {
     let mut lines: Vec<_> = equal.map(|pair| (pair[1].0, pair[0].0)).collect();
     lines.sort_unstable();
     let message = |first| format!("the same point as on line {first}; remove one of them");
+    lines.truncate(csv::MOST_FINDINGS);
     lines.into_iter().map(|(second, first)| finding(file, second, 1, message(first))).collect()
 }
 
@@ -91,6 +95,12 @@ mod tests {
                 "p.csv:6:4: `2a` is not a finite number; write `x,y`",
             ]
         );
+    }
+
+    #[test]
+    fn a_file_of_another_kind_is_not_told_line_by_line() {
+        assert_eq!(wrong(&"word\n".repeat(100_000)).len(), csv::MOST_FINDINGS);
+        assert_eq!(wrong(&"1,2\n".repeat(100_000)).len(), csv::MOST_FINDINGS);
     }
 
     #[test]

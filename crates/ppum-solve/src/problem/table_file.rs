@@ -57,11 +57,11 @@ impl Data {
 }
 
 fn parse(text: &str, file: &str) -> Result<Data, Vec<Finding>> {
-    let lines: Vec<_> = csv::lines(text).collect();
+    let mut lines = csv::lines(text).peekable();
     let mut reader = Reader { file, data: Data::default(), findings: Vec::new() };
-    match lines.split_first() {
-        Some((first, rest)) if first.words[0].text.is_empty() => reader.grid(first, rest),
-        _ => lines.iter().for_each(|line| reader.knot(line)),
+    match lines.next_if(|first| first.words[0].text.is_empty()) {
+        Some(first) => reader.grid(&first, lines),
+        None => reader.knots(lines),
     }
     if reader.findings.is_empty() { Ok(reader.data) } else { Err(reader.findings) }
 }
@@ -73,9 +73,12 @@ struct Reader<'f> {
 }
 
 impl Reader<'_> {
-    fn grid(&mut self, first: &Line<'_>, rest: &[Line<'_>]) {
+    fn grid<'t>(&mut self, first: &Line<'_>, rest: impl Iterator<Item = Line<'t>>) {
         let count = first.words.len();
         for place in 1..count {
+            if csv::is_enough(&self.findings) {
+                return;
+            }
             if let Some(knot) = self.number(first, place) {
                 let before = self.data.x.last().copied();
                 self.increases(before, knot, first.number, first.words[place].column);
@@ -83,7 +86,10 @@ impl Reader<'_> {
             }
         }
         for line in rest {
-            if let Some([knot, values @ ..]) = self.numbers(line, count).as_deref() {
+            if csv::is_enough(&self.findings) {
+                return;
+            }
+            if let Some([knot, values @ ..]) = self.numbers(&line, count).as_deref() {
                 let before = self.data.y.last().copied();
                 self.increases(before, *knot, line.number, line.words[0].column);
                 self.data.y.push(*knot);
@@ -92,13 +98,18 @@ impl Reader<'_> {
         }
     }
 
-    /// A line of a curve.
-    fn knot(&mut self, line: &Line<'_>) {
-        if let Some(&[knot, value]) = self.numbers(line, 2).as_deref() {
-            let before = self.data.x.last().copied();
-            self.increases(before, knot, line.number, line.words[0].column);
-            self.data.x.push(knot);
-            self.data.values.push(value);
+    /// The lines of a curve.
+    fn knots<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>) {
+        for line in lines {
+            if csv::is_enough(&self.findings) {
+                return;
+            }
+            if let Some(&[knot, value]) = self.numbers(&line, 2).as_deref() {
+                let before = self.data.x.last().copied();
+                self.increases(before, knot, line.number, line.words[0].column);
+                self.data.x.push(knot);
+                self.data.values.push(value);
+            }
         }
     }
 
@@ -150,6 +161,17 @@ mod tests {
         let grid = parse(", 1, 2, 4\n-1, 10, 20, 40\n3, 11, 21, 41\n", "t.csv");
         let (x, y) = (vec![1.0, 2.0, 4.0], vec![-1.0, 3.0]);
         assert_eq!(grid, Ok(Data { x, y, values: vec![10.0, 20.0, 40.0, 11.0, 21.0, 41.0] }));
+    }
+
+    #[test]
+    fn a_file_of_another_kind_is_not_told_line_by_line() {
+        for text in [
+            "word\n".repeat(100_000),
+            ",1\n".to_owned() + &"2\n".repeat(100_000),
+            ",x".repeat(100_000),
+        ] {
+            assert_eq!(wrong(&text).len(), csv::MOST_FINDINGS);
+        }
     }
 
     #[test]

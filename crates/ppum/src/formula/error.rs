@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::{MAX_DEPTH, MAX_LENGTH};
+use crate::printable::is_printable;
 
 /// A mistake in the text of a formula.
 ///
@@ -221,9 +222,19 @@ impl FormulaError {
 /// Longest offending text shown in a message, in characters.
 const MAX_FOUND: usize = 40;
 
+/// One character for each, so that carets stay below what they point at: a blank for white space, and a
+/// replacement character for what is not printable.
+fn visible(c: char) -> char {
+    match c {
+        c if c.is_whitespace() => ' ',
+        c if is_printable(c) => c,
+        _ => char::REPLACEMENT_CHARACTER,
+    }
+}
+
 /// One line of at most [`MAX_FOUND`] characters.
 fn shorten(found: &str) -> String {
-    let line: String = found.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let line: String = found.chars().map(visible).collect();
     if line.chars().count() <= MAX_FOUND {
         return line;
     }
@@ -238,12 +249,7 @@ fn excerpt(line: &str, column: usize, length: usize) -> String {
     let length_of_line = line.chars().count();
     let first =
         if length_of_line <= EXCERPT_WIDTH { 0 } else { column.saturating_sub(EXCERPT_WIDTH / 2) };
-    let shown: String = line
-        .chars()
-        .skip(first)
-        .take(EXCERPT_WIDTH)
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
+    let shown: String = line.chars().skip(first).take(EXCERPT_WIDTH).map(visible).collect();
     let lead = if first > 0 { "…" } else { "" };
     let tail = if first + EXCERPT_WIDTH < length_of_line { "…" } else { "" };
     let indent = " ".repeat(lead.chars().count() + column - first);

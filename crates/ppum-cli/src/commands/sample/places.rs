@@ -9,6 +9,7 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
+use super::MOST;
 use crate::sides::{on_crack, seen};
 
 /// A point on a side.
@@ -105,11 +106,14 @@ pub(super) fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Pl
     (0..ny).flat_map(row).collect()
 }
 
+/// Longest file of points, in bytes: those of [`super::MOST`] points in all digits.
+const LONGEST: u64 = 1 << 30;
+
 /// The points of a text file: lines with x and y apart by commas, semicolons or blanks; more columns are
 /// ignored, and so are a first line of names, empty lines and what follows `#`.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
     let context = || format!("cannot read {}", path.display());
-    let text = std::fs::read_to_string(path).with_context(context)?;
+    let text = ppum_file::text(path, LONGEST).with_context(context)?;
     let mut points = Vec::new();
     let mut is_head = true;
     for (k, line) in (1..).zip(text.lines()) {
@@ -124,6 +128,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
             None => bail!("{}:{k}: expected two finite numbers: x,y", path.display()),
         }
         is_head = false;
+        ensure!(points.len() <= MOST, "{}:{k}: more than {MOST} points", path.display());
     }
     ensure!(!points.is_empty(), "{}: has no points", path.display());
     Ok(points)

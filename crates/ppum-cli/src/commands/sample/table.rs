@@ -1,13 +1,13 @@
 //! A table of numbers with names, as CSV and as NPY.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
-use anyhow::{Context as _, bail, ensure};
+use anyhow::ensure;
 
 use crate::number::count;
+use crate::target;
 
 /// A column's name and unit; the unit may be empty.
 #[derive(Clone, Debug)]
@@ -29,23 +29,6 @@ impl Column {
             return format!("\"{}\"", text.replace('"', "\"\""));
         }
         text
-    }
-}
-
-/// Formats of files.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Format {
-    Csv,
-    Npy,
-}
-
-impl Format {
-    pub(super) fn of(path: &Path) -> anyhow::Result<Self> {
-        match path.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") => Ok(Self::Csv),
-            Some("npy") => Ok(Self::Npy),
-            _ => bail!("{}: the file's extension must be .csv or .npy", path.display()),
-        }
     }
 }
 
@@ -89,16 +72,10 @@ impl Table {
         format!("{} of {}", count(rows, "row", "rows"), names.join(", "))
     }
 
-    pub(super) fn save(&self, path: &Path, format: Format) -> anyhow::Result<()> {
-        let save = || {
-            let mut file = BufWriter::new(File::create(path)?);
-            match format {
-                Format::Csv => self.write_csv(&mut file)?,
-                Format::Npy => self.write_npy(&mut file)?,
-            }
-            file.flush()
-        };
-        save().with_context(|| format!("cannot write {}", path.display()))
+    /// Writes a file, of numpy if its extension says so.
+    pub(super) fn save(&self, path: &Path) -> anyhow::Result<()> {
+        let is_npy = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
+        target::save(path, |out| if is_npy { self.write_npy(out) } else { self.write_csv(out) })
     }
 
     /// Numbers in the fewest digits that mean the same double; `nan`, `inf` and `-inf`.
@@ -199,6 +176,5 @@ mod tests {
         let mut table = table();
         table.columns[1].name = "x".into();
         assert!(table.check_names().is_err());
-        assert!(Format::of(Path::new("a.txt")).is_err());
     }
 }

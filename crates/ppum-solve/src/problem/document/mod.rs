@@ -5,6 +5,7 @@ mod value;
 
 use std::cell::RefCell;
 use std::iter;
+use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
 
@@ -20,6 +21,8 @@ pub(super) struct Report<'a> {
     lines: Vec<usize>,
     /// With the offset in the text, by which they are sorted in the end.
     findings: RefCell<Vec<(usize, Finding)>>,
+    /// Files that the text names, as far as they were asked for.
+    files: RefCell<Vec<PathBuf>>,
 }
 
 impl<'a> Report<'a> {
@@ -30,6 +33,7 @@ impl<'a> Report<'a> {
             text,
             lines: iter::once(0).chain(starts).collect(),
             findings: RefCell::default(),
+            files: RefCell::default(),
         }
     }
 
@@ -50,6 +54,11 @@ impl<'a> Report<'a> {
         let line = self.lines.partition_point(|start| *start <= offset);
         let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
         (line, before.chars().count() + 1)
+    }
+
+    /// The files that the text names, as far as they were asked for.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.files.borrow().clone()
     }
 
     /// The findings in the order of the text.

@@ -1,6 +1,7 @@
 //! Typed access to one value.
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use ppum::formula::{Formula, FormulaError, Scope};
 use ppum::vec2::{Vec2, vec2};
@@ -54,6 +55,13 @@ impl<'a> Value<'a> {
     /// A text in quotes.
     pub(in super::super) fn text(&self) -> Option<&'a str> {
         self.as_text().or_else(|| self.expected("a text in quotes"))
+    }
+
+    /// The file of that name, which the report remembers; paths are relative to `folder`.
+    pub(in super::super) fn file(&self, folder: &Path) -> Option<PathBuf> {
+        let path = folder.join(self.text()?);
+        self.report.files.borrow_mut().push(path.clone());
+        Some(path)
     }
 
     /// `true` or `false`.

@@ -121,7 +121,7 @@ fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
 }
 
 fn point_file(value: &Value<'_>, folder: &Path) -> Option<Cells> {
-    let found = points::read(&folder.join(value.text()?));
+    let found = points::read(&value.file(folder)?);
     let report = |findings: Vec<_>| findings.into_iter().for_each(|finding| value.add(finding));
     found.map(Cells::Points).map_err(report).ok()
 }

@@ -54,6 +54,7 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
     if let Some(problem) = &problem {
         report_violations(&report, document.get_ref(), problem);
     }
+    let files = report.files();
     let findings = report.into_findings();
     let problem = match problem {
         Some(problem) if findings.is_empty() => problem,
@@ -63,7 +64,7 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
         "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         title => title.to_owned(),
     };
-    Ok(Problem { title, text: Some(text.to_owned()), ..problem })
+    Ok(Problem { title, text: Some(text.to_owned()), files, ..problem })
 }
 
 /// What is said where a bracket is open; every line that follows is then read as a part of the array.
@@ -196,6 +197,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         discretization,
         solver,
         text: None,
+        files: Vec::new(),
     })
 }
 

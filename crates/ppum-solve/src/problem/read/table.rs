@@ -51,7 +51,7 @@ fn data(section: &Section<'_>, folder: &Path) -> Option<Data> {
     match (section.get("file"), ["x", "y", "values"].iter().find_map(|key| section.get(key))) {
         (Some(_), Some(own)) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
-            let found = table_file::read(&folder.join(file.text()?));
+            let found = table_file::read(&file.file(folder)?);
             found.map_err(|findings| findings.into_iter().for_each(|new| file.add(new))).ok()
         }
         (None, Some(_)) => inline(section),

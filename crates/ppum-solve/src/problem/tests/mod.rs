@@ -565,6 +565,45 @@ fn files_and_their_points() {
     wrong("plate.toml:18:10: 1 of 2 points lie outside the domain, the first at [0, 2]");
 }
 
+/// Whoever writes a file can see that it is none of them.
+#[test]
+fn files_that_a_problem_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("data")).expect("a folder");
+    std::fs::write(at("data/p.csv"), "0.5,0.25\n-0.5,-0.25\n").expect("written");
+    std::fs::write(at("t.csv"), "-1,1\n1,2\n").expect("written");
+    let table = "[[table]]\nname = \"k\"\nfile = \"./t.csv\"\n";
+    let text = edited(PLATE, "level = 4", "points = \"data/p.csv\"") + table;
+    let problem = Problem::parse(&text, "plate.toml", folder.path()).expect("it is right");
+    assert_eq!(problem.files, [at("./t.csv"), at("data/p.csv")]);
+    assert!(good(PLATE).files.is_empty());
+}
+
+/// No kind of file is read without an end, or from what is no file.
+#[cfg(unix)]
+#[test]
+fn endless_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [zero, long] = ["zero", "long"].map(|name| folder.path().join(name));
+    std::os::unix::fs::symlink("/dev/zero", &zero).expect("a link");
+    std::fs::File::create(&long).and_then(|file| file.set_len(1 << 40)).expect("a hole");
+    let points = edited(PLATE, "level = 4", "points = \"FILE\"");
+    let table = PLATE.to_owned() + "[[table]]\nname = \"k\"\nfile = \"FILE\"\n";
+    let error = |result: Result<Problem, ProblemError>| result.expect_err("endless").to_string();
+    for (file, limits, reason) in [
+        (zero, ["", "", ""], "it is a device, not a regular file"),
+        (long, ["16 MiB", "64 MiB", "64 MiB"], "it has more than"),
+    ] {
+        let name = file.file_name().and_then(|name| name.to_str()).expect("text");
+        let parse = |text: &str| Problem::parse(&text.replace("FILE", name), "p", folder.path());
+        let found = [Problem::read(&file), parse(&points), parse(&table)].map(error);
+        for (found, limit) in found.iter().zip(limits) {
+            assert!(found.contains(reason) && found.contains(limit), "{found}");
+        }
+    }
+}
+
 #[test]
 fn a_file_that_cannot_be_read() {
     let error = Problem::read(Path::new("no/such/file.toml")).expect_err("there is none");

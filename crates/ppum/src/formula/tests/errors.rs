@@ -107,6 +107,10 @@ fn messages_show_the_place() {
     let error = error("x\t· ¬y");
     assert_eq!((error.column, error.found.as_str()), (5, "¬"));
     assert!(error.excerpt.ends_with("\n      ^"), "{error}");
+    // and so is what is not shown as it is
+    let error = self::error("x\u{1b}[31m\u{202e} + ¬y");
+    assert_eq!(error.excerpt.as_ref(), "  x\u{fffd}[31m\u{fffd} + ¬y\n   ^");
+    assert_eq!(error.found, "\u{fffd}");
 }
 
 #[test]

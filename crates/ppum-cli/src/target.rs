@@ -1,0 +1,75 @@
+//! Files that commands write: what is refused before any work is done.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use anyhow::{Context as _, bail, ensure};
+
+/// What is written to a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    Dataset,
+    Picture,
+    Table,
+}
+
+impl Kind {
+    /// What it is called, and the extensions of its files.
+    fn words(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
+            Self::Picture => ("pictures are PNG files", &["png"]),
+            Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
+        }
+    }
+
+    /// Refuses a name that says that something else is in the file.
+    fn check_name(self, path: &Path) -> anyhow::Result<()> {
+        let (files, extensions) = self.words();
+        let has = |wanted: &&str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
+        let known: Vec<_> = extensions.iter().map(|extension| format!(".{extension}")).collect();
+        ensure!(
+            extensions.iter().any(has),
+            "{}: {files}; end the name in {}",
+            path.display(),
+            known.join(" or ")
+        );
+        Ok(())
+    }
+}
+
+/// Refuses now what could not be written after minutes of work, and what would be lost: `inputs` are the
+/// files that the command reads.
+pub(crate) fn check<'i>(
+    path: &Path,
+    kind: Kind,
+    inputs: impl IntoIterator<Item = &'i Path>,
+) -> anyhow::Result<()> {
+    ensure!(!path.is_dir(), "{}: is a folder; give a file with -o", path.display());
+    if let Some(input) = inputs.into_iter().find(|input| ppum_file::is_same(path, input)) {
+        bail!(
+            "{}: would replace {}, which is read; give another file with -o",
+            path.display(),
+            input.display()
+        );
+    }
+    kind.check_name(path)?;
+    ppum_file::check(path).with_context(|| cannot_write(path))
+}
+
+/// Writes a file, completely or not at all.
+pub(crate) fn save(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> anyhow::Result<()> {
+    ppum_file::replace(path, write).with_context(|| cannot_write(path))
+}
+
+/// Makes a folder and those above, where there are none.
+pub(crate) fn make_folder(path: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(path).with_context(|| cannot_write(path))
+}
+
+fn cannot_write(path: &Path) -> String {
+    format!("cannot write {}", path.display())
+}

@@ -1,0 +1,30 @@
+//! The one place where files are read and written.
+//!
+//! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what has
+//! no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether it could.
+//! A program that is told to end calls [`abandon`].
+//!
+//! Errors are [`std::io::Error`]s, those of the system and own ones; their texts are reasons that stand
+//! behind `cannot read FILE: ` or `cannot write FILE: `.
+//!
+//! ```
+//! # fn main() -> std::io::Result<()> {
+//! # let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("numbers.csv");
+//! ppum_file::replace(&path, |out| writeln!(out, "1,2"))?;
+//! assert_eq!(ppum_file::text(&path, 1 << 20)?, "1,2\n");
+//! let error = ppum_file::read(&path, 2).unwrap_err();
+//! assert_eq!(error.to_string(), "it has more than 2 bytes, the most that are read");
+//! # Ok(())
+//! # }
+//! ```
+
+mod part;
+mod read;
+mod same;
+mod write;
+
+pub use part::{Abandoned, abandon};
+pub use read::{open, read, text, text_within, within};
+pub use same::is_same;
+pub use write::{check, replace};
