@@ -40,6 +40,49 @@ fn check_writes_nothing_and_reports_every_mistake() {
     assert_eq!(lab.files(), ["plate.toml", "wrong.toml"]);
 }
 
+/// What `solve` would refuse `--check` refuses, with the same words, before anything is solved.
+#[test]
+fn check_finds_what_solve_would_refuse() {
+    let lab = Lab::new();
+    let half = |from: f64, to: f64| {
+        format!("[[hole]]\npoints = [[-2, {from}], [2, {from}], [2, {to}], [-2, {to}]]\n")
+    };
+    let swallowed = half(-2.0, 0.1) + &half(-0.1, 2.0);
+    let unbalanced = CRACKED.replace("traction = [0.0, 1.0]", "traction = [0.5, 2.0]");
+    let cases = [
+        ("unbalanced", unbalanced, "balance"),
+        ("large", CRACKED.replace("order = 1", "order = 8"), "MiB"),
+        ("text", CRACKED.replace("Small plate", "Small \u{FFFD} plate"), "U+FFFD"),
+        ("own", format!("{CRACKED}\n[[enrichment]]\nfunction = \"1/x\"\n"), "finite"),
+        ("swallowed", format!("{CRACKED}\n{swallowed}"), "swallow"),
+    ];
+    for (name, text, word) in cases {
+        assert_ne!(text, CRACKED, "{name}");
+        lab.write(&format!("{name}.toml"), &text);
+        let line = format!("solve {name}.toml --memory 0.1");
+        let checked = lab.fail(&format!("{line} --check"));
+        assert!(checked.contains(word), "{name}: {checked}");
+        assert_eq!(lab.fail(&line), checked, "{name}");
+    }
+    assert!(!lab.files().iter().any(|file| file.ends_with(".h5")));
+}
+
+#[test]
+fn check_tells_what_the_solution_takes() {
+    let lab = Lab::new();
+    lab.write("plate.toml", CRACKED);
+    let told = lab.run("solve plate.toml --check");
+    let solved = lab.run("solve plate.toml");
+    let before = |text: &str, word: &str| {
+        let (before, _) = text.split_once(word).expect(word);
+        before.rsplit([' ', '\n']).next().map(str::to_owned)
+    };
+    assert_eq!(before(&told, " patches"), before(&solved, " patches"), "{told}{solved}");
+    for word in ["unknowns", "non-zeros", "in the factor", "MiB"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+}
+
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     let lab = Lab::new();

@@ -3,6 +3,7 @@
 mod bad_files;
 mod formulas;
 mod holes;
+mod large_files;
 
 use std::path::Path;
 
