@@ -286,7 +286,11 @@ class Field:
             (ox, oy), angle = map(self.real, row["frame_origin"]), self.real(row["frame_angle"])
             c, s = self.n.call("cos", angle), self.n.call("sin", angle)
         x, y = c * (p[0] - ox) + s * (p[1] - oy), c * (p[1] - oy) - s * (p[0] - ox)
-        return x, y, (1 if y >= 0 else -1) * self.n.call("atan2", abs(y), x), (c, s)
+        return x, y, (1 if y >= 0 else -1) * self.angle(x, y), (c, s)
+
+    def angle(self, x, y):
+        """The angle from the x axis, 0 at the origin whatever signs its zeros have."""
+        return self.n.call("atan2", abs(y), x) if x != 0 or y != 0 else self.real(0)
 
     def tip(self, p, row):
         segments, start = list(self.segments(p, row["crack"])), row["frame_end"] == "start"
@@ -294,7 +298,7 @@ class Field:
         o = -1 if start else 1
         x, y = o * (along if start else along - length), o * distance
         line = self.sign(distance)
-        theta = o * line * self.n.call("atan2", abs(y), x)
+        theta = o * line * self.angle(x, y)
         if self.sign(self.nearest(p, row["crack"])) != line:
             theta -= 2 * self.n.pi * o * line
         return x, y, theta, (o * tx, o * ty)
@@ -312,8 +316,8 @@ class Field:
             value = formula.evaluate(values).v
             if not formula.names.isdisjoint(of_slopes):
                 of_slopes.add(known.replace("-", "_"))
-                # where there is no gradient, at a tip, it is infinite
-                value = math.inf if any(slope != slope for slope in slopes.values()) else value
+                # where there is no gradient, as at a tip, it is infinite
+                value = value if all(abs(slope) < math.inf for slope in slopes.values()) else math.inf
             if known == name:
                 return value
             values[known.replace("-", "_")] = value

@@ -18,7 +18,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from ppum_formulas import Extended
-from ppum_reader import Field, checksum, text
+from ppum_reader import Field, checksum, text, texts
 
 ROOT = pathlib.Path(__file__).parents[2]
 OLD = ROOT / "crates/ppum-format/tests/data/version-1.0.h5"
@@ -37,7 +37,7 @@ def fixture(*arguments, input=None):
 
 
 def files():
-    if not any(FOLDER.iterdir()):
+    if not any(FOLDER.glob("0*.h5")):
         status, _, message = fixture("write", FOLDER, COUNT)
         assert status == 0, message
     found = sorted(FOLDER.glob("0*.h5"))
@@ -169,6 +169,37 @@ def test_at_a_tip_quantities_of_the_gradient_are_infinite():
         own = [field.quantity(name, *tip) for name in names]
     assert [math.isinf(value) for value in found] == [True, False, True, False]
     assert [math.isinf(value) for value in own] == [True, False, True, False]
+
+
+def test_the_angle_at_the_origin_of_a_frame_is_zero():
+    """Also where a coordinate is -0: the formulas of FORMAT.md alone would give pi there."""
+    copy, point = FOLDER / "origin.h5", (0.0, 0.0)
+    for frame, end, angle in [("tip", "last", 0), ("tip", "start", 0), ("fixed", "", 3), ("world", "", 0)]:
+        copy.write_bytes(OLD.read_bytes())
+        with h5py.File(copy, "a") as file:
+            step = file["steps/0000"]
+            row = texts(step["functions/frame"]).index("tip")
+            crack = step["functions/crack"][row]
+            if frame == "tip":
+                points = step["cracks/points"][()]
+                point = tuple(points[0] if end == "start" else points[-1])
+            for name, value in [
+                ("formula", "10*cos(theta/2)"),
+                ("frame", frame),
+                ("frame_end", end),
+                ("crack", crack if frame == "tip" else -1),
+                ("frame_angle", angle),
+            ]:
+                values = step[f"functions/{name}"]
+                values = texts(values) if values.dtype.kind in "SO" else values[()]
+                del step[f"functions/{name}"]
+                values[row] = value
+                step[f"functions/{name}"] = values
+            file.attrs["sha256"] = checksum(file)
+        [[found]] = program(copy, [(point, (0.0, 0.0), 1)], "u")
+        with h5py.File(copy) as file:
+            own = Field(file).quantity("u", *point)
+        assert abs(found - own) < 1e-12, (frame, end, found, own)
 
 
 def test_gradients_are_those_of_the_values():

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use sha2::{Digest, Sha256};
 
-use crate::content::{Array, Content, Values};
+use crate::content::{Array, Content, Form, Values};
 use crate::error::ReadError;
 
 /// Name of the root attribute that holds the checksum as 64 hexadecimal digits.
@@ -29,8 +29,9 @@ pub(crate) fn seal(content: &mut Content) {
 
 /// Takes the checksum out of the content and compares. A content without one is fine.
 pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
+    content.holds("", &NAME[1..], Form::Attribute)?;
     let Some(stored) = remove(content) else { return Ok(()) };
-    let Values::Text(stored) = stored.values else {
+    let (Values::Text(stored), []) = (stored.values, stored.shape.as_slice()) else {
         return Err(ReadError::object(NAME, "expected a string of 64 hexadecimal digits"));
     };
     let stored = stored.concat();
@@ -40,7 +41,7 @@ pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
 
 fn digest(content: &Content) -> Result<String, ReadError> {
     let mut hash = Sha256::new();
-    for (name, array) in content {
+    for (name, array) in content.iter() {
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
         let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
         hash.update(header.as_bytes());

@@ -1,12 +1,124 @@
 //! The content of a file: named arrays, free of both the data model and HDF5.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::{Deref, DerefMut};
 
-/// All arrays and attributes of a file, in the order of their names.
+use crate::error::ReadError;
+
+/// All arrays and attributes of a file, in the order of their names, and its groups.
 ///
 /// A dataset's name is its path without the leading slash (`steps/0000/partition/center`), an
 /// attribute's is that of its object, `@` and its own (`steps/0000@load`; of the root: `@title`).
-pub(crate) type Content = BTreeMap<String, Array>;
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Content {
+    arrays: BTreeMap<String, Array>,
+    /// Paths of the groups but the root, also of those with nothing in them.
+    groups: BTreeSet<String>,
+}
+
+impl Deref for Content {
+    type Target = BTreeMap<String, Array>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.arrays
+    }
+}
+
+impl DerefMut for Content {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.arrays
+    }
+}
+
+/// What an object of a file can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    Attribute,
+    Dataset,
+    Group,
+}
+
+impl Form {
+    const ALL: [Self; 3] = [Self::Attribute, Self::Dataset, Self::Group];
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Attribute => "an attribute",
+            Self::Dataset => "a dataset",
+            Self::Group => "a group",
+        }
+    }
+}
+
+impl Content {
+    pub(crate) fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an array or attribute, and the groups that it is in.
+    pub(crate) fn insert(&mut self, name: String, array: Array) -> Option<Array> {
+        if let Some(at) = name.rfind(['/', '@']) {
+            self.insert_group(&name[..at]);
+        }
+        self.arrays.insert(name, array)
+    }
+
+    /// Adds a group, and those that it is in; the root, without a name, is always there.
+    pub(crate) fn insert_group(&mut self, path: &str) {
+        if path.is_empty() || !self.groups.insert(path.to_owned()) {
+            return;
+        }
+        if let Some(at) = path.rfind('/') {
+            self.insert_group(&path[..at]);
+        }
+    }
+
+    /// The paths of all groups but the root.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = &str> {
+        self.groups.iter().map(String::as_str)
+    }
+
+    /// True if a group has an object of this name and form.
+    ///
+    /// # Errors
+    ///
+    /// There is none, but one of this name and another form.
+    pub(crate) fn holds(&self, group: &str, name: &str, form: Form) -> Result<bool, ReadError> {
+        let is_there = |form: Form| match form {
+            Form::Group => self.groups.contains(&join(group, name)),
+            _ => self.arrays.contains_key(&key(group, name, form)),
+        };
+        if is_there(form) {
+            return Ok(true);
+        }
+        match Form::ALL.into_iter().find(|&other| is_there(other)) {
+            None => Ok(false),
+            Some(other) => Err(ReadError::object(
+                &key(group, name, other),
+                format!("is {}, but must be {}", other.words(), form.words()),
+            )),
+        }
+    }
+
+    /// The names of the groups and datasets in a group.
+    pub(crate) fn members<'c>(&'c self, group: &str) -> impl Iterator<Item = &'c str> {
+        let prefix = join(group, "");
+        let groups = self.groups.range(prefix.clone()..);
+        let arrays = self.arrays.range(prefix.clone()..).map(|(name, _)| name);
+        let (in_groups, in_arrays) = (prefix.clone(), prefix);
+        let groups = groups.map_while(move |path| path.strip_prefix(&*in_groups));
+        let arrays = arrays.map_while(move |name| name.strip_prefix(&*in_arrays));
+        groups.chain(arrays).filter(|name| !name.contains(['/', '@']))
+    }
+}
+
+/// The full name of an object of a group; the root's path is empty.
+pub(crate) fn key(group: &str, name: &str, form: Form) -> String {
+    match form {
+        Form::Attribute => join(group, &format!("@{name}")),
+        Form::Dataset | Form::Group => join(group, name),
+    }
+}
 
 /// Name of an array (`name`) or an attribute (`@name`) of the group at `path`; the root's is empty.
 pub(crate) fn join(path: &str, name: &str) -> String {

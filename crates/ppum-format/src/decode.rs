@@ -13,7 +13,7 @@ use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{Array, Content, Values};
+use crate::content::{Array, Content, Form, Values};
 use crate::error::ReadError;
 use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
 use functions::functions;
@@ -24,8 +24,7 @@ type Read<T> = Result<T, ReadError>;
 
 /// The minor version, if this is a dataset and of a major version that can be read here.
 pub(crate) fn check_version(content: &Content) -> Read<u32> {
-    let is_text = |a: &Array| matches!(&a.values, Values::Text(t) if t.concat() == "ppum");
-    if !content.get("@format").is_some_and(is_text) {
+    if content.get("@format") != Some(&Array::scalar("ppum".to_owned())) {
         return Err(ReadError::NotADataset);
     }
     match content.get("@format_version").map(|a| &a.values) {
@@ -48,21 +47,28 @@ pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
     Ok(Dataset {
         title: root.attribute("title")?,
         program: root.attribute("program")?,
-        problem: if root.has("problem") { Some(root.scalar("problem")?) } else { None },
-        domain: domain(&mut root.group("domain"))?,
-        equation: equation(&mut root.group("equation"), &scopes)?,
+        problem: problem(&mut root)?,
+        domain: domain(&mut root.group("domain")?)?,
+        equation: equation(&mut root.group("equation")?, &scopes)?,
         quantities: optional(&mut root, "quantities", quantities)?,
         steps: numbered(&mut root, "steps", |group| step(group, &scopes))?,
         tables,
     })
 }
 
+fn problem(root: &mut Group) -> Read<Option<String>> {
+    root.holds("problem", Form::Dataset)?.then(|| root.scalar("problem")).transpose()
+}
+
 fn domain(group: &mut Group) -> Read<Domain> {
     let kind: String = group.attribute("kind")?;
     let with_holes = group.word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], &kind, "@kind")?;
     let bounds = Rect::new(group.attribute_point("min")?, group.attribute_point("max")?);
-    let holes = if with_holes { holes(&mut group.group("holes"))? } else { Vec::new() };
-    Ok(Domain { bounds, holes })
+    if !with_holes {
+        group.refuse("holes", Form::Group, &kind)?;
+        return Ok(Domain { bounds, holes: Vec::new() });
+    }
+    Ok(Domain { bounds, holes: holes(&mut group.group("holes")?)? })
 }
 
 fn holes(group: &mut Group) -> Read<Vec<Hole>> {
@@ -78,7 +84,10 @@ fn holes(group: &mut Group) -> Read<Vec<Hole>> {
             (true, other) => {
                 Err(group.error("offsets", format!("a circle has 1 point, not {}", other.len())))
             }
-            (false, points) => Ok(Hole::Polygon { points: points.to_vec() }),
+            (false, points) if radius == 0.0 => Ok(Hole::Polygon { points: points.to_vec() }),
+            (false, _) => {
+                Err(group.error("radius", format!("is {radius} of a polygon, must be 0")))
+            }
         }
     })
     .collect()
@@ -93,6 +102,7 @@ fn equation(group: &mut Group, scopes: &Scopes) -> Read<Equation> {
     let kind: String = group.attribute("kind")?;
     match kind.as_str() {
         "elasticity" => {
+            group.refuse("conductivity", Form::Attribute, &kind)?;
             let state: String = group.attribute("state")?;
             Ok(Equation::Elasticity(Elasticity {
                 young: constant(group, "young", scopes)?,
@@ -101,6 +111,9 @@ fn equation(group: &mut Group, scopes: &Scopes) -> Read<Equation> {
             }))
         }
         "poisson" => {
+            for name in ["young", "poisson", "state"] {
+                group.refuse(name, Form::Attribute, &kind)?;
+            }
             Ok(Equation::Poisson { conductivity: constant(group, "conductivity", scopes)? })
         }
         _ => Err(group.error("@kind", format!("unknown equation `{kind}`"))),
@@ -128,9 +141,9 @@ fn quantities(group: &mut Group) -> Read<Vec<NamedQuantity>> {
 fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
     Ok(Step {
         load: group.attribute("load")?,
-        partition: partition(&mut group.group("partition"), scopes)?,
-        cracks: cracks(&mut group.group("cracks"))?,
-        functions: functions(&mut group.group("functions"))?,
+        partition: partition(&mut group.group("partition")?, scopes)?,
+        cracks: cracks(&mut group.group("cracks")?)?,
+        functions: functions(&mut group.group("functions")?)?,
         fields: numbered(group, "fields", field)?,
         attributes: optional(group, "attributes", attributes)?,
         intensities: optional(group, "intensities", intensities)?,
@@ -167,6 +180,9 @@ fn weight(group: &mut Group, scopes: &Scopes) -> Read<WeightFunction> {
     let word: String = group.attribute("weight")?;
     let breakpoints = group.vector::<f64>("weight_breakpoints")?;
     if word == "formula" {
+        if !breakpoints.is_sorted_by(|a, b| a < b) {
+            return Err(group.error("weight_breakpoints", "must increase from each to the next"));
+        }
         let text: String = group.attribute("weight_formula")?;
         return WeightFunction::formula_with_breakpoints(&text, &scopes.weight, &breakpoints)
             .map_err(|error| match error {
@@ -176,6 +192,7 @@ fn weight(group: &mut Group, scopes: &Scopes) -> Read<WeightFunction> {
     }
     let weight = WeightFunction::from_name(&word)
         .ok_or_else(|| group.error("@weight", format!("unknown weight function `{word}`")))?;
+    group.refuse("weight_formula", Form::Attribute, &word)?;
     if breakpoints != weight.breakpoints() {
         return Err(group.error("weight_breakpoints", format!("are not those of `{word}`")));
     }
@@ -208,7 +225,7 @@ fn field(group: &mut Group) -> Read<FieldData> {
     Ok(FieldData {
         name: group.attribute("name")?,
         unit: group.attribute("unit")?,
-        exact: if group.has("exact") { group.vector("exact")? } else { Vec::new() },
+        exact: exact(group)?,
         patch_blocks: group.vector("patch_blocks")?,
         block_function: group.vector("block_function")?,
         block_degree: group.vector("block_degree")?,
@@ -216,6 +233,10 @@ fn field(group: &mut Group) -> Read<FieldData> {
         coefficients: group.matrix("coefficients", components.len())?,
         components,
     })
+}
+
+fn exact(group: &mut Group) -> Read<Vec<String>> {
+    if group.holds("exact", Form::Dataset)? { group.vector("exact") } else { Ok(Vec::new()) }
 }
 
 fn attributes(group: &mut Group) -> Read<Vec<Attribute>> {
@@ -283,5 +304,7 @@ fn reactions(group: &mut Group) -> Read<Vec<Reaction>> {
     results.map(reaction).collect()
 }
 
+#[cfg(test)]
+mod rules;
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@
 //! returns may take, both in proportion to the length of the file.
 
 mod account;
+mod links;
 mod read;
 mod write;
 

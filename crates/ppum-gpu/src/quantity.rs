@@ -34,9 +34,13 @@ pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<St
         Quantity::PartitionFunction(_) => returning("", "at.part"),
         Quantity::Error => return Err(no_error()),
         Quantity::Formula(formula) => of_formula(formula, field, &field.vocabulary())?,
-        Quantity::Derivative(c, Axis::X) => returning(APART, &lane(usize::from(*c), "x")),
-        Quantity::Derivative(c, Axis::Y) => returning(APART, &lane(usize::from(*c), "y")),
-        Quantity::GradientNorm => norm(APART, all("x").chain(all("y"))),
+        Quantity::Derivative(c, Axis::X) => {
+            returning(&apart(components), &lane(usize::from(*c), "x"))
+        }
+        Quantity::Derivative(c, Axis::Y) => {
+            returning(&apart(components), &lane(usize::from(*c), "y"))
+        }
+        Quantity::GradientNorm => norm(&apart(components), all("x").chain(all("y"))),
         Quantity::EnergyDensity if components == 1 => {
             of_library(quantity, field, &Equation::poisson(1.0), &["u"])?
         }
@@ -60,11 +64,14 @@ fn solid() -> Equation {
     Equation::elasticity(Material { young: 1.0, poisson: 0.0, state: StressState::PlaneStrain })
 }
 
-/// The line before quantities of the gradient: at a tip they are infinite.
-const APART: &str = "    if ppum_is_nan(at.u[0].x.x) {
-        return ppum_from_bits(0x7f800000u);
-    }
-";
+/// The lines before quantities of the gradient: they are infinite where a derivative is, or does not exist.
+fn apart(components: usize) -> String {
+    let slopes = (0..components).flat_map(|c| [lane(c, "x"), lane(c, "y")]);
+    let infinite = |slope| format!("(bitcast<u32>({slope}) & 0x7f800000u) == 0x7f800000u");
+    let tests: Vec<String> = slopes.map(|slope| format!("({})", infinite(slope))).collect();
+    let infinite = "return ppum_from_bits(0x7f800000u);";
+    format!("    if {} {{\n        {infinite}\n    }}\n", tests.join(" | "))
+}
 
 /// A function of some lines that returns an expression.
 fn returning(lines: &str, value: &str) -> String {
@@ -129,7 +136,8 @@ fn of_formula(
     }
     let value = format!("quantity_formula({})[0]", arguments.join(", "));
     let needs = Quantity::Formula(std::sync::Arc::new(formula.clone())).source();
-    Ok(text + &returning(if needs == Source::Gradient { APART } else { "" }, &value))
+    let before = if needs == Source::Gradient { apart(field.components()) } else { String::new() };
+    Ok(text + &returning(&before, &value))
 }
 
 /// What stands for an input of a formula.

@@ -221,6 +221,17 @@ mod tests {
         let texts = picture.description("Plate", "plate.h5", "von Mises");
         let text = |key: &str| &texts.iter().find(|t| t.0 == key).unwrap().1;
         assert_eq!(text("ppum:view"), "center 0.1,-0.2 width 3e-7 pixels 4x2");
+        // what FORMAT.md makes of it
+        let numbers = text("ppum:view").split([' ', ',', 'x']).filter_map(|part| part.parse().ok());
+        let [x, y, width, columns, rows]: [f64; 5] =
+            numbers.collect::<Vec<_>>().try_into().unwrap();
+        assert_eq!((vec2(x, y), width), (picture.view.center, picture.view.width));
+        for (i, j) in [(0, 0), (3, 0), (1, 1)] {
+            let h = width / columns;
+            let across = (f64::from(i) - (columns - 1.0) / 2.0) * h;
+            let up = ((rows - 1.0) / 2.0 - f64::from(j)) * h;
+            assert!((picture.view.offset(i, j) - vec2(across, up)).length() < 1e-15 * width);
+        }
         assert_eq!(text("ppum:pixel"), "value at pixel centre");
         assert_eq!(text("ppum:range"), "0.0,3.0");
         assert_eq!(text("Title"), "Plate");

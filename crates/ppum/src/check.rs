@@ -5,11 +5,12 @@
 
 mod domain;
 mod formulas;
+mod tiling;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cover::OVERLAP;
-use crate::crack::Crack;
+use crate::crack::{Crack, CrackEnd, End, TipId};
 use crate::dataset::{
     Dataset, Equation, FieldData, MAX_DEGREE, Partition, Reaction, Step, TipIntensity, Warning,
     monomials,
@@ -35,8 +36,8 @@ impl Dataset {
     /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas that
     /// can be read with the dataset's tables.
     ///
-    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. Whether the
-    /// supports cover the domain is not asked. Linear in the size of the dataset.
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. That the cells
+    /// tile the domain is asked, whether the supports cover it is not. O(n log n) in the size of the dataset.
     ///
     /// # Errors
     ///
@@ -50,6 +51,11 @@ impl Dataset {
         require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
         for (k, step) in self.steps.iter().enumerate() {
             check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
+            let known = k > 0 && self.steps[k - 1].partition.cell == step.partition.cell;
+            if !known {
+                tiling::check(&step.partition, &self.domain)
+                    .map_err(|e| e.inside(&format!("steps[{k}].partition")))?;
+            }
         }
         formulas::check_quantities(self)
     }
@@ -158,23 +164,21 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
         let place = format!("attributes `{}`", attribute.name);
         check_length(&place, attribute.values.len(), step.partition.len(), "one a patch")?;
     }
-    for (k, intensity) in step.intensities.iter().enumerate() {
-        check_intensity(intensity, step.cracks.len())
-            .map_err(|e| e.inside(&format!("intensities[{k}]")))?;
-    }
+    check_intensities(step)?;
     for (k, warning) in step.warnings.iter().enumerate() {
         check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
     }
     let components = step.fields.first().map_or(0, |field| field.components.len());
     for (k, reaction) in step.reactions.iter().enumerate() {
-        check_reaction(reaction, components).map_err(|e| e.inside(&format!("reactions[{k}]")))?;
+        check_reaction(reaction, components, equation)
+            .map_err(|e| e.inside(&format!("reactions[{k}]")))?;
     }
     Ok(())
 }
 
-/// Stretch of a support over its cell below which strips of overlap are thinner than any cover's; a hair below
-/// the bound of covers, for rounding.
-const LEAST_STRETCH: f64 = 1.01 - 1e-9;
+/// Part of a cell's size that its support reaches beyond it on each side, below which strips of overlap are
+/// thinner than any cover's; a hair below the bound of covers, for rounding.
+const LEAST_REACH: f64 = 0.005 - 1e-9;
 
 fn check_partition(partition: &Partition) -> Checked {
     let n = partition.len();
@@ -198,23 +202,21 @@ fn check_partition(partition: &Partition) -> Checked {
     check_all("cell", &partition.cell, is_box, |c| {
         format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
     })?;
-    let strips = |(half, cell): (&Vec2, &Rect)| {
-        let size = cell.size();
-        [2.0 * half.x / size.x, 2.0 * half.y / size.y]
-    };
-    let stretches: Vec<_> = partition.half.iter().zip(&partition.cell).map(strips).collect();
-    let thin = |stretch: &f64| *stretch > 1.0 && *stretch < LEAST_STRETCH;
+    let supports = (0..n).map(|patch| (partition.support(patch), &partition.cell[patch]));
+    let thin: Vec<_> = supports.map(|(support, cell)| thin_strip(&support, cell)).collect();
+    check_all("half", &thin, Option::is_none, |reach| {
+        format!(
+            "makes the support reach {} times the cell's size beyond it: patches overlap in strips too thin \
+             for their numbers, give them {} times the cell at least",
+            reach.unwrap_or_default(),
+            OVERLAP.start()
+        )
+    })?;
     check_all(
-        "half",
-        &stretches,
-        |stretch| !stretch.iter().any(thin),
-        |[x, y]| {
-            format!(
-                "makes the support {x} × {y} times its cell: patches overlap in strips too thin for their \
-                 numbers, give them {} at least",
-                OVERLAP.start()
-            )
-        },
+        "center",
+        &(0..n).collect::<Vec<_>>(),
+        |&patch| partition.support(patch).overlaps(&partition.cell[patch]),
+        |_| "puts the support beside its cell".into(),
     )?;
     let points = partition.points.len();
     check_all(
@@ -223,6 +225,19 @@ fn check_partition(partition: &Partition) -> Checked {
         |p| p.is_none_or(|p| (p as usize) < points),
         |p| format!("index {}, but there are {points} points", p.unwrap_or_default()),
     )
+}
+
+/// How far a support reaches beyond its cell, in units of the cell's size, where that is a strip too thin.
+/// Rounding is no strip.
+fn thin_strip(support: &Rect, cell: &Rect) -> Option<f64> {
+    let along = |inner: [f64; 2], outer: [f64; 2]| {
+        let rounding = 4.0 * f64::EPSILON * outer[0].abs().max(outer[1].abs());
+        let reaches = [inner[0] - outer[0], outer[1] - inner[1]].into_iter();
+        let strips = reaches.filter(move |reach| *reach > rounding);
+        strips.map(move |reach| reach / (inner[1] - inner[0])).find(|&part| part < LEAST_REACH)
+    };
+    along([cell.min.x, cell.max.x], [support.min.x, support.max.x])
+        .or_else(|| along([cell.min.y, cell.max.y], [support.min.y, support.max.y]))
 }
 
 fn check_crack(place: &str, crack: &Crack) -> Checked {
@@ -335,8 +350,26 @@ fn check_blocks(field: &FieldData, functions: usize) -> Checked {
     Ok(())
 }
 
-fn check_intensity(intensity: &TipIntensity, cracks: usize) -> Checked {
-    check_index("crack", intensity.tip.crack as usize, cracks, "cracks")?;
+/// Each tip has one entry at most, and ends of other kinds have none.
+fn check_intensities(step: &Step) -> Checked {
+    let mut seen = BTreeMap::new();
+    for (k, intensity) in step.intensities.iter().enumerate() {
+        let place = format!("intensities[{k}]");
+        check_intensity(intensity, &step.cracks).map_err(|e| e.inside(&place))?;
+        if let Some(other) = seen.insert(intensity.tip, k) {
+            return fail(&place, format!("is of the same tip as intensities[{other}]; keep one"));
+        }
+    }
+    Ok(())
+}
+
+fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
+    let TipId { crack, end } = intensity.tip;
+    check_index("crack", crack as usize, cracks.len(), "cracks")?;
+    let kind = cracks[crack as usize].ends[usize::from(end == End::Last)];
+    require(kind == CrackEnd::Tip, "end", || {
+        format!("the {} of crack {crack} is no tip", end.name())
+    })?;
     check_number("k1", intensity.k1)?;
     check_number("k2", intensity.k2)?;
     check_all(
@@ -354,19 +387,25 @@ fn check_warning(warning: &Warning) -> Checked {
     check_number("limit", warning.limit)
 }
 
-fn check_reaction(reaction: &Reaction, components: usize) -> Checked {
+fn check_reaction(reaction: &Reaction, components: usize, equation: &Equation) -> Checked {
     require(!reaction.on.trim().is_empty(), "on", || "is empty".into())?;
     let of = "one a component of the first field";
     check_length("held", reaction.held.len(), components, of)?;
     check_length("force", reaction.force.len(), components, of)?;
-    reaction.force.iter().try_for_each(|&force| check_number("force", force))?;
-    check_number("moment", reaction.moment)
+    check_numbers("force", &reaction.force)?;
+    let mut free = reaction.held.iter().zip(&reaction.force).filter(|(held, _)| !**held);
+    require(free.all(|(_, &force)| force == 0.0), "force", || {
+        "must be 0 of components that are not held".into()
+    })?;
+    check_number("moment", reaction.moment)?;
+    require(equation.components() > 1 || reaction.moment == 0.0, "moment", || {
+        format!("is {}, but a potential has none: expected 0", reaction.moment)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::crack::{CrackEnd, End, TipId};
     use crate::dataset::{Attribute, Ring};
     use crate::equation::{Material, StressState};
     use crate::vec2::vec2;

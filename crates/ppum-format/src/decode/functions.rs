@@ -6,6 +6,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::Read;
 use super::group::Group;
+use crate::content::Form;
 use crate::names::ENDS;
 
 /// The columns of the function table that are not plain names.
@@ -54,13 +55,13 @@ fn parameters(group: &mut Group, functions: usize) -> Read<Vec<Vec<(String, f64)
 /// Kinks and singular points, each of which may be missing from the file.
 fn declared(group: &mut Group, functions: usize) -> Read<Vec<Declared>> {
     let mut declared = vec![Declared::default(); functions];
-    if group.has("kinks") || group.has("kink_offsets") {
+    if group.holds("kinks", Form::Dataset)? || group.holds("kink_offsets", Form::Dataset)? {
         let segment = |[x0, y0, x1, y1]: [f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
         let kinks: Vec<_> = group.rows("kinks")?.into_iter().map(segment).collect();
         let parts = group.offsets("kink_offsets", functions, kinks.len())?;
         std::iter::zip(&mut declared, parts).for_each(|(d, part)| d.kinks = kinks[part].to_vec());
     }
-    if group.has("singular") || group.has("singular_offsets") {
+    if group.holds("singular", Form::Dataset)? || group.holds("singular_offsets", Form::Dataset)? {
         let points = group.points("singular")?;
         let parts = group.offsets("singular_offsets", functions, points.len())?;
         std::iter::zip(&mut declared, parts)
@@ -70,34 +71,68 @@ fn declared(group: &mut Group, functions: usize) -> Read<Vec<Declared>> {
 }
 
 impl Columns {
+    /// Takes the row of a function out of the columns. What its kind does not use must be left there as
+    /// nothing: a row that says more than its kind was damaged, or written for another kind.
     fn function_kind(&mut self, group: &Group, k: usize, kind: &str) -> Read<FunctionKind> {
-        match kind {
-            "one" => Ok(FunctionKind::One),
-            "side" => Ok(FunctionKind::Side { crack: self.crack_index(group, k)? }),
-            "formula" => Ok(FunctionKind::Formula {
-                frame: self.frame(group, k)?,
+        let function = match kind {
+            "one" => FunctionKind::One,
+            "side" => FunctionKind::Side { crack: self.take_crack(group, k)? },
+            "formula" => FunctionKind::Formula {
+                frame: self.take_frame(group, k)?,
                 text: std::mem::take(&mut self.formula[k]),
                 parameters: std::mem::take(&mut self.parameters[k]),
                 declared: std::mem::take(&mut self.declared[k]),
-            }),
-            _ => Err(group.error("kind", format!("function {k} is of unknown kind `{kind}`"))),
+            },
+            _ => {
+                return Err(
+                    group.error("kind", format!("function {k} is of unknown kind `{kind}`"))
+                );
+            }
+        };
+        match self.left_over(k) {
+            None => Ok(function),
+            Some((name, nothing)) => Err(group.error(
+                name,
+                format!("function {k} of the kind `{kind}` does not use it: expected {nothing}"),
+            )),
         }
     }
 
-    fn frame(&self, group: &Group, k: usize) -> Read<Frame> {
-        match self.frame[k].as_str() {
+    /// A column that still says something of a function, and what it says of functions that do not use it.
+    fn left_over(&self, k: usize) -> Option<(&'static str, &'static str)> {
+        let Declared { kinks, singular } = &self.declared[k];
+        [
+            ("crack", self.crack[k] == -1, "-1"),
+            ("formula", self.formula[k].is_empty(), "an empty text"),
+            ("frame", self.frame[k].is_empty(), "an empty text"),
+            ("frame_end", self.end[k].is_empty(), "an empty text"),
+            ("frame_origin", self.origin[k] == Vec2::ZERO, "0, 0"),
+            ("frame_angle", self.angle[k] == 0.0, "0"),
+            ("parameter_offsets", self.parameters[k].is_empty(), "no parameters"),
+            ("kink_offsets", kinks.is_empty(), "no kinks"),
+            ("singular_offsets", singular.is_empty(), "no singular points"),
+        ]
+        .into_iter()
+        .find_map(|(name, is_nothing, nothing)| (!is_nothing).then_some((name, nothing)))
+    }
+
+    fn take_frame(&mut self, group: &Group, k: usize) -> Read<Frame> {
+        match std::mem::take(&mut self.frame[k]).as_str() {
             "world" => Ok(Frame::World),
-            "fixed" => Ok(Frame::Fixed { origin: self.origin[k], angle: self.angle[k] }),
+            "fixed" => Ok(Frame::Fixed {
+                origin: std::mem::replace(&mut self.origin[k], Vec2::ZERO),
+                angle: std::mem::take(&mut self.angle[k]),
+            }),
             "tip" => Ok(Frame::Tip(TipId {
-                crack: self.crack_index(group, k)?,
-                end: group.word(ENDS, &self.end[k], "frame_end")?,
+                crack: self.take_crack(group, k)?,
+                end: group.word(ENDS, &std::mem::take(&mut self.end[k]), "frame_end")?,
             })),
             other => Err(group.error("frame", format!("function {k} has unknown frame `{other}`"))),
         }
     }
 
-    fn crack_index(&self, group: &Group, k: usize) -> Read<u32> {
-        let crack = self.crack[k];
+    fn take_crack(&mut self, group: &Group, k: usize) -> Read<u32> {
+        let crack = std::mem::replace(&mut self.crack[k], -1);
         u32::try_from(crack)
             .map_err(|_| group.error("crack", format!("function {k} has no crack ({crack})")))
     }

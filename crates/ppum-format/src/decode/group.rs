@@ -3,7 +3,7 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::Read;
-use crate::content::{Content, Element, Values, join};
+use crate::content::{Content, Element, Form, Values, join, key};
 use crate::error::ReadError;
 use crate::names::{Words, value};
 
@@ -14,87 +14,94 @@ pub(super) struct Group<'a> {
 }
 
 impl Group<'_> {
-    pub(super) fn group(&mut self, name: &str) -> Group<'_> {
-        Group { path: self.path_of(name), content: self.content }
+    /// A group in this one.
+    pub(super) fn group(&mut self, name: &str) -> Read<Group<'_>> {
+        if self.holds(name, Form::Group)? {
+            Ok(Group { path: self.path_of(name), content: self.content })
+        } else {
+            Err(self.error(name, "is missing"))
+        }
     }
 
     pub(super) fn path_of(&self, name: &str) -> String {
         join(&self.path, name)
     }
 
-    pub(super) fn has(&self, name: &str) -> bool {
-        self.content.contains_key(&self.path_of(name))
+    /// True if there is an object of this name; an error if it is of another form.
+    pub(super) fn holds(&self, name: &str, form: Form) -> Read<bool> {
+        self.content.holds(&self.path, name, form)
     }
 
-    /// True if there is anything in the group.
-    pub(super) fn exists(&self) -> bool {
-        let path = self.path.as_str();
-        let from_here = self.content.range(path.to_owned()..).map(|(key, _)| key);
-        let mut rests = from_here.map_while(|key| key.strip_prefix(path));
-        rests.any(|rest| rest.starts_with(['/', '@']))
+    /// Refuses an object that belongs to another word than the one the group has.
+    pub(super) fn refuse(&self, name: &str, form: Form, word: &str) -> Read<()> {
+        if !self.holds(name, form)? {
+            return Ok(());
+        }
+        let key = key(&self.path, name, form);
+        Err(ReadError::object(&key, format!("does not belong to `{word}`; leave it out")))
     }
 
     pub(super) fn error(&self, name: &str, problem: impl Into<String>) -> ReadError {
         ReadError::object(&self.path_of(name), problem)
     }
 
-    /// The values of an array of the given shape.
-    pub(super) fn take<T: Element>(&mut self, key: &str, shape: &[Extent]) -> Read<Vec<T>> {
-        let array = self.content.remove(key).ok_or_else(|| ReadError::object(key, "is missing"))?;
+    /// The values of an array or attribute of the given shape.
+    fn take<T: Element>(&mut self, name: &str, form: Form, shape: &[Extent]) -> Read<Vec<T>> {
+        let key = key(&self.path, name, form);
+        self.holds(name, form)?;
+        let array =
+            self.content.remove(&key).ok_or_else(|| ReadError::object(&key, "is missing"))?;
         let fits = array.shape.len() == shape.len()
             && array.shape.iter().zip(shape).all(|(n, extent)| extent.allows(*n));
         if !fits {
             let wanted: Vec<String> = shape.iter().map(Extent::to_string).collect();
             return Err(ReadError::object(
-                key,
+                &key,
                 format!("has shape {:?}, expected [{}]", array.shape, wanted.join(", ")),
             ));
         }
         T::unwrap(array.values).map_err(|other| {
-            ReadError::object(key, format!("has type {}, expected {}", other.type_name(), T::NAME))
+            ReadError::object(&key, format!("has type {}, expected {}", other.type_name(), T::NAME))
         })
     }
 
     /// True if the attribute is there and is a text.
     pub(super) fn has_text(&self, name: &str) -> bool {
-        let array = self.content.get(&self.path_of(&format!("@{name}")));
+        let array = self.content.get(&key(&self.path, name, Form::Attribute));
         array.is_some_and(|array| matches!(array.values, Values::Text(_)))
     }
 
     pub(super) fn scalar<T: Element>(&mut self, name: &str) -> Read<T> {
-        let key = self.path_of(name);
-        self.one(&key)
+        self.one(name, Form::Dataset)
     }
 
     pub(super) fn attribute<T: Element>(&mut self, name: &str) -> Read<T> {
-        let key = self.path_of(&format!("@{name}"));
-        self.one(&key)
+        self.one(name, Form::Attribute)
     }
 
-    pub(super) fn one<T: Element>(&mut self, key: &str) -> Read<T> {
-        let value = self.take(key, &[])?.pop();
-        value.ok_or_else(|| ReadError::object(key, "is empty"))
+    fn one<T: Element>(&mut self, name: &str, form: Form) -> Read<T> {
+        let value = self.take(name, form, &[])?.pop();
+        value.ok_or_else(|| ReadError::object(&key(&self.path, name, form), "is empty"))
     }
 
     pub(super) fn attribute_point(&mut self, name: &str) -> Read<Vec2> {
-        let key = self.path_of(&format!("@{name}"));
-        let p = self.take::<f64>(&key, &[Extent::Is(2)])?;
+        let p = self.take::<f64>(name, Form::Attribute, &[Extent::Is(2)])?;
         Ok(vec2(p[0], p[1]))
     }
 
     /// The values of an array of the given shape, row-major.
     pub(super) fn array<T: Element>(&mut self, name: &str, shape: &[Extent]) -> Read<Vec<T>> {
-        self.take(&self.path_of(name), shape)
+        self.take(name, Form::Dataset, shape)
     }
 
     /// A vector of any length.
     pub(super) fn vector<T: Element>(&mut self, name: &str) -> Read<Vec<T>> {
-        self.take(&self.path_of(name), &[Extent::Any])
+        self.take(name, Form::Dataset, &[Extent::Any])
     }
 
     /// A vector as long as another.
     pub(super) fn column<T: Element>(&mut self, name: &str, length: usize) -> Read<Vec<T>> {
-        self.take(&self.path_of(name), &[Extent::Is(length as u64)])
+        self.take(name, Form::Dataset, &[Extent::Is(length as u64)])
     }
 
     /// A matrix of `N` columns.
@@ -102,7 +109,7 @@ impl Group<'_> {
         &mut self,
         name: &str,
     ) -> Read<Vec<[T; N]>> {
-        let values = self.take::<T>(&self.path_of(name), &[Extent::Any, Extent::Is(N as u64)])?;
+        let values = self.take::<T>(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)])?;
         Ok(values.as_chunks::<N>().0.to_vec())
     }
 
@@ -112,8 +119,7 @@ impl Group<'_> {
 
     /// The rows of a matrix with a given number of them.
     pub(super) fn matrix(&mut self, name: &str, rows: usize) -> Read<Vec<Vec<f64>>> {
-        let key = self.path_of(name);
-        let values = self.take::<f64>(&key, &[Extent::Is(rows as u64), Extent::Any])?;
+        let values = self.array::<f64>(name, &[Extent::Is(rows as u64), Extent::Any])?;
         let columns = values.len().checked_div(rows).unwrap_or(0);
         Ok((0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect())
     }
@@ -164,20 +170,31 @@ impl std::fmt::Display for Extent {
     }
 }
 
-/// The groups `0000`, `0001`, … of a group, as long as they go on.
+/// The groups `0000`, `0001`, … of a group. Members that are no numbers are of no concern.
 pub(super) fn numbered<T>(
     parent: &mut Group,
     name: &str,
     mut item: impl FnMut(&mut Group) -> Read<T>,
 ) -> Read<Vec<T>> {
-    let mut items = Vec::new();
-    loop {
-        let mut group = parent.group(&format!("{name}/{:04}", items.len()));
-        if !group.exists() {
-            return Ok(items);
-        }
-        items.push(item(&mut group)?);
+    if !parent.holds(name, Form::Group)? {
+        return Ok(Vec::new());
     }
+    let mut list = parent.group(name)?;
+    let is_number = |name: &&str| name.bytes().all(|b| b.is_ascii_digit());
+    let count = list.content.members(&list.path).filter(is_number).count();
+    let mut items = Vec::new();
+    for number in 0..count {
+        let number = format!("{number:04}");
+        if !list.holds(&number, Form::Group)? {
+            let problem = format!(
+                "is missing: the {count} numbered groups here must be 0000, 0001, …, of four digits \
+                 at least and without gaps"
+            );
+            return Err(list.error(&number, problem));
+        }
+        items.push(item(&mut list.group(&number)?)?);
+    }
+    Ok(items)
 }
 
 /// What a group holds, nothing if it is not there.
@@ -186,6 +203,5 @@ pub(super) fn optional<T>(
     name: &str,
     items: impl Fn(&mut Group) -> Read<Vec<T>>,
 ) -> Read<Vec<T>> {
-    let mut group = parent.group(name);
-    if group.exists() { items(&mut group) } else { Ok(Vec::new()) }
+    if parent.holds(name, Form::Group)? { items(&mut parent.group(name)?) } else { Ok(Vec::new()) }
 }

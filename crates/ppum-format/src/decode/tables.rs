@@ -7,6 +7,7 @@ use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 use super::Read;
 use super::group::{Extent, Group, numbered};
 use crate::MAX_TABLE_VALUES;
+use crate::content::Form;
 use crate::error::ReadError;
 
 /// The scopes in which formulas are read before the dataset is complete.
@@ -37,7 +38,7 @@ pub(super) fn tables(root: &mut Group) -> Read<Vec<Arc<Table>>> {
 fn table(group: &mut Group, left: &mut usize) -> Read<Table> {
     let name: String = group.attribute("name")?;
     let x = group.vector::<f64>("x")?;
-    let y = if group.has("y") { Some(group.vector::<f64>("y")?) } else { None };
+    let y = if group.holds("y", Form::Dataset)? { Some(group.vector::<f64>("y")?) } else { None };
     let rows = y.iter().map(|y| Extent::Is(y.len() as u64));
     let shape: Vec<Extent> = rows.chain([Extent::Is(x.len() as u64)]).collect();
     let values = group.array::<f64>("values", &shape)?;

@@ -16,7 +16,7 @@ fn complaint(content: Content) -> Option<String> {
     }
 }
 
-/// A group that goes missing as a whole is a shorter list, an item alone is an error.
+/// An object that goes missing is an error, but for those that are optional.
 #[test]
 fn a_missing_item_is_named() {
     let optional = ["problem", "@format", "@format_version"];

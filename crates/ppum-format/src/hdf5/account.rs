@@ -78,12 +78,30 @@ pub(super) fn memory_of(array: &Array) -> u64 {
 pub(super) struct Metered {
     bytes: Arc<Vec<u8>>,
     left: Arc<AtomicU64>,
+    /// Where the first reading since [`Metered::watch`] began.
+    first: Arc<AtomicU64>,
 }
+
+/// No place in a file; HDF5 writes it as the address of what has none.
+const NOWHERE: u64 = u64::MAX;
 
 impl Metered {
     pub(super) fn new(bytes: Vec<u8>) -> Self {
         let left = (bytes.len() as u64).saturating_mul(READINGS).saturating_add(FREE_READINGS);
-        Self { bytes: bytes.into(), left: Arc::new(left.into()) }
+        let first = Arc::new(NOWHERE.into());
+        Self { bytes: bytes.into(), left: Arc::new(left.into()), first }
+    }
+
+    /// Runs something that begins by reading the header of an object, and tells where that stands: the
+    /// library keeps the place to itself.
+    pub(super) fn watch<T>(&self, read: impl FnOnce() -> T) -> (T, u64) {
+        self.first.store(NOWHERE, Ordering::Relaxed);
+        let result = read();
+        (result, self.first.load(Ordering::Relaxed))
+    }
+
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
     }
 
     /// True once a reading was refused: what was read since is not complete.
@@ -98,6 +116,13 @@ impl Source for Metered {
     }
 
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), FormatError> {
+        if offset == NOWHERE {
+            let problem = "an object has no address: soft links are not read; copy into the file what they lead to";
+            return Err(FormatError::Source(problem.into()));
+        }
+        if self.first.load(Ordering::Relaxed) == NOWHERE {
+            self.first.store(offset, Ordering::Relaxed);
+        }
         let cost = READING.max(buffer.len() as u64);
         let left = self.left.load(Ordering::Relaxed).saturating_sub(cost);
         self.left.store(left, Ordering::Relaxed);

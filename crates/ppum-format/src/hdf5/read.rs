@@ -1,10 +1,12 @@
 //! HDF5 → content.
 
 use hdf5_pure::{
-    AttrValue, DType, Dataset, File, FormatError, Group, Layout, VlenStringReadOptions,
+    AttrValue, DType, Dataset, Datatype, File, FormatError, Group, Layout, Superblock,
+    VlenStringReadOptions,
 };
 
 use super::account::{Memory, Metered, memory, memory_of};
+use super::links::{Links, Raw};
 use crate::content::{Array, Content, Element, Values, join};
 use crate::error::ReadError;
 
@@ -31,6 +33,7 @@ pub(crate) fn from_bytes(bytes: Vec<u8>) -> Result<Content, ReadError> {
         .map_err(|e| ReadError::Hdf5 { message: e.to_string() })?;
     let mut walk = Walk {
         content: Content::new(),
+        superblock: file.superblock().clone(),
         source,
         length,
         objects: length / OBJECT_BYTES,
@@ -44,6 +47,7 @@ pub(crate) fn from_bytes(bytes: Vec<u8>) -> Result<Content, ReadError> {
 /// this length can hold, before anything is allocated.
 struct Walk {
     content: Content,
+    superblock: Superblock,
     source: Metered,
     length: u64,
     /// Objects that may still be visited.
@@ -58,19 +62,70 @@ impl Walk {
         if depth == 0 {
             return Err(error(path, "groups are nested too deeply"));
         }
-        self.attributes(path, group.attrs().map_err(at)?)?;
-        for (name, dataset) in group.iter_datasets().map_err(at)? {
-            let inner = self.inner(path, &name)?;
-            let array = self.load(&dataset, &inner)?;
-            self.insert(inner, array)?;
-        }
-        for (name, child) in group.iter_groups().map_err(at)? {
+        let (attributes, header) = self.source.watch(|| group.attrs());
+        self.attributes(path, attributes.map_err(at)?)?;
+        self.unread_attributes(path, group.attr_datatypes().map_err(at)?);
+        let (datasets, groups) =
+            (group.iter_datasets().map_err(at)?, group.iter_groups().map_err(at)?);
+        self.no_other_links(path, group, header, datasets.len() + groups.len())?;
+        for (name, dataset) in datasets {
             let inner = self.inner(path, &name)?;
             if inner != USER {
+                let array = self.load(&dataset, &inner)?;
+                self.insert(inner, array)?;
+            }
+        }
+        for (name, child) in groups {
+            let inner = self.inner(path, &name)?;
+            if inner != USER {
+                self.content.insert_group(&inner);
                 self.group(&child, &inner, depth - 1)?;
             }
         }
         Ok(())
+    }
+
+    /// Refuses links that the library passes over; `found` is the number of those that it follows.
+    fn no_other_links(
+        &self,
+        path: &str,
+        group: &Group,
+        header: u64,
+        found: usize,
+    ) -> Result<(), ReadError> {
+        let links = Raw::new(self.source.bytes(), &self.superblock).links(header);
+        let Some(Links { count, others }) = links else {
+            let named = group.named_datatypes().map_err(|e| object_error(path, e))?;
+            let first = named.first().map(|name| join(path, name));
+            return first.map_or(Ok(()), |name| Err(error(&name, "is a named type: leave it out")));
+        };
+        if count == found as u64 {
+            return Ok(());
+        }
+        let name = others.first().map_or(String::new(), |name| format!(" (`{name}`)"));
+        let problem = format!(
+            "{} of its {count} links{name} lead to no group or dataset of this file: soft and external \
+             links and named types are not read; copy into the file what they lead to, or leave them out",
+            count.saturating_sub(found as u64)
+        );
+        Err(error(path, problem))
+    }
+
+    /// Attributes of types that the library has no values for, which it leaves out, and enumerations, which
+    /// it takes for numbers.
+    fn unread_attributes(
+        &mut self,
+        path: &str,
+        types: impl IntoIterator<Item = (String, Datatype)>,
+    ) {
+        for (name, datatype) in types {
+            let name = join(path, &format!("@{name}"));
+            if matches!(datatype, Datatype::Enumeration { .. }) || !self.content.contains_key(&name)
+            {
+                let values = Values::Other(datatype.to_string());
+                self.content.insert(name, Array { shape: vec![], values });
+            }
+        }
     }
 
     /// The path of a member of a group, which is visited now.
@@ -91,11 +146,11 @@ impl Walk {
 
     fn insert(&mut self, name: String, array: Array) -> Result<(), ReadError> {
         if let Values::Text(texts) = &array.values
-            && texts.iter().any(|text| text.contains(REPLACEMENT))
+            && texts.iter().any(|text| text.contains([REPLACEMENT, '\0']))
         {
             return Err(error(
                 &name,
-                "a text is not UTF-8, or holds U+FFFD, which stands for that",
+                "a text holds NUL, is not UTF-8, or holds U+FFFD, which stands for that",
             ));
         }
         match self.content.insert(name.clone(), array) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, FinishedGroup, GroupBuilder};
 
 use super::account::{PLAIN_BYTES, memory_of};
-use crate::content::{Array, Content, Values};
+use crate::content::{Array, Content, Values, join};
 use crate::error::WriteError;
 
 /// Arrays from this length on are stored in chunks, shuffled and deflated. Geometry and indices shrink
@@ -35,13 +35,16 @@ pub(crate) fn to_compressed_bytes(content: &Content) -> Result<Vec<u8>, WriteErr
 
 fn stored(content: &Content, compressed: bool) -> Result<Vec<u8>, WriteError> {
     let mut file = FileBuilder::new();
-    let entries: Vec<Entry> = content.iter().map(|(k, a)| (k.as_str(), k.as_str(), a)).collect();
+    let groups: Vec<String> = content.groups().map(|path| join(path, "")).collect();
+    let groups = groups.iter().map(|path| (path.as_str(), path.as_str(), None));
+    let arrays = content.iter().map(|(name, array)| (name.as_str(), name.as_str(), Some(array)));
+    let entries: Vec<Entry> = groups.chain(arrays).collect();
     fill(&mut file, &entries, compressed)?;
     file.finish().map_err(|e| WriteError::Hdf5 { message: e.to_string() })
 }
 
-/// Full name, name inside the group at hand, array.
-type Entry<'a> = (&'a str, &'a str, &'a Array);
+/// Full name, name inside the group at hand, array. The names of groups, which have none, end in a slash.
+type Entry<'a> = (&'a str, &'a str, Option<&'a Array>);
 
 /// The root and other groups, which the library builds by different types.
 trait Parent {
@@ -76,13 +79,15 @@ parent!(GroupBuilder);
 fn fill(parent: &mut impl Parent, entries: &[Entry], compressed: bool) -> Result<(), WriteError> {
     let mut children: BTreeMap<&str, Vec<Entry>> = BTreeMap::new();
     for &(full, name, array) in entries {
-        if let Some(name) = name.strip_prefix('@') {
-            parent.attribute(name, attribute_value(full, array)?);
-        } else if let Some(at) = name.find(['/', '@']) {
-            let inside = name[at..].strip_prefix('/').unwrap_or(&name[at..]);
-            children.entry(&name[..at]).or_default().push((full, inside, array));
-        } else {
-            store(parent.dataset(name), full, array, compressed)?;
+        match (name.find(['/', '@']), array) {
+            (Some(0), Some(array)) => parent.attribute(&name[1..], attribute_value(full, array)?),
+            (Some(at), _) => {
+                let inside = name[at..].strip_prefix('/').unwrap_or(&name[at..]);
+                children.entry(&name[..at]).or_default().push((full, inside, array));
+            }
+            (None, Some(array)) => store(parent.dataset(name), full, array, compressed)?,
+            // the group itself
+            (None, None) => {}
         }
     }
     for (name, entries) in children {
@@ -153,12 +158,16 @@ fn chunk(shape: &[u64]) -> Vec<u64> {
     chunk
 }
 
-/// Attributes of the format are scalars of text or f64, or short vectors.
+/// Attributes of the format are scalars of text or f64, or short vectors; damaged files have others.
 fn attribute_value(name: &str, array: &Array) -> Result<AttrValue, WriteError> {
     match (&array.values, array.shape.len()) {
         (Values::Text(v), 0) => {
             check_text(name, v)?;
             Ok(AttrValue::String(v.concat()))
+        }
+        (Values::Text(v), 1) => {
+            check_text(name, v)?;
+            Ok(AttrValue::StringArray(v.clone()))
         }
         (Values::F64(v), 0) => Ok(AttrValue::F64(v[0])),
         (Values::F64(v), _) => Ok(AttrValue::F64Array(v.clone())),

@@ -75,6 +75,11 @@ pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
     let bytes = dataset.quantities.iter().map(|quantity| quantity.text.len()).sum();
     at_most("quantities", bytes, MAX_QUANTITY_TEXT, "bytes of formulas")?;
     check_names("quantities", dataset.quantities.iter().map(|quantity| &quantity.name))?;
+    for NamedQuantity { name, .. } in &dataset.quantities {
+        require(is_name(name), &format!("quantities `{name}`"), || {
+            "names are letters, digits, `_` and `-`, a letter or `_` first".into()
+        })?;
+    }
     let mut seen = BTreeSet::new();
     for field in dataset.steps.iter().flat_map(|step| &step.fields) {
         if seen.insert(&field.components) {
@@ -94,10 +99,6 @@ fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
     let built_in = names(&dataset.equation, components);
     for NamedQuantity { name, .. } in &dataset.quantities {
         let place = format!("quantities `{name}`");
-        if !is_name(name) {
-            let rule = "names are letters, digits, `_` and `-`, a letter or `_` first";
-            return fail(&place, rule.into());
-        }
         if built_in.iter().any(|(known, _)| known == name) {
             return fail(&place, "a field has a quantity of this name; choose another".into());
         }

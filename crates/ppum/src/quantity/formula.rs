@@ -221,11 +221,7 @@ impl QuantityFormula {
             input.value(at).store(lanes);
         }
         let value = at.offset[0].load(&self.lanes::<R>(&lanes));
-        if self.source() != Source::Gradient {
-            return value;
-        }
-        let slope = at.jets[0].x;
-        R::select(slope.ge(slope), value, value.lit(f64::INFINITY))
+        if self.source() == Source::Gradient { at.apart(value) } else { value }
     }
 
     /// The values of some lanes, one after the other.

@@ -137,6 +137,20 @@ pub struct Sample<'a, R> {
     pub exact: &'a [R],
 }
 
+impl<R: Real> Sample<'_, R> {
+    /// A quantity of the gradient: +∞ where a derivative of any component is infinite or none.
+    #[inline(always)]
+    fn apart(&self, mut value: R) -> R {
+        let (zero, infinite) = (value.lit(0.0), value.lit(f64::INFINITY));
+        for jet in self.jets {
+            // zero, or NaN
+            let test = jet.x * zero + jet.y * zero;
+            value = R::select(test.ge(test), value, infinite);
+        }
+        value
+    }
+}
+
 /// Names of the quantities every field of the equation has, besides components and derivatives.
 const GENERAL: [(&str, Quantity); 6] = [
     ("magnitude", Q::Magnitude),
@@ -267,7 +281,7 @@ impl Quantity {
             _ if u.len() < 2 => u[0].v.lit(f64::NAN),
             _ => self.of_strain(&at.moduli, &Strain::new(u)),
         };
-        R::select(value.ge(value), value, value.lit(f64::INFINITY))
+        at.apart(R::select(value.ge(value), value, value.lit(f64::INFINITY)))
     }
 
     #[inline(always)]
