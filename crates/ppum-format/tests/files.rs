@@ -98,6 +98,27 @@ fn files_of_h5py_are_read() {
     }
 }
 
+/// The same dataset as the file of version 1.1, in all the ways in which HDF5 stores arrays, links and
+/// attributes (`tests/python/h5py_files.py`); the checksum covers what some files hold besides.
+#[test]
+fn files_of_all_layouts_are_read() {
+    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let files = files_of_h5py();
+    assert!(files.len() >= 12, "{} files", files.len());
+    for (name, bytes) in files {
+        let read = from_bytes(bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(same(&read, &own), "{name}");
+    }
+}
+
+/// Names and contents.
+fn files_of_h5py() -> Vec<(String, Vec<u8>)> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/h5py");
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    paths.sort();
+    paths.iter().map(|path| (path.display().to_string(), fs::read(path).unwrap())).collect()
+}
+
 /// What compresses far better than fields do is stored plain: a reader bounds what a file expands to.
 #[test]
 fn what_is_written_can_be_read() {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::hdf5::lookup3;
+
 /// Extreme bytes in a header, its checksum recomputed.
 pub(super) fn forged(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let headers = object_headers(bytes);
@@ -38,42 +40,4 @@ const LONGEST: usize = 5000;
 pub fn seal(bytes: &mut [u8], header: &Range<usize>) {
     let sum = lookup3(&bytes[header.start..header.end - 4]);
     bytes[header.end - 4..header.end].copy_from_slice(&sum.to_le_bytes());
-}
-
-/// Jenkins' lookup3 `hashlittle` (2006, public domain) with seed 0: the checksum of HDF5 metadata.
-fn lookup3(key: &[u8]) -> u32 {
-    let word = |block: &[u8], k: usize| {
-        (0..4)
-            .fold(0u32, |w, b| w | u32::from(block.get(4 * k + b).copied().unwrap_or(0)) << (8 * b))
-    };
-    let start = 0xdead_beef_u32.wrapping_add(key.len() as u32);
-    let mut s = [start; 3];
-    let blocks: Vec<&[u8]> = key.chunks(12).collect();
-    for (n, block) in blocks.iter().enumerate() {
-        for (k, value) in s.iter_mut().enumerate() {
-            *value = value.wrapping_add(word(block, k));
-        }
-        if n + 1 < blocks.len() {
-            mix(&mut s);
-        } else {
-            finish(&mut s);
-        }
-    }
-    s[2]
-}
-
-fn mix(s: &mut [u32; 3]) {
-    // (subtracted from, subtracted, rotation, added to)
-    for (k, rotation) in [4, 6, 8, 16, 19, 4].into_iter().enumerate() {
-        let (a, c, b) = (k % 3, (k + 2) % 3, (k + 1) % 3);
-        s[a] = s[a].wrapping_sub(s[c]) ^ s[c].rotate_left(rotation);
-        s[c] = s[c].wrapping_add(s[b]);
-    }
-}
-
-fn finish(s: &mut [u32; 3]) {
-    for (k, rotation) in [14, 11, 25, 16, 4, 14, 24].into_iter().enumerate() {
-        let (target, from) = ((k + 2) % 3, (k + 1) % 3);
-        s[target] = (s[target] ^ s[from]).wrapping_sub(s[from].rotate_left(rotation));
-    }
 }
