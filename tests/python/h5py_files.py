@@ -7,6 +7,7 @@ Some hold more, in a group `more` that the format does not describe: arrays that
 the indexes of chunks, links and attributes. The checksum covers them.
 """
 
+import math
 import pathlib
 
 import h5py
@@ -29,7 +30,8 @@ def whole(shape):
 
 
 def beyond(shape):
-    return (1 << 16, *(n + 1 for n in shape[1:]))
+    rest = [n + 1 for n in shape[1:]]
+    return (max(1, (1 << 16) // math.prod(rest)) + shape[0], *rest)
 
 
 def fixed(shape, chunk):
@@ -38,7 +40,7 @@ def fixed(shape, chunk):
 
 
 def first(shape, chunk):
-    return (None, *(max(n, 1) for n in shape[1:]))
+    return (None, *(max(n, k) for n, k in zip(shape[1:], chunk[1:])))
 
 
 def last(shape, chunk):
@@ -68,7 +70,7 @@ LAYOUTS = {
 
 def put(parent, name, node, strings, compact=False, chunks=None, least=-1, grow=None, early=False, **filters):
     """One array again, in chunks if it has more than `least` elements. Scalars have no chunks, floating-point
-    numbers are not packed."""
+    numbers are not packed, places of texts have no checksum."""
     data, dtype, how = node[()], node.dtype, {}
     if dtype.kind in "SO" and strings == "variable":
         data, dtype = node.asstr()[()], h5py.string_dtype()
@@ -83,6 +85,8 @@ def put(parent, name, node, strings, compact=False, chunks=None, least=-1, grow=
         how["maxshape"] = (grow or fixed)(node.shape, how["chunks"]) if grow or not node.size else None
         if dtype.kind not in "ui":
             filters.pop("scaleoffset", None)
+        if dtype.kind == "O":
+            filters.pop("fletcher32", None)
         how.update(filters)
     parent.create_dataset(name, data=data, dtype=dtype, **how)
 
