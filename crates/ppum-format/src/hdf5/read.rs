@@ -11,6 +11,8 @@ mod packing;
 mod source;
 mod storage;
 mod superblock;
+#[cfg(test)]
+mod tests;
 mod texts;
 mod trees;
 mod types;
