@@ -18,11 +18,12 @@ const ARROWS: [(&str, &[&str]); 7] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 10] = [
+const DOORS: [(&str, &str); 11] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum"),
+    ("flate2", "ppum-format"),
     ("hdf5-pure", "ppum-format"),
     ("naga", "ppum-testkit"),
     ("png", "ppum-render"),

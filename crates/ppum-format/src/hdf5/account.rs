@@ -27,8 +27,9 @@ const FREE_READINGS: u64 = 1 << 24;
 const READING: u64 = 16;
 
 /// Bytes that the filters of any file may expand to: most of a chunk that is larger than its array is
-/// thrown away at once, so it takes time (some two seconds for 1 GiB) and no memory.
-const FREE_EXPANDED: u64 = 1 << 30;
+/// thrown away at once, so it takes time (about a second for 4 GiB of what shrinks a thousandfold) and no
+/// memory.
+const FREE_EXPANDED: u64 = 1 << 32;
 
 /// Smallest number of bytes an object of a file takes, with its link.
 const OBJECT_BYTES: u64 = 64;

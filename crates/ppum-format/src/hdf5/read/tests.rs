@@ -121,14 +121,14 @@ fn pipeline<'f>(source: Source<'f>, ids: &[u8], bytes: u64) -> Parsed<Pipeline<'
 /// Chunks that expand to more than the file is worth are refused before anything is expanded.
 #[test]
 fn bombs() {
-    for (ids, bytes) in [(&[2, 1][..], 1_u64 << 31), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
+    for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
         let undone = |source: Source| pipeline(source, ids, bytes)?.undo(&[0; 100], 0, 5).map(drop);
         let problem = refusal(&[0; 1000], undone);
         assert!(problem.contains("too large"), "{ids:?} {bytes}: {problem}");
     }
-    // two of 800 MiB are together too much, though each is not; neither can be decompressed
+    // two of 3 GiB are together too much, though each is not; neither can be decompressed
     let undone = |source: Source| {
-        let pipeline = pipeline(source, &[2, 1], 800 << 20)?;
+        let pipeline = pipeline(source, &[2, 1], 3 << 30)?;
         assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.0.contains("decompressed")));
         pipeline.undo(&[0; 100], 0, 5).map(drop)
     };
