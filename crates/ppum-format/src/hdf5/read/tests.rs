@@ -166,3 +166,26 @@ fn paddings() {
         assert_eq!(values.ok(), expected, "{padding:?} {raw:?}");
     }
 }
+
+/// Numbers are little-endian and whole: others are types outside the format, and told by name.
+#[test]
+fn types_of_numbers() {
+    let account = Account::for_file(0);
+    let name = |message: &[u8]| {
+        let source = Source::new(message, (8, 8), &account).ok()?;
+        Some(Type::parse(source.cursor(message)).ok()?.kind)
+    };
+    let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];
+    assert_eq!(name(&integer(0, 8, 64)), Some(Kind::U64));
+    assert_eq!(name(&integer(8, 8, 64)), Some(Kind::I64));
+    assert_eq!(name(&integer(1, 8, 64)), Some(Kind::Other("u64 (big-endian)".into())));
+    assert_eq!(name(&integer(8, 4, 32)), Some(Kind::Other("i32".into())));
+    assert_eq!(name(&integer(0, 4, 31)), Some(Kind::Other("u31".into())));
+    assert_eq!(name(&integer(0, 0, 0)), None);
+    let float = |order: u8, bias: u8| {
+        [0x11, 0x20 | order, 0x3f, 0, 8, 0, 0, 0, 0, 0, 64, 0, 52, 11, 0, 52, bias, 3, 0, 0]
+    };
+    assert_eq!(name(&float(0, 0xff)), Some(Kind::F64));
+    assert_eq!(name(&float(1, 0xff)), Some(Kind::Other("f64 (big-endian)".into())));
+    assert_eq!(name(&float(0, 0xfe)), Some(Kind::Other("f64".into())));
+}
