@@ -5,7 +5,7 @@
 //! The damaged files are tried in a process of their own, with limits of memory and of time for each. One
 //! that crashes it, takes too long, or shows another dataset under a checksum that is right is kept in
 //! `tests/data/hostile`, where the tests find it, and the search goes on. Without files it starts from
-//! those of `tests/data`.
+//! those of `tests/data` and `tests/data/h5py`.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -46,6 +46,7 @@ fn main() -> Result<()> {
     }
     if files.is_empty() {
         files = kept(&data())?;
+        files.extend(kept(&data().join("h5py"))?);
     }
     match worker {
         Some(current) => work(&current, &files, seconds, seed),

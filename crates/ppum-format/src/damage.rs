@@ -7,7 +7,7 @@
 mod content;
 mod forge;
 
-pub use forge::{object_headers, seal};
+pub use forge::{object_headers, seal, sealed_parts};
 
 /// A damaged file.
 #[derive(Clone, Debug)]

@@ -19,7 +19,7 @@ pub enum ReadError {
     /// Not an HDF5 file, or a damaged one.
     #[error("not a readable HDF5 file: {message}")]
     Hdf5 {
-        /// What the HDF5 library says.
+        /// What is wrong with it.
         message: String,
     },
     /// HDF5, but not a dataset of this format.

@@ -1,14 +1,16 @@
-//! Content ↔ the bytes of an HDF5 file. Nothing outside this module knows the HDF5 library.
+//! Content ↔ the bytes of an HDF5 file. Nothing outside this module knows HDF5.
 //!
-//! The library (hdf5-pure, all of it safe Rust) checks what it parses, but not what a small file can make of
-//! it: the same object under many names, one text referred to a million times, a few kilobytes that
-//! inflate to gigabytes. So [`account`] limits the bytes that it may read and the memory that what it
-//! returns may take, both in proportion to the length of the file.
+//! Files are written by a library (hdf5-pure, all of it safe Rust) and read by the code here: what other
+//! programs write has more forms than the library reads (docs/decisions/0007-hdf5.md). A small file can
+//! also ask for much: the same object under many names, one text referred to a million times, a few kilobytes
+//! that inflate to gigabytes. So [`account`] limits the bytes that may be read and expanded and the memory
+//! that what is read may take, each in proportion to the length of the file, and [`read`] pays before it acts.
 
 mod account;
-mod links;
+mod lookup3;
 mod read;
 mod write;
 
+pub(crate) use lookup3::lookup3;
 pub(crate) use read::from_bytes;
 pub(crate) use write::{check_texts, to_bytes, to_compressed_bytes};

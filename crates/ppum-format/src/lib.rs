@@ -76,7 +76,7 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
 }
 
 fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
-    let mut content = hdf5::from_bytes(bytes)?;
+    let mut content = hdf5::from_bytes(&bytes)?;
     let minor = decode::check_version(&content)?;
     checksum::verify(&mut content)?;
     checked(content).map_err(|error| {

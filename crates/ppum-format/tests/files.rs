@@ -4,6 +4,7 @@
 mod everything;
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use ppum::cover::Cover;
 use ppum::crack::Side;
@@ -14,7 +15,7 @@ use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_format::damage::{object_headers, seal};
+use ppum_format::damage::{damaged, object_headers, seal, sealed_parts};
 use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
 use ppum_testkit::random::Random;
 
@@ -98,6 +99,29 @@ fn files_of_h5py_are_read() {
     for bytes in files {
         assert!(same(&from_bytes(bytes.to_vec()).unwrap(), &own));
     }
+}
+
+/// The same dataset as the file of version 1.1, in all the ways in which HDF5 stores arrays, links and
+/// attributes (`tests/python/h5py_files.py`); the checksum covers what some files hold besides.
+#[test]
+fn files_of_all_layouts_are_read() {
+    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let files = files_of_h5py();
+    assert!(files.len() >= 12, "{} files", files.len());
+    for (name, bytes) in files {
+        let read = from_bytes(bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(same(&read, &own), "{name}");
+    }
+}
+
+/// Names and contents.
+fn files_of_h5py() -> Vec<(String, Vec<u8>)> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/h5py");
+    let entries = fs::read_dir(folder).expect("the folder is there");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
+    paths.sort();
+    let content = |path: &std::path::PathBuf| fs::read(path).expect("a file");
+    paths.iter().map(|path| (path.display().to_string(), content(path))).collect()
 }
 
 /// What compresses far better than fields do is stored plain: a reader bounds what a file expands to.
@@ -265,6 +289,68 @@ fn forged_metadata_is_an_error() {
             assert!(same(&read, &data));
         }
     }
+}
+
+/// The same for all that other programs write: heaps, trees and arrays that lead anywhere. Refused or without
+/// effect, and at once.
+#[test]
+fn forged_files_of_other_programs_are_errors() {
+    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let mut random = Random(8);
+    let mut kinds = std::collections::BTreeSet::new();
+    for (name, bytes) in files_of_h5py() {
+        let parts = sealed_parts(&bytes);
+        for _ in 0..400 {
+            let mut forged = bytes.clone();
+            // version 1 of trees and headers has no checksums
+            let part = if parts.is_empty() {
+                0..bytes.len()
+            } else {
+                parts[random.below(parts.len())].clone()
+            };
+            let at = part.start + 6 + random.below(part.len() - 10);
+            let width = [1, 2, 4, 8][random.below(4)].min(part.end - 4 - at);
+            let fill = [0x00, 0x01, 0x10, 0x7f, 0x80, 0xff][random.below(6)];
+            forged[at..at + width].fill(fill);
+            if !parts.is_empty() {
+                kinds.insert(bytes[part.start..part.start + 4].to_vec());
+                seal(&mut forged, &part);
+            }
+            let start = Instant::now();
+            if let Ok(read) = from_bytes(forged) {
+                // bytes of the values of arrays are looked at by the checksum of the content, which such a
+                // change can hide
+                assert!(same(&read, &own) || !parts.is_empty(), "{name} at {at}");
+            }
+            assert!(start.elapsed() < LONG, "{name} at {at}: {:?}", start.elapsed());
+        }
+    }
+    assert!(kinds.len() >= 12, "{} kinds of parts", kinds.len());
+}
+
+/// Far longer than any small file may take, on a machine that has much else to do.
+const LONG: Duration = Duration::from_secs(10);
+
+/// Files of other programs, damaged in all ways that the fuzzer knows.
+#[test]
+fn damaged_files_of_other_programs_are_errors() {
+    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let mut random = Random(9);
+    let mut refused = 0;
+    for (name, bytes) in files_of_h5py() {
+        for _ in 0..100 {
+            let damaged = damaged(&bytes, &mut |below| random.below(below));
+            let start = Instant::now();
+            match from_bytes(damaged.bytes) {
+                Err(_) => refused += 1,
+                Ok(read) => {
+                    assert!(damaged.is_sealed || same(&read, &own), "{name}: {}", damaged.what)
+                }
+            }
+            assert!(start.elapsed() < LONG, "{name}, {}: {:?}", damaged.what, start.elapsed());
+        }
+    }
+    assert!(refused > 400, "{refused} were refused");
 }
 
 /// Without the checksum of the content the checks of the data stand alone: an error or a dataset that

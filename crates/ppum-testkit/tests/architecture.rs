@@ -24,6 +24,7 @@ const DOORS: [(&str, &str); 11] = [
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum"),
+    ("flate2", "ppum-format"),
     ("hdf5-pure", "ppum-format"),
     ("naga", "ppum-testkit"),
     ("png", "ppum-render"),

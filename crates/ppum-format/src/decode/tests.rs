@@ -239,7 +239,7 @@ fn plain_datasets_have_no_objects_of_version_1_1() {
 #[test]
 fn plain_files_differ_from_version_1_0_in_the_version_alone() {
     let bytes = include_bytes!("../../tests/data/version-1.0.h5").to_vec();
-    let mut old = crate::hdf5::from_bytes(bytes).expect("an HDF5 file");
+    let mut old = crate::hdf5::from_bytes(&bytes).expect("an HDF5 file");
     checksum::verify(&mut old).expect("undamaged");
     let mut new = encode::content(&dataset(old.clone()).expect("a dataset")).expect("valid");
     assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));

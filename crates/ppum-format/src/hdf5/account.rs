@@ -1,9 +1,6 @@
-//! What reading a file may cost: bytes read of it, and memory for what is in it.
+//! What reading a file may cost: bytes read of it, bytes that they expand to, and memory for what is in it.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-use hdf5_pure::{FormatError, Source};
+use std::cell::Cell;
 
 use crate::content::{Array, Values};
 
@@ -19,8 +16,8 @@ const TEXT_BYTES: u64 = 64;
 /// Memory of a named array beside its values: name, shape, place in the map.
 const ARRAY_BYTES: u64 = 256;
 
-/// Times the length of the file that may be read of it. Headers are read up to four times, and directories
-/// of heaps once for every text that is looked up.
+/// Times the length of the file that may be read of it, and that filters may expand it to. Headers are
+/// read up to four times.
 const READINGS: u64 = 16;
 
 /// Bytes that may be read of any file.
@@ -29,28 +26,71 @@ const FREE_READINGS: u64 = 1 << 24;
 /// A reading costs as much as this many bytes at least.
 const READING: u64 = 16;
 
+/// Bytes that the filters of any file may expand to: most of a chunk that is larger than its array is
+/// thrown away at once, so it takes time (about a second for 4 GiB of what shrinks a thousandfold) and no
+/// memory.
+const FREE_EXPANDED: u64 = 1 << 32;
+
+/// Smallest number of bytes an object of a file takes, with its link.
+const OBJECT_BYTES: u64 = 64;
+
 /// Arrays that take less than this together are always within the account: none has to be stored plain.
 pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 
-/// The memory that what is loaded may still take.
-pub(super) struct Memory(u64);
+/// What a file of some length may still cost.
+pub(super) struct Account {
+    memory: Cell<u64>,
+    readings: Cell<u64>,
+    expanded: Cell<u64>,
+    objects: Cell<u64>,
+}
 
-impl Memory {
+impl Account {
     pub(super) fn for_file(length: u64) -> Self {
-        Self(length.saturating_mul(EXPANSION).saturating_add(FREE_BYTES))
+        let account =
+            |times: u64, free| Cell::new(length.saturating_mul(times).saturating_add(free));
+        Self {
+            memory: account(EXPANSION, FREE_BYTES),
+            readings: account(READINGS, FREE_READINGS),
+            expanded: account(READINGS, FREE_EXPANDED),
+            objects: Cell::new(length / OBJECT_BYTES),
+        }
     }
 
-    pub(super) fn left(&self) -> u64 {
-        self.0
-    }
-
-    /// Takes from the account; false if it is not enough, or the size is beyond all numbers.
+    /// Memory for what is loaded and stays; false if there is not enough, or the size is beyond all numbers.
     #[must_use]
-    pub(super) fn pay(&mut self, bytes: Option<u64>) -> bool {
-        let left = bytes.and_then(|bytes| self.0.checked_sub(bytes));
-        self.0 = left.unwrap_or(self.0);
-        left.is_some()
+    pub(super) fn pay_memory(&self, bytes: Option<u64>) -> bool {
+        bytes.is_some_and(|bytes| pay(&self.memory, bytes))
     }
+
+    /// True if so many bytes may be there for a while.
+    pub(super) fn has_memory(&self, bytes: u64) -> bool {
+        bytes <= self.memory.get()
+    }
+
+    /// One reading of the file.
+    #[must_use]
+    pub(super) fn pay_reading(&self, bytes: u64) -> bool {
+        pay(&self.readings, bytes.max(READING))
+    }
+
+    /// What a filter gives.
+    #[must_use]
+    pub(super) fn pay_expanded(&self, bytes: u64) -> bool {
+        pay(&self.expanded, bytes)
+    }
+
+    /// One visit to an object.
+    #[must_use]
+    pub(super) fn pay_object(&self) -> bool {
+        pay(&self.objects, 1)
+    }
+}
+
+fn pay(account: &Cell<u64>, cost: u64) -> bool {
+    let left = account.get().checked_sub(cost);
+    account.set(left.unwrap_or(account.get()));
+    left.is_some()
 }
 
 /// Memory of an array of `count` elements of `size` bytes.
@@ -71,72 +111,4 @@ pub(super) fn memory_of(array: &Array) -> u64 {
         Values::Other(_) => 0,
     };
     ARRAY_BYTES + bytes as u64
-}
-
-/// The bytes of a file, which can be read until the account is empty, and then no more.
-#[derive(Clone)]
-pub(super) struct Metered {
-    bytes: Arc<Vec<u8>>,
-    left: Arc<AtomicU64>,
-    /// Where the first reading since [`Metered::watch`] began.
-    first: Arc<AtomicU64>,
-}
-
-/// No place in a file; HDF5 writes it as the address of what has none.
-const NOWHERE: u64 = u64::MAX;
-
-impl Metered {
-    pub(super) fn new(bytes: Vec<u8>) -> Self {
-        let left = (bytes.len() as u64).saturating_mul(READINGS).saturating_add(FREE_READINGS);
-        let first = Arc::new(NOWHERE.into());
-        Self { bytes: bytes.into(), left: Arc::new(left.into()), first }
-    }
-
-    /// Runs something that begins by reading the header of an object, and tells where that stands: the
-    /// library keeps the place to itself.
-    pub(super) fn watch<T>(&self, read: impl FnOnce() -> T) -> (T, u64) {
-        self.first.store(NOWHERE, Ordering::Relaxed);
-        let result = read();
-        (result, self.first.load(Ordering::Relaxed))
-    }
-
-    pub(super) fn bytes(&self) -> &[u8] {
-        &self.bytes
-    }
-
-    /// True once a reading was refused: what was read since is not complete.
-    pub(super) fn is_exhausted(&self) -> bool {
-        self.left.load(Ordering::Relaxed) == 0
-    }
-}
-
-impl Source for Metered {
-    fn len(&self) -> u64 {
-        self.bytes.len() as u64
-    }
-
-    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), FormatError> {
-        if offset == NOWHERE {
-            let problem = "an object has no address: soft links are not read; copy into the file what they lead to";
-            return Err(FormatError::Source(problem.into()));
-        }
-        if self.first.load(Ordering::Relaxed) == NOWHERE {
-            self.first.store(offset, Ordering::Relaxed);
-        }
-        let cost = READING.max(buffer.len() as u64);
-        let left = self.left.load(Ordering::Relaxed).saturating_sub(cost);
-        self.left.store(left, Ordering::Relaxed);
-        if left == 0 {
-            return Err(FormatError::Source(
-                "it takes more readings than the file is worth".into(),
-            ));
-        }
-        let start = usize::try_from(offset).unwrap_or(usize::MAX);
-        let range = start..start.saturating_add(buffer.len());
-        let (expected, available) = (range.end, self.bytes.len());
-        let part =
-            self.bytes.get(range).ok_or(FormatError::UnexpectedEof { expected, available })?;
-        buffer.copy_from_slice(part);
-        Ok(())
-    }
 }

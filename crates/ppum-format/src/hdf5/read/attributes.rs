@@ -1,0 +1,89 @@
+//! Attributes of a group.
+
+use super::super::account::memory;
+use super::header::{ATTRIBUTE, ATTRIBUTE_INFO, DATATYPE, Header, shared};
+use super::heap::dense;
+use super::source::{Cursor, Parsed, fail};
+use super::texts::{Texts, text};
+use super::types::{Kind, Space, Type, end_without};
+use crate::content::{Array, Values};
+
+/// Kind of the index of attributes by name.
+const INDEX: u8 = 8;
+
+/// Bytes of a record of the index: identifier in the heap, flags, order of creation, hash of the name.
+const RECORD: usize = 8 + 1 + 4 + 4;
+
+/// Flag of a record: the attribute stands elsewhere.
+const SHARED: u8 = 1 << 1;
+
+/// An attribute that is not read yet: its name and where it is described.
+pub(super) struct Attribute<'f> {
+    pub(super) name: String,
+    kind: Type,
+    space: Option<Space>,
+    data: Cursor<'f>,
+}
+
+/// All attributes of an object.
+pub(super) fn attributes<'f>(header: &Header<'f>) -> Parsed<Vec<Attribute<'f>>> {
+    let mut found: Vec<_> =
+        header.all(ATTRIBUTE).map(|message| attribute(message?)).collect::<Parsed<_>>()?;
+    if let Some(info) = header.find(ATTRIBUTE_INFO)?
+        && let Some((heap, records)) = dense(info, 2, INDEX)?
+    {
+        for record in records {
+            if record.len() != RECORD || record[8] & SHARED != 0 {
+                return fail("its attributes are shared in a heap, which is not read");
+            }
+            let message = heap.object(&record[..8])?;
+            found.push(attribute(header.source.cursor(message))?);
+        }
+    }
+    Ok(found)
+}
+
+fn attribute(mut message: Cursor) -> Parsed<Attribute> {
+    let (version, flags) = (message.u8()?, message.u8()?);
+    let (name, kind, space) = (message.u16()?, message.u16()?, message.u16()?);
+    let padded = |size: u16| match version {
+        1 => usize::from(size).next_multiple_of(8),
+        _ => size.into(),
+    };
+    match version {
+        1 | 2 => {}
+        // the encoding of the name
+        3 => drop(message.skip(1)?),
+        _ => return fail(format!("an attribute has version {version}, which is not known")),
+    }
+    let source = message.source;
+    let name = message.take(padded(name))?;
+    let name = text(&name[..end_without(name, 0)])?;
+    let kind = source.cursor(message.take(padded(kind))?);
+    let kind = if version > 1 && flags & 1 != 0 { shared(kind, DATATYPE)? } else { kind };
+    if version > 1 && flags & 2 != 0 {
+        return fail("an attribute shares its shape, which is not read");
+    }
+    let space = Space::parse(source.cursor(message.take(padded(space))?))?;
+    Ok(Attribute { name, kind: Type::parse(kind)?, space, data: message })
+}
+
+impl Attribute<'_> {
+    pub(super) fn read(mut self, texts: &mut Texts) -> Parsed<Array> {
+        let Some(space) = self.space.filter(|_| !matches!(self.kind.kind, Kind::Other(_))) else {
+            let Kind::Other(name) = self.kind.kind else {
+                return Ok(Array { shape: vec![], values: Values::Other("null".into()) });
+            };
+            return Ok(Array { shape: vec![], values: Values::Other(name) });
+        };
+        let count = space.count();
+        let size = count.and_then(|n| usize::try_from(n).ok()?.checked_mul(self.kind.size));
+        let Some(size) = size else { return fail("its shape is too large") };
+        let raw = self.data.take(size)?;
+        let cost = count.and_then(|n| memory(n, self.kind.size as u64, self.kind.is_text()));
+        if !self.data.source.account.pay_memory(cost) {
+            return fail("its shape is too large for the file's length");
+        }
+        Ok(Array { shape: space.shape, values: self.kind.values(raw, texts)? })
+    }
+}

@@ -1,0 +1,171 @@
+//! The bytes of a file, by address: where all that is read of it is paid for.
+
+use std::borrow::Cow;
+
+use super::super::account::Account;
+use super::super::lookup3::lookup3;
+
+/// Why a part of a file cannot be read.
+#[derive(Debug)]
+pub(super) struct Problem(pub(super) Cow<'static, str>);
+
+pub(super) type Parsed<T> = Result<T, Problem>;
+
+impl From<&'static str> for Problem {
+    fn from(text: &'static str) -> Self {
+        Self(text.into())
+    }
+}
+
+impl From<String> for Problem {
+    fn from(text: String) -> Self {
+        Self(text.into())
+    }
+}
+
+pub(super) fn fail<T>(problem: impl Into<Problem>) -> Parsed<T> {
+    Err(problem.into())
+}
+
+/// A file, with the widths of addresses and lengths in it.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'f> {
+    bytes: &'f [u8],
+    offset_size: usize,
+    length_size: usize,
+    pub(super) account: &'f Account,
+}
+
+/// Bytes of a checksum.
+const CHECKSUM: usize = 4;
+
+impl<'f> Source<'f> {
+    pub(super) fn new(bytes: &'f [u8], sizes: (u8, u8), account: &'f Account) -> Parsed<Self> {
+        if [sizes.0, sizes.1].iter().any(|size| ![2, 4, 8].contains(size)) {
+            return fail("its addresses or lengths have an unknown width");
+        }
+        Ok(Self { bytes, offset_size: sizes.0.into(), length_size: sizes.1.into(), account })
+    }
+
+    pub(super) fn length(self) -> u64 {
+        self.bytes.len() as u64
+    }
+
+    /// Bytes of an address.
+    pub(super) fn offset_size(self) -> usize {
+        self.offset_size
+    }
+
+    /// Bytes of a length.
+    pub(super) fn length_size(self) -> usize {
+        self.length_size
+    }
+
+    /// A part of the file, which is read now.
+    pub(super) fn at(self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
+        let end = address.checked_add(length).and_then(|end| usize::try_from(end).ok());
+        let part = end.and_then(|end| self.bytes.get(address as usize..end));
+        let Some(left) = part else { return fail("it leads beyond the end of the file") };
+        if !self.account.pay_reading(length) {
+            return fail("it takes more readings than the file is worth");
+        }
+        Ok(Cursor { source: self, left })
+    }
+
+    /// A part that ends in its checksum, which is looked at and left out.
+    pub(super) fn sealed(self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
+        let part = self.at(address, length)?.left;
+        match part.split_last_chunk::<CHECKSUM>() {
+            Some((body, sum)) if lookup3(body) == u32::from_le_bytes(*sum) => Ok(self.cursor(body)),
+            _ => fail("the checksum of a part of its description is wrong"),
+        }
+    }
+
+    /// Bytes of the file that are at hand already.
+    pub(super) fn cursor(self, left: &'f [u8]) -> Cursor<'f> {
+        Cursor { source: self, left }
+    }
+}
+
+/// Bytes of the file, taken from the front.
+#[derive(Clone, Copy)]
+pub(super) struct Cursor<'f> {
+    pub(super) source: Source<'f>,
+    left: &'f [u8],
+}
+
+impl<'f> Cursor<'f> {
+    pub(super) fn take(&mut self, count: usize) -> Parsed<&'f [u8]> {
+        let Some((taken, left)) = self.left.split_at_checked(count) else {
+            return fail("a part of its description is too short");
+        };
+        self.left = left;
+        Ok(taken)
+    }
+
+    pub(super) fn rest(&self) -> &'f [u8] {
+        self.left
+    }
+
+    /// The same, after so many bytes of no interest.
+    pub(super) fn skip(&mut self, count: usize) -> Parsed<&mut Self> {
+        self.take(count)?;
+        Ok(self)
+    }
+
+    /// An unsigned number of so many bytes, at most eight.
+    pub(super) fn number(&mut self, width: usize) -> Parsed<u64> {
+        let mut bytes = [0; 8];
+        let Some(part) = bytes.get_mut(..width) else { return fail("a number is too wide") };
+        part.copy_from_slice(self.take(width)?);
+        Ok(u64::from_le_bytes(bytes))
+    }
+
+    pub(super) fn u8(&mut self) -> Parsed<u8> {
+        Ok(self.number(1)? as u8)
+    }
+
+    pub(super) fn u16(&mut self) -> Parsed<u16> {
+        Ok(self.number(2)? as u16)
+    }
+
+    pub(super) fn u32(&mut self) -> Parsed<u32> {
+        Ok(self.number(4)? as u32)
+    }
+
+    /// A number that counts bytes in memory.
+    pub(super) fn size(&mut self, width: usize) -> Parsed<usize> {
+        usize::try_from(self.number(width)?).or(fail("a size is too large"))
+    }
+
+    pub(super) fn length(&mut self) -> Parsed<u64> {
+        self.number(self.source.length_size)
+    }
+
+    /// An address; none if it is the one that leads nowhere, all bits set.
+    pub(super) fn offset(&mut self) -> Parsed<Option<u64>> {
+        let address = self.number(self.source.offset_size)?;
+        let nowhere = u64::MAX >> (64 - 8 * self.source.offset_size);
+        Ok((address != nowhere).then_some(address))
+    }
+
+    /// An address that must lead somewhere.
+    pub(super) fn address(&mut self) -> Parsed<u64> {
+        self.offset()?.ok_or_else(|| "an address is missing".into())
+    }
+
+    pub(super) fn signature(&mut self, expected: &[u8; 4]) -> Parsed<()> {
+        if self.take(4)? == expected {
+            return Ok(());
+        }
+        fail(format!("an address does not lead to a structure `{}`", expected.escape_ascii()))
+    }
+
+    /// A version, or anything else that has to have this value.
+    pub(super) fn version(&mut self, expected: u8, what: &str) -> Parsed<()> {
+        match self.u8()? {
+            version if version == expected => Ok(()),
+            version => fail(format!("{what} of version {version}, not {expected}")),
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Structures made to hurt, which no writer makes. Each is refused at once, for the reason given.
+
+use std::time::{Duration, Instant};
+
+use super::super::account::Account;
+use super::filters::{Pipeline, filters};
+use super::header::Header;
+use super::packing::unpacked;
+use super::source::{Parsed, Problem, Source};
+use super::trees::{CHUNKS, entries};
+use super::types::{Kind, Padding, Type};
+use super::{Texts, arrays, from_bytes};
+use crate::content::Values;
+use crate::damage::{seal, sealed_parts};
+
+const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
+const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
+
+/// What a structure in a file of these bytes is refused for.
+fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()>) -> String {
+    let account = Account::for_file(bytes.len() as u64);
+    let Ok(source) = Source::new(bytes, (8, 8), &account) else { panic!("the widths are known") };
+    let start = Instant::now();
+    let Err(Problem(problem)) = read(source) else { panic!("it is not refused") };
+    assert!(start.elapsed() < Duration::from_secs(5), "{problem}: {:?}", start.elapsed());
+    problem.into()
+}
+
+/// A header of version 1 with one message: there is more of it, at its own start.
+#[test]
+fn a_header_that_continues_in_itself() {
+    let mut header = vec![1, 0, 1, 0, 1, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0];
+    header.extend([0x10, 0, 16, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0]);
+    let problem = refusal(&header, |source| Header::read(source, 0).map(drop));
+    assert!(problem.contains("circle"), "{problem}");
+}
+
+/// A node of an index whose only child is itself.
+#[test]
+fn a_tree_that_is_its_own_branch() {
+    let mut node = b"TREE\x01\x05\x01\0".to_vec();
+    node.resize(200, 0);
+    let problem = refusal(&node, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(problem.contains("levels"), "{problem}");
+}
+
+/// A node with as many children as it can have, all of them the same leaf, on many levels.
+#[test]
+fn a_tree_whose_branches_are_all_the_same() {
+    let mut file = Vec::new();
+    for level in (0..9_u8).rev() {
+        let count = 40_u16;
+        file.extend(b"TREE\x01");
+        file.push(level);
+        file.extend(count.to_le_bytes());
+        file.extend([0xff; 16]);
+        let child = (1360 * u64::from(9 - level)).to_le_bytes();
+        (0..count).for_each(|_| file.extend([[0; 24].as_slice(), &child].concat()));
+        file.resize(1360 * usize::from(9 - level), 0);
+    }
+    file.resize(1 << 16, 0);
+    let problem = refusal(&file, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(problem.contains("larger than the file"), "{problem}");
+}
+
+/// A file with one part changed by somebody who means it.
+fn forged(file: &[u8], signature: &[u8], at: usize, new: &[u8]) -> Vec<u8> {
+    let mut bytes = file.to_vec();
+    let parts = sealed_parts(file);
+    let part = parts.iter().find(|part| file[part.start..].starts_with(signature));
+    let part = part.expect("the file has such a part").clone();
+    bytes[part.start + at..][..new.len()].copy_from_slice(new);
+    seal(&mut bytes, &part);
+    bytes
+}
+
+#[test]
+fn arrays_of_chunks_without_end() {
+    let entries = 1_u64 << 60;
+    let cases = [
+        // number of entries; bits of a place in a page
+        (forged(FIXED, b"FAHD", 8, &entries.to_le_bytes()), "beyond the end"),
+        (forged(FIXED, b"FAHD", 7, &[64]), "impossible sizes"),
+        // bits of a number; entries of the index block, of a data block
+        (forged(GROWING, b"EAHD", 7, &[255]), "impossible sizes"),
+        (forged(GROWING, b"EAHD", 8, &[255]), "checksum"),
+        (forged(GROWING, b"EAHD", 9, &[3]), "impossible sizes"),
+    ];
+    for (bytes, reason) in cases {
+        let start = Instant::now();
+        let error = from_bytes(&bytes).expect_err(reason).to_string();
+        assert!(error.contains(reason), "{error}, not {reason}");
+        assert!(start.elapsed() < Duration::from_secs(5), "{reason}: {:?}", start.elapsed());
+    }
+}
+
+/// The last entries of an array of 2^60, without reading what is before.
+#[test]
+fn an_entry_far_out() {
+    let bytes = forged(FIXED, b"FAHD", 8, &(1_u64 << 60).to_le_bytes());
+    let parts = sealed_parts(&bytes);
+    let header = parts.iter().find(|part| bytes[part.start..].starts_with(b"FAHD")).expect("there");
+    let at = header.start as u64;
+    let problem =
+        refusal(&bytes, |source| arrays::Fixed::open(source, at)?.entry((1 << 60) - 1).map(drop));
+    assert!(problem.contains("beyond the end"), "{problem}");
+}
+
+/// Filters of a chunk, in the second version of their message.
+fn pipeline<'f>(source: Source<'f>, ids: &[u8], bytes: u64) -> Parsed<Pipeline<'f>> {
+    let filters_of = |message: Vec<u8>| -> Parsed<_> {
+        let account = Account::for_file(0);
+        let local = Source::new(&message, (8, 8), &account)?;
+        filters(local.cursor(&message))
+    };
+    let mut message = vec![2, ids.len() as u8];
+    ids.iter().for_each(|id| message.extend([*id, 0, 0, 0, 0, 0]));
+    Ok(Pipeline { filters: filters_of(message)?, size: 8, bytes, account: source.account })
+}
+
+/// Chunks that expand to more than the file is worth are refused before anything is expanded.
+#[test]
+fn bombs() {
+    for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
+        let undone = |source: Source| pipeline(source, ids, bytes)?.undo(&[0; 100], 0, 5).map(drop);
+        let problem = refusal(&[0; 1000], undone);
+        assert!(problem.contains("too large"), "{ids:?} {bytes}: {problem}");
+    }
+    // two of 3 GiB are together too much, though each is not; neither can be decompressed
+    let undone = |source: Source| {
+        let pipeline = pipeline(source, &[2, 1], 3 << 30)?;
+        assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.0.contains("decompressed")));
+        pipeline.undo(&[0; 100], 0, 5).map(drop)
+    };
+    assert!(refusal(&[0; 1000], undone).contains("too large"));
+}
+
+/// LZF: references to nothing, and a short text that unpacks to more than its chunk.
+#[test]
+fn packed_texts() {
+    assert!(unpacked(&[0x20, 0x00], 100).is_err());
+    let mut bomb = vec![0, b'x'];
+    bomb.extend([0xe0, 0xff, 0x00].repeat(1000));
+    assert!(unpacked(&bomb, 1000).is_err());
+    assert_eq!(unpacked(&bomb, 300_000).ok(), Some(vec![b'x'; 1 + 264 * 1000]));
+    // "abc", and then its first two letters
+    assert_eq!(unpacked(b"\x02abc\x00\x61\x20\x02", 100).ok().as_deref(), Some(&b"abcabca"[..]));
+}
+
+/// Texts of fixed length in the three ways of HDF5.
+#[test]
+fn paddings() {
+    let account = Account::for_file(0);
+    let Ok(source) = Source::new(&[], (8, 8), &account) else { panic!("the widths are known") };
+    for (padding, raw, expected) in [
+        (Padding::Nuls, &b"ab \0\0"[..], Some("ab ")),
+        (Padding::Nuls, b"a\0b\0\0", None),
+        (Padding::Terminated, b"ab\0xy", Some("ab")),
+        (Padding::Spaces, b" ab  ", Some(" ab")),
+        (Padding::Nuls, b"\xffb\0\0\0", None),
+        (Padding::Nuls, b"\0\0\0\0\0", Some("")),
+    ] {
+        let values = Type { kind: Kind::Text(padding), size: 5, is_big: false }
+            .values(raw, &mut Texts::new(source));
+        let expected = expected.map(|text| Values::Text(vec![text.to_owned()]));
+        assert_eq!(values.ok(), expected, "{padding:?} {raw:?}");
+    }
+}
+
+/// Numbers are whole, in either order of bytes: others are types outside the format, and told by name.
+#[test]
+fn types_of_numbers() {
+    let account = Account::for_file(0);
+    let name = |message: &[u8]| {
+        let source = Source::new(message, (8, 8), &account).ok()?;
+        Some(Type::parse(source.cursor(message)).ok()?.kind)
+    };
+    let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];
+    assert_eq!(name(&integer(0, 8, 64)), Some(Kind::U64));
+    assert_eq!(name(&integer(8, 8, 64)), Some(Kind::I64));
+    assert_eq!(name(&integer(1, 8, 64)), Some(Kind::U64));
+    assert_eq!(name(&integer(8, 4, 32)), Some(Kind::Other("i32".into())));
+    assert_eq!(name(&integer(0, 4, 31)), Some(Kind::Other("u31".into())));
+    assert_eq!(name(&integer(0, 0, 0)), None);
+    let float = |order: u8, bias: u8| {
+        [0x11, 0x20 | order, 0x3f, 0, 8, 0, 0, 0, 0, 0, 64, 0, 52, 11, 0, 52, bias, 3, 0, 0]
+    };
+    assert_eq!(name(&float(0, 0xff)), Some(Kind::F64));
+    assert_eq!(name(&float(1, 0xff)), Some(Kind::F64));
+    assert_eq!(name(&float(0, 0xfe)), Some(Kind::Other("f64".into())));
+}

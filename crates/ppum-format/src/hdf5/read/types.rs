@@ -1,0 +1,210 @@
+//! Types and shapes of arrays and attributes, and their values.
+
+use std::borrow::Cow;
+
+use super::source::{Cursor, Parsed, fail};
+use super::texts::{Texts, text};
+use crate::content::{Element as _, Values};
+
+/// An element type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Type {
+    pub(super) kind: Kind,
+    /// Bytes of an element.
+    pub(super) size: usize,
+    /// True for numbers whose first byte is the most significant one.
+    pub(super) is_big: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    F64,
+    U8,
+    U32,
+    U64,
+    I64,
+    /// Text of fixed length.
+    Text(Padding),
+    /// Text of variable length, which stands elsewhere.
+    LongText,
+    /// A type outside the format.
+    Other(String),
+}
+
+/// What follows the characters of a text of fixed length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Padding {
+    /// A NUL, and then anything.
+    Terminated,
+    Nuls,
+    Spaces,
+}
+
+/// Classes of types that the format has, and the names of all.
+const FIXED_POINT: usize = 0;
+const FLOATING_POINT: usize = 1;
+const STRING: usize = 3;
+const VARIABLE_LENGTH: usize = 9;
+const CLASSES: [&str; 12] = [
+    "integer",
+    "floating point",
+    "time",
+    "string",
+    "bit field",
+    "opaque",
+    "compound",
+    "reference",
+    "enumeration",
+    "variable length",
+    "array",
+    "complex",
+];
+
+impl Type {
+    pub(super) fn parse(mut message: Cursor) -> Parsed<Self> {
+        let head = message.u8()?;
+        let (class, flags) = (usize::from(head & 15), message.number(3)?);
+        let size = message.u32()?;
+        let Some(name) = CLASSES.get(class).filter(|_| size > 0) else {
+            return fail("its type is none of HDF5");
+        };
+        let is_big = matches!(class, FIXED_POINT | FLOATING_POINT) && flags & BIG_ENDIAN != 0;
+        let kind = match class {
+            FIXED_POINT => integer(flags, size, &mut message)?,
+            FLOATING_POINT => float(flags, size, &mut message)?,
+            STRING => Kind::Text(padding(flags)?),
+            VARIABLE_LENGTH if flags & 15 == 1 => Kind::LongText,
+            _ => Kind::Other((*name).to_owned()),
+        };
+        let size = usize::try_from(size).or(fail("its elements are too large"))?;
+        Ok(Self { kind, size, is_big })
+    }
+
+    pub(super) fn is_text(&self) -> bool {
+        matches!(self.kind, Kind::Text(_) | Kind::LongText)
+    }
+
+    /// The values that the bytes of elements stand for.
+    pub(super) fn values(&self, raw: &[u8], texts: &mut Texts) -> Parsed<Values> {
+        let turned = self.is_big.then(|| {
+            raw.chunks_exact(self.size).flat_map(|bytes| bytes.iter().rev().copied()).collect()
+        });
+        self.little_endian_values(&turned.map_or(Cow::Borrowed(raw), Cow::Owned), texts)
+    }
+
+    fn little_endian_values(&self, raw: &[u8], texts: &mut Texts) -> Parsed<Values> {
+        let elements = raw.chunks_exact(self.size);
+        Ok(match &self.kind {
+            Kind::F64 => f64::wrap(numbers(raw, f64::from_le_bytes)),
+            Kind::U8 => u8::wrap(raw.to_vec()),
+            Kind::U32 => u32::wrap(numbers(raw, u32::from_le_bytes)),
+            Kind::U64 => u64::wrap(numbers(raw, u64::from_le_bytes)),
+            Kind::I64 => i64::wrap(numbers(raw, i64::from_le_bytes)),
+            Kind::Text(padding) => {
+                String::wrap(elements.map(|raw| text(padding.cut(raw))).collect::<Parsed<_>>()?)
+            }
+            Kind::LongText => {
+                String::wrap(elements.map(|place| texts.read(place)).collect::<Parsed<_>>()?)
+            }
+            Kind::Other(name) => Values::Other(name.clone()),
+        })
+    }
+}
+
+fn numbers<T, const N: usize>(raw: &[u8], number: impl Fn([u8; N]) -> T) -> Vec<T> {
+    raw.as_chunks().0.iter().map(|bytes| number(*bytes)).collect()
+}
+
+fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {
+    let (offset, bits) = (message.u16()?, message.u16()?);
+    let is_whole = offset == 0 && u64::from(bits) == 8 * u64::from(size);
+    let is_signed = flags & 8 != 0;
+    Ok(match (is_signed, size) {
+        (false, 1) if is_whole => Kind::U8,
+        (false, 4) if is_whole => Kind::U32,
+        (false, 8) if is_whole => Kind::U64,
+        (true, 8) if is_whole => Kind::I64,
+        _ => Kind::Other(format!("{}{bits}", if is_signed { 'i' } else { 'u' })),
+    })
+}
+
+/// Flag of numbers: the first byte is the most significant one.
+const BIG_ENDIAN: u64 = 1;
+
+/// Order of bits of an IEEE double in little-endian bytes, and then: offset, bits; place and size of exponent and
+/// mantissa, the exponent's bias.
+const DOUBLE: (u64, [u8; 12]) = (0x3f20, [0, 0, 64, 0, 52, 11, 0, 52, 0xff, 3, 0, 0]);
+
+fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {
+    let is_ieee = flags & !BIG_ENDIAN == DOUBLE.0 && size == 8;
+    let is_double = is_ieee && message.take(12)? == DOUBLE.1;
+    Ok(if is_double { Kind::F64 } else { Kind::Other(format!("f{}", 8 * u64::from(size))) })
+}
+
+fn padding(flags: u64) -> Parsed<Padding> {
+    Ok(match flags & 15 {
+        0 => Padding::Terminated,
+        1 => Padding::Nuls,
+        2 => Padding::Spaces,
+        _ => return fail("its texts are padded in an unknown way"),
+    })
+}
+
+impl Padding {
+    /// The characters of a text.
+    fn cut(self, raw: &[u8]) -> &[u8] {
+        let end = match self {
+            Self::Terminated => raw.iter().position(|&byte| byte == 0).unwrap_or(raw.len()),
+            Self::Nuls => end_without(raw, 0),
+            Self::Spaces => end_without(raw, b' '),
+        };
+        &raw[..end]
+    }
+}
+
+/// Where the text ends if what it is padded with is left out.
+pub(super) fn end_without(raw: &[u8], pad: u8) -> usize {
+    raw.iter().rposition(|&byte| byte != pad).map_or(0, |last| last + 1)
+}
+
+/// The shape of an array.
+#[derive(Clone, Debug)]
+pub(super) struct Space {
+    pub(super) shape: Vec<u64>,
+    /// What it can grow to; [`u64::MAX`] without bound.
+    pub(super) most: Vec<u64>,
+}
+
+impl Space {
+    /// None if there is not even a shape.
+    pub(super) fn parse(mut message: Cursor) -> Parsed<Option<Self>> {
+        let (version, rank, flags) = (message.u8()?, message.u8()?, message.u8()?);
+        match version {
+            1 => drop(message.skip(5)?),
+            2 if message.u8()? == 2 => return Ok(None),
+            2 => {}
+            _ => return fail(format!("its shape has version {version}, which is not known")),
+        }
+        let shape: Vec<u64> = (0..rank).map(|_| message.length()).collect::<Parsed<_>>()?;
+        let nothing = u64::MAX >> (64 - 8 * message.source.length_size());
+        let unlimited = |most| if most == nothing { u64::MAX } else { most };
+        let most = match flags & 1 {
+            0 => shape.clone(),
+            _ => (0..rank).map(|_| message.length().map(unlimited)).collect::<Parsed<_>>()?,
+        };
+        Ok(Some(Self { shape, most }))
+    }
+
+    /// The number of elements, unless that is beyond all numbers.
+    pub(super) fn count(&self) -> Option<u64> {
+        product(&self.shape)
+    }
+}
+
+pub(super) fn product(shape: &[u64]) -> Option<u64> {
+    // a zero makes it zero, however large the others are
+    if shape.contains(&0) {
+        return Some(0);
+    }
+    shape.iter().try_fold(1_u64, |product, &n| product.checked_mul(n))
+}
