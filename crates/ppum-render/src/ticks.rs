@@ -4,6 +4,8 @@
 //! digits are all alike ("x − 0.5"), and in units of a power of ten where they are tiny or huge.
 //! Ticks are integer multiples of 1, 2 or 5 × 10^k, so labels are exact decimals.
 
+use ppum::text::trimmed;
+
 use crate::scale::{Normalization, Scale};
 
 /// A labelled mark.
@@ -88,6 +90,14 @@ pub fn bar(norm: &Normalization, most: usize) -> Ticks {
         Scale::SymLog => symlog(norm, most),
     };
     if ticks.major.len() < 2 { evenly(norm, most) } else { ticks }
+}
+
+/// The tick of a value that is alone; none if it lies outside the range.
+#[must_use]
+pub fn of_one_value(norm: &Normalization, value: f64) -> Ticks {
+    let tick = Tick { at: norm.position(value), label: trimmed(value).replace('-', "−") };
+    let is_seen = (norm.min()..=norm.max()).contains(&value);
+    Ticks { major: is_seen.then_some(tick).into_iter().collect(), ..Ticks::default() }
 }
 
 /// Even values, wherever the scale puts them.

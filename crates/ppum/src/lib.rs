@@ -218,5 +218,6 @@ pub mod quantity;
 mod random;
 pub mod real;
 pub mod replace;
+pub mod text;
 pub mod vec2;
 pub mod weight;
