@@ -1,8 +1,9 @@
 //! From a problem to a dataset.
 
+use crate::around::Around;
 use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
-use crate::cholesky::Cholesky;
+use crate::cholesky::{Cholesky, CholeskyError};
 use crate::eigen::EigenError;
 use crate::gauge::Gauge;
 use crate::law::Law;
@@ -67,20 +68,37 @@ pub enum SolveError {
     #[error(transparent)]
     Space(#[from] SpaceError),
     /// Data that are not finite.
-    #[error("the data of the problem are not finite somewhere on the plate or its border ({0})")]
-    Data(#[from] EigenError),
+    #[error(
+        "the data of the problem are not finite, or too large to compute with, {0}: look at the formulas and tables \
+         of the material, the loads and what is given on the border"
+    )]
+    Data(Around),
+    /// The same, nobody knows where.
+    #[error(
+        "the data of the problem are not finite, or too large to compute with: look at the formulas and tables of \
+         the material, the loads and what is given on the border"
+    )]
+    Eigen(#[from] EigenError),
     /// Functions of the local spaces.
     #[error(
-        "a function of the local spaces is not finite at a point of its patches ({0}); look at the \
-         formulas of [[enrichment]]"
+        "a function of the local spaces is not finite, or too large to compute with, {0}; look at the formulas \
+         of [[enrichment]]"
     )]
-    Basis(EigenError),
+    Basis(Around),
     /// Loads without support.
     #[error(transparent)]
     Unbalanced(#[from] UnbalancedError),
+    /// The factorisation, at a place.
+    #[error("{around}: {error}")]
+    Singular {
+        /// Where.
+        around: Around,
+        /// What is wrong there.
+        error: CholeskyError,
+    },
     /// The factorisation.
     #[error(transparent)]
-    Factor(#[from] crate::cholesky::CholeskyError),
+    Factor(#[from] CholeskyError),
     /// A function of the space.
     #[error(transparent)]
     Function(#[from] FunctionError),
@@ -118,10 +136,11 @@ pub fn solve(problem: &Problem, report: &mut dyn FnMut(Progress)) -> Result<Data
     let (tips, warnings) = judge(&dataset, 0, Some(problem))?;
     let (rounding, _) = rounding(&dataset, 0)?;
     clock.lap(Phase::Intensity);
+    let of_quadrature = of_quadrature(&unresolved, &dataset);
     let step = &mut dataset.steps[0];
     step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
     step.warnings = warnings;
-    step.warnings.extend(of_quadrature(&unresolved));
+    step.warnings.extend(of_quadrature);
     step.history.push(Record { name: "rounding".into(), value: rounding, unit: String::new() });
     step.history.extend(clock.records);
     Ok(dataset)
@@ -223,9 +242,10 @@ impl Solver<'_> {
         let Assembled { basis, pieces, system, gauge, imbalance } =
             self.assemble(&space, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solver = Cholesky::new(&system.matrix)?;
-        let mut solution = solver.solve(&system.load)?;
-        gauge.center(&solver, &system.matrix, &mut solution.unknowns)?;
+        let located = |error| located(error, &space);
+        let solver = Cholesky::new(&system.matrix).map_err(located)?;
+        let mut solution = solver.solve(&system.load).map_err(located)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
             coefficients: basis.plain(&space, &solution.unknowns, components),
@@ -264,11 +284,13 @@ impl Solver<'_> {
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let mut basis = StableBasis::new(space).map_err(SolveError::Basis)?;
-        let slivers = slivers(self.problem, space, &basis, &law, &pieces)?;
-        basis.damp(space, &slivers)?;
+        let slivers =
+            slivers(self.problem, space, &basis, &law, &pieces).map_err(SolveError::Data)?;
+        basis.damp(space, &slivers).map_err(SolveError::Basis)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell)?;
+        let system = assemble(self.problem, space, &basis, &law, &pieces, &mut tell);
+        let mut system = system.map_err(SolveError::Data)?;
         let free = free_motions(&system.balance, &pieces)?;
         let balances = system.balance.iter().zip(&free);
         let imbalance = balances.map(|(b, free)| b.imbalance(free)).fold(0.0, f64::max);
@@ -287,6 +309,16 @@ struct Assembled {
     gauge: Gauge,
     /// See [`Solution::imbalance`].
     imbalance: f64,
+}
+
+/// The error at the place of its patch.
+fn located(error: CholeskyError, space: &Space<'_>) -> SolveError {
+    match error.patch() {
+        Some(patch) => {
+            SolveError::Singular { around: space.partition.support(patch).into(), error }
+        }
+        None => SolveError::Factor(error),
+    }
 }
 
 /// The free motions of each piece, after a check that the loads leave them alone.
