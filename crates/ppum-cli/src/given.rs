@@ -2,7 +2,9 @@
 
 use anyhow::Context as _;
 
-/// A formula as it was given: itself, or the content of the file named after `@`.
+use crate::standard;
+
+/// A formula as it was given: itself, or the content of the file named after `@`; `@-` is standard input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
     pub(crate) text: String,
@@ -15,6 +17,10 @@ impl Given {
         let Some(file) = given.trim().strip_prefix('@') else {
             return Ok(Self { text: given.to_owned(), file: None });
         };
+        if file == "-" {
+            let text = standard::text("a formula")?;
+            return Ok(Self { text, file: Some("standard input".into()) });
+        }
         let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {file}"))?;
         Ok(Self { text, file: Some(file.to_owned()) })
     }

@@ -8,14 +8,17 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
+mod drivers;
 mod families;
 mod given;
 mod number;
 mod progress;
 mod replacements;
 mod sides;
+mod standard;
 mod threads;
 mod tips;
+mod undefined;
 mod warnings;
 
 use std::io::{self, Write as _};

@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
+use ppum::text::{apart, trimmed};
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::figure::{Labels, figure, plot_area};
 use ppum_render::image::Image;
@@ -23,8 +24,9 @@ use ppum_render::view::View;
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
 use crate::dataset::{field, open, quantity};
-use crate::number::trimmed;
 use crate::replacements::Replacements;
+use crate::standard::{self, is_standard};
+use crate::undefined;
 use window::{Frame, Window};
 
 /// Draw a quantity, exactly at every pixel
@@ -34,10 +36,10 @@ use window::{Frame, Window};
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset
+    /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Picture to write
+    /// Picture to write, - for standard output
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
     /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one [default: von-mises;
@@ -119,26 +121,45 @@ impl Args {
             "the view shows nothing of the domain; `ppum info` says where that is"
         );
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { mut picture, by } = self.engine.draw(job)?;
+        let Drawn { mut picture, by, undefined, is_finite } = self.engine.draw(job)?;
         let title = self.replacements.title(&dataset.title);
         let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
-        let file = self.file.file_name().unwrap_or_default().to_string_lossy();
-        let mut texts = picture.description(&dataset.title, &file, &name);
+        let mut texts = picture.description(&dataset.title, &self.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
-        png::write(&self.output, &image, &texts)?;
         let [columns, rows] = image.size;
-        let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
         let target = self.output.display();
-        writeln!(
-            out,
-            "wrote {target}: {name}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
-        )?;
+        let told = format!(
+            "wrote {target}: {name}, {columns}x{rows} pixels, {}, {by}",
+            colours(&picture, is_finite)
+        );
+        if undefined[0] > 0 {
+            eprintln!("warning: {}", undefined::message(&name, undefined, "pixels"));
+        }
+        if is_standard(&self.output) {
+            out.write_all(&png::encode(&image, &texts)?)?;
+            eprintln!("{}", told.replacen("wrote -", "wrote standard output", 1));
+        } else {
+            png::write(&self.output, &image, &texts)?;
+            writeln!(out, "{told}")?;
+        }
         Ok(())
+    }
+
+    /// What the picture calls the dataset.
+    fn file_name(&self) -> String {
+        match self.file.file_name() {
+            Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
+            _ => standard::name(&self.file),
+        }
     }
 
     /// What clap cannot see.
     fn check(&self) -> anyhow::Result<()> {
+        if is_standard(&self.output) {
+            standard::check_output("a picture")?;
+            return self.engine.check();
+        }
         let is_png = self.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
         ensure!(is_png, "{}: pictures are PNG files; end the name in .png", self.output.display());
         self.engine.check()
@@ -176,6 +197,19 @@ impl Args {
             overlay::cracks(&mut picture.image, &view, &field.step.cracks);
         }
         Ok(picture.image.clone())
+    }
+}
+
+/// What the colours stand for.
+fn colours(picture: &Picture, is_finite: bool) -> String {
+    let norm = &picture.normalization;
+    match picture.one_value {
+        _ if !is_finite => "no finite values".into(),
+        Some(value) => format!("one value, {}", trimmed(value)),
+        None => {
+            let [from, to] = apart(norm.min(), norm.max());
+            format!("colours from {from} to {to}")
+        }
     }
 }
 

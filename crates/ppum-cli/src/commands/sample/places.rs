@@ -10,6 +10,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
 use crate::sides::{on_crack, seen};
+use crate::standard::{self, is_standard};
 
 /// A point on a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +110,11 @@ pub(super) fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Pl
 /// ignored, and so are a first line of names, empty lines and what follows `#`.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
     let context = || format!("cannot read {}", path.display());
-    let text = std::fs::read_to_string(path).with_context(context)?;
+    let text = match is_standard(path) {
+        true => standard::text("the list of points")?,
+        false => std::fs::read_to_string(path).with_context(context)?,
+    };
+    let name = standard::name(path);
     let mut points = Vec::new();
     let mut is_head = true;
     for (k, line) in (1..).zip(text.lines()) {
@@ -121,11 +126,11 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
             Some(point) => points.push(point),
             None if is_head
                 && !line.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {}
-            None => bail!("{}:{k}: expected two finite numbers: x,y", path.display()),
+            None => bail!("{name}:{k}: expected two finite numbers: x,y"),
         }
         is_head = false;
     }
-    ensure!(!points.is_empty(), "{}: has no points", path.display());
+    ensure!(!points.is_empty(), "{name}: has no points");
     Ok(points)
 }
 
