@@ -343,4 +343,13 @@ mod tests {
         assert_eq!((ticks.reference, ticks.exponent), (0.5, -9));
         assert_eq!(labels(&ticks), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
     }
+
+    #[test]
+    fn one_value_has_one_tick() {
+        let norm = Normalization::new(Scale::Linear, -6.0, -2.0);
+        let ticks = of_one_value(&norm, -4.0);
+        assert_eq!(labels(&ticks), ["−4"]);
+        assert!((ticks.major[0].at - 0.5).abs() < 1e-15 && ticks.minor.is_empty());
+        assert!(of_one_value(&norm, 1.0).major.is_empty(), "outside the range");
+    }
 }

@@ -14,6 +14,7 @@
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
+//! - [`text`] writes numbers and places for people, and finds the words that they meant.
 //!
 //! No files, no threads, no graphics.
 //!
