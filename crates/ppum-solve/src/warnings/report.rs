@@ -142,7 +142,9 @@ mod tests {
             // without cracks and holes nothing is crossed
             for text in &texts[..if cutters == Cutters::Nothing { 4 } else { 5 }] {
                 let text = text(0.5, cutters);
-                assert!(absent.iter().all(|word| !text.contains(word)), "{cutters:?}: {text}");
+                let mut words = text.split(|c: char| !c.is_alphabetic() && c != '_');
+                let is_absent = |word: &str| absent.iter().any(|a| word.starts_with(a));
+                assert!(!words.any(is_absent), "{cutters:?}: {text}");
             }
         }
         assert!(nitsche(1e5, Cutters::Cracks).starts_with("a crack cuts a cell"));
