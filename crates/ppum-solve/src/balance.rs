@@ -39,7 +39,7 @@ impl fmt::Display for UnbalancedError {
                 let [x, y] = [p.x, p.y].map(trimmed);
                 write!(
                     f,
-                    "the plate falls into pieces, and the loads on the one around ({x}, {y})"
+                    "the plate falls into pieces, and the loads on the piece around ({x}, {y})"
                 )?;
             }
             None => write!(f, "the loads")?,
