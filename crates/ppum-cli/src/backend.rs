@@ -10,12 +10,12 @@ use ppum::field::Field;
 use ppum::quantity::{Quantity, Source};
 use ppum_gpu::{Choice, GpuError, Method, RenderError, Renderer};
 use ppum_render::picture::{Picture, Style};
-use ppum_render::raster::Sample;
+use ppum_render::raster::{Raster, Sample};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::output::tell;
-use crate::threads;
+use crate::{drivers, threads, undefined};
 
 /// What draws, as it was asked for.
 #[derive(Debug, clap::Args)]
@@ -62,6 +62,19 @@ pub(crate) struct Job<'a> {
 pub(crate) struct Drawn {
     pub(crate) picture: Picture,
     pub(crate) by: String,
+    /// How many pixels of the plate have no value, and how many there are.
+    pub(crate) undefined: [usize; 2],
+    /// True if some value is finite.
+    pub(crate) is_finite: bool,
+}
+
+impl Drawn {
+    fn new<T: Sample>(raster: &Raster<T>, job: Job<'_>, by: &str) -> anyhow::Result<Self> {
+        let picture = Picture::bare(raster, job.view, job.style)?;
+        let undefined = undefined::pixels(raster, job.field, job.view);
+        let is_finite = raster.statistics().finite > 0;
+        Ok(Self { picture, by: by.to_owned(), undefined, is_finite })
+    }
 }
 
 impl Engine {
@@ -99,31 +112,30 @@ impl Engine {
 
     fn on_cpu(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
         let narrow = self.precision == Some(Precision::F32);
-        let draw = || if narrow { on_cpu::<f32>(job) } else { on_cpu::<f64>(job) };
-        let by = if narrow { "cpu f32" } else { "cpu f64" }.to_owned();
-        Ok(Drawn { picture: threads::with(self.threads, draw)??, by })
+        let draw =
+            || if narrow { on_cpu::<f32>(job, "cpu f32") } else { on_cpu::<f64>(job, "cpu f64") };
+        threads::with(self.threads, draw)?
     }
 }
 
-fn on_cpu<T: Sample>(Job { field, view, quantity, style }: Job<'_>) -> anyhow::Result<Picture> {
-    Ok(Picture::bare(&render::<T>(field, view, quantity)?, view, style)?)
+fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn> {
+    Drawn::new(&render::<T>(job.field, job.view, job.quantity)?, job, by)
 }
 
 /// The outer error is the device's, after which the CPU may try; the inner one is anything else.
 fn on_gpu(
-    Job { field, view, quantity, style }: Job<'_>,
+    job: Job<'_>,
     choice: Choice,
     method: Method,
 ) -> Result<anyhow::Result<Drawn>, RenderError> {
-    let mut renderer = Renderer::open(choice)?;
-    let raster = renderer.render(field, view, quantity, method)?;
+    let mut renderer = drivers::opening(|| Renderer::open(choice))?;
+    let raster = renderer.render(job.field, job.view, job.quantity, method)?;
     let name = &renderer.gpu().info().name;
     let by = match method {
         Method::Gather => format!("gpu f32, {name}"),
         Method::Splat => format!("gpu splat f32, {name}"),
     };
-    let picture = Picture::bare(&raster, view, style);
-    Ok(picture.map(|picture| Drawn { picture, by }).map_err(Into::into))
+    Ok(Drawn::new(&raster, job, &by))
 }
 
 /// What is told when the CPU draws in place of a graphics card: nothing if there is none, as is normal,

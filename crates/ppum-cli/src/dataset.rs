@@ -9,9 +9,14 @@ use ppum::quantity::Quantity;
 use ppum_format::ReadError;
 
 use crate::given::{Given, parts};
+use crate::standard::{self, is_standard};
 
-/// Reads a dataset; an error names the file.
+/// Reads a dataset, `-` from standard input; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
+    if is_standard(path) {
+        let bytes = standard::bytes("the dataset", standard::DATASET)?;
+        return ppum_format::from_bytes(bytes).context("standard input");
+    }
     let read = ppum_format::read(path);
     match read {
         Err(error @ ReadError::Io { .. }) => Err(error.into()),

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use ppum::dataset::FieldData;
 use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::text::trimmed;
 
-use crate::number::{count, trimmed};
+use crate::number::count;
 
 /// Functions that differ in their places and numbers only.
 #[derive(Clone, Debug, PartialEq)]

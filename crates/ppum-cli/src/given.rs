@@ -4,10 +4,12 @@ use std::path::Path;
 
 use anyhow::Context as _;
 
+use crate::standard::{self, is_standard};
+
 /// Longest file, in bytes: far above the longest formula.
 const LONGEST: u64 = 1 << 20;
 
-/// A formula as it was given: itself, or the content of the file named after `@`.
+/// A formula as it was given: itself, or the content of the file named after `@`; `@-` is standard input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
     pub(crate) text: String,
@@ -20,6 +22,10 @@ impl Given {
         let Some(path) = file(given) else {
             return Ok(Self { text: given.to_owned(), file: None });
         };
+        if is_standard(path) {
+            let text = standard::text("a formula")?;
+            return Ok(Self { text, file: Some("standard input".into()) });
+        }
         let file = path.display().to_string();
         let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {file}"))?;
         Ok(Self { text, file: Some(file) })

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use ppum::dataset::Dataset;
+use ppum::text::Places;
 use serde::{Serialize, Serializer};
 
 /// Prints a result as JSON.
@@ -27,34 +29,10 @@ impl Serialize for Number {
     }
 }
 
-/// A number for people: six significant digits, without an exponent where that is no longer.
-pub(crate) fn short(value: f64) -> String {
-    let scientific = format!("{value:.5e}");
-    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
-    match exponent {
-        Some(_) if value == 0.0 => "0".into(),
-        Some(e @ -4..=5) => format!("{value:.*}", (5 - e) as usize),
-        _ => scientific,
-    }
-}
-
-/// As [`short`], without zeros at the end; whole numbers in full.
-pub(crate) fn trimmed(value: f64) -> String {
-    // f64 holds every whole number up to 2^53
-    if value.fract() == 0.0 && value.abs() < 9e15 {
-        return (value as i64).to_string();
-    }
-    let text = short(value);
-    let (mantissa, exponent) = text.find('e').map_or((&*text, ""), |e| text.split_at(e));
-    let has_point = mantissa.contains('.');
-    let kept =
-        if has_point { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
-    format!("{kept}{exponent}")
-}
-
-/// A point for people.
-pub(crate) fn point([x, y]: [f64; 2]) -> String {
-    format!("({}, {})", trimmed(x), trimmed(y))
+/// Writes places of a dataset, whichever step they are of.
+pub(crate) fn places(dataset: &Dataset) -> Places {
+    let cracks: Vec<_> = dataset.steps.iter().flat_map(|step| &step.cracks).cloned().collect();
+    Places::new(&dataset.domain.bounds, &cracks)
 }
 
 /// `1 tip`, `2 tips`.
@@ -73,23 +51,5 @@ mod tests {
         assert_eq!(json(f64::NAN), "null");
         assert_eq!(json(f64::INFINITY), "\"inf\"");
         assert_eq!(json(f64::NEG_INFINITY), "\"-inf\"");
-    }
-
-    #[test]
-    fn six_digits() {
-        for (value, text) in [
-            (0.0, "0"),
-            (-1.25, "-1.25000"),
-            (0.000_123_456_7, "0.000123457"),
-            (123_456.7, "123457"),
-            (999_999.9, "1.00000e6"),
-            (1e-5, "1.00000e-5"),
-            (f64::INFINITY, "inf"),
-            (f64::NAN, "NaN"),
-        ] {
-            assert_eq!(short(value), text);
-        }
-        assert_eq!(point([-0.5, 2e-7]), "(-0.5, 2e-7)");
-        assert_eq!([-0.0, 1_234_567.0, 1.5].map(trimmed), ["0", "1234567", "1.5"]);
     }
 }

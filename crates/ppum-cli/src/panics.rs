@@ -33,7 +33,10 @@ pub(crate) fn guarded(work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Resu
 
 /// Keeps the first panic: others follow from it.
 fn keep(info: &PanicHookInfo<'_>) {
-    let message = info.payload_as_str().unwrap_or("no message");
+    let payload = info.payload();
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let message = text.unwrap_or("no message");
     let place = info.location().map_or(String::new(), |place| format!(" ({place})"));
     TOLD.lock()
         .unwrap_or_else(PoisonError::into_inner)

@@ -5,6 +5,8 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail, ensure};
 
+use crate::standard::{self, is_standard};
+
 /// What is written to a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
@@ -36,6 +38,15 @@ impl Kind {
         );
         Ok(())
     }
+
+    /// Refuses to write what is no text to a terminal.
+    fn check_output(self) -> anyhow::Result<()> {
+        match self {
+            Self::Dataset => standard::check_output("a dataset"),
+            Self::Picture => standard::check_output("a picture"),
+            Self::Table => Ok(()),
+        }
+    }
 }
 
 /// Refuses now what could not be written after minutes of work, and what would be lost: `inputs` are the
@@ -45,8 +56,12 @@ pub(crate) fn check<'i>(
     kind: Kind,
     inputs: impl IntoIterator<Item = &'i Path>,
 ) -> anyhow::Result<()> {
+    if is_standard(path) {
+        return kind.check_output();
+    }
     ensure!(!path.is_dir(), "{}: is a folder; give a file with -o", path.display());
-    if let Some(input) = inputs.into_iter().find(|input| ppum_file::is_same(path, input)) {
+    if let Some(input) = inputs.into_iter().find(|i| !is_standard(i) && ppum_file::is_same(path, i))
+    {
         bail!(
             "{}: would replace {}, which is read; give another file with -o",
             path.display(),

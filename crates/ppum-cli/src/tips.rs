@@ -3,12 +3,14 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use ppum::crack::TipId;
+use ppum::crack::{TipId, tips};
 use ppum::dataset::{Ring, Step, TipIntensity};
+use ppum::text::{Places, beside, short};
+use ppum::vec2::Vec2;
 use ppum_solve::warnings::relative_spread;
 use serde::Serialize;
 
-use crate::number::{Number, point, short};
+use crate::number::Number;
 
 /// The stress intensity factors at a tip.
 #[derive(Debug, Serialize)]
@@ -64,8 +66,18 @@ impl RingRow {
     }
 }
 
-/// A table, one line a tip; tips are numbered in each step.
-pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
+/// The tips of step number `index` with the factors that are stored, and those that have none.
+pub(crate) fn all_tips(index: usize, step: &Step) -> Vec<Tip> {
+    let tip = |tip: TipId| match step.intensities.iter().find(|known| known.tip == tip) {
+        Some(factors) => Tip::new(index, step, factors),
+        None => Tip::without_factors(index, step, tip),
+    };
+    tips(&step.cracks).map(tip).collect()
+}
+
+/// A table, one line a tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
+/// is shown as zero.
+pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
     let step = |text: &dyn Display| if has_steps { format!("{text:>4}  ") } else { String::new() };
     let head = format!("{:>24}  {:>12}  {:>12}  {:>7}", "position", "K_I", "K_II", "spread");
@@ -73,10 +85,17 @@ pub(crate) fn table(out: &mut dyn Write, tips: &[Tip]) -> io::Result<()> {
     for group in tips.chunk_by(|a, b| a.step == b.step) {
         for (number, tip) in group.iter().enumerate() {
             let Tip { crack, tip: at, spread, .. } = tip;
-            let shown = |k: Number| if k.0.is_nan() { "–".into() } else { short(k.0) };
+            let size = tip.k1.0.hypot(tip.k2.0);
+            let shown =
+                |k: Number| if k.0.is_nan() { "–".into() } else { short(beside(k.0, size)) };
             let [k1, k2] = [tip.k1, tip.k2].map(shown);
-            let spread = if spread.0.is_nan() { "–".into() } else { format!("{:.0e}", spread.0) };
-            let row = format!("{:>24}  {k1:>12}  {k2:>12}  {spread:>7}", point(*at));
+            let spread = match spread.0 {
+                s if s.is_nan() => "–".into(),
+                0.0 => "0".into(),
+                s => format!("{s:.0e}"),
+            };
+            let at = places.show(Vec2::from(*at));
+            let row = format!("{at:>24}  {k1:>12}  {k2:>12}  {spread:>7}");
             writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;
         }
     }

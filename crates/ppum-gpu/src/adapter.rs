@@ -105,9 +105,32 @@ async fn enumerate() -> Vec<Adapter> {
 /// The best adapter of a choice.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
+    if choice == Choice::Real && !may_have_card() {
+        return Err(none(choice));
+    }
     let mut adapters = enumerate().await;
     adapters.retain(|adapter| choice.accepts(kind(adapter)) && is_complete(adapter));
     adapters.into_iter().min_by_key(kind).ok_or_else(|| none(choice))
+}
+
+/// False if this machine has no graphics card for sure: drivers need not be opened to find none then, which takes
+/// time and makes them complain. On Linux cards have device nodes, lent ones too (`dxg` is that of Windows' own
+/// virtual machines); elsewhere the drivers have to be asked.
+#[cfg(not(target_arch = "wasm32"))]
+fn may_have_card() -> bool {
+    let is_node = |entry: std::io::Result<std::fs::DirEntry>| {
+        entry.is_ok_and(|entry| is_node_of_card(&entry.file_name().to_string_lossy()))
+    };
+    let has_node = |folder| std::fs::read_dir(folder).is_ok_and(|mut all| all.any(is_node));
+    let is_told = cfg!(target_os = "linux") && std::fs::read_dir("/dev").is_ok();
+    !is_told || ["/dev", "/dev/dri"].into_iter().any(has_node)
+}
+
+/// True for the names of device nodes that drivers of cards open.
+#[cfg(not(target_arch = "wasm32"))]
+fn is_node_of_card(name: &str) -> bool {
+    const STARTS: [&str; 6] = ["renderD", "card", "nvidia", "dxg", "mali", "kgsl"];
+    STARTS.iter().any(|start| name.starts_with(start))
 }
 
 /// The adapter the browser thinks the fastest: it tells nobody what there is.
@@ -180,6 +203,16 @@ mod tests {
         assert_eq!(real, [Virtual, Integrated, Discrete]);
         assert!(Choice::Any.accepts(Software) && Choice::Any.accepts(Other));
         assert_eq!([Software, Virtual, Other, Discrete].into_iter().min(), Some(Discrete));
+    }
+
+    #[test]
+    fn nodes_of_cards_are_known() {
+        for name in ["renderD128", "card0", "nvidia0", "nvidiactl", "dxg", "mali0", "kgsl-3d0"] {
+            assert!(is_node_of_card(name), "{name}");
+        }
+        for name in ["null", "zero", "dri", "tty", "fb0", "kvm", "vda"] {
+            assert!(!is_node_of_card(name), "{name}");
+        }
     }
 
     #[test]

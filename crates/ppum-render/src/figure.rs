@@ -177,8 +177,7 @@ impl<'a> Sheet<'a> {
         let [columns, rows] = picture.image.size.map(f64::from);
         let [x, y] = axes(picture, labels, cracks, scale);
         let most = (rows / (TICK_DISTANCE[1] * scale)) as usize;
-        let bar_ticks = ticks::bar(&picture.normalization, most.max(2));
-        let bar = Axis::new(bar_ticks, &labels.quantity, &labels.unit, scale);
+        let bar = bar(picture, labels, most.max(2), scale);
 
         // The group of picture, labels and bar is centred on the page as one.
         let title_height =
@@ -350,6 +349,18 @@ impl<'a> Sheet<'a> {
         let (least, most) = (half + GAP, f64::from(self.size[1]) - half - GAP);
         let middle = (0.5 * (self.plot_min[1] + self.plot_max[1])).min(most).max(least);
         text::draw_upwards(ink, &label, size, vec2(base, middle));
+    }
+}
+
+/// The colour bar; where one value alone is seen it says so.
+fn bar(picture: &Picture, labels: &Labels, most: usize, scale: f64) -> Axis {
+    let (norm, Labels { quantity, unit, .. }) = (&picture.normalization, labels);
+    match picture.one_value {
+        Some(value) => {
+            let name = format!("{quantity}, one value").trim_start_matches(", ").to_owned();
+            Axis::new(ticks::of_one_value(norm, value), &name, unit, scale)
+        }
+        None => Axis::new(ticks::bar(norm, most), quantity, unit, scale),
     }
 }
 

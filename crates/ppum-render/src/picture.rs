@@ -53,6 +53,8 @@ pub struct Picture {
     pub normalization: Normalization,
     /// The colours.
     pub colormap: Colormap,
+    /// The one value that is seen, if there is no other but for rounding.
+    pub one_value: Option<f64>,
     /// True if some value lies below the range.
     pub has_below: bool,
     /// True if some value lies above the range; an infinite one always does.
@@ -96,6 +98,7 @@ impl Picture {
             view: *view,
             normalization: norm,
             colormap: colormap.clone(),
+            one_value: raster.one_value(),
             has_below,
             has_above,
         })

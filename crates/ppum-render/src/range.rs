@@ -9,7 +9,7 @@
 //!
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range with zero inside is made symmetric;
-//! - a constant c gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
+//! - one value c everywhere, but for rounding, gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
 //!   logarithmic scale 0.1 to 1).
 
 use std::fmt;
@@ -110,6 +110,9 @@ const LARGEST: f64 = f64::MAX / 4.0;
 
 fn automatic<T: Sample>(scale: Scale, symmetric: bool, raster: &Raster<T>) -> (f64, f64) {
     let log = scale == Scale::Log;
+    if let Some(value) = raster.one_value().filter(|v| !log || *v > 0.0) {
+        return around(value);
+    }
     let values = raster.values.iter().map(|&v| v.into()).filter(|v: &f64| v.is_finite());
     let mut values: Vec<f64> =
         values.filter(|v| !log || *v > 0.0).map(|v| v.clamp(-LARGEST, LARGEST)).collect();
@@ -147,9 +150,12 @@ fn around_constant(min: f64, max: f64) -> Option<(f64, f64)> {
     if max - min > 4.0 * f64::EPSILON * size && max - min >= f64::MIN_POSITIVE {
         return None;
     }
-    let middle = 0.5 * (min + max);
-    let half = if size < f64::MIN_POSITIVE { 0.5 } else { 0.5 * size };
-    Some((middle - half, middle + half))
+    Some(around(0.5 * (min + max)))
+}
+
+fn around(value: f64) -> (f64, f64) {
+    let half = if value.abs() < f64::MIN_POSITIVE { 0.5 } else { 0.5 * value.abs() };
+    (value - half, value + half)
 }
 
 #[cfg(test)]
@@ -223,6 +229,20 @@ mod tests {
         let (min, max) = bounds(Scale::Linear, &list(&[-f64::MAX, f64::MAX]));
         assert!(min < -1e307 && max > 1e307);
         assert!(bounds(Scale::Linear, &Raster::new([0, 0], vec![])) == (0.0, 1.0));
+    }
+
+    /// What a linear system leaves of a constant is no picture of its own.
+    #[test]
+    fn rounding_of_a_constant_is_not_spread_over_the_colours() {
+        let noisy: Vec<f64> = (0..1000).map(|k| 4.0 + 1e-13 * f64::from(k % 7)).collect();
+        for scale in [Scale::Linear, Scale::Log, Scale::SymLog] {
+            let (min, max) = bounds(scale, &list(&noisy));
+            assert!((min - 2.0).abs() < 1e-11 && (max - 6.0).abs() < 1e-11, "{min} {max}");
+        }
+        // a peak is not lost
+        let mut peak = vec![4.0; 1000];
+        peak[7] = 5.0;
+        assert_eq!(list(&peak).one_value(), None);
     }
 
     #[test]

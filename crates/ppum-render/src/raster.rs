@@ -9,6 +9,10 @@ use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
 pub trait Sample: Scalar + Into<f64> {
+    /// Relative difference up to which values count as one: some roundings, and of f64 the rounding of a linear
+    /// system too, since a field that is constant but for that should look so.
+    const SAME: f64;
+
     /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the renderer's
     /// kernels are compiled once, here, and not in every crate that draws.
     ///
@@ -79,6 +83,14 @@ impl<T: Sample> Raster<T> {
         &self.values[row as usize * columns..][..columns]
     }
 
+    /// The value that all pixels of a value have, but for rounding; none if they differ or are infinite.
+    #[must_use]
+    pub fn one_value(&self) -> Option<f64> {
+        let Statistics { finite, infinite, min, max, .. } = self.statistics();
+        let same = max - min <= T::SAME * min.abs().max(max.abs());
+        (finite > 0 && infinite == 0 && same).then_some(0.5 * min + 0.5 * max)
+    }
+
     /// Counts, extremes and mean.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
@@ -115,6 +127,20 @@ mod tests {
         let found = Raster::new([2, 1], vec![f32::NAN; 2]).statistics();
         assert_eq!((found.finite, found.undefined), (0, 2));
         assert!(found.min > found.max && found.mean.is_nan());
+    }
+
+    #[test]
+    fn one_value_but_for_rounding() {
+        let of = |values: Vec<f64>| Raster::new([values.len() as u32, 1], values).one_value();
+        assert_eq!(of(vec![3.0, 3.0, f64::NAN]), Some(3.0));
+        assert_eq!(of(vec![0.0, -0.0]), Some(0.0));
+        assert_eq!(of(vec![-1e-20; 2]), Some(-1e-20));
+        assert!(of(vec![1.0, 1.0 + 1e-13]).is_some() && of(vec![1.0, 1.0 + 1e-11]).is_none());
+        for other in [vec![f64::NAN], vec![], vec![1.0, f64::INFINITY], vec![-1e-20, 1e-20]] {
+            assert_eq!(of(other.clone()), None, "{other:?}");
+        }
+        let narrow = |apart: f32| Raster::new([2, 1], vec![1.0, 1.0 + apart]).one_value();
+        assert!(narrow(4e-7).is_some() && narrow(1e-5).is_none());
     }
 
     #[test]

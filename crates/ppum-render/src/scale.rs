@@ -16,6 +16,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use ppum::text::hint;
+
 /// How values spread over the colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
@@ -30,7 +32,7 @@ pub enum Scale {
 
 /// A word that names no scale.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("'{0}' is no scale; write linear, log or symlog")]
+#[error("'{0}' is no scale{hint}; write linear, log or symlog", hint = hint(.0, ["linear", "log", "symlog"]))]
 pub struct UnknownScale(String);
 
 impl FromStr for Scale {

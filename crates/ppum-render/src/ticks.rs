@@ -4,6 +4,8 @@
 //! digits are all alike ("x − 0.5"), and in units of a power of ten where they are tiny or huge.
 //! Ticks are integer multiples of 1, 2 or 5 × 10^k, so labels are exact decimals.
 
+use ppum::text::trimmed;
+
 use crate::scale::{Normalization, Scale};
 
 /// A labelled mark.
@@ -88,6 +90,14 @@ pub fn bar(norm: &Normalization, most: usize) -> Ticks {
         Scale::SymLog => symlog(norm, most),
     };
     if ticks.major.len() < 2 { evenly(norm, most) } else { ticks }
+}
+
+/// The tick of a value that is alone; none if it lies outside the range.
+#[must_use]
+pub fn of_one_value(norm: &Normalization, value: f64) -> Ticks {
+    let tick = Tick { at: norm.position(value), label: trimmed(value).replace('-', "−") };
+    let is_seen = (norm.min()..=norm.max()).contains(&value);
+    Ticks { major: is_seen.then_some(tick).into_iter().collect(), ..Ticks::default() }
 }
 
 /// Even values, wherever the scale puts them.
@@ -332,5 +342,14 @@ mod tests {
         let ticks = bar(&norm(Scale::Linear, 0.5, 0.5 + 1e-9), 5);
         assert_eq!((ticks.reference, ticks.exponent), (0.5, -9));
         assert_eq!(labels(&ticks), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
+    fn one_value_has_one_tick() {
+        let norm = Normalization::new(Scale::Linear, -6.0, -2.0);
+        let ticks = of_one_value(&norm, -4.0);
+        assert_eq!(labels(&ticks), ["−4"]);
+        assert!((ticks.major[0].at - 0.5).abs() < 1e-15 && ticks.minor.is_empty());
+        assert!(of_one_value(&norm, 1.0).major.is_empty(), "outside the range");
     }
 }

@@ -5,6 +5,7 @@ use crate::eigen::{EigenError, SymmetricEigen};
 use crate::pieces::{Piece, Pieces};
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use faer::Mat;
+use ppum::text::{beside, trimmed};
 use ppum::vec2::{Vec2, vec2};
 use std::fmt;
 
@@ -17,7 +18,7 @@ const BALANCE: f64 = 1e-6;
 /// Loads that move a piece of the plate which nothing holds against them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnbalancedError {
-    /// A point of the piece, if the cracks cut the plate into several.
+    /// A point of the piece, if cracks and holes cut the plate into several.
     pub piece: Option<Vec2>,
     /// Force that remains, only components that nothing holds; of a potential the flow.
     pub force: Vec2,
@@ -35,22 +36,24 @@ impl fmt::Display for UnbalancedError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.piece {
             Some(p) => {
+                let [x, y] = [p.x, p.y].map(trimmed);
                 write!(
                     f,
-                    "the cracks cut the plate, and the loads on the piece around ({}, {})",
-                    p.x, p.y
+                    "the plate falls into pieces, and the loads on the piece around ({x}, {y})"
                 )?;
             }
             None => write!(f, "the loads")?,
         }
         write!(f, " do not balance and nothing holds the plate against them: ")?;
-        match self.moment {
-            Some(moment) => write!(
-                f,
-                "a force of ({:.6e}, {:.6e}) and a moment of {moment:.6e} about ({}, {}) remain",
-                self.force.x, self.force.y, self.about.x, self.about.y
-            )?,
-            None => write!(f, "a flow of {:.6e} remains", self.force.x)?,
+        let [fx, fy, x, y] = [self.force.x, self.force.y, self.about.x, self.about.y].map(trimmed);
+        match self.moment.map(trimmed) {
+            Some(moment) => {
+                write!(
+                    f,
+                    "a force of ({fx}, {fy}) and a moment of {moment} about ({x}, {y}) remain"
+                )?;
+            }
+            None => write!(f, "a flow of {fx} remains")?,
         }
         let remedy = match self.moment {
             Some(_) => {
@@ -58,7 +61,7 @@ impl fmt::Display for UnbalancedError {
             }
             None => "give values on an edge of it, or balance the fluxes",
         };
-        write!(f, " of loads of {:.6e} in all; {remedy}", self.magnitude)
+        write!(f, " of loads of {} in all; {remedy}", trimmed(self.magnitude))
     }
 }
 
@@ -146,12 +149,15 @@ impl Balance {
         if self.imbalance(free) <= BALANCE {
             return Ok(());
         }
-        let [x, y, turn] = self.remaining(free);
+        // what is balanced but for rounding is zero
+        let [x, y, turn] = self.remaining(free).map(|part| beside(part, self.magnitude));
+        let RigidMotions { center, size, .. } = self.motions;
+        let shown = |p: Vec2| vec2(beside(p.x, size), beside(p.y, size));
         Err(UnbalancedError {
-            piece,
+            piece: piece.map(shown),
             force: vec2(x, y),
-            moment: (self.motions.count() > 1).then_some(turn * self.motions.size),
-            about: self.motions.center,
+            moment: (self.motions.count() > 1).then_some(turn * size),
+            about: shown(center),
             magnitude: self.magnitude,
         })
     }

@@ -6,8 +6,9 @@
 //! `docs/decisions/0002-stable-basis.md`). Functions transformed at the quadrature points have no
 //! such amplification.
 
+use crate::around::Around;
 use crate::batch::in_batches;
-use crate::eigen::{EigenError, SymmetricEigen};
+use crate::eigen::SymmetricEigen;
 use crate::quadrature::{EdgeRule, Rule};
 use crate::shape::{ShapeEvaluator, Shapes};
 use crate::space::Space;
@@ -33,11 +34,12 @@ impl StableBasis {
     /// The basis of a space, from the Gram matrices of its patches.
     ///
     /// # Errors
-    /// Functions that are not finite.
-    pub(crate) fn new(space: &Space<'_>) -> Result<Self, EigenError> {
+    /// Where functions are not finite.
+    pub(crate) fn new(space: &Space<'_>) -> Result<Self, Around> {
         let grams = grams(space);
         let transform = |(i, Gram { weighted, plain }): (usize, &Gram)| {
             Transform::new(weighted.as_ref(), plain, space.n_polynomials(i), CUT_OFF)
+                .map_err(|_| Around::from(space.partition.support(i)))
         };
         let transforms: Vec<_> =
             grams.par_iter().enumerate().map(transform).collect::<Result<_, _>>()?;
@@ -50,15 +52,12 @@ impl StableBasis {
     /// larger than others. Nothing is cut off.
     ///
     /// # Errors
-    /// Functions that are not finite.
-    pub(crate) fn damp(
-        &mut self,
-        space: &Space<'_>,
-        penalties: &[Penalty],
-    ) -> Result<(), EigenError> {
+    /// Where functions are not finite.
+    pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Around> {
         for (patch, gram) in self.border_grams(space, penalties) {
             let matrix = &mut self.transforms[patch as usize].matrix;
-            let eigen = SymmetricEigen::new(gram.as_ref())?;
+            let eigen = SymmetricEigen::new(gram.as_ref());
+            let eigen = eigen.map_err(|_| space.partition.support(patch as usize))?;
             *matrix = &eigen.vectors * eigen.inverse_root(0.0) * &*matrix;
         }
         Ok(())

@@ -47,9 +47,9 @@ const CONSISTENT: f64 = 1e-6;
 pub enum CholeskyError {
     /// A zero, negative or undefined pivot.
     #[error(
-        "the stiffness matrix is not positive definite: elimination stops at unknown {unknown} of \
-         patch {patch}; hold the plate by displacements if a part of it can move freely; if cracks \
-         leave thin strips of material between them there, use smaller cells"
+        "the solution is not unique there: hold the plate by displacements if a part of it can move freely; if \
+         cracks or holes leave thin strips of material between them, use smaller cells; if functions of \
+         [[enrichment]] depend on each other, leave one out"
     )]
     NotPositiveDefinite {
         /// The patch.
@@ -59,8 +59,7 @@ pub enum CholeskyError {
     },
     /// A right-hand side that is not finite.
     #[error(
-        "the load on patch {patch} is not finite; check the tractions, body forces and prescribed \
-         displacements near it"
+        "the load is not finite there; look at the tractions, body forces and given displacements"
     )]
     LoadNotFinite {
         /// The patch.
@@ -75,6 +74,17 @@ pub enum CholeskyError {
         /// Unknowns of the system.
         unknowns: usize,
     },
+}
+
+impl CholeskyError {
+    /// The patch that it is about.
+    #[must_use]
+    pub fn patch(&self) -> Option<usize> {
+        match *self {
+            Self::NotPositiveDefinite { patch, .. } | Self::LoadNotFinite { patch } => Some(patch),
+            Self::OutOfMemory { .. } => None,
+        }
+    }
 }
 
 /// A solution and how well it solves the system.

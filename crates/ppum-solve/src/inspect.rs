@@ -9,6 +9,7 @@ use ppum::function::{
     FunctionError, FunctionKind, FunctionTable, GROUP, LocalFunctions, Slot, WESTERGAARD,
 };
 use ppum::jet::Jet;
+use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ pub enum InspectError {
     #[error(
         "the enrichment `{name}` is {value} at [{}, {}], with the gradient [{}, {}]; keep its patches \
          away from there, or change the formula so that it is finite",
-        .point.x, .point.y, .gradient.x, .gradient.y
+        trimmed(.point.x), trimmed(.point.y), trimmed(.gradient.x), trimmed(.gradient.y)
     )]
     NotFinite {
         /// Name of the function.
@@ -43,7 +44,7 @@ pub enum InspectError {
     #[error(
         "the enrichment `{name}` has infinite energy around [{}, {}]: the square of its gradient has no \
          integral there; powers of r need a positive exponent",
-        .point.x, .point.y
+        trimmed(.point.x), trimmed(.point.y)
     )]
     Diverges {
         /// Name of the function.

@@ -37,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod around;
 pub mod balance;
 mod basis;
 mod batch;
@@ -64,7 +65,7 @@ mod placed;
 pub mod problem;
 pub mod quadrature;
 mod random;
-mod reaction;
+pub mod reaction;
 mod refine;
 mod rigid;
 pub mod shape;

@@ -9,9 +9,11 @@
 
 use crate::block_matrix::BlockMatrix;
 use crate::cell::{CellFunctions, CellSystem};
-use crate::problem::{BorderPart, Problem};
+use crate::problem::{BorderPart, Edge, Problem};
 use crate::rigid::{MOTIONS, PerMotion, RigidMotions};
 use ppum::dataset::Reaction;
+use ppum::domain::Domain;
+use ppum::vec2::Vec2;
 
 /// The motions that reactions do work on: the moment is about the centre of the box.
 pub(crate) fn motions(problem: &Problem) -> RigidMotions {
@@ -124,6 +126,26 @@ impl Reactions {
     }
 }
 
+/// The middle of a support by the words of its reaction: of an edge or a piece of it, of a circle, of the box
+/// around a polygon. None for words of other programs.
+#[must_use]
+pub fn center(on: &str, domain: &Domain) -> Option<Vec2> {
+    let bounds = &domain.bounds;
+    let on_edge = |name: &str, range: Option<[f64; 2]>| {
+        let edge = Edge::from_name(name)?;
+        let [from, to] = range.unwrap_or(edge.range(bounds));
+        Some(edge.point(bounds, 0.5 * from + 0.5 * to))
+    };
+    match on.split(' ').collect::<Vec<_>>()[..] {
+        [edge] => on_edge(edge, None),
+        [edge, "from", from, "to", to] => {
+            on_edge(edge, Some([from.parse().ok()?, to.parse().ok()?]))
+        }
+        ["hole", hole] => Some(domain.holes.get(hole.parse::<usize>().ok()?)?.bounds().center()),
+        _ => None,
+    }
+}
+
 /// A part of the border as problem files name it.
 fn words(on: BorderPart, problem: &Problem) -> String {
     match on {
@@ -133,5 +155,42 @@ fn words(on: BorderPart, problem: &Problem) -> String {
         BorderPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
         BorderPart::Hole(hole) => format!("hole {hole}"),
         BorderPart::Crack { .. } => on.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::domain::Hole;
+    use ppum::vec2::{Rect, vec2};
+
+    /// The words that reactions are stored with lead back to the place.
+    #[test]
+    fn centres_follow_from_the_words() {
+        let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.1 };
+        let corners = [vec2(2.0, 0.0), vec2(3.0, 0.0), vec2(3.0, 1.0)];
+        let polygon = Hole::Polygon { points: corners.to_vec() };
+        let bounds = Rect::new(vec2(0.0, -1.0), vec2(4.0, 2.0));
+        let domain = Domain { bounds, holes: vec![circle, polygon] };
+        let material = ppum::dataset::Material {
+            young: 1.0,
+            poisson: 0.3,
+            state: ppum::dataset::StressState::PlaneStrain,
+        };
+        let cells = crate::problem::Discretization::new(crate::problem::Cells::Level(1));
+        let problem = Problem::elasticity(domain.clone(), material, cells);
+        let piece = BorderPart::Edge { edge: Edge::Left, from: -0.1 - 0.2, to: 1e-7 };
+        for (part, center) in [
+            (BorderPart::edge(Edge::Top, &bounds), vec2(2.0, 2.0)),
+            (BorderPart::edge(Edge::Left, &bounds), vec2(0.0, 0.5)),
+            (piece, vec2(0.0, 0.5 * (-0.1 - 0.2) + 0.5e-7)),
+            (BorderPart::Hole(0), vec2(0.5, 0.25)),
+            (BorderPart::Hole(1), vec2(2.5, 0.5)),
+        ] {
+            assert_eq!(super::center(&words(part, &problem), &domain), Some(center), "{part}");
+        }
+        for other in ["", "hole 2", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
+            assert_eq!(super::center(other, &domain), None, "{other}");
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! From a problem to a dataset.
 
+use crate::around::Around;
 use crate::balance::{Balance, UnbalancedError};
 use crate::basis::StableBasis;
-use crate::cholesky::Cholesky;
+use crate::cholesky::{Cholesky, CholeskyError};
 use crate::eigen::EigenError;
 pub use crate::estimate::Estimate;
 use crate::estimate::gibibytes;
@@ -71,20 +72,37 @@ pub enum SolveError {
     #[error(transparent)]
     Space(#[from] SpaceError),
     /// Data that are not finite.
-    #[error("the data of the problem are not finite somewhere on the plate or its border ({0})")]
-    Data(#[from] EigenError),
+    #[error(
+        "the data of the problem are not finite, or too large to compute with, {0}: look at the formulas and tables \
+         of the material, the loads and what is given on the border"
+    )]
+    Data(Around),
+    /// The same, nobody knows where.
+    #[error(
+        "the data of the problem are not finite, or too large to compute with: look at the formulas and tables of \
+         the material, the loads and what is given on the border"
+    )]
+    Eigen(#[from] EigenError),
     /// Functions of the local spaces.
     #[error(
-        "a function of the local spaces is not finite at a point of its patches ({0}); look at the \
-         formulas of [[enrichment]]"
+        "a function of the local spaces is not finite, or too large to compute with, {0}; look at the formulas \
+         of [[enrichment]]"
     )]
-    Basis(EigenError),
+    Basis(Around),
     /// Loads without support.
     #[error(transparent)]
     Unbalanced(#[from] UnbalancedError),
+    /// The factorisation, at a place.
+    #[error("{around}: {error}")]
+    Singular {
+        /// Where.
+        around: Around,
+        /// What is wrong there.
+        error: CholeskyError,
+    },
     /// The factorisation.
     #[error(transparent)]
-    Factor(#[from] crate::cholesky::CholeskyError),
+    Factor(#[from] CholeskyError),
     /// A function of the space.
     #[error(transparent)]
     Function(#[from] FunctionError),
@@ -243,10 +261,11 @@ impl<'p> Plan<'p> {
         let (tips, warnings) = judge(&self.dataset, 0, Some(self.problem))?;
         let (rounding, _) = rounding(&self.dataset, 0)?;
         self.clock.lap(Phase::Intensity);
+        let of_quadrature = of_quadrature(unresolved, &self.dataset);
         let step = &mut self.dataset.steps[0];
         step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
         step.warnings = warnings;
-        step.warnings.extend(of_quadrature(unresolved));
+        step.warnings.extend(of_quadrature);
         step.history.push(record("rounding", rounding));
         step.history.extend(self.clock.records);
         Ok(self.dataset)
@@ -346,9 +365,10 @@ impl Solver<'_> {
         let Assembled { basis, pieces, system, gauge } =
             self.assemble(&space, loaded, clock, report)?;
         report(Progress { phase: Phase::Solution, done: 0, total: 1 });
-        let solver = Cholesky::new(&system.matrix)?;
-        let mut solution = solver.solve(&system.load)?;
-        gauge.center(&solver, &system.matrix, &mut solution.unknowns)?;
+        let located = |error| located(error, &space);
+        let solver = Cholesky::new(&system.matrix).map_err(located)?;
+        let mut solution = solver.solve(&system.load).map_err(located)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         clock.lap(Phase::Solution);
         Ok(Solution {
             coefficients: basis.plain(&space, &solution.unknowns, components),
@@ -397,11 +417,12 @@ impl Solver<'_> {
         let total = space.partition.len();
         report(Progress { phase: Phase::Basis, done: 0, total: 1 });
         let mut basis = StableBasis::new(space).map_err(SolveError::Basis)?;
-        let slivers = slivers(self.problem, space, &basis, &law)?;
-        basis.damp(space, &slivers)?;
+        let slivers = slivers(self.problem, space, &basis, &law).map_err(SolveError::Data)?;
+        basis.damp(space, &slivers).map_err(SolveError::Basis)?;
         clock.lap(Phase::Basis);
         let mut tell = |done| report(Progress { phase: Phase::Assembly, done, total });
-        let mut system = assemble(&given, space, &basis, &law, &mut tell)?;
+        let mut system =
+            assemble(&given, space, &basis, &law, &mut tell).map_err(SolveError::Data)?;
         let gauge = Gauge::new(space, &basis, &pieces, &balance, &free, &system.matrix);
         gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
@@ -433,6 +454,16 @@ struct Assembled {
     pieces: Pieces,
     system: System,
     gauge: Gauge,
+}
+
+/// The error at the place of its patch.
+fn located(error: CholeskyError, space: &Space<'_>) -> SolveError {
+    match error.patch() {
+        Some(patch) => {
+            SolveError::Singular { around: space.partition.support(patch).into(), error }
+        }
+        None => SolveError::Factor(error),
+    }
 }
 
 /// The free motions of each piece, after a check that the loads leave them alone.

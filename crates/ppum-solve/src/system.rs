@@ -1,11 +1,11 @@
 //! The whole system in the stable basis, summed over the cells.
 
+use crate::around::Around;
 use crate::basis::StableBasis;
 use crate::batch::in_batches;
 use crate::block_matrix::{BlockMatrix, BlockPattern};
 use crate::border::BorderPiece;
 use crate::cell::{CellAssembler, CellSystem};
-use crate::eigen::EigenError;
 use crate::given::Given;
 use crate::law::Law;
 use crate::problem::{BorderPart, Problem};
@@ -53,13 +53,13 @@ pub(crate) type Penalty = (Vec<EdgeRule>, f64);
 /// The cells with a β so large that the basis should see it.
 ///
 /// # Errors
-/// Data that are not finite.
+/// Where data are not finite.
 pub(crate) fn slivers(
     problem: &Problem,
     space: &Space<'_>,
     basis: &StableBasis,
     law: &Law<'_>,
-) -> Result<Vec<Penalty>, EigenError> {
+) -> Result<Vec<Penalty>, Around> {
     let quadrature = space.quadrature(0);
     let given = Given::supports(problem);
     let mut found = Ok(Vec::new());
@@ -72,12 +72,13 @@ pub(crate) fn slivers(
                 return Ok(None);
             }
             let rules = space.rules(&quadrature, cell);
-            let part = assembler.assemble(cell, &rules, None, &on_border)?;
+            let part = assembler.assemble(cell, &rules, None, &on_border);
+            let part = part.map_err(|_| space.partition.cell[cell])?;
             let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
             let is_large = part.penalty * width(&space.partition.cell[cell]) > SLIVER;
             Ok(is_large.then_some((rules, part.penalty)))
         },
-        |_, part: Result<Option<Penalty>, EigenError>| match (&mut found, part) {
+        |_, part: Result<Option<Penalty>, Around>| match (&mut found, part) {
             (Ok(all), Ok(part)) => all.extend(part),
             (Ok(_), Err(error)) => found = Err(error),
             (Err(_), _) => {}
@@ -93,14 +94,14 @@ fn width(cell: &Rect) -> f64 {
 /// Assembles the system of what is given on a space. `progress` is told the cells that are done.
 ///
 /// # Errors
-/// Data that are not finite.
+/// Where data are not finite.
 pub(crate) fn assemble(
     given: &Given<'_>,
     space: &Space<'_>,
     basis: &StableBasis,
     law: &Law<'_>,
     progress: &mut dyn FnMut(usize),
-) -> Result<System, EigenError> {
+) -> Result<System, Around> {
     let quadrature = space.quadrature(0);
     let mut system = System::new(space, basis, law.components);
     system.unresolved = given.unresolved();
@@ -127,7 +128,7 @@ pub(crate) fn assemble(
                     system.add(&part, law.components);
                     system.reactions.push(part);
                 }
-                Err(error) => failed = failed.or(Some(error)),
+                Err(_) => failed = failed.or(Some(space.partition.cell[cell].into())),
             }
             progress(cell + 1);
         },

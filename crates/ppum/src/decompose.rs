@@ -14,6 +14,7 @@ use std::str::FromStr;
 
 use crate::dataset::FieldData;
 use crate::function::{Frame, Function, FunctionKind};
+use crate::text::hint;
 
 /// What part of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,11 +61,23 @@ pub enum PartError {
 /// A text that names no [`Part`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "there is no part `{0}`; there are smooth, jump, tip, other, and patch:N with the number of a patch"
+    "there is no part `{0}`{hint}; there are smooth, jump, tip, other, and patch:N with the number of a patch",
+    hint = hint(.0, KINDS.map(Part::name))
 )]
 pub struct UnknownPart(String);
 
 impl Part {
+    /// The word for it; that for a patch is followed by the patch's number.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Smooth => "smooth",
+            Self::Jump => "jump",
+            Self::Tip => "tip",
+            Self::Other => "other",
+            Self::Patch(_) => "patch",
+        }
+    }
+
     /// The kind of the blocks of a function.
     #[must_use]
     pub fn of(function: &FunctionKind) -> Self {
@@ -132,11 +145,8 @@ impl FieldData {
 impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Smooth => f.write_str("smooth"),
-            Self::Jump => f.write_str("jump"),
-            Self::Tip => f.write_str("tip"),
-            Self::Other => f.write_str("other"),
             Self::Patch(patch) => write!(f, "patch:{patch}"),
+            kind => f.write_str(kind.name()),
         }
     }
 }

@@ -15,6 +15,7 @@
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
 //! - [`printable`](mod@printable) is how texts of files may be shown.
+//! - [`text`] writes numbers and places for people, and finds the words that they meant.
 //!
 //! No files, no threads, no graphics.
 //!
@@ -220,5 +221,6 @@ pub mod quantity;
 mod random;
 pub mod real;
 pub mod replace;
+pub mod text;
 pub mod vec2;
 pub mod weight;

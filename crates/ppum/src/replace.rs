@@ -9,6 +9,7 @@ use std::sync::Arc;
 use crate::dataset::Step;
 use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
+use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
 
 /// What cannot take a function's or the weight's place.
@@ -16,10 +17,12 @@ use crate::weight::{WeightError, WeightFunction};
 #[non_exhaustive]
 pub enum ReplaceError {
     /// No such function.
-    #[error("there is no function `{which}`; there are {known}, or their numbers from 0")]
+    #[error("there is no function `{which}`{hint}; there are {known}, or their numbers from 0")]
     Unknown {
         /// The name or number asked for.
         which: String,
+        /// What was meant, if it is like one that is known, see [`hint`].
+        hint: String,
         /// Names of all functions.
         known: String,
     },
@@ -69,9 +72,10 @@ impl Step {
         let indices = self.functions_called(which);
         if indices.is_empty() {
             let stems: BTreeSet<_> = self.functions.iter().map(Function::stem).collect();
+            let (which, hint) = (which.to_owned(), hint(which, stems.iter().copied()));
             let known = stems.into_iter().map(|stem| format!("`{stem}`")).collect::<Vec<_>>();
             let known = known.join(", ");
-            return Err(ReplaceError::Unknown { which: which.to_owned(), known });
+            return Err(ReplaceError::Unknown { which, hint, known });
         }
         for &index in &indices {
             let parameters = self.functions[index].kind.parameters();

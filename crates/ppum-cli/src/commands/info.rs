@@ -2,8 +2,8 @@
 
 mod adapters;
 mod formulas;
-mod reactions;
-mod report;
+pub(super) mod reactions;
+pub(super) mod report;
 mod text;
 
 use std::io::Write;
@@ -19,7 +19,7 @@ use crate::number::json;
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("subject").required(true).args(["file", "gpu"])))]
 pub(crate) struct Args {
-    /// Dataset
+    /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: Option<PathBuf>,
     /// List the graphics adapters of this machine

@@ -22,7 +22,7 @@ use crate::sides::{on_crack, seen};
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset
+    /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
     /// Point; may be given more than once
@@ -150,8 +150,11 @@ impl Row {
         let longest = self.values.0.iter().map(|(name, _)| name.chars().count()).max();
         let width = longest.unwrap_or(0).clamp(NAME, LONG_NAME);
         for (name, value) in &self.values.0 {
-            let sign = if value.0.is_sign_negative() { "" } else { " " };
-            writeln!(out, "  {name:width$} {sign}{:?}", value.0)?;
+            match value.0 {
+                v if v.is_nan() => writeln!(out, "  {name:width$}  nan (not defined here)")?,
+                v if v.is_sign_negative() => writeln!(out, "  {name:width$} {v:?}")?,
+                v => writeln!(out, "  {name:width$}  {v:?}")?,
+            }
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
+use ppum::text::{apart, trimmed};
 use ppum_render::colormap::{Colormap, LONGEST, NAMES};
 use ppum_render::figure::{Labels, figure, plot_area};
 use ppum_render::image::Image;
@@ -24,9 +25,11 @@ use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
 use crate::dataset::{field, open, quantity};
 use crate::given;
-use crate::number::trimmed;
+use crate::output::{Output, tell};
 use crate::replacements::Replacements;
+use crate::standard::{self, is_standard};
 use crate::target;
+use crate::undefined;
 use window::{Frame, Window};
 
 /// Draw a quantity, exactly at every pixel
@@ -36,10 +39,10 @@ use window::{Frame, Window};
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset
+    /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Picture to write
+    /// Picture to write, - for standard output
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
     /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one [default: von-mises;
@@ -106,7 +109,7 @@ enum Overlay {
 const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
         let mut dataset = open(&self.file)?;
@@ -122,22 +125,29 @@ impl Args {
             "the view shows nothing of the domain; `ppum info` says where that is"
         );
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { mut picture, by } = self.engine.draw(job)?;
+        let Drawn { mut picture, by, undefined, is_finite } = self.engine.draw(job)?;
         let title = self.replacements.title(&dataset.title);
         let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
-        let file = self.file.file_name().unwrap_or_default().to_string_lossy();
-        let mut texts = picture.description(&dataset.title, &file, &name);
+        let mut texts = picture.description(&dataset.title, &self.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
         let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
-        target::save(&self.output, |out| out.write_all(&bytes))?;
         let [columns, rows] = image.size;
-        let [from, to] = [picture.normalization.min(), picture.normalization.max()].map(trimmed);
         let target = self.output.display();
-        writeln!(
-            out,
-            "wrote {target}: {name}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
-        )?;
+        let told = format!(
+            "wrote {target}: {name}, {columns}x{rows} pixels, {}, {by}",
+            colours(&picture, is_finite)
+        );
+        if undefined[0] > 0 {
+            tell(&format!("warning: {}", undefined::message(&name, undefined, "pixels")));
+        }
+        if is_standard(&self.output) {
+            out.exact().write_all(&bytes)?;
+            tell(&told.replacen("wrote -", "wrote standard output", 1));
+        } else {
+            target::save(&self.output, |out| out.write_all(&bytes))?;
+            writeln!(out, "{told}")?;
+        }
         Ok(())
     }
 
@@ -146,6 +156,14 @@ impl Args {
         let files = [self.file.as_path(), Path::new(&self.colormap)];
         let formula = self.quantity.as_deref().and_then(given::file);
         files.into_iter().chain(formula).chain(self.replacements.files())
+    }
+
+    /// What the picture calls the dataset.
+    fn file_name(&self) -> String {
+        match self.file.file_name() {
+            Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
+            _ => standard::name(&self.file),
+        }
     }
 
     fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
@@ -180,6 +198,19 @@ impl Args {
             overlay::cracks(&mut picture.image, &view, &field.step.cracks);
         }
         Ok(picture.image.clone())
+    }
+}
+
+/// What the colours stand for.
+fn colours(picture: &Picture, is_finite: bool) -> String {
+    let norm = &picture.normalization;
+    match picture.one_value {
+        _ if !is_finite => "no finite values".into(),
+        Some(value) => format!("one value, {}", trimmed(value)),
+        None => {
+            let [from, to] = apart(norm.min(), norm.max());
+            format!("colours from {from} to {to}")
+        }
     }
 }
 

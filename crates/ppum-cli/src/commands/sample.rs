@@ -15,9 +15,11 @@ use ppum::vec2::Rect;
 use crate::arguments::{corners, ends, size};
 use crate::dataset::{field, open, quantities};
 use crate::given::{self, parts};
-use crate::output::Output;
+use crate::output::{Output, tell};
 use crate::replacements::Replacements;
+use crate::standard::is_standard;
 use crate::target;
+use crate::undefined;
 use places::{Place, evaluate};
 use table::{Column, Table};
 
@@ -29,14 +31,14 @@ use table::{Column, Table};
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]
 pub(crate) struct Args {
-    /// Dataset
+    /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
     /// Along the line between two points
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = ends)]
     #[arg(group = "where")]
     line: Option<[ppum::vec2::Vec2; 2]>,
-    /// At the points of a text file: a line with x and y for each
+    /// At the points of a text file, - for standard input: a line with x and y for each
     #[arg(long, value_name = "P.csv", group = "where")]
     points: Option<PathBuf>,
     /// On a grid of columns and rows of points, borders included
@@ -61,7 +63,7 @@ pub(crate) struct Args {
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
-    /// File to write, .csv or .npy [default: CSV to standard output]
+    /// File to write, .csv or .npy; - for CSV to standard output [default: -]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
 }
@@ -90,7 +92,7 @@ impl Args {
         let quantities = quantities(&field, &self.quantity)?;
         let table = self.table(&field, &quantities)?;
         table.check_names()?;
-        match &self.output {
+        match self.output.as_deref().filter(|path| !is_standard(path)) {
             Some(path) => {
                 table.save(path)?;
                 writeln!(out, "wrote {}: {}", path.display(), table.summary())?;
@@ -138,6 +140,7 @@ impl Args {
 /// A row for each place: position, side, quantities.
 fn listed(field: &Field<'_>, quantities: &[(String, Quantity)], places: &[Place]) -> Table {
     let values = evaluate(field, quantities, places);
+    tell_undefined(field, quantities, places, &values);
     let of = |(name, quantity): &(String, Quantity)| Column::new(name, quantity.unit(field));
     let head = ["x", "y", "side"].map(|name| Column::new(name, ""));
     let columns = head.into_iter().chain(quantities.iter().map(of)).collect();
@@ -147,4 +150,23 @@ fn listed(field: &Field<'_>, quantities: &[(String, Quantity)], places: &[Place]
         rows.extend(values);
     }
     Table::new(columns, rows)
+}
+
+/// Tells which quantities have no value at places of the plate.
+fn tell_undefined(
+    field: &Field<'_>,
+    quantities: &[(String, Quantity)],
+    places: &[Place],
+    values: &[f64],
+) {
+    let width = quantities.len();
+    let is_inside = |k: usize| field.domain.at(places[k].anchor).contains(places[k].offset);
+    for (column, (name, _)) in quantities.iter().enumerate() {
+        let is_undefined = |k: &usize| values[k * width + column].is_nan() && is_inside(*k);
+        let count = (0..places.len()).filter(is_undefined).count();
+        if count > 0 {
+            let inside = (0..places.len()).filter(|&k| is_inside(k)).count();
+            tell(&format!("warning: {}", undefined::message(name, [count, inside], "points")));
+        }
+    }
 }

@@ -3,29 +3,33 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::bail;
-use ppum::crack::{TipId, tips};
+use anyhow::{bail, ensure};
+use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::judge;
+use ppum_solve::warnings::{judge, kind};
 use serde::Serialize;
 
 use crate::dataset::open;
-use crate::number::json;
-use crate::tips::{Tip, table};
+use crate::number::{json, places};
+use crate::standard;
+use crate::tips::{Tip, all_tips, table};
 use crate::warnings::{WarningRow, rows, warn};
 
 /// Print the stress intensity factors of all crack tips
 ///
-/// They are computed from the stored field, by the interaction integral at three radii; `spread` is
-/// the largest relative difference of the three: a check that they agree, no estimate of the error.
+/// They are those that the solver has stored, found by the interaction integral at three radii; `spread` is the
+/// largest relative difference of the three: a check that they agree, no estimate of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset of a problem of elasticity
+    /// Dataset of a problem of elasticity, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
+    /// Compute them from the stored field, and all warnings
+    #[arg(long)]
+    recompute: bool,
     /// Print JSON, see docs/cli.md
     #[arg(long)]
     json: bool,
@@ -34,6 +38,7 @@ pub(crate) struct Args {
 const EXAMPLES: &str = "\
 Examples:
   ppum sif plate.h5
+  ppum sif plate.h5 --recompute
   ppum sif plate.h5 --json | jq '.tips[] | [.k1, .k2]'";
 
 #[derive(Debug, Serialize)]
@@ -46,42 +51,61 @@ struct Report {
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let dataset = open(&self.file)?;
-        let file = self.file.display().to_string();
+        let name = standard::name(&self.file);
         if dataset.equation.elastic().is_none() {
             bail!(
-                "{file}: a Poisson problem has no stress intensity factors; solve one of elasticity"
+                "{name}: a Poisson problem has no stress intensity factors; solve one of elasticity"
             );
         }
-        let report = Report::new(file, &dataset)?;
+        let (tips, warnings) =
+            if self.recompute { recomputed(&name, &dataset)? } else { stored(&name, &dataset)? };
+        let report = Report { file: self.file.display().to_string(), tips, warnings };
         warn(&report.warnings);
         if self.json {
             json(out, &report)?;
         } else if report.tips.is_empty() {
-            writeln!(out, "{}: no crack tips, so no stress intensity factors", report.file)?;
+            writeln!(out, "{name}: no crack tips, so no stress intensity factors")?;
         } else {
-            table(out, &report.tips)?;
+            table(out, &report.tips, &places(&dataset))?;
         }
         Ok(())
     }
 }
 
-impl Report {
-    fn new(file: String, dataset: &Dataset) -> anyhow::Result<Self> {
-        let problem = Problem::of_dataset(dataset);
-        let (mut tips, mut warnings) = (Vec::new(), Vec::new());
-        for (index, step) in dataset.steps.iter().enumerate() {
-            let (found, remarks) = match &problem {
-                Ok(problem) if problem.as_ref().is_none_or(|p| p.cracks == step.cracks) => {
-                    computed(dataset, index, problem.as_ref())?
-                }
-                // What the solver found while it knew the loads.
-                _ => stored(&file, index, step)?,
-            };
-            tips.extend(found);
-            warnings.extend(rows(index, &remarks));
-        }
-        Ok(Self { file, tips, warnings })
+/// The tips of all steps, and the warnings.
+type Found = (Vec<Tip>, Vec<WarningRow>);
+
+/// What the solver stored.
+fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
+    let (mut all, mut warnings) = (Vec::new(), Vec::new());
+    for (index, step) in dataset.steps.iter().enumerate() {
+        let is_told = step.warnings.iter().any(|warning| warning.kind == kind::NO_ROOM);
+        let is_stored = !step.intensities.is_empty() || is_told || tips(&step.cracks).count() == 0;
+        ensure!(
+            is_stored,
+            "{name}: holds no stress intensity factors; --recompute finds them from the field"
+        );
+        all.extend(all_tips(index, step));
+        warnings.extend(rows(index, &step.warnings));
     }
+    Ok((all, warnings))
+}
+
+/// What the field says; what the solver stored where the loads near the tips are not known.
+fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
+    let problem = Problem::of_dataset(dataset);
+    let (mut tips, mut warnings) = (Vec::new(), Vec::new());
+    for (index, step) in dataset.steps.iter().enumerate() {
+        let (found, remarks) = match &problem {
+            Ok(problem) if problem.as_ref().is_none_or(|p| p.cracks == step.cracks) => {
+                computed(dataset, index, problem.as_ref())?
+            }
+            _ => unknown(name, index, step)?,
+        };
+        tips.extend(found);
+        warnings.extend(rows(index, &remarks));
+    }
+    Ok((tips, warnings))
 }
 
 /// The interaction integrals over the field of a step.
@@ -99,14 +123,9 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
-/// What the solver stored in a step.
-fn stored(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let found = |tip: TipId| step.intensities.iter().find(|known| known.tip == tip);
-    let tip = |tip: TipId| match found(tip) {
-        Some(factors) => Tip::new(index, step, factors),
-        None => Tip::without_factors(index, step, tip),
-    };
-    let tips: Vec<Tip> = tips(&step.cracks).map(tip).collect();
+/// What is known of a step whose loads are not.
+fn unknown(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
+    let tips = all_tips(index, step);
     if step.intensities.is_empty() && !tips.is_empty() {
         bail!(
             "{file}: the stored problem cannot be read, so the loads near the tips are not known, and \

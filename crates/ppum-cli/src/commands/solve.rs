@@ -2,32 +2,36 @@
 
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use ppum::dataset::{Dataset, Record, Step};
-use ppum::formula::one_line;
-use ppum::weight::WeightFunction;
+use anyhow::{Context as _, ensure};
+use ppum::dataset::{Dataset, Record};
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::Plan;
+use serde::Serialize;
 
+use super::info::reactions::{self, ReactionRow};
+use super::info::report::{HistoryRow, history_row};
 use crate::arguments::positive;
-use crate::families::{Family, blocks, families};
 use crate::memory;
-use crate::number::trimmed;
+use crate::number::{Number, count, json, places};
+use crate::output::Output;
 use crate::progress::Bar;
+use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
-use crate::tips::{Tip, table};
-use crate::warnings::{rows, warn};
+use crate::tips::{Tip, all_tips, table};
+use crate::warnings::{WarningRow, rows, warn};
 
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Problem file (TOML), see docs/problem-file.md
+    /// Problem file (TOML), see docs/problem-file.md; - for standard input
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
-    /// Dataset to write [default: beside the problem file, with the extension .h5]
+    /// Dataset to write, - for standard output [default: beside the problem file, with the extension
+    /// .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     /// Find everything that would be refused, tell what the solution takes, and stop there
@@ -36,6 +40,9 @@ pub(crate) struct Args {
     /// Memory that may be used, in GiB [default: what is free]
     #[arg(long, value_name = "GIB", value_parser = positive)]
     memory: Option<f64>,
+    /// Print JSON, see docs/cli.md
+    #[arg(long, conflicts_with = "check")]
+    json: bool,
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = threads::number)]
     threads: Option<NonZeroUsize>,
@@ -45,17 +52,23 @@ const EXAMPLES: &str = "\
 Examples:
   ppum solve plate.toml                      writes plate.h5
   ppum solve plate.toml -o results/fine.h5
-  ppum solve plate.toml --check              reports every mistake in the file";
+  ppum solve plate.toml --check              reports every mistake in the file
+  ppum solve plate.toml --json | jq '.tips[] | [.k1, .k2]'
+  sed 's/level = 4/level = 5/' plate.toml | ppum solve - -o fine.h5";
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let problem = Problem::read(&self.problem)?;
-        let target = self.output.clone().unwrap_or_else(|| self.problem.with_extension("h5"));
-        let inputs = [&self.problem].into_iter().chain(&problem.files).map(PathBuf::as_path);
-        target::check(&target, target::Kind::Dataset, inputs)?;
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        let problem = self.problem()?;
+        let target = self.target();
+        if let Some(target) = &target {
+            self.check_target(target, &problem)?;
+        }
         if self.check {
             return self.tell(out, &problem);
         }
+        let target = target.context(
+            "a problem from standard input has no place for its dataset: give a file with -o",
+        )?;
         let dataset = {
             let bar = Bar::new();
             let mut show = |progress| bar.show(progress);
@@ -67,10 +80,42 @@ impl Args {
             };
             threads::with(self.threads, solve)??
         };
+        let report = Report::new(target.display().to_string(), &dataset);
+        if is_standard(&target) {
+            out.exact().write_all(&ppum_format::to_bytes(&dataset)?)?;
+            return report.write(&mut Output::stderr(), &dataset);
+        }
         ppum_format::write(&dataset, &target)?;
-        summary(out, &dataset)?;
-        writeln!(out, "wrote {}", target.display())?;
-        Ok(())
+        if self.json {
+            warn(&report.warnings);
+            return Ok(json(out, &report)?);
+        }
+        report.write(out, &dataset)
+    }
+
+    /// The problem; files that standard input names are looked for in the working directory.
+    fn problem(&self) -> anyhow::Result<Problem> {
+        if !is_standard(&self.problem) {
+            return Ok(Problem::read(&self.problem)?);
+        }
+        let text = standard::text("the problem")?;
+        Ok(Problem::parse(&text, "standard input", Path::new(""))?)
+    }
+
+    /// Where the dataset is written to; nowhere if nobody says so.
+    fn target(&self) -> Option<PathBuf> {
+        let beside = || self.problem.with_extension("h5");
+        self.output.clone().or_else(|| (!is_standard(&self.problem)).then(beside))
+    }
+
+    /// Refuses now what could not be written after minutes of work.
+    fn check_target(&self, target: &Path, problem: &Problem) -> anyhow::Result<()> {
+        ensure!(
+            !(self.json && is_standard(target)),
+            "--json and `-o -` would both write to standard output; give a file with -o"
+        );
+        let inputs = [&self.problem].into_iter().chain(&problem.files).map(PathBuf::as_path);
+        target::check(target, target::Kind::Dataset, inputs)
     }
 
     /// Does all but solving: what is refused is told now.
@@ -82,7 +127,7 @@ impl Args {
             anyhow::Ok(*plan.estimate())
         };
         let estimate = threads::with(self.threads, checked)??;
-        writeln!(out, "{}: nothing wrong", self.problem.display())?;
+        writeln!(out, "{}: nothing wrong", standard::name(&self.problem))?;
         writeln!(out, "{estimate}")?;
         Ok(())
     }
@@ -93,46 +138,66 @@ impl Args {
     }
 }
 
-fn summary(out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
-    writeln!(out, "{}", dataset.title)?;
-    for (index, step) in dataset.steps.iter().enumerate() {
-        functions(out, step)?;
-        history(out, step)?;
-        let tips: Vec<_> = step.intensities.iter().map(|t| Tip::new(index, step, t)).collect();
-        if !tips.is_empty() {
-            table(out, &tips)?;
+/// What is told of a solution; more of it is in `ppum info`.
+#[derive(Debug, Serialize)]
+struct Report {
+    file: String,
+    title: String,
+    patches: usize,
+    unknowns: usize,
+    energy: Option<Number>,
+    /// Of all phases.
+    seconds: f64,
+    phases: Vec<PhaseRow>,
+    history: Vec<HistoryRow>,
+    tips: Vec<Tip>,
+    reactions: Vec<ReactionRow>,
+    warnings: Vec<WarningRow>,
+}
+
+#[derive(Debug, Serialize)]
+struct PhaseRow {
+    name: String,
+    seconds: f64,
+}
+
+impl Report {
+    /// The solver makes one step with one field.
+    fn new(file: String, dataset: &Dataset) -> Self {
+        let step = &dataset.steps[0];
+        let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
+        let phase = |r: &&Record| PhaseRow { name: r.name.clone(), seconds: r.value };
+        let is_elastic = dataset.equation.elastic().is_some();
+        let energy = numbers.iter().find(|r| r.name == "energy");
+        Self {
+            file,
+            title: dataset.title.clone(),
+            patches: step.partition.len(),
+            unknowns: step.fields[0].coefficients.iter().map(Vec::len).sum(),
+            energy: energy.map(|r| Number(r.value)),
+            seconds: times.iter().map(|r| r.value).sum(),
+            phases: times.iter().map(phase).collect(),
+            history: numbers.into_iter().map(history_row).collect(),
+            tips: if is_elastic { all_tips(0, step) } else { Vec::new() },
+            reactions: reactions::rows(dataset, step),
+            warnings: rows(0, &step.warnings),
         }
-        warn(&rows(index, &step.warnings));
     }
-    Ok(())
-}
 
-/// The functions beside 1 that multiply polynomials, and the weight if it is a formula.
-fn functions(out: &mut dyn Write, step: &Step) -> anyhow::Result<()> {
-    let Some(field) = step.fields.first() else { return Ok(()) };
-    let families = families(&step.functions, &blocks(&step.functions, field));
-    let enriched = families.iter().filter(|family| family.blocks > 0 && family.name != "one");
-    let titles: Vec<_> = enriched.map(Family::title).collect();
-    if !titles.is_empty() {
-        writeln!(out, "functions {}", titles.join(", "))?;
+    /// The same for people, warnings on standard error.
+    fn write(&self, out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
+        let Self { title, patches, unknowns, seconds, .. } = self;
+        let patches = count(*patches, "patch", "patches");
+        writeln!(out, "{title}")?;
+        writeln!(out, "{patches}, {unknowns} unknowns, solved in {seconds:.1} s")?;
+        if !self.tips.is_empty() {
+            table(out, &self.tips, &places(dataset))?;
+        }
+        out.flush()?;
+        warn(&self.warnings);
+        let target = Path::new(&self.file);
+        let name = if is_standard(target) { "standard output" } else { &self.file };
+        writeln!(out, "wrote {name}")?;
+        Ok(())
     }
-    if let WeightFunction::Formula(weight) = &step.partition.weight {
-        writeln!(out, "weight {}", one_line(weight.text()))?;
-    }
-    Ok(())
-}
-
-/// The solver's report: its numbers on one line, its times on another.
-fn history(out: &mut dyn Write, step: &Step) -> anyhow::Result<()> {
-    let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
-    let line = |records: &[&Record]| {
-        let part = |r: &&Record| match r.unit.as_str() {
-            "s" => format!("{} {:.2} s", r.name, r.value),
-            unit => format!("{} {} {unit}", r.name, trimmed(r.value)).trim_end().to_owned(),
-        };
-        records.iter().map(part).collect::<Vec<_>>().join(", ")
-    };
-    writeln!(out, "patches {}, {}", step.partition.len(), line(&numbers))?;
-    writeln!(out, "{}", line(&times))?;
-    Ok(())
 }

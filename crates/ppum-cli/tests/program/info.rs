@@ -101,6 +101,32 @@ fn the_energy_is_told() {
     assert!((energy(LINEAR) - 5.0).abs() < 1e-9);
 }
 
+/// Moments about the middle of each support, whatever holds it: they differ by the moment of the force.
+#[test]
+fn moments_are_told_about_the_supports_too() {
+    let held = "on = { edge = \"bottom\", from = -0.5, to = 1.0 }\ndisplacement = [0.0, 0.0]";
+    let lab = Lab::solved(&CRACKED.replace("on = \"bottom\"\ntraction = [0.0, -1.0]", held));
+    let reaction = &lab.json("info plate.h5")["steps"][0]["reactions"][0];
+    assert_eq!(
+        keys(reaction),
+        ["about", "center", "force", "held", "moment", "moment_about_center", "on"]
+    );
+    assert_eq!(
+        (&reaction["about"], &reaction["center"]),
+        (&json!([0.0, 0.0]), &json!([0.25, -1.0]))
+    );
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let own = number(&reaction["moment_about_center"]);
+    // the load is 2, upwards at x = 0: in equilibrium the support exerts −2, and turns against 2 · 0.25
+    assert!((number(&reaction["force"][1]) + 2.0).abs() < 1e-9, "{reaction}");
+    assert!((own - 0.5).abs() < 1e-9 && number(&reaction["moment"]).abs() < 1e-9, "{reaction}");
+    let text = lab.run("info plate.h5");
+    let line = "force (0, -2.00000), moment 0 about (0, 0), 0.500000 about its middle (0.25, -1)";
+    assert!(text.contains(line), "{text}");
+    let plane = Lab::solved(LINEAR).json("info plate.h5");
+    assert_eq!(plane["steps"][0]["reactions"][0]["center"], json!(null));
+}
+
 #[test]
 fn a_known_solution_adds_the_error() {
     let info = Lab::solved(LINEAR).json("info plate.h5");

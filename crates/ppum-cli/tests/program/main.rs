@@ -10,6 +10,7 @@ mod errors;
 mod files;
 mod formula;
 mod info;
+mod messages;
 mod parts;
 mod printable;
 mod probe;
@@ -20,6 +21,7 @@ mod sample;
 mod shell;
 mod sif;
 mod solve;
+mod streams;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -56,10 +58,8 @@ impl Lab {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ppum"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path());
-        // without it the drivers of Mesa complain on standard error
-        if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
-            command.env("XDG_RUNTIME_DIR", self.folder.path());
-        }
+        // without it the drivers of Mesa complain on standard error: nobody is to hear of that
+        command.env_remove("XDG_RUNTIME_DIR");
         command
     }
 

@@ -12,21 +12,29 @@ fn blocks<const N: usize>(language: &str) -> [&'static str; N] {
     texts.try_into().unwrap_or_else(|all: Vec<_>| panic!("{} blocks of {language}", all.len()))
 }
 
-/// Runs the commands of a block; their arguments have no blanks.
+/// Runs the commands of a block; quotes are around last arguments.
 fn follow(lab: &Lab, block: &str) {
     let lines = block.lines().map(|line| line.split('#').next().unwrap());
-    for command in lines.map(|line| line.strip_prefix("ppum ").unwrap()) {
-        lab.run(&command.replace('"', ""));
+    for command in lines.map(|line| line.strip_prefix("ppum ").unwrap().trim()) {
+        match command.split_once('"') {
+            Some((start, quoted)) => {
+                let (quoted, rest) = quoted.split_once('"').unwrap();
+                let rest = rest.split_whitespace();
+                lab.run_with(start, &[quoted].into_iter().chain(rest).collect::<Vec<_>>());
+            }
+            None => {
+                lab.run(command);
+            }
+        }
     }
 }
 
 #[test]
 fn the_first_problem() {
     let lab = Lab::new();
-    let ([problem, _], [commands, formulas]) = (blocks("toml"), blocks("sh"));
+    let ([problem, _], [commands, _]) = (blocks("toml"), blocks("sh"));
     lab.write("plate.toml", problem);
     follow(&lab, commands);
-    follow(&lab, formulas);
     for name in ["plate.h5", "plate.png", "uy.png"] {
         assert!(lab.path(name).is_file(), "{name}");
     }
@@ -43,17 +51,14 @@ fn the_first_problem() {
     }
 }
 
-/// The part of a problem file that is made of formulas.
 #[test]
 fn functions_are_formulas() {
     let lab = Lab::new();
-    let [problem, formulas] = blocks("toml");
-    let start = problem.split("[material]").next().unwrap();
-    let boundary = &problem[problem.find("[[boundary]]").unwrap()..];
-    let boundary = boundary.split("[discretization]").next().unwrap();
-    lab.write("plate.toml", &[start, boundary, formulas].concat());
-    lab.run("solve plate.toml");
-    let values = lab.json("probe plate.h5 --at 0.5,0.5 -q safety,von-mises");
+    let ([_, problem], [_, commands]) = (blocks("toml"), blocks("sh"));
+    lab.write("materials.toml", problem);
+    follow(&lab, commands);
+    assert!(lab.path("safety.png").is_file());
+    let values = lab.json("probe materials.h5 --at 0.5,0.5 -q safety,von-mises");
     let value = |name: &str| values["points"][0]["values"][name].as_f64().unwrap();
     assert!((value("safety") * value("von-mises") / 240.0 - 1.0).abs() < 1e-14);
 }

@@ -38,16 +38,17 @@ fn a_body_force_is_taken_from_the_problem() {
     let force = "[[boundary]]\non = \"right\"\ntraction = [-10.0, 0.0]\n[body_force]\nvalue = [\"10/2\", 0.0]\n";
     let loaded = CRACKED.replace("[discretization]", &format!("{force}[discretization]"));
     let lab = Lab::solved(&loaded);
-    let computed = &lab.json("sif plate.h5")["tips"];
+    let computed = &lab.json("sif plate.h5 --recompute")["tips"];
     let stored = &lab.json("info plate.h5")["steps"][0]["intensities"];
     assert_eq!(computed, stored);
+    assert_eq!(&lab.json("sif plate.h5")["tips"], stored);
     // the problem's text without the force: what ignoring the force would give
     let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
     dataset.problem = None;
     ppum_format::write(&dataset, &lab.path("forgotten.h5")).unwrap();
     // the integral then depends on the disc, which is remarked on
     let Output { status, stdout, stderr } =
-        lab.command("sif forgotten.h5 --json").output().unwrap();
+        lab.command("sif forgotten.h5 --recompute --json").output().unwrap();
     assert!(
         status.success() && String::from_utf8(stderr).unwrap().contains("no estimate of the error")
     );
@@ -62,12 +63,14 @@ fn a_body_force_is_taken_from_the_problem() {
     // a text that cannot be read any more: what the solver stored
     dataset.problem = Some("written by a later version".into());
     ppum_format::write(&dataset, &lab.path("later.h5")).unwrap();
-    let later = lab.warned("sif later.h5 --json").0;
+    assert_eq!(&lab.json("sif later.h5")["tips"], stored, "they are what was stored");
+    let later = lab.warned("sif later.h5 --recompute --json").0;
     let later = serde_json::from_str::<serde_json::Value>(&later).unwrap();
     assert_eq!((&later["tips"], &later["warnings"][0]["kind"]), (stored, &json!("loads-unknown")));
     dataset.steps[0].intensities.clear();
     ppum_format::write(&dataset, &lab.path("unknown.h5")).unwrap();
-    assert!(lab.fail("sif unknown.h5").contains("solve the problem again"));
+    assert!(lab.fail("sif unknown.h5 --recompute").contains("solve the problem again"));
+    assert!(lab.fail("sif unknown.h5").contains("--recompute"));
 }
 
 #[test]
@@ -85,6 +88,19 @@ fn text_has_a_line_for_each_tip() {
     assert_eq!(text.lines().count(), 4, "{text}");
     assert!(text.contains("no estimate of the error"), "{text}");
     assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
+}
+
+/// Nothing is computed from a dataset unless that is asked for: what it holds is shown, be it wrong.
+#[test]
+fn stored_factors_are_shown() {
+    let lab = Lab::solved(CRACKED);
+    let before = lab.json("sif plate.h5");
+    assert_eq!(before, lab.json("sif plate.h5 --recompute"));
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    dataset.steps[0].intensities[1].k1 = 7.0;
+    ppum_format::write(&dataset, &lab.path("plate.h5")).unwrap();
+    assert_eq!(lab.json("sif plate.h5")["tips"][1]["k1"], json!(7.0));
+    assert_eq!(lab.json("sif plate.h5 --recompute"), before);
 }
 
 /// A tip that cells do not resolve: a line without numbers, and what to do about it.

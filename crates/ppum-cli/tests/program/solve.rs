@@ -1,30 +1,62 @@
-use crate::{CRACKED, LINEAR, Lab, sound, with_formulas};
+use serde_json::json;
+
+use crate::{CRACKED, LINEAR, Lab, keys, sound};
+
+/// Numbers for specialists, which `info` has.
+const JARGON: [&str; 7] = [
+    "crossed twice",
+    "dependent",
+    "nitsche",
+    "free motions",
+    "residual",
+    "cut-off",
+    "quadrature points",
+];
 
 #[test]
-fn tells_unknowns_times_and_intensities() {
+fn tells_what_a_user_wants_to_know() {
     let lab = Lab::new();
     lab.write("plate.toml", CRACKED);
     let told = lab.run("solve plate.toml");
-    for word in ["Small plate", "unknowns", "cut-off", "residual", "assembly", "K_II", "plate.h5"] {
+    let lines: Vec<_> = told.lines().collect();
+    assert_eq!((lines[0], lines[lines.len() - 1]), ("Small plate", "wrote plate.h5"));
+    for word in [" patches, ", " unknowns, solved in ", "K_II", "(-0.5, 0)"] {
         assert!(told.contains(word), "{word}: {told}");
     }
+    assert!(lines.len() <= 7, "{told}");
     assert_eq!(lab.files(), ["plate.h5", "plate.toml"]);
+    let info = lab.run("info plate.h5");
+    for word in JARGON {
+        assert!(!told.contains(word) && info.contains(word), "{word}: {told}");
+    }
     lab.run("solve plate.toml -o other.h5");
     assert_eq!(lab.files(), ["other.h5", "plate.h5", "plate.toml"]);
 }
 
 #[test]
-fn tells_functions_and_weights() {
+fn json_has_the_documented_shape() {
     let lab = Lab::new();
-    lab.write("plate.toml", &with_formulas());
-    let told = lab.run("solve plate.toml");
-    let functions = "functions side of 1 crack, westergaard 1–4 at 2 tips, \
-                     corner 1–2 at [0.5, 0.75], kink along [-1, -0.5] to [1, -0.5]\n";
-    assert!(told.contains(functions), "{told}");
-    assert!(told.contains("weight (1 - t)^2*(1 + 2*t)\n"), "{told}");
-    lab.write("plain.toml", LINEAR);
-    let told = lab.run("solve plain.toml");
-    assert!(!told.contains("functions") && !told.contains("weight"), "{told}");
+    let held = "on = \"bottom\"\ndisplacement = [0.0, 0.0]";
+    lab.write("plate.toml", &CRACKED.replace("on = \"bottom\"\ntraction = [0.0, -1.0]", held));
+    let told = lab.json("solve plate.toml");
+    let expected =
+        "energy file history patches phases reactions seconds tips title unknowns warnings";
+    assert_eq!(keys(&told).join(" "), expected);
+    assert_eq!((&told["file"], &told["title"]), (&json!("plate.h5"), &json!("Small plate")));
+    let step = &lab.json("info plate.h5")["steps"][0];
+    for key in ["energy", "patches", "reactions", "unknowns", "warnings"] {
+        assert_eq!(told[key], step[key], "{key}");
+    }
+    assert_eq!(told["tips"], step["intensities"]);
+    let seconds = told["phases"].as_array().unwrap().iter().map(|p| p["seconds"].as_f64().unwrap());
+    assert!((seconds.sum::<f64>() - told["seconds"].as_f64().unwrap()).abs() < 1e-12);
+    let history = told["history"].as_array().unwrap();
+    assert!(
+        history.iter().all(|r| r["unit"] != "s") && history.iter().any(|r| r["name"] == "residual")
+    );
+    assert!(lab.fail("solve plate.toml --json --check").contains("cannot be used with"));
+    lab.write("plane.toml", LINEAR);
+    assert_eq!(lab.json("solve plane.toml")["tips"], json!([]));
 }
 
 #[test]

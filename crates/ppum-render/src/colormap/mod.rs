@@ -21,6 +21,7 @@ mod stops;
 mod table;
 
 use crate::image::Rgba;
+use ppum::text::hint;
 use space::Space;
 use stops::{Stops, Wrong, wrong};
 
@@ -58,12 +59,10 @@ pub struct Colormap {
 pub enum ColormapError {
     /// No map of that name.
     #[error("no colour map is named '{name}'{}; there are {}, each also reversed with _r",
-        suggestion.map_or(String::new(), |s| format!(" (did you mean {s}?)")), NAMES.join(", "))]
+        hint(name, NAMES), NAMES.join(", "))]
     Unknown {
         /// The name asked for.
         name: String,
-        /// A similar name, if there is one.
-        suggestion: Option<&'static str>,
     },
     /// A file that is not understood.
     #[error("colour map '{name}', {place}: {problem}")]
@@ -97,10 +96,7 @@ impl Colormap {
             "cividis" => (include_str!("../../data/cividis.txt"), BLACK, WHITE),
             "turbo" => (include_str!("../../data/turbo.txt"), GREY, WHITE),
             "coolwarm" => (include_str!("../../data/coolwarm.txt"), CYAN, YELLOW),
-            _ => {
-                let suggestion = similar_name(name);
-                return Err(ColormapError::Unknown { name: name.to_owned(), suggestion });
-            }
+            _ => return Err(ColormapError::Unknown { name: name.to_owned() }),
         };
         let map = Self::from_text(name, table)?;
         Ok(Self { below, above, diverging: name == "coolwarm", ..map })
@@ -202,28 +198,6 @@ fn read(text: &str) -> Result<Stops, Wrong> {
     }
 }
 
-/// The built-in name at most three edits away, the nearest one.
-fn similar_name(name: &str) -> Option<&'static str> {
-    let lower = name.to_lowercase();
-    let near = NAMES.into_iter().map(|known| (edit_distance(&lower, known), known)).min()?;
-    (near.0 <= 3).then_some(near.1)
-}
-
-/// Levenshtein's distance: insertions, deletions and replacements of characters.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod files;
 
@@ -306,7 +280,7 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         let error = Colormap::named("Virdis").unwrap_err().to_string();
-        assert!(error.contains("did you mean viridis?"), "{error}");
+        assert!(error.contains("did you mean `viridis`?"), "{error}");
         let error = Colormap::named("rainbow").unwrap_err().to_string();
         assert!(!error.contains("did you mean") && error.contains("turbo"), "{error}");
     }

@@ -58,8 +58,10 @@ pub fn render<T: Sample>(
 }
 
 macro_rules! sample {
-    ($t:ty) => {
+    ($t:ty, $same:expr) => {
         impl Sample for $t {
+            const SAME: f64 = $same;
+
             fn render(
                 field: &Field<'_>,
                 view: &View,
@@ -81,8 +83,8 @@ macro_rules! sample {
     };
 }
 
-sample!(f64);
-sample!(f32);
+sample!(f64, 1e-12);
+sample!(f32, 32.0 * f32::EPSILON as f64);
 
 /// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
 /// tip neither underflow nor overflow.

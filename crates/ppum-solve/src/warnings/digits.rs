@@ -4,11 +4,12 @@
 //! whose coefficients are δ_k c_k, |δ_k| ≤ 1 without pattern, is what rounding of the c_k to a part ε adds,
 //! divided by ε. Its gradient over that of the field, times some ε, is the relative rounding error of stresses.
 
-use super::{kind, short, shown, warning};
+use super::{Cutters, kind, short, warning};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Step, Warning};
 use ppum::field::{Field, FieldError};
 use ppum::jet::Jet;
+use ppum::text::Places;
 use ppum::vec2::{Rect, Vec2};
 use rayon::prelude::*;
 
@@ -45,12 +46,20 @@ pub fn rounding(dataset: &Dataset, step: usize) -> Result<(f64, Vec2), FieldErro
 }
 
 /// The warning about a field that few digits are left of.
-pub(super) fn of_digits(dataset: &Dataset, step: usize) -> Result<Option<Warning>, FieldError> {
+pub(super) fn of_digits(
+    dataset: &Dataset,
+    step: usize,
+    places: &Places,
+) -> Result<Option<Warning>, FieldError> {
     let (error, at) = rounding(dataset, step)?;
+    let cause = match Cutters::new(&dataset.steps[step], &dataset.domain) {
+        Cutters::Nothing => "functions of a patch nearly depend on each other".into(),
+        cutters => format!("{} leaves next to nothing of a patch", cutters.name()),
+    };
     let message = format!(
         "near {} coefficients cancel, and stresses are good to {} there in double, not at all in single \
-         precision: a crack or a hole leaves next to nothing of a patch; use linear weights, or other cells",
-        shown(at),
+         precision: {cause}; use linear weights, or other cells",
+        places.show(at),
         short(error)
     );
     Ok((error > FEW_DIGITS).then(|| warning(kind::DIGITS, Some(at), [error, FEW_DIGITS], message)))

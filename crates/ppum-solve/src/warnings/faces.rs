@@ -1,10 +1,11 @@
 //! Warnings about the faces of cracks: whether they open.
 
-use super::{kind, short, shown, warning};
+use super::{kind, short, warning};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::Warning;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::text::Places;
 use ppum::vec2::{Vec2, vec2};
 
 /// Places along a crack at which its opening is looked at.
@@ -14,12 +15,12 @@ const SAMPLES: usize = 96;
 const NOISE: f64 = 5e-3;
 
 /// The warnings about the faces of all cracks of a displacement.
-pub(super) fn of_faces(field: &Field<'_>) -> Vec<Warning> {
+pub(super) fn of_faces(field: &Field<'_>, seats: &Places) -> Vec<Warning> {
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Vec::new();
     }
     let cracks = field.step.cracks.iter().enumerate();
-    cracks.filter_map(|(k, crack)| overlap(field, k, crack)).collect()
+    cracks.filter_map(|(k, crack)| overlap(field, (k, crack), seats)).collect()
 }
 
 /// A place on a crack.
@@ -33,7 +34,7 @@ struct Place {
     strain: f64,
 }
 
-fn overlap(field: &Field<'_>, index: usize, crack: &Crack) -> Option<Warning> {
+fn overlap(field: &Field<'_>, (index, crack): (usize, &Crack), seats: &Places) -> Option<Warning> {
     let places: Vec<Place> = places(crack, index).filter_map(|p| Place::new(field, p)).collect();
     // an opening is small against other jumps, or against what the strain makes of the length
     let jump = places.iter().fold(0.0f64, |m, p| m.max(p.jump));
@@ -47,7 +48,7 @@ fn overlap(field: &Field<'_>, index: usize, crack: &Crack) -> Option<Warning> {
             "crack {index}: its faces overlap on {:.0} % of its length, most at {} by {}: the solution \
              has no meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
             (100.0 * closed as f64 / places.len() as f64).max(1.0),
-            shown(worst.at),
+            seats.show(worst.at),
             short(-worst.opening)
         );
         warning(kind::FACES_OVERLAP, Some(worst.at), [worst.opening, limit], message)

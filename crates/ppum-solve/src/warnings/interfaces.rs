@@ -1,12 +1,13 @@
 //! Warnings about interfaces of materials that the local spaces do not resolve.
 
-use super::{kind, short, shown, warning};
+use super::{kind, short, warning};
 use crate::interfaces::{Cause, Interfaces, Trouble};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Warning};
 use ppum::field::Field;
 use ppum::function::{FunctionKind, WESTERGAARD};
 use ppum::jet::Jet;
+use ppum::text::Places;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::law::Law;
@@ -22,7 +23,7 @@ const LARGE: f64 = 1e-3;
 
 /// The warnings about interfaces: for each cause one, at the worst place, its value the estimated relative error
 /// of the energy.
-pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset) -> Vec<Warning> {
+pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Places) -> Vec<Warning> {
     let interfaces = Interfaces::new(&dataset.equation, &dataset.domain);
     if interfaces.all.is_empty() {
         return Vec::new();
@@ -38,10 +39,10 @@ pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset) -> Vec<Warning
     };
     let all: Vec<_> = (0..partition.len()).filter_map(of_patch).collect();
     let causes = [Cause::Many, Cause::Turn, Cause::Corner, Cause::Border, Cause::Crack];
-    causes.into_iter().filter_map(|cause| of_cause(cause, &all)).collect()
+    causes.into_iter().filter_map(|cause| of_cause(cause, &all, places)).collect()
 }
 
-fn of_cause(cause: Cause, all: &[(Trouble, f64)]) -> Option<Warning> {
+fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<Warning> {
     let such = || all.iter().filter(|(found, _)| found.cause == cause);
     let worst = such().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let value: f64 = such().map(|(_, share)| share).sum();
@@ -50,7 +51,7 @@ fn of_cause(cause: Cause, all: &[(Trouble, f64)]) -> Option<Warning> {
             "{} at {}: the energy is off by about {} of itself, stresses near there by more; use smaller cells \
              there, or an [[enrichment]] with the exponent of the singular field",
             cause.name(),
-            shown(worst.at),
+            places.show(worst.at),
             short(value)
         );
         warning(kind::INTERFACE, Some(worst.at), [value, LARGE], message)

@@ -8,6 +8,7 @@ mod corners;
 mod digits;
 mod faces;
 mod interfaces;
+mod report;
 mod tips;
 
 pub use digits::{FEW_DIGITS, rounding};
@@ -26,7 +27,9 @@ use interfaces::of_interfaces;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::field::{Field, FieldError};
+use ppum::text::{Places, trimmed_to};
 use ppum::vec2::Vec2;
+use report::{Cutters, of_history};
 use tips::of_tips;
 
 /// Relative residual of the linear system above which it is not solved as well as it should be:
@@ -114,14 +117,15 @@ pub fn judge(
         faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
     };
     let tips = intensities(dataset, &field, &space, loads);
-    let mut warnings = of_tips(&tips, &field.step.cracks);
-    warnings.extend(of_faces(&field));
+    let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
+    let mut warnings = of_tips(&tips, &field.step.cracks, &places);
+    warnings.extend(of_faces(&field, &places));
     if let Some((problem, energy)) = problem.zip(recorded(field.step, "energy")) {
-        warnings.extend(of_corners(problem, &field, &space, energy));
+        warnings.extend(of_corners(problem, &field, &space, (energy, &places)));
     }
-    warnings.extend(of_interfaces(&field, dataset));
-    warnings.extend(of_history(field.step));
-    warnings.extend(of_digits(dataset, step)?);
+    warnings.extend(of_interfaces(&field, dataset, &places));
+    warnings.extend(of_history(field.step, &dataset.domain));
+    warnings.extend(of_digits(dataset, step, &places)?);
     warnings.extend(of_locking(&field, &space));
     Ok((tips, warnings))
 }
@@ -136,32 +140,15 @@ fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
     let lost = locking(field, space);
     let message = format!(
         "the plate is nearly incompressible, and polynomials of this order make it too stiff: about {} % of the \
-         energy is error; leave out `order`, or use order = 4 or more, or smaller cells",
+         energy is error; use order = 4 or more (4 is taken if `order` is left out), or smaller cells",
         short((1e4 * lost).round() / 1e2)
     );
     (lost > LARGE_LOCKING).then(|| warning(kind::LOCKING, None, [lost, LARGE_LOCKING], message))
 }
 
-/// The warnings about the solution as a whole, from the solver's report in the step's history.
-fn of_history(step: &Step) -> Vec<Warning> {
-    let value = |name| recorded(step, name);
-    let cut = value("cut-off").zip(value("unknowns")).map_or(0.0, |(cut, all)| cut / all);
-    let or_zero = |name| value(name).unwrap_or(0.0);
-    let rules = [
-        (kind::RESIDUAL, or_zero("residual"), LARGE_RESIDUAL, residual as fn(f64) -> String),
-        (kind::IMBALANCE, or_zero("imbalance"), LARGE_IMBALANCE, imbalance),
-        (kind::CUT_OFF, cut, LARGE_CUT_OFF, cut_off),
-        (kind::NITSCHE, or_zero("nitsche"), LARGE_NITSCHE, nitsche),
-        (kind::CROSSED_TWICE, or_zero("crossed twice"), 0.0, crossed_twice),
-    ];
-    let passed = rules.into_iter().filter(|(_, value, limit, _)| value > limit);
-    passed
-        .map(|(kind, value, limit, message)| warning(kind, None, [value, limit], message(value)))
-        .collect()
-}
-
 /// The warnings about what quadrature does not resolve.
-pub(crate) fn of_quadrature(unresolved: &[Unresolved]) -> Vec<Warning> {
+pub(crate) fn of_quadrature(unresolved: &[Unresolved], dataset: &Dataset) -> Vec<Warning> {
+    let places = Places::new(&dataset.domain.bounds, &dataset.steps[0].cracks);
     let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
     let warning = |found: &Unresolved| {
         let Unresolved { load, error, at } = found;
@@ -170,14 +157,13 @@ pub(crate) fn of_quadrature(unresolved: &[Unresolved]) -> Vec<Warning> {
             kind,
             Some(*at),
             [*error, LARGE_ERROR],
-            unresolved_text(load.as_deref(), *error, *at),
+            unresolved_text(load.as_deref(), *error, &places.show(*at)),
         )
     };
     large.map(warning).collect()
 }
 
-fn unresolved_text(load: Option<&str>, error: f64, at: Vec2) -> String {
-    let at = shown(at);
+fn unresolved_text(load: Option<&str>, error: f64, at: &str) -> String {
     match load {
         Some(load) => format!(
             "{load} varies too fast, or grows without bound, around {at}: its resultant is off by about {error:.1e} \
@@ -190,54 +176,11 @@ fn unresolved_text(load: Option<&str>, error: f64, at: Vec2) -> String {
     }
 }
 
-fn residual(value: f64) -> String {
-    format!(
-        "the residual of the linear system is {value:.1e} of the load; the solution has lost \
-         digits: look for cracks that nearly touch, or cells far smaller than their neighbours' cracks"
-    )
-}
-
-fn imbalance(value: f64) -> String {
-    format!(
-        "{value:.1e} of the loads remain unbalanced on a plate that nothing holds, and are left \
-         out; balance the loads, or hold the plate"
-    )
-}
-
-fn cut_off(value: f64) -> String {
-    format!(
-        "{:.0} % of the functions depend on others and were cut off; a smaller `enrichment_radius` or \
-         a lower `order` gives the same with less work",
-        100.0 * value
-    )
-}
-
-fn nitsche(value: f64) -> String {
-    format!(
-        "a crack cuts a cell at a held edge into a sliver: the penalty there is {value:.1e} times the stiffness \
-         over the cell's width, 3 to 36 in whole cells; move the end of the crack or the support, or use \
-         smaller cells there"
-    )
-}
-
-fn crossed_twice(value: f64) -> String {
-    let patches = if value == 1.0 { "1 patch is" } else { &format!("{value} patches are") };
-    format!(
-        "{patches} crossed twice by one crack or rim, and two of the parts that it cuts them into are glued \
-         together; use smaller cells at its sharp kink or corner"
-    )
-}
-
 fn warning(kind: &str, at: Option<Vec2>, [value, limit]: [f64; 2], message: String) -> Warning {
     Warning { kind: kind.into(), at, value, limit, message }
 }
 
-/// A point for people.
-fn shown(p: Vec2) -> String {
-    format!("({}, {})", short(p.x), short(p.y))
-}
-
-/// Four digits, without zeros at the end.
+/// Five digits, without zeros at the end.
 fn short(value: f64) -> String {
-    format!("{:.4e}", value).parse::<f64>().map_or_else(|_| value.to_string(), |v| v.to_string())
+    trimmed_to(value, 5)
 }

@@ -1,9 +1,10 @@
 //! Warnings about tips and their stress intensity factors.
 
-use super::{kind, short, shown, warning};
+use super::{kind, short, warning};
 use crate::intensity::{AMPLE_ROOM, Obstacle, Outcome};
 use ppum::crack::Crack;
 use ppum::dataset::{Ring, TipIntensity, Warning};
+use ppum::text::{Places, trimmed_to};
 
 /// Difference of the factors at three radii, in parts of their size, above which they are not to be
 /// trusted. Below it they may be wrong as well, see [`relative_spread`].
@@ -24,18 +25,19 @@ const NEAR_BORDER: f64 = 0.05;
 const LEAST_CELLS: f64 = 4.0;
 
 /// The warnings about the tips of a step, whose cracks these are.
-pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
+pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
     let of_tip = |outcome: &Outcome| {
         let length = cracks[outcome.tip.crack as usize].length();
+        let at = &places.show(outcome.at);
         let about_factors = match &outcome.factors {
-            Some(factors) => [negative(outcome, factors), spread(outcome, factors)],
-            None => [Some(no_room(outcome)), None],
+            Some(factors) => [negative(outcome, factors, at), spread(outcome, factors, at)],
+            None => [Some(no_room(outcome, at)), None],
         };
         let about_place = [
-            little_room(outcome),
-            near_interface(outcome),
-            near_border(outcome, length),
-            coarse(outcome, length),
+            little_room(outcome, at),
+            near_interface(outcome, at),
+            near_border(outcome, length, at),
+            coarse(outcome, length, at),
         ];
         about_factors.into_iter().chain(about_place).flatten()
     };
@@ -64,33 +66,30 @@ fn size(outcome: &Outcome, factors: &TipIntensity) -> f64 {
     factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
 }
 
-fn negative(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
+fn negative(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
     let k1 = factors.k1;
     let limit = -NOISE * size(outcome, factors);
     let message = format!(
-        "tip {}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
+        "tip {at}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
          meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
-        shown(outcome.at),
         short(k1)
     );
     (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
 }
 
-fn spread(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
+fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
     let spread = largest_difference(factors) / size(outcome, factors);
     let message = format!(
-        "tip {}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
+        "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
          which may be larger); use smaller cells there",
-        shown(outcome.at),
         short((1e3 * spread).round() / 10.0)
     );
     (spread > LARGE_SPREAD)
         .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
 }
 
-fn no_room(outcome: &Outcome) -> Warning {
+fn no_room(outcome: &Outcome, at: &str) -> Warning {
     let (room, needed) = (outcome.room.radius, outcome.needed());
-    let at = shown(outcome.at);
     let message = if room <= f64::EPSILON * needed {
         format!(
             "tip {at}: no stress intensity factors, because it lies on {}; move it away",
@@ -110,14 +109,13 @@ fn no_room(outcome: &Outcome) -> Warning {
     warning(kind::NO_ROOM, Some(outcome.at), [room, needed], message)
 }
 
-fn little_room(outcome: &Outcome) -> Option<Warning> {
+fn little_room(outcome: &Outcome, at: &str) -> Option<Warning> {
     let (room, ample) = (outcome.room.radius, AMPLE_ROOM * outcome.cell);
     let little = outcome.factors.is_some() && room < ample;
     little.then(|| {
         let message = format!(
-            "tip {}: the disc up to {} has a radius of {} cells only, and the factors may be off by \
+            "tip {at}: the disc up to {} has a radius of {} cells only, and the factors may be off by \
              1 %; use cells of at most {} there",
-            shown(outcome.at),
             outcome.room.end.name(),
             short((100.0 * room / outcome.cell).round() / 100.0),
             short(room / AMPLE_ROOM)
@@ -126,13 +124,12 @@ fn little_room(outcome: &Outcome) -> Option<Warning> {
     })
 }
 
-fn near_interface(outcome: &Outcome) -> Option<Warning> {
+fn near_interface(outcome: &Outcome, at: &str) -> Option<Warning> {
     let (distance, ample) = (outcome.interface?, AMPLE_ROOM * outcome.cell);
     outcome.factors.as_ref()?;
     let message = format!(
-        "tip {}: an interface of two materials passes at a distance of {} cells, and the factors may be \
+        "tip {at}: an interface of two materials passes at a distance of {} cells, and the factors may be \
          off by {}; use cells of at most {} there, and a `kink` along the interface",
-        shown(outcome.at),
         short((100.0 * distance / outcome.cell).round() / 100.0),
         if distance < 0.5 * outcome.cell { "several %" } else { "1 %" },
         short(distance / AMPLE_ROOM)
@@ -140,28 +137,26 @@ fn near_interface(outcome: &Outcome) -> Option<Warning> {
     Some(warning(kind::NEAR_INTERFACE, Some(outcome.at), [distance, ample], message))
 }
 
-fn near_border(outcome: &Outcome, length: f64) -> Option<Warning> {
+fn near_border(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
     let (room, limit) = (outcome.room.radius, NEAR_BORDER * length);
     let free = matches!(outcome.room.end, Obstacle::Border | Obstacle::Hole(_));
     (free && room < limit).then(|| {
         let message = format!(
-            "tip {}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
+            "tip {at}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
              the root of that distance; see that the position is meant, or let the crack end there",
-            shown(outcome.at),
             short(room),
             outcome.room.end.name(),
-            short((1e3 * room / length).round() / 10.0)
+            trimmed_to(100.0 * room / length, 2)
         );
         warning(kind::TIP_NEAR_BORDER, Some(outcome.at), [room, limit], message)
     })
 }
 
-fn coarse(outcome: &Outcome, length: f64) -> Option<Warning> {
+fn coarse(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
     let cells = length / outcome.cell;
     (cells < LEAST_CELLS).then(|| {
         let message = format!(
-            "tip {}: its crack is only {} cells long; use cells of at most {} there, or `refine = true`",
-            shown(outcome.at),
+            "tip {at}: its crack is only {} cells long; use cells of at most {} there, or `refine = true`",
             short((100.0 * cells).round() / 100.0),
             short(length / LEAST_CELLS)
         );

@@ -123,7 +123,8 @@ fn unbalanced_piece_is_named() {
     assert!((error.moment.expect("elasticity") - moment).abs() < 1e-12, "{error:?}");
     assert!((error.magnitude - 3.0).abs() < 1e-12);
     let text = error.to_string();
-    for part in ["the piece around (", "a force of (1.000000e0, 2.000000e0)", "hold a component"] {
+    for part in ["the piece around (", "falls into pieces", "a force of (1, 2)", "hold a component"]
+    {
         assert!(text.contains(part), "{text}");
     }
 }
@@ -152,7 +153,7 @@ fn flows_balance_too() {
     problem.source = vec![1.0.into()];
     let error = refused(&problem);
     assert!((error.force.x - 4.0).abs() < 1e-12 && error.moment.is_none(), "{error:?}");
-    assert!(error.to_string().contains("a flow of 4.000000e0 remains"), "{error}");
+    assert!(error.to_string().contains("a flow of 4 remains"), "{error}");
     let out = || vec![Condition::Neumann((-1.0).into())];
     let solution =
         solved(&problem.with_boundary(Edge::Left, out()).with_boundary(Edge::Right, out()));

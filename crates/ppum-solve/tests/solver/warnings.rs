@@ -136,7 +136,15 @@ fn tips_near_the_border() {
     let dataset = plate("[[-0.97, 0.0], [0.5, 0.0]]", &tension(), "");
     let found = only(&dataset, kind::TIP_NEAR_BORDER);
     assert_eq!(places(found), [Vec2::from([-0.97, 0.0])]);
-    assert!(found[0].message.contains("2 % of the crack's length"), "{}", found[0].message);
+    assert!(found[0].message.contains(" 2 % of the crack's length"), "{}", found[0].message);
+    // however near: the part is told with its digits
+    let dataset = plate("[[-0.99999, 0.0], [0.5, 0.0]]", &tension(), "refine = false");
+    let found = warnings(&dataset).iter().find(|w| w.kind == kind::TIP_NEAR_BORDER);
+    let message = &found.expect("a tip near the border").message;
+    assert!(
+        message.contains("tip (-0.99999, 0)") && message.contains(" 0.00067 % of"),
+        "{message}"
+    );
 }
 
 #[test]

@@ -258,76 +258,14 @@ fn excerpt(line: &str, column: usize, length: usize) -> String {
     format!("  {lead}{}{tail}\n  {indent}{carets}", shown.trim_end())
 }
 
-/// Longest name that suggestions are sought for: keeps the search cheap on hostile text.
-const MAX_SUGGESTED: usize = 40;
-
-/// The known name nearest to `name` by edit distance, if it is near enough to be a slip of the
-/// keys: same letters in another case, or at most a third of the characters (at least one) changed.
+/// The known name that was meant, see [`nearest`](crate::text::nearest).
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
-    if name.len() > MAX_SUGGESTED {
-        return None;
-    }
-    let limit = (name.len() / 3).max(1);
-    known
-        .filter(|candidate| candidate.len() <= MAX_SUGGESTED)
-        .map(|candidate| {
-            let same = candidate.eq_ignore_ascii_case(name);
-            (if same { 0 } else { edit_distance(name, candidate) }, candidate)
-        })
-        .filter(|&(distance, candidate)| distance <= limit && distance < candidate.len())
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate.to_owned())
-}
-
-/// Changes that lead from one ASCII name to another: characters inserted, left out, replaced, or
-/// exchanged with their neighbour.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b) = (a.as_bytes(), b.as_bytes());
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let changed = replaced.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
-            let crossed = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            row.push(if crossed { changed.min(rows[i - 2][j - 2] + 1) } else { changed });
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
+    crate::text::nearest(name, known).map(str::to_owned)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn edit_distances() {
-        for (a, b, d) in [
-            ("", "abc", 3),
-            ("thet", "theta", 1),
-            ("kitten", "sitting", 3),
-            ("a", "a", 0),
-            ("tabel", "table", 1),
-            ("ab", "ba", 1),
-            ("sitn", "sin", 1),
-            ("abcd", "badc", 2),
-        ] {
-            assert_eq!(edit_distance(a, b), d);
-            assert_eq!(edit_distance(b, a), d);
-        }
-    }
-
-    #[test]
-    fn nearest_needs_likeness() {
-        let known = ["theta", "r", "x", "sqrt"];
-        let find = |name| nearest(name, known.into_iter());
-        assert_eq!(find("thet").as_deref(), Some("theta"));
-        assert_eq!(find("R").as_deref(), Some("r"));
-        assert_eq!(find("sqrrt").as_deref(), Some("sqrt"));
-        assert_eq!(find("velocity"), None);
-        assert_eq!(find("q"), None);
-    }
 
     #[test]
     fn excerpt_of_a_long_line_stays_short() {

@@ -16,6 +16,7 @@ use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::real::Real;
+use crate::text::hint;
 use crate::vec2::Vec2;
 pub use formula::{Input, NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
 use tensors::Strain;
@@ -95,10 +96,12 @@ pub enum Source {
 #[non_exhaustive]
 pub enum QuantityError {
     /// No such name.
-    #[error("there is no quantity `{name}`; known are {known}, and formulas of them")]
+    #[error("there is no quantity `{name}`{hint}; known are {known}, and formulas of them")]
     Unknown {
         /// The name asked for.
         name: String,
+        /// What was meant, if it is like one that is known, see [`hint`].
+        hint: String,
         /// All names that have a meaning for the field.
         known: String,
     },
@@ -197,6 +200,24 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
     all
 }
 
+/// Names of all that can be shown of a field: those of its equation that have what they need, those that the
+/// dataset defines, and `phi:N`.
+#[must_use]
+pub fn available(field: &Field<'_>) -> Vec<String> {
+    let all = names(field.equation, &field.data.components);
+    let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
+    let named = field.quantities.iter().map(|quantity| quantity.name.clone());
+    let named = named.filter(|name| Quantity::parse(name, field).is_ok());
+    usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
+}
+
+impl QuantityError {
+    fn unknown(name: &str, known: Vec<String>) -> Self {
+        let hint = hint(name, known.iter().map(String::as_str));
+        Self::Unknown { name: name.into(), hint, known: known.join(", ") }
+    }
+}
+
 impl Quantity {
     /// The quantity of a name, for a field with these components.
     ///
@@ -215,9 +236,8 @@ impl Quantity {
             .find(|(known, _)| known == name)
             .map(|(_, quantity)| quantity.clone())
             .ok_or_else(|| {
-                let mut known: Vec<_> = all.iter().map(|(known, _)| known.as_str()).collect();
-                known.push("phi:N");
-                QuantityError::Unknown { name: name.into(), known: known.join(", ") }
+                let known = all.iter().map(|(known, _)| known.clone());
+                QuantityError::unknown(name, known.chain(["phi:N".into()]).collect())
             })
     }
 
@@ -230,10 +250,9 @@ impl Quantity {
     pub fn parse(text: &str, field: &Field<'_>) -> Result<Self, QuantityError> {
         let components = &field.data.components;
         let text = text.trim();
-        let unknown = match Self::from_name(text, field.equation, components) {
-            Err(unknown) => unknown,
-            known => return known,
-        };
+        if let Ok(known) = Self::from_name(text, field.equation, components) {
+            return Ok(known);
+        }
         let mut vocabulary = field.vocabulary();
         if let Some(at) = field.quantities.iter().position(|named| named.name == text) {
             let NamedQuantity { name, text, unit } = &field.quantities[at];
@@ -245,7 +264,7 @@ impl Quantity {
             && text.chars().all(|c| c.is_alphanumeric() || "_-:".contains(c));
         match QuantityFormula::new(text, &vocabulary) {
             Ok(formula) => Ok(Self::Formula(Arc::new(formula))),
-            Err(_) if is_name => Err(unknown),
+            Err(_) if is_name => Err(QuantityError::unknown(text, available(field))),
             Err(error) => Err(error.into()),
         }
     }

@@ -23,6 +23,7 @@ use ppum_render::view::View;
 use serde::Serialize;
 
 use super::synthetic::{self, DOMAIN};
+use crate::drivers;
 
 /// What `ppum bench` tells of the renderers.
 #[derive(Debug, Serialize)]
@@ -131,7 +132,7 @@ impl Report {
     /// Measures; `quick` takes small pictures of few patches.
     pub(super) fn new(quick: bool, frames: u32) -> anyhow::Result<Self> {
         let pixels = if quick { [256, 192] } else { [1024, 768] };
-        let (mut renderer, missing) = match Renderer::open(Choice::Any) {
+        let (mut renderer, missing) = match drivers::opening(|| Renderer::open(Choice::Any)) {
             Ok(renderer) => (Some(renderer), None),
             Err(error) => (None, Some(error.to_string())),
         };

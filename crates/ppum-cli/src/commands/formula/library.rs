@@ -3,10 +3,11 @@
 use std::io::{self, Write};
 
 use ppum::library::{Definition, ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
+use ppum::text::trimmed;
 use serde::Serialize;
 
 use super::report::{Parameter, parameters};
-use crate::number::{json, trimmed};
+use crate::number::json;
 
 /// Prints the library.
 pub(super) fn list(out: &mut dyn Write, as_json: bool) -> anyhow::Result<()> {

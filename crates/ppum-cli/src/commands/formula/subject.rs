@@ -8,8 +8,9 @@ use anyhow::{bail, ensure};
 use ppum::equation::{Equation, Material, StressState};
 use ppum::formula::{Formula, Scope, ScopeError, Table};
 use ppum::function::function_scope;
-use ppum::library::{self, ELASTICITY, Entry, POISSON};
+use ppum::library::{self, ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
 use ppum::quantity::{Quantity, QuantityFormula, Vocabulary};
+use ppum::text::hint;
 
 use crate::dataset::{field, open};
 use crate::given::Given;
@@ -38,8 +39,13 @@ impl FromStr for Of {
             "weight" => Self::Weight,
             "elasticity" => Self::Elasticity,
             "poisson" => Self::Poisson,
-            file if file.contains(['.', '/']) => Self::File(file.into()),
-            _ => return Err("write plane, weight, elasticity, poisson or a dataset FILE.h5".into()),
+            file if file == "-" || file.contains(['.', '/']) => Self::File(file.into()),
+            other => {
+                let hint = hint(other, ["plane", "weight", "elasticity", "poisson"]);
+                return Err(format!(
+                    "write plane, weight, elasticity, poisson or a dataset FILE.h5{hint}"
+                ));
+            }
         })
     }
 }
@@ -143,7 +149,8 @@ impl Question<'_> {
     ) -> anyhow::Result<Vec<Subject>> {
         let Some(entry) = self.given.name().and_then(known) else {
             let scope = self.scope(of, self.parameters)?;
-            let formula = self.given.explain(Formula::parse(&self.given.text, &scope))?;
+            let formula = self.given.explain(Formula::parse(&self.given.text, &scope));
+            let formula = formula.map_err(|error| self.or_entry(error))?;
             return Ok(vec![Subject::new(of, None, formula, self.parameters)]);
         };
         let parameters = self.parameters_of(entry)?;
@@ -156,6 +163,16 @@ impl Question<'_> {
             Ok(Subject::new(of, Some(name), Formula::parse(text, &scope)?, &parameters))
         };
         entry.texts.iter().enumerate().map(subject).collect()
+    }
+
+    /// The error, with a name of the library that may have been meant.
+    fn or_entry(&self, error: anyhow::Error) -> anyhow::Error {
+        let name = self.given.name().unwrap_or_default();
+        let hint = hint(name, ENRICHMENTS.iter().chain(&WEIGHTS).map(|entry| entry.name));
+        if hint.is_empty() {
+            return error;
+        }
+        error.context(format!("`{name}` is no name of the library{hint} and no formula"))
     }
 
     /// The names of a formula of the plane or of t.

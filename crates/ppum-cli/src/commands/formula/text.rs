@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use ppum::formula::one_line;
+use ppum::text::trimmed;
 
 use super::report::{Derivative, Report, Row, Set};
-use crate::number::trimmed;
 
 /// Width of the column of names.
 const NAME: usize = 12;

@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use ppum_gpu::{AdapterInfo, Choice, Gpu, adapters};
 use serde::Serialize;
 
+use crate::drivers;
+
 /// The graphics adapters of this machine, in the shape of the JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
@@ -38,6 +40,10 @@ for trying out --backend gpu without a card a software driver does:
 impl Report {
     /// Opens what each backend would open.
     pub(super) fn new() -> Self {
+        drivers::opening(Self::found)
+    }
+
+    fn found() -> Self {
         let taken = [("auto", Choice::Real), ("gpu", Choice::Any), ("splat", Choice::Any)]
             .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
         let row = |info: AdapterInfo| {

@@ -1,12 +1,15 @@
 //! What supports exert on the plate, for people and as JSON.
 
 use ppum::dataset::{Dataset, Reaction, Step};
+use ppum::text::{Places, beside, short};
+use ppum::vec2::Vec2;
+use ppum_solve::reaction;
 use serde::Serialize;
 
-use crate::number::{Number, point, short};
+use crate::number::Number;
 
 #[derive(Debug, Serialize)]
-pub(super) struct ReactionRow {
+pub(crate) struct ReactionRow {
     on: String,
     /// Components that are held.
     held: Vec<String>,
@@ -16,38 +19,62 @@ pub(super) struct ReactionRow {
     moment: Option<Number>,
     /// Point the moment is about.
     about: Option<[f64; 2]>,
+    /// Middle of the support, if its place is known.
+    center: Option<[f64; 2]>,
+    /// Moment about that.
+    moment_about_center: Option<Number>,
 }
 
 /// The reactions of a step.
-pub(super) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
+pub(crate) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
     let names = step.fields.first().map_or(&[][..], |field| &field.components);
     let about = dataset.domain.bounds.center();
     let row = |reaction: &Reaction| {
         let Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);
         let turns = force.len() > 1;
+        let center = reaction::center(on, &dataset.domain).filter(|_| turns);
+        let moved = |center: Vec2| {
+            let arm = about - center;
+            Number(moment + arm.x * force[1] - arm.y * force[0])
+        };
         ReactionRow {
             on: on.clone(),
             held: held.map(|(name, _)| name.clone()).collect(),
             force: force.iter().copied().map(Number).collect(),
             moment: turns.then_some(Number(*moment)),
             about: turns.then_some(about.into()),
+            center: center.map(Vec2::into),
+            moment_about_center: center.map(moved),
         }
     };
     step.reactions.iter().map(row).collect()
 }
 
 impl ReactionRow {
-    /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0)`
-    pub(super) fn line(&self) -> String {
+    /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0), 1 about its middle (0, -1)`; zero what is rounding beside
+    /// a force and a moment of these sizes.
+    pub(super) fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
         let place = format!("{} ({})", self.on, self.held.join(", "));
-        let force = self.force.iter().map(|f| short(f.0)).collect::<Vec<_>>().join(", ");
+        let force = self.force.iter().map(|f| short(beside(f.0, force_size)));
+        let force = force.collect::<Vec<_>>().join(", ");
+        let turning = |moment: Number, about: [f64; 2]| {
+            let moment = short(beside(moment.0, moment_size));
+            format!("{moment} about {}", places.show(about.into()))
+        };
         match (self.moment, self.about) {
             (Some(moment), Some(about)) => {
-                let moment = short(moment.0);
-                format!("{place}: force ({force}), moment {moment} about {}", point(about))
+                let own = self.moment_about_center.zip(self.center).filter(|(_, c)| *c != about);
+                let own = own.map(|(m, c)| turning(m, c).replacen("about", "about its middle", 1));
+                let own = own.map_or(String::new(), |own| format!(", {own}"));
+                format!("{place}: force ({force}), moment {}{own}", turning(moment, about))
             }
             _ => format!("{place}: flow {force}"),
         }
     }
+}
+
+/// The largest component of a force.
+pub(super) fn largest_force(rows: &[ReactionRow]) -> f64 {
+    rows.iter().flat_map(|row| &row.force).fold(0.0, |largest, f| f64::max(largest, f.0.abs()))
 }

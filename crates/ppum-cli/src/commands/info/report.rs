@@ -8,15 +8,16 @@ use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, Stres
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
-use ppum::quantity::{Quantity, names};
+use ppum::quantity::available;
+use ppum::text::{Places, trimmed};
 use ppum::vec2::Vec2;
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
 use super::reactions::{self, ReactionRow};
 use crate::families::{Family, blocks, families};
-use crate::number::{Number, trimmed};
-use crate::tips::Tip;
+use crate::number::{Number, places};
+use crate::tips::{Tip, all_tips};
 use crate::warnings::{WarningRow, rows};
 
 #[derive(Debug, Serialize)]
@@ -29,6 +30,9 @@ pub(super) struct Report {
     pub(super) quantities: Vec<QuantityRow>,
     pub(super) tables: Vec<TableRow>,
     pub(super) steps: Vec<StepReport>,
+    /// How places are shown to people.
+    #[serde(skip)]
+    pub(super) places: Places,
 }
 
 #[derive(Debug, Serialize)]
@@ -117,6 +121,9 @@ pub(super) struct StepReport {
     pub(super) energy: Option<Number>,
     pub(super) history: Vec<HistoryRow>,
     pub(super) intensities: Vec<Tip>,
+    /// Those, and the tips that have none.
+    #[serde(skip)]
+    pub(super) all_tips: Vec<Tip>,
     pub(super) warnings: Vec<WarningRow>,
     pub(super) reactions: Vec<ReactionRow>,
 }
@@ -157,7 +164,7 @@ pub(super) struct FieldRow {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct HistoryRow {
+pub(crate) struct HistoryRow {
     pub(super) name: String,
     pub(super) value: Number,
     pub(super) unit: String,
@@ -175,6 +182,7 @@ impl Report {
             quantities: formulas::quantities(dataset),
             tables: formulas::tables(dataset),
             steps: steps.collect::<Result<_, _>>()?,
+            places: places(dataset),
         })
     }
 }
@@ -202,12 +210,13 @@ impl StepReport {
             functions: formulas::functions(functions, &blocks),
             families: families(functions, &blocks),
             fields: field.step.fields.iter().map(field_row).collect(),
-            quantities: quantities(&field),
+            quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
             energy: history.iter().find(|r| r.name == "energy").map(|r| Number(r.value)),
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
+            all_tips: all_tips(index, field.step),
             warnings: rows(index, &field.step.warnings),
             reactions: reactions::rows(dataset, field.step),
         })
@@ -285,16 +294,8 @@ fn field_row(data: &FieldData) -> FieldRow {
     }
 }
 
-/// What the first field can show.
-fn quantities(field: &Field<'_>) -> Vec<String> {
-    let all = names(field.equation, &field.data.components);
-    let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
-    let named = field.quantities.iter().map(|quantity| quantity.name.clone());
-    let named = named.filter(|name| Quantity::parse(name, field).is_ok());
-    usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
-}
-
-fn history_row(record: &Record) -> HistoryRow {
+/// A record of the solver's report.
+pub(crate) fn history_row(record: &Record) -> HistoryRow {
     let Record { name, value, unit } = record.clone();
     HistoryRow { name, value: Number(value), unit }
 }

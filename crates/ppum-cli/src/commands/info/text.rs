@@ -3,28 +3,32 @@
 use std::io::{self, Write};
 
 use ppum::formula::one_line;
+use ppum::text::{Places, trimmed};
 
 use super::formulas::{QuantityRow, TableRow};
+use super::reactions::largest_force;
 use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, HoleRow, Report, StepReport};
 use crate::families::Family;
-use crate::number::{count, point, trimmed};
+use crate::number::count;
 use crate::tips::table;
 
 /// Width of the column of names.
 const NAME: usize = 12;
 
 pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let places = &report.places;
+    let point = |p: [f64; 2]| places.show(p.into());
     let mut page = Page(out);
     page.line("title", &report.title)?;
     page.line("program", &report.program)?;
     page.line("equation", &equation(&report.equation))?;
     let [min, max] = [report.domain.min, report.domain.max].map(point);
     page.line("domain", &format!("{min} to {max}"))?;
-    page.lines("holes", report.domain.holes.iter().map(hole))?;
+    page.lines("holes", report.domain.holes.iter().map(|row| hole(row, places)))?;
     page.lines("tables", report.tables.iter().map(table_row))?;
     page.lines("defined", report.quantities.iter().map(quantity))?;
     for step in &report.steps {
-        page.step(step, report.steps.len())?;
+        page.step(step, report)?;
     }
     Ok(())
 }
@@ -44,8 +48,9 @@ impl Page<'_> {
         Ok(())
     }
 
-    fn step(&mut self, step: &StepReport, n_steps: usize) -> io::Result<()> {
-        if n_steps > 1 {
+    fn step(&mut self, step: &StepReport, report: &Report) -> io::Result<()> {
+        let Report { places, domain, .. } = report;
+        if report.steps.len() > 1 {
             writeln!(self.0)?;
             self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
         }
@@ -55,7 +60,7 @@ impl Page<'_> {
         self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
-        self.lines("cracks", step.cracks.iter().map(crack))?;
+        self.lines("cracks", step.cracks.iter().map(|row| crack(row, places)))?;
         self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &step.unknowns.to_string())?;
@@ -63,13 +68,15 @@ impl Page<'_> {
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
         if !step.intensities.is_empty() {
             writeln!(self.0, "\nstress intensity factors")?;
-            table(self.0, &step.intensities)?;
+            table(self.0, &step.all_tips, places)?;
         }
         if !step.reactions.is_empty() {
             writeln!(self.0, "\nreactions of the supports on the plate")?;
         }
+        let force = largest_force(&step.reactions);
+        let arm = (domain.max[0] - domain.min[0]).max(domain.max[1] - domain.min[1]);
         for reaction in &step.reactions {
-            writeln!(self.0, "{}", reaction.line())?;
+            writeln!(self.0, "{}", reaction.line(places, [force, force * arm]))?;
         }
         if !step.warnings.is_empty() {
             writeln!(self.0, "\nwarnings")?;
@@ -99,7 +106,8 @@ fn quantity(row: &QuantityRow) -> String {
     format!("{}{unit} = {}", row.name, one_line(&row.formula))
 }
 
-fn hole(row: &HoleRow) -> String {
+fn hole(row: &HoleRow, places: &Places) -> String {
+    let point = |p: [f64; 2]| places.show(p.into());
     match row {
         HoleRow::Circle { center, radius } => {
             format!("circle around {}, radius {}", point(*center), trimmed(*radius))
@@ -165,7 +173,8 @@ fn cover(step: &StepReport) -> String {
     format!("{}, {} weight{points}", step.patches, step.weight)
 }
 
-fn crack(crack: &CrackRow) -> String {
+fn crack(crack: &CrackRow, places: &Places) -> String {
+    let point = |p: [f64; 2]| places.show(p.into());
     let points: Vec<_> = crack.points.iter().copied().map(point).collect();
     let [start, end] = crack.ends;
     format!("{start} {} {end}", points.join(" – "))

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::MOST;
 use crate::sides::{on_crack, seen};
+use crate::standard::{self, is_standard};
 
 /// A point on a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +114,11 @@ const LONGEST: u64 = 1 << 30;
 /// ignored, and so are a first line of names, empty lines and what follows `#`.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
     let context = || format!("cannot read {}", path.display());
-    let text = ppum_file::text(path, LONGEST).with_context(context)?;
+    let text = match is_standard(path) {
+        true => standard::text("the list of points")?,
+        false => ppum_file::text(path, LONGEST).with_context(context)?,
+    };
+    let name = standard::name(path);
     let mut points = Vec::new();
     let mut is_head = true;
     for (k, line) in (1..).zip(text.lines()) {
@@ -125,12 +130,12 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
             Some(point) => points.push(point),
             None if is_head
                 && !line.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {}
-            None => bail!("{}:{k}: expected two finite numbers: x,y", path.display()),
+            None => bail!("{name}:{k}: expected two finite numbers: x,y"),
         }
         is_head = false;
-        ensure!(points.len() <= MOST, "{}:{k}: more than {MOST} points", path.display());
+        ensure!(points.len() <= MOST, "{name}:{k}: more than {MOST} points");
     }
-    ensure!(!points.is_empty(), "{}: has no points", path.display());
+    ensure!(!points.is_empty(), "{name}: has no points");
     Ok(points)
 }
 

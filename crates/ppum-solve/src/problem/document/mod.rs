@@ -1,6 +1,5 @@
 //! A TOML text with places: typed access to its values that reports every mistake and goes on.
 
-mod nearest;
 mod value;
 
 use std::cell::RefCell;
@@ -10,7 +9,7 @@ use std::path::PathBuf;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Finding, Place};
-pub(super) use nearest::nearest;
+pub(super) use ppum::text::nearest;
 pub(super) use value::Value;
 
 /// Collects findings; shared by all sections and values of a document.
@@ -118,7 +117,7 @@ impl<'a> Section<'a> {
             let (message, meant) = match remedy {
                 Some((_, remedy)) => (misplaced(name, &self.name, *remedy), remedy.meant()),
                 None => {
-                    let near = nearest(name, known);
+                    let near = nearest(name, known.iter().copied());
                     (unknown(name, &self.name, near, known), near.into_iter().collect())
                 }
             };

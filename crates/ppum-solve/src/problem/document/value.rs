@@ -160,7 +160,7 @@ impl<'a> Value<'a> {
         let chosen =
             choices.iter().find(|(word, _)| *word == text).map(|(_, choice)| choice.clone());
         chosen.or_else(|| {
-            let hint = nearest(text, &words)
+            let hint = nearest(text, words.iter().copied())
                 .map_or(String::new(), |word| format!("; did you mean \"{word}\"?"));
             let message = format!("cannot be \"{text}\", only {}{hint}", alternatives(&words));
             self.error(&message)

@@ -78,7 +78,8 @@ fn weight(value: &Value<'_>, tables: &[Arc<Table>]) -> Option<WeightFunction> {
     let formula = match library::weight(text) {
         Some(entry) => entry.texts[0],
         None if is_word(text) && text != "t" => {
-            let near = nearest(text, &words).map(|near| format!("; did you mean \"{near}\"?"));
+            let near = nearest(text, words.iter().copied())
+                .map(|near| format!("; did you mean \"{near}\"?"));
             let (words, near) = (words.join(", "), near.unwrap_or_default());
             return value
                 .error(&format!("cannot be \"{text}\", only {words}, or a formula of t{near}"));

@@ -139,7 +139,7 @@ fn parameters(
 
 fn no_parameter(name: &str, known: &[&(&'static str, f64)]) -> String {
     let known: Vec<_> = known.iter().map(|(name, _)| *name).collect();
-    let remedy = match nearest(name, &known) {
+    let remedy = match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "it has none".to_owned(),
         None => format!("it has {}", known.join(", ")),
@@ -156,7 +156,7 @@ fn texts(value: &Value<'_>, scope: &Scope) -> Option<Vec<String>> {
     let formula = Formula::parse(text, scope);
     if formula.is_err() && is_word(text) {
         let names = library::ENRICHMENTS.map(|entry| entry.name);
-        if let Some(near) = nearest(text, &names) {
+        if let Some(near) = nearest(text, names.iter().copied()) {
             return value.error(&format!("is no formula; did you mean \"{near}\"?"));
         }
     }

@@ -321,7 +321,7 @@ fn bad_functions_of_enrichments() {
                 "\"williams\"\nparameters = { m = 5 }",
                 40,
                 20,
-                "is no parameter of the function; did you mean `n`?",
+                "is no parameter of the function; it has n",
             ),
             (
                 "\"westergaard\"",

@@ -1,0 +1,263 @@
+//! Numbers, places and words as people read them.
+//!
+//! Results have all their digits in files and in JSON. In messages and tables numbers are short, zero where they
+//! are nothing but rounding of what stands beside them, and places have the digits that tell them apart.
+
+use std::collections::BTreeSet;
+
+use crate::crack::Crack;
+use crate::vec2::{Rect, Vec2, vec2};
+
+/// Significant digits of a number.
+const DIGITS: usize = 6;
+
+/// Most digits of a place: with one more 0.1 + 0.2 would not be 0.3.
+const MOST_DIGITS: usize = 15;
+
+/// Part of the size of what stands beside it below which a number is rounding: results of a linear system
+/// are seldom better.
+const ROUNDING: f64 = 1e-12;
+
+/// The same of coordinates, which nothing has been computed with but sums and products.
+const ROUNDING_OF_PLACES: f64 = 8.0 * f64::EPSILON;
+
+/// Six significant digits, without an exponent where that is no longer.
+#[must_use]
+pub fn short(value: f64) -> String {
+    with_digits(value, DIGITS)
+}
+
+fn with_digits(value: f64, digits: usize) -> String {
+    let scientific = format!("{value:.*e}", digits - 1);
+    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
+    let last = digits as i32 - 1;
+    match exponent {
+        Some(_) if value == 0.0 => "0".into(),
+        Some(e) if (-4..=last).contains(&e) => format!("{value:.*}", (last - e) as usize),
+        _ => scientific,
+    }
+}
+
+/// As [`short`], without zeros at the end; whole numbers in full.
+#[must_use]
+pub fn trimmed(value: f64) -> String {
+    trimmed_to(value, DIGITS)
+}
+
+/// The same with other digits.
+#[must_use]
+pub fn trimmed_to(value: f64, digits: usize) -> String {
+    // f64 holds every whole number up to 2^53
+    if value.fract() == 0.0 && value.abs() < 9e15 {
+        return (value as i64).to_string();
+    }
+    let text = with_digits(value, digits);
+    let (mantissa, exponent) = text.find('e').map_or((&*text, ""), |e| text.split_at(e));
+    let has_point = mantissa.contains('.');
+    let kept =
+        if has_point { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    format!("{kept}{exponent}")
+}
+
+/// The value, or zero where it is rounding beside numbers of some size.
+#[must_use]
+pub fn beside(value: f64, size: f64) -> f64 {
+    if value.abs() < ROUNDING * size { 0.0 } else { value }
+}
+
+/// Two numbers with as many digits as tell them apart.
+#[must_use]
+pub fn apart(a: f64, b: f64) -> [String; 2] {
+    let shown = |digits: usize| [a, b].map(|v| trimmed_to(v, digits));
+    let differ = |texts: &[String; 2]| texts[0] != texts[1];
+    (DIGITS..=17).map(shown).find(differ).unwrap_or_else(|| shown(DIGITS))
+}
+
+/// Writes places of a plate: with the digits that tell the vertices of its cracks apart, and coordinates as
+/// zero that are rounding of the plate's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Places {
+    /// Size of coordinates.
+    size: Vec2,
+    digits: usize,
+}
+
+impl Places {
+    /// Places of a box with cracks.
+    #[must_use]
+    pub fn new(bounds: &Rect, cracks: &[Crack]) -> Self {
+        let Rect { min, max } = *bounds;
+        let size = vec2(min.x.abs().max(max.x.abs()), min.y.abs().max(max.y.abs()));
+        let with = |digits| Self { size, digits };
+        let texts = |places: Self| -> usize {
+            let points = cracks.iter().flat_map(|crack| &crack.points);
+            points.map(|&p| places.show(p)).collect::<BTreeSet<_>>().len()
+        };
+        let most = texts(with(MOST_DIGITS));
+        let enough = |digits: &usize| texts(with(*digits)) == most;
+        with((DIGITS..MOST_DIGITS).find(enough).unwrap_or(MOST_DIGITS))
+    }
+
+    /// `(0.5, -0.25)`
+    #[must_use]
+    pub fn show(&self, p: Vec2) -> String {
+        let shown = |v: f64, size: f64| {
+            let is_rounding = v.abs() <= ROUNDING_OF_PLACES * size;
+            trimmed_to(if is_rounding { 0.0 } else { v }, self.digits)
+        };
+        format!("({}, {})", shown(p.x, self.size.x), shown(p.y, self.size.y))
+    }
+}
+
+/// Longest word that suggestions are sought for: keeps the search cheap on hostile text.
+const MAX_SUGGESTED: usize = 40;
+
+/// Letters of a word that may be a part of another one.
+const LEAST_PART: usize = 4;
+
+/// The known word that was meant by an unknown one: the same but for case or for a third of its letters
+/// (at least one), else one that it is a part of.
+#[must_use]
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if word.len() > MAX_SUGGESTED {
+        return None;
+    }
+    let known: Vec<_> = known.into_iter().filter(|k| k.len() <= MAX_SUGGESTED).collect();
+    let letters = |text: &str| text.to_lowercase().chars().collect::<Vec<_>>();
+    let meant = letters(word);
+    let limit = (meant.len() / 3).max(1);
+    let near = |&candidate: &&'a str| {
+        let other = letters(candidate);
+        let distance = edits(&meant, &other);
+        let longer = meant.len().max(other.len());
+        let starts_otherwise = meant.first() != other.first();
+        (distance <= limit && distance < longer).then_some((distance, starts_otherwise, candidate))
+    };
+    let by_letters = known.iter().filter_map(near).min_by_key(|(far, other, _)| (*far, *other));
+    let is_part = |k: &&'a str| meant.len() >= LEAST_PART && k.contains(word);
+    by_letters.map(|(.., near)| near).or_else(|| known.iter().copied().find(is_part))
+}
+
+/// `` (did you mean `near`?)`` for messages about an unknown word; empty if nothing is near.
+#[must_use]
+pub fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(word, known).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"))
+}
+
+/// Changes that lead from one word to another: letters inserted, left out, replaced, or exchanged with their
+/// neighbour.
+fn edits(a: &[char], b: &[char]) -> usize {
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let changed = replaced.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
+            let crossed = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            row.push(if crossed { changed.min(rows[i - 2][j - 2] + 1) } else { changed });
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::crack::CrackEnd;
+
+    fn places(size: f64, xs: &[f64]) -> Vec<String> {
+        let bounds = Rect::new(vec2(-size, -size), vec2(size, size));
+        let points: Vec<_> = xs.iter().map(|&x| vec2(x, 0.0)).collect();
+        let places =
+            Places::new(&bounds, &[Crack { points: points.clone(), ends: [CrackEnd::Tip; 2] }]);
+        points.into_iter().map(|p| places.show(p)).collect()
+    }
+
+    #[test]
+    fn six_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-1.25, "-1.25000"),
+            (0.000_123_456_7, "0.000123457"),
+            (123_456.7, "123457"),
+            (999_999.9, "1.00000e6"),
+            (1e-5, "1.00000e-5"),
+            (1e-20, "1.00000e-20"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+        assert_eq!([-0.0, 1_234_567.0, 1.5].map(trimmed), ["0", "1234567", "1.5"]);
+        assert_eq!(trimmed_to(0.049_951, 2), "0.05");
+    }
+
+    #[test]
+    fn rounding_is_zero() {
+        assert_eq!((beside(-9e-14, 1.6), beside(1e-9, 1.6), beside(0.0, 0.0)), (0.0, 1e-9, 0.0));
+        assert_eq!(beside(1e-40, 1e-30), 1e-40);
+        assert_eq!(places(1.0, &[-5e-17, 0.1 + 0.2]), ["(0, 0)", "(0.3, 0)"]);
+        // in units of their own
+        assert_eq!(places(1e-20, &[-5e-37, 1e-21]), ["(0, 0)", "(1e-21, 0)"]);
+    }
+
+    /// Whatever the units and however near to each other: points that differ print differently.
+    #[test]
+    fn places_are_told_apart() {
+        for exponent in [-20, -3, 0, 3, 20] {
+            for apart in 1..=13 {
+                let size = 10f64.powi(exponent);
+                let xs = [0.5 * size, (0.5 + 10f64.powi(-apart)) * size];
+                let texts = places(size, &xs);
+                assert_ne!(texts[0], texts[1], "{exponent} {apart}");
+                assert!(texts[0].len() < 24, "{texts:?}");
+            }
+        }
+        assert_eq!(places(1.0, &[0.5, 0.500_000_1]), ["(0.5, 0)", "(0.5000001, 0)"]);
+        assert_eq!(places(1.0, &[0.3, 0.1 + 0.2]), ["(0.3, 0)", "(0.3, 0)"], "an ulp apart");
+        assert_eq!(apart(1.0, 1.000_000_01), ["1", "1.00000001"]);
+        assert_eq!(apart(1.0, 1.0), ["1", "1"]);
+    }
+
+    #[test]
+    fn edit_distances() {
+        for (a, b, d) in [
+            ("", "abc", 3),
+            ("thet", "theta", 1),
+            ("kitten", "sitting", 3),
+            ("a", "a", 0),
+            ("tabel", "table", 1),
+            ("ab", "ba", 1),
+            ("sitn", "sin", 1),
+            ("abcd", "badc", 2),
+        ] {
+            let [a, b] = [a, b].map(|word| word.chars().collect::<Vec<_>>());
+            assert_eq!((edits(&a, &b), edits(&b, &a)), (d, d));
+        }
+    }
+
+    #[test]
+    fn what_was_meant() {
+        let known = ["theta", "r", "x", "sqrt", "young", "poisson", "ux", "sxx", "von-mises"];
+        let find = |name| nearest(name, known);
+        for (word, meant) in [
+            ("thet", "theta"),
+            ("R", "r"),
+            ("xs", "x"),
+            ("sqrrt", "sqrt"),
+            ("yuong", "young"),
+            ("poison", "poisson"),
+            ("vonmises", "von-mises"),
+            ("mises", "von-mises"),
+            ("sx", "sxx"),
+        ] {
+            assert_eq!(find(word), Some(meant), "{word}");
+        }
+        for word in ["velocity", "q", "density", "", &"r".repeat(1000)] {
+            assert_eq!(find(word), None, "{word}");
+        }
+        assert_eq!(hint("thet", known), " (did you mean `theta`?)");
+        assert_eq!(hint("velocity", known), "");
+    }
+}

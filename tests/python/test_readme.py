@@ -1,0 +1,43 @@
+"""Runs the Python of README.md as it is printed, on the dataset of the problem that stands there.
+
+    pip install -r tests/python/requirements.txt
+    python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
+
+Needs cargo: the problem is solved by the program.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).parents[2]
+PAGE = (ROOT / "README.md").read_text()
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)
+
+
+def test_readme_snippets_run():
+    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+        folder = pathlib.Path(name)
+        (folder / "plate.toml").write_text(blocks("toml")[0])
+        solve = ["cargo", "run", "-q", "-p", "ppum-cli", "--", "solve", folder / "plate.toml"]
+        subprocess.run(solve, cwd=ROOT, check=True, capture_output=True)
+        (folder / "tests").symlink_to(ROOT / "tests")
+        snippets = blocks("python")
+        assert len(snippets) == 2
+        for snippet in snippets:
+            done = subprocess.run([sys.executable, "-c", snippet], cwd=folder, capture_output=True, text=True)
+            assert done.returncode == 0, done.stderr
+            assert done.stdout and not done.stderr, done.stderr
+        assert "Slanted crack" in subprocess.run(
+            [sys.executable, "-c", snippets[0]], cwd=folder, capture_output=True, text=True
+        ).stdout
+
+
+if __name__ == "__main__":
+    test_readme_snippets_run()
+    print("ok  test_readme_snippets_run")
