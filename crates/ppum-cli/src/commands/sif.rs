@@ -1,11 +1,13 @@
 //! `ppum sif`: stress intensity factors of a stored field.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::bail;
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, Step, Warning};
+use ppum_solve::effort::{EffortError, check_effort};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
 use ppum_solve::warnings::judge;
@@ -70,12 +72,21 @@ impl Report {
         let problem = Problem::of_dataset(dataset);
         let (mut tips, mut warnings) = (Vec::new(), Vec::new());
         for (index, step) in dataset.steps.iter().enumerate() {
-            let (found, remarks) = match &problem {
-                Ok(problem) if problem.as_ref().is_none_or(|p| p.cracks == step.cracks) => {
-                    computed(dataset, index, problem.as_ref())?
-                }
+            let of_step = |problem: &&Option<Problem>| {
+                problem.as_ref().is_none_or(|problem| problem.cracks == step.cracks)
+            };
+            let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
                 // What the solver found while it knew the loads.
-                _ => stored(&file, index, step)?,
+                None => stored(&file, index, step, UNKNOWN)?,
+                Some(problem) => match check_effort(dataset, index) {
+                    Err(error @ EffortError::TooMuch { .. }) => {
+                        stored(&file, index, step, ("too-costly", &error.to_string()))?
+                    }
+                    effort => {
+                        effort?;
+                        computed(dataset, index, problem.as_ref())?
+                    }
+                },
             };
             tips.extend(found);
             warnings.extend(rows(index, &remarks));
@@ -99,25 +110,32 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
+/// Why factors cannot be found again: a word for the kind of the warning, and what to say.
+type Reason<'a> = (&'a str, &'a str);
+
+const UNKNOWN: Reason<'static> = (
+    "loads-unknown",
+    "the stored problem cannot be read, so the loads near the tips are not known",
+);
+
 /// What the solver stored in a step.
-fn stored(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let found = |tip: TipId| step.intensities.iter().find(|known| known.tip == tip);
-    let tip = |tip: TipId| match found(tip) {
+fn stored(
+    file: &str,
+    index: usize,
+    step: &Step,
+    (kind, reason): Reason<'_>,
+) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
+    let known: BTreeMap<TipId, _> =
+        step.intensities.iter().map(|known| (known.tip, known)).collect();
+    let tip = |tip: TipId| match known.get(&tip) {
         Some(factors) => Tip::new(index, step, factors),
         None => Tip::without_factors(index, step, tip),
     };
     let tips: Vec<Tip> = tips(&step.cracks).map(tip).collect();
     if step.intensities.is_empty() && !tips.is_empty() {
-        bail!(
-            "{file}: the stored problem cannot be read, so the loads near the tips are not known, and \
-             no factors are stored; solve the problem again"
-        );
+        bail!("{file}: {reason}, and no factors are stored; solve the problem again");
     }
-    let message = format!(
-        "{file}: the stored problem cannot be read, so the loads near the tips are not known; these are \
-         the factors that the solver stored"
-    );
-    let unknown =
-        Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
-    Ok((tips, step.warnings.iter().cloned().chain([unknown]).collect()))
+    let message = format!("{file}: {reason}; these are the factors that the solver stored");
+    let told = Warning { kind: kind.into(), at: None, value: 0.0, limit: 0.0, message };
+    Ok((tips, step.warnings.iter().cloned().chain([told]).collect()))
 }

@@ -1,6 +1,6 @@
 //! Warnings about tips and their stress intensity factors.
 
-use super::{kind, short, shown, warning};
+use super::{LARGE_ERROR, kind, short, shown, warning};
 use crate::intensity::{AMPLE_ROOM, Obstacle, Outcome};
 use ppum::crack::Crack;
 use ppum::dataset::{Ring, TipIntensity, Warning};
@@ -28,8 +28,10 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack]) -> Vec<Warning> {
     let of_tip = |outcome: &Outcome| {
         let length = cracks[outcome.tip.crack as usize].length();
         let about_factors = match &outcome.factors {
-            Some(factors) => [negative(outcome, factors), spread(outcome, factors)],
-            None => [Some(no_room(outcome)), None],
+            Some(factors) => {
+                [negative(outcome, factors), spread(outcome, factors), unresolved(outcome)]
+            }
+            None => [Some(no_room(outcome)), None, None],
         };
         let about_place = [
             little_room(outcome),
@@ -86,6 +88,18 @@ fn spread(outcome: &Outcome, factors: &TipIntensity) -> Option<Warning> {
     );
     (spread > LARGE_SPREAD)
         .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
+}
+
+fn unresolved(outcome: &Outcome) -> Option<Warning> {
+    let error = outcome.doubt.functions;
+    let message = format!(
+        "tip {}: a function or a coefficient varies too fast around {}: integrals over a piece of a cell in its disc \
+         are off by about {error:.1e}; use smaller cells there, or a smoother formula",
+        shown(outcome.at),
+        shown(outcome.doubt.at)
+    );
+    let place = Some(outcome.doubt.at);
+    (error > LARGE_ERROR).then(|| warning(kind::QUADRATURE, place, [error, LARGE_ERROR], message))
 }
 
 fn no_room(outcome: &Outcome) -> Warning {
