@@ -2,8 +2,8 @@
 //!
 //! Factors are integrals over all cells in a disc, and a file of some kilobytes can ask for a hundred thousand tips in a
 //! hundred thousand cells. What is looked at, and how often, is added up here from sizes alone, and compared with bounds
-//! that are far above what solved problems take: a plate of a million patches with a few cracks, or a hundred thousand
-//! patches with some hundred cracks, stay below a hundredth of them.
+//! that are above what solved problems take: a plate of a million patches with a few cracks and holes, or of a hundred
+//! thousand patches with a thousand cracks, stays below them.
 
 use crate::intensity::Room;
 use ppum::box_tree::BoxTree;
@@ -21,13 +21,16 @@ const MOST_PAIRS: u64 = 1 << 26;
 
 /// Most comparisons: of tips with cells, cracks and rims, of cells with the segments near them, of kinks with each other.
 /// Some ten seconds.
-const MOST_LOOKS: u64 = 1 << 32;
+const MOST_LOOKS: u64 = 1 << 34;
 
-/// Most operations of evaluations: some minutes.
-const MOST_OPERATIONS: u64 = 1 << 38;
+/// Most operations of evaluations: ten minutes, of which a vector does several at once.
+const MOST_OPERATIONS: u64 = 1 << 40;
 
 /// Places at which a field is looked at in a cell for warnings.
 const PLACES: u64 = 32;
+
+/// Looks at each rim from a cell.
+const RIM_LOOKS: u64 = 4;
 
 /// Places along a crack.
 const CRACK_PLACES: u64 = 192;
@@ -105,28 +108,31 @@ struct Count<'d> {
 }
 
 impl Count<'_> {
-    /// Segments of cracks and of rims.
-    fn segments(&self) -> u64 {
-        let of_cracks: usize = self.step.cracks.iter().map(|crack| crack.points.len()).sum();
+    /// Circles and corners of holes.
+    fn rims(&self) -> u64 {
         let corners = |hole: &Hole| match hole {
             Hole::Circle { .. } => 1,
-            Hole::Polygon { points } => points.len(),
+            Hole::Polygon { points } => points.len() as u64,
         };
-        (of_cracks + self.dataset.domain.holes.iter().map(corners).sum::<usize>()) as u64
+        self.dataset.domain.holes.iter().map(corners).sum()
     }
 
     /// Comparisons of everything with everything.
     fn looks(&self) -> u64 {
         let (tips, cells) =
             (tips(&self.step.cracks).count() as u64, self.step.partition.len() as u64);
-        let rims = self.dataset.domain.holes.len() as u64;
+        let segments = self.step.cracks.iter().map(|crack| crack.points.len() as u64).sum::<u64>();
         let kinks: u64 = self.declared().iter().sum();
-        let curves: u64 = self.coefficients().map(|e| e.formula().kinks().len() as u64).sum();
-        let compared = kinks.saturating_mul(kinks) + curves * curves * COMPARED;
-        (tips + PLACES * u64::from(rims > 0))
-            .saturating_mul(cells + self.segments())
-            .saturating_add(PLACES * cells * rims)
-            .saturating_add(compared)
+        let curves = self.curves();
+        let of_tips = tips.saturating_mul(cells + segments + self.rims());
+        let of_cells = RIM_LOOKS.saturating_mul(cells).saturating_mul(self.rims());
+        let of_kinks = kinks.saturating_mul(kinks).saturating_add(curves * curves * COMPARED);
+        of_tips.saturating_add(of_cells).saturating_add(of_kinks)
+    }
+
+    /// Curves on which the coefficients of the equation may have kinks.
+    fn curves(&self) -> u64 {
+        self.coefficients().map(|e| e.formula().kinks().len() as u64).sum()
     }
 
     fn coefficients(&self) -> impl Iterator<Item = &Expression> {
@@ -171,16 +177,20 @@ impl Count<'_> {
     /// Operations of all evaluations of the field.
     fn operations(&self, neighbours: &[Vec<u32>]) -> u64 {
         let tree = BoxTree::new(&self.step.partition.cell);
-        let work: Vec<u64> = neighbours.iter().map(|patches| self.work(patches)).collect();
-        let everywhere = work.iter().fold(0u64, |sum, w| sum.saturating_add(PLACES * w));
-        let mean = work.iter().sum::<u64>() / work.len().max(1) as u64;
+        let declared = self.declared();
+        let curves = self.curves();
+        let work: Vec<_> = neighbours.iter().map(|patches| self.work(patches, &declared)).collect();
+        let once = work.iter().fold(0u64, |sum, (work, _)| sum.saturating_add(*work));
+        let (everywhere, mean) = (PLACES.saturating_mul(once), once / work.len().max(1) as u64);
         let along = CRACK_PLACES * mean * self.step.cracks.len() as u64;
         let mut sum = everywhere.saturating_add(along);
         for tip in tips(&self.step.cracks) {
             let mut cells = Vec::new();
             tree.query_box(&self.disc(tip), &mut cells);
-            let disc: u64 = cells.iter().map(|&c| work[c as usize]).sum();
-            sum = sum.saturating_add(POINTS.saturating_mul(disc));
+            for (work, kinks) in cells.into_iter().map(|c| work[c as usize]) {
+                let pieces = POINTS * (1 + kinks + curves);
+                sum = sum.saturating_add(pieces.saturating_mul(work));
+            }
             if sum > MOST_OPERATIONS {
                 break;
             }
@@ -196,18 +206,23 @@ impl Count<'_> {
         Rect::around(crack.end_point(tip.end), vec2(radius, radius).max(Vec2::ZERO))
     }
 
-    /// Operations of an evaluation in a cell with these patches around it.
-    fn work(&self, patches: &[u32]) -> u64 {
+    /// Operations of an evaluation in a cell with these patches around it, and the number of kinks and singular
+    /// points that their functions declare.
+    fn work(&self, patches: &[u32], declared: &[u64]) -> (u64, u64) {
         let (mut groups, mut work) = (BTreeSet::new(), PATCH * patches.len() as u64);
+        let mut functions = BTreeSet::new();
         for block in patches.iter().flat_map(|&patch| self.data.blocks(patch as usize)) {
             work += (monomials(self.data.block_degree[block].into()) * self.data.components.len())
                 as u64;
-            if let Slot::Jet { group, .. } = self.table.of(self.data.block_function[block]) {
+            let function = self.data.block_function[block];
+            functions.insert(function);
+            if let Slot::Jet { group, .. } = self.table.of(function) {
                 groups.insert(group);
             }
         }
-        let functions = groups.into_iter().map(|g| self.table.cost(g as usize, &self.step.cracks));
+        let groups = groups.into_iter().map(|g| self.table.cost(g as usize, &self.step.cracks));
         let coefficients = self.coefficients().map(|e| 3 * e.formula().text().len());
-        work + functions.chain(coefficients).sum::<usize>() as u64
+        work += groups.chain(coefficients).sum::<usize>() as u64;
+        (work, functions.into_iter().map(|function| declared[function as usize]).sum())
     }
 }

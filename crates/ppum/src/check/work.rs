@@ -27,12 +27,12 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
         let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables);
         let Ok(table) = table else { continue };
         for (f, field) in step.fields.iter().enumerate() {
-            let Some((work, at)) = too_much(&works(step, field, &table)) else { continue };
+            let Some(at) = too_much(&works(step, field, &table)) else { continue };
             let place = format!("steps[{k}].fields[{f}]");
             let problem = format!(
-                "an evaluation at a point near ({}, {}) takes {work} coefficients of the patches that cover it, \
-                 operations of their functions, and segments of cracks, but {MOST_WORK} at most are possible; let \
-                 fewer patches overlap there, or give them fewer functions",
+                "an evaluation at a point near ({}, {}) takes more than {MOST_WORK} coefficients of the patches that \
+                 cover it, operations of their functions, and segments of cracks; let fewer patches overlap there, or \
+                 give them fewer functions",
                 at.x, at.y
             );
             return fail(&place, problem);
@@ -71,9 +71,9 @@ fn weight(partition: &Partition) -> usize {
     }
 }
 
-/// The sum of the works of boxes over a point, and the point, where it is too large; half-open boxes do not touch. A
-/// line sweeps over the plane from left to right. O(n log n).
-fn too_much(boxes: &[(Rect, u64)]) -> Option<(u64, Vec2)> {
+/// A point at which the works of the boxes over it are too much together; half-open boxes do not touch. A line sweeps
+/// over the plane from left to right. O(n log n).
+fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
     if boxes.iter().map(|(_, work)| work).sum::<u64>() <= MOST_WORK {
         return None;
     }
@@ -92,9 +92,8 @@ fn too_much(boxes: &[(Rect, u64)]) -> Option<(u64, Vec2)> {
         let (b, work) = &boxes[k as usize];
         let work = if begins { *work as i64 } else { -(*work as i64) };
         line.add(rank(b.min.y), rank(b.max.y), work);
-        let most = line.most[1] as u64;
-        if most > MOST_WORK {
-            return Some((most, vec2(x, heights[line.place()])));
+        if line.most[1] > MOST_WORK as i64 {
+            return Some(vec2(x, heights[line.place()]));
         }
     }
     None
@@ -159,6 +158,8 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::tests::{dataset, place_after};
+    use crate::dataset::{Ring, TipIntensity};
     use crate::random::Random;
 
     /// The largest sum over the corners of boxes, among which its place must be.
@@ -189,15 +190,64 @@ mod tests {
                 let most = largest(&boxes);
                 let told = too_much(&boxes);
                 assert_eq!(told.is_some(), most > MOST_WORK, "{boxes:?}");
-                if let Some((work, at)) = told {
+                if let Some(at) = told {
                     let over = boxes.iter().filter(|(b, _)| {
                         b.min.x <= at.x && at.x < b.max.x && b.min.y <= at.y && at.y < b.max.y
                     });
-                    assert_eq!(over.map(|(_, work)| work).sum::<u64>(), work);
+                    assert!(over.map(|(_, work)| work).sum::<u64>() > MOST_WORK, "{boxes:?}");
                     found += 1;
                 }
             }
         }
         assert!((20..180).contains(&found), "{found}");
+    }
+
+    /// Blocks share no coefficients, and what could be multiplied by something else has a limit.
+    #[test]
+    fn sizes_that_multiply_have_limits() {
+        let twice = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.block_offset.fill(0);
+            field.coefficients.iter_mut().for_each(|component| component.truncate(3));
+        };
+        assert_eq!(place_after(twice), "steps[0].fields[0].block_offset");
+        let components = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.name = "values".into();
+            field.components = (0..65).map(|k| format!("v{k}")).collect();
+            field.coefficients = vec![field.coefficients[0].clone(); 65];
+        };
+        assert_eq!(place_after(components), "steps[0].fields[0].components");
+        let rings = |d: &mut Dataset| {
+            let ring = Ring { r1: 0.0, r2: 1.0, k1: 1.0, k2: 0.0 };
+            let TipIntensity { rings, .. } = &mut d.steps[0].intensities[0];
+            *rings = vec![ring; 65];
+        };
+        assert_eq!(place_after(rings), "steps[0].intensities[0].rings");
+    }
+
+    /// Patches over a point: as many as a graded cover has, and far more.
+    #[test]
+    fn patches_that_overlap_are_counted() {
+        let piled = |n: usize| {
+            let mut data = dataset();
+            let step = &mut data.steps[0];
+            let (partition, field) = (&mut step.partition, &mut step.fields[0]);
+            partition.center = vec![partition.center[0]; n];
+            partition.half = vec![partition.half[0]; n];
+            partition.origin = vec![partition.origin[0]; n];
+            partition.scale = vec![partition.scale[0]; n];
+            partition.cell = vec![partition.cell[0]; n];
+            partition.level = vec![0; n];
+            partition.point = vec![None; n];
+            step.attributes.clear();
+            let last = field.patch_blocks[1];
+            field.patch_blocks.resize(n + 1, last);
+            check(&data)
+        };
+        assert_eq!(piled(1000), Ok(()));
+        let error = piled(1 << 15).expect_err("too many");
+        assert_eq!(error.place, "steps[0].fields[0]");
+        assert!(error.problem.contains("let fewer patches overlap there"), "{error}");
     }
 }

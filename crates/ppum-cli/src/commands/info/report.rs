@@ -8,7 +8,7 @@ use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, Stres
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
-use ppum::quantity::{Quantity, names};
+use ppum::quantity::names;
 use ppum::vec2::Vec2;
 use serde::Serialize;
 
@@ -290,7 +290,7 @@ fn quantities(field: &Field<'_>) -> Vec<String> {
     let all = names(field.equation, &field.data.components);
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
     let named = field.quantities.iter().map(|quantity| quantity.name.clone());
-    let named = named.filter(|name| Quantity::parse(name, field).is_ok());
+    // that those which the dataset names are formulas of it was seen when it was read
     usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
 }
 
