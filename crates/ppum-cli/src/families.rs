@@ -1,6 +1,7 @@
 //! The functions of a step in few words: `westergaard 1–4 at 6 tips` for 24 of them.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use ppum::dataset::FieldData;
 use ppum::function::{Declared, Frame, Function, FunctionKind};
@@ -98,21 +99,19 @@ struct Group<'f> {
 
 fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
-    // by name and formula, which hardly ever do not tell the groups apart
-    let mut known: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
+    let mut known: BTreeMap<Key<'_>, usize> = BTreeMap::new();
     for (number, (function, &blocks)) in functions.iter().zip(blocks).enumerate() {
         let (stem, kind) = (function.stem(), &function.kind);
-        let like = known.entry((stem, parts(kind).map_or("", |(text, ..)| text))).or_default();
-        match like.iter().copied().find(|&k| is_moved(groups[k].kinds[0], kind)) {
-            Some(k) => {
-                let group = &mut groups[k];
+        match known.entry(key(stem, kind)) {
+            Entry::Occupied(entry) => {
+                let group = &mut groups[*entry.get()];
                 group.names.push(&function.name);
                 group.kinds.push(kind);
                 group.numbers.push(number);
                 group.blocks += blocks;
             }
-            None => {
-                like.push(groups.len());
+            Entry::Vacant(entry) => {
+                entry.insert(groups.len());
                 let (names, kinds, numbers) = (vec![&*function.name], vec![kind], vec![number]);
                 groups.push(Group { stem, names, kinds, numbers, blocks });
             }
@@ -121,16 +120,25 @@ fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> 
     groups
 }
 
-/// True if two functions differ in their places only.
-fn is_moved(a: &FunctionKind, b: &FunctionKind) -> bool {
-    match (parts(a), parts(b)) {
-        (Some((text, frame, parameters, declared)), Some((t, f, p, d))) => {
-            let same_frame = std::mem::discriminant(frame) == std::mem::discriminant(f);
-            same_frame && (text, parameters, declared) == (t, p, d)
-        }
-        (None, None) => std::mem::discriminant(a) == std::mem::discriminant(b),
-        _ => false,
-    }
+/// Name, kind, formula, names of parameters, and numbers: two functions that differ in their places only have the same.
+type Key<'f> = (&'f str, &'static str, &'f str, Vec<&'f str>, Vec<u64>);
+
+fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
+    let Some((text, frame, parameters, declared)) = parts(kind) else {
+        let kind = if matches!(kind, FunctionKind::Side { .. }) { "side" } else { "one" };
+        return (stem, kind, "", Vec::new(), Vec::new());
+    };
+    let frame = match frame {
+        Frame::World => "world",
+        Frame::Tip(_) => "tip",
+        _ => "fixed",
+    };
+    let points = declared.kinks.as_flattened().iter().chain(&declared.singular);
+    let values = parameters.iter().map(|(_, value)| *value);
+    let numbers = [parameters.len(), declared.kinks.len()].map(|n| n as u64).into_iter();
+    let numbers = numbers.chain(values.chain(points.flat_map(|p| [p.x, p.y])).map(f64::to_bits));
+    let names = parameters.iter().map(|(name, _)| name.as_str()).collect();
+    (stem, frame, text, names, numbers.collect())
 }
 
 type Parts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);

@@ -5,27 +5,69 @@
 //! is asked for. Points given with an offset mean exactly what they say, and are on a crack only up to the
 //! rounding of the offset.
 
+use ppum::box_tree::BoxTree;
 use ppum::crack::{Crack, CrackEnd, SegmentId};
 use ppum::field::{Field, LocalField};
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of a point's coordinates and of its distance from a line, in parts of their size.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The segment that `anchor + offset` lies on, if it lies on a crack. Tips do not count: there is
-/// nothing to part.
+/// The segments of cracks, to be asked which of them a point lies on: many points, many segments.
+pub(crate) struct Segments<'c> {
+    cracks: &'c [Crack],
+    /// All segments in their order.
+    all: Vec<SegmentId>,
+    tree: BoxTree,
+    /// Largest coordinate.
+    size: f64,
+}
+
+impl<'c> Segments<'c> {
+    pub(crate) fn new(cracks: &'c [Crack]) -> Self {
+        let (mut all, mut boxes, mut size) = (Vec::new(), Vec::new(), 0.0f64);
+        for (index, crack) in (0..).zip(cracks) {
+            for (segment, ends) in (0..).zip(crack.points.windows(2)) {
+                let (min, max) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+                all.push(SegmentId { crack: index, segment });
+                boxes.push(Rect::new(min, max));
+                size = [min.x, min.y, max.x, max.y].into_iter().fold(size, largest);
+            }
+        }
+        Self { cracks, all, tree: BoxTree::new(&boxes), size }
+    }
+
+    /// The segment that `anchor + offset` lies on, if it lies on a crack: the first. Tips do not count: there
+    /// is nothing to part.
+    pub(crate) fn at(&self, anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
+        let point = anchor + offset;
+        let size = [anchor.x, anchor.y, point.x, point.y].into_iter().fold(self.size, largest);
+        // more than the rounding that counts as on a segment
+        let reach = (8.0 * ROUNDING * size).max(f64::MIN_POSITIVE);
+        let mut near = Vec::new();
+        self.tree.query_box(&Rect::around(point, vec2(reach, reach)), &mut near);
+        let touched = |id: &SegmentId| {
+            touches_segment(&self.cracks[id.crack as usize], id.segment, anchor, offset)
+        };
+        near.into_iter().map(|index| self.all[index as usize]).find(touched)
+    }
+}
+
+/// The same for a few points.
 pub(crate) fn on_crack(cracks: &[Crack], anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
     (0..).zip(cracks).find_map(|(index, crack)| {
-        let last = crack.points.len() - 2;
-        let segment = (0..=last).find(|&k| {
-            let is_tip = [
-                k == 0 && crack.ends[0] == CrackEnd::Tip,
-                k == last && crack.ends[1] == CrackEnd::Tip,
-            ];
-            touches([crack.points[k], crack.points[k + 1]], is_tip, anchor, offset)
-        })?;
-        Some(SegmentId { crack: index, segment: segment as u32 })
+        let mut segments = 0..crack.points.len() as u32 - 1;
+        let segment = segments.find(|&k| touches_segment(crack, k, anchor, offset))?;
+        Some(SegmentId { crack: index, segment })
     })
+}
+
+/// True if `anchor + offset` lies on a segment of a crack, and not at a tip.
+fn touches_segment(crack: &Crack, segment: u32, anchor: Vec2, offset: Vec2) -> bool {
+    let (k, last) = (segment as usize, crack.points.len() - 2);
+    let is_tip =
+        [k == 0 && crack.ends[0] == CrackEnd::Tip, k == last && crack.ends[1] == CrackEnd::Tip];
+    touches([crack.points[k], crack.points[k + 1]], is_tip, anchor, offset)
 }
 
 /// The field as seen from an anchor, on a segment of a crack if points lie on one.
@@ -61,8 +103,6 @@ fn largest(a: f64, b: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use ppum::vec2::vec2;
-
     use super::*;
 
     fn crack(points: &[(f64, f64)], ends: [CrackEnd; 2]) -> Crack {
@@ -77,15 +117,21 @@ mod tests {
             let (a, b) = (vec2(0.3 * cos, 0.3 * sin), vec2(-0.5 * sin - 0.9 * cos, 0.2 * cos));
             let crack = crack(&[(a.x, a.y), (b.x, b.y)], [CrackEnd::Tip; 2]);
             let point = a + (b - a) * (0.01 + 0.98 * f64::from(k) / 500.0);
-            let found = on_crack(std::slice::from_ref(&crack), point, Vec2::ZERO);
-            assert_eq!(found, Some(SegmentId { crack: 0, segment: 0 }), "{point:?}");
+            let (cracks, on) = ([crack], Some(SegmentId { crack: 0, segment: 0 }));
+            assert_eq!(on_crack(&cracks, point, Vec2::ZERO), on, "{point:?}");
+            assert_eq!(Segments::new(&cracks).at(point, Vec2::ZERO), on, "{point:?}");
         }
     }
 
     #[test]
     fn tips_do_not_count_and_mouths_and_kinks_do() {
         let bent = [crack(&[(0.0, 0.1), (0.3, 0.1), (0.5, 0.7)], [CrackEnd::Mouth, CrackEnd::Tip])];
-        let at = |x, y| on_crack(&bent, vec2(x, y), Vec2::ZERO);
+        let segments = Segments::new(&bent);
+        let at = |x, y| {
+            let found = on_crack(&bent, vec2(x, y), Vec2::ZERO);
+            assert_eq!(segments.at(vec2(x, y), Vec2::ZERO), found, "{x} {y}");
+            found
+        };
         let segment = |segment| Some(SegmentId { crack: 0, segment });
         assert_eq!(at(0.0, 0.1), segment(0));
         assert_eq!(at(0.3, 0.1), segment(0));
@@ -98,7 +144,11 @@ mod tests {
     #[test]
     fn offsets_mean_what_they_say() {
         let straight = [crack(&[(-0.5, 0.3), (0.5, 0.3)], [CrackEnd::Tip; 2])];
-        let at = |dx, dy| on_crack(&straight, vec2(0.5, 0.3), vec2(dx, dy));
+        let at = |dx, dy| {
+            let found = on_crack(&straight, vec2(0.5, 0.3), vec2(dx, dy));
+            assert_eq!(Segments::new(&straight).at(vec2(0.5, 0.3), vec2(dx, dy)), found);
+            found
+        };
         assert!(at(-1e-30, 0.0).is_some());
         assert_eq!(at(1e-30, 0.0), None);
         assert_eq!(at(-1e-30, 1e-40), None);

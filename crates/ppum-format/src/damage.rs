@@ -8,6 +8,19 @@ mod content;
 mod forge;
 
 pub use forge::{object_headers, seal, sealed_parts};
+use ppum::dataset::Dataset;
+
+use crate::{WriteError, checksum, encode, hdf5};
+
+/// The bytes of a dataset that need not obey the rules, its checksum right.
+///
+/// # Errors
+/// Something that the format cannot express.
+pub fn unchecked(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
+    let mut content = encode::content(dataset)?;
+    checksum::seal(&mut content);
+    hdf5::to_bytes(&content)
+}
 
 /// A damaged file.
 #[derive(Clone, Debug)]

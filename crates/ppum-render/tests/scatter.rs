@@ -296,3 +296,22 @@ fn lanes_are_much_faster_than_scalars() {
         assert!(wide > 2.5 && narrow > 2.5, "{quantity:?}: {wide} {narrow}");
     }
 }
+
+/// More functions in a tile than are kept at a time, and patches in strips of tiles: the picture is that of all points.
+#[test]
+fn tiles_of_many_functions() {
+    let data = ppum_testkit::costly::named("functions");
+    let field = Field::new(&data, 0).expect("a field");
+    let view = View::new(vec2(0.5, 0.5), 1.03, [70, 52]).expect("a view");
+    let quantity = Quantity::parse("uy", &field).expect("a component");
+    let picture = render::<f64>(&field, &view, &quantity).expect("a picture");
+    let expected = reference(&field, &view, &quantity).expect("a picture");
+    let pairs = || picture.values.iter().zip(&expected.values).filter(|(_, e)| !e.is_nan());
+    assert!(pairs().count() > 3000);
+    for (found, expected) in pairs() {
+        // values are 0 and 1, so both sums are right to some ten roundings
+        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+    }
+    let sides = pairs().filter(|(_, expected)| **expected < 0.5).count();
+    assert!((100..3400).contains(&sides), "{sides}");
+}

@@ -47,6 +47,7 @@ mod cell;
 mod cholesky;
 mod clip;
 mod corner;
+pub mod effort;
 mod eigen;
 mod enrichment;
 mod estimate;

@@ -25,6 +25,7 @@ use ppum::function::{Function, FunctionError};
 use ppum::vec2::{Rect, Vec2};
 pub(crate) use probe::Probe;
 use probe::ProbeList;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use traits::{Surroundings, Traits, traits_of_coefficient, traits_of_data};
 pub(crate) use traits::{box_of, levels_of_data};
@@ -36,6 +37,8 @@ const ROUNDING: f64 = 1e-14;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Smoothness {
     singular: Vec<Singular>,
+    /// Those at each point, by the bits of its coordinates.
+    at_point: BTreeMap<[u64; 2], Vec<u32>>,
     patch_singular: Vec<Vec<u32>>,
     kinks: Vec<Kink>,
     patch_kinks: Vec<Vec<u32>>,
@@ -145,6 +148,11 @@ impl Smoothness {
         !self.common_probes.is_empty() || patches.iter().any(own)
     }
 
+    /// Operations of all formulas that are looked at.
+    pub(crate) fn probe_operations(&self) -> usize {
+        self.probes.0.iter().map(Probe::operations).sum()
+    }
+
     /// Degree that quadrature has to be for.
     pub(crate) fn degree(&self) -> usize {
         self.degree
@@ -162,12 +170,14 @@ impl Smoothness {
 
     fn add(&mut self, traits: Traits, domain: &Rect) -> Indices {
         let singular = traits.singular.into_iter().map(|new| {
-            let known = self.singular.iter().position(|known| *known == new);
-            let index = known.unwrap_or(self.singular.len());
-            if known.is_none() {
+            let place = [new.point.x, new.point.y].map(f64::to_bits);
+            let here = self.at_point.entry(place).or_default();
+            let known = here.iter().copied().find(|&k| self.singular[k as usize] == new);
+            known.unwrap_or_else(|| {
                 self.singular.push(new);
-            }
-            index as u32
+                here.push(self.singular.len() as u32 - 1);
+                self.singular.len() as u32 - 1
+            })
         });
         let singular = singular.collect();
         let mut kinks: Vec<u32> =

@@ -112,6 +112,11 @@ impl<'d> Space<'d> {
         }
     }
 
+    /// Operations of all formulas that quadrature looks at.
+    pub(crate) fn probe_operations(&self) -> usize {
+        self.smoothness.probe_operations()
+    }
+
     /// Where the functions of the space and the coefficients are not smooth.
     pub(crate) fn smoothness(&self) -> &Smoothness {
         &self.smoothness

@@ -2,6 +2,7 @@
 //! evaluation in extended precision to compare with, and an interpreter of WGSL.
 
 pub mod corpus;
+pub mod costly;
 pub mod exact;
 pub mod extended;
 pub mod fields;

@@ -19,7 +19,7 @@ const ARROWS: [(&str, &[&str]); 8] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 11] = [
+const DOORS: [(&str, &str); 13] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
@@ -30,6 +30,7 @@ const DOORS: [(&str, &str); 11] = [
     ("png", "ppum-render"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
+    ("sysinfo", "ppum-cli"),
     ("toml", "ppum-solve"),
     ("wgpu", "ppum-gpu"),
 ];

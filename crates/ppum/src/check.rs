@@ -6,6 +6,7 @@
 mod domain;
 mod formulas;
 mod tiling;
+mod work;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -57,7 +58,8 @@ impl Dataset {
                     .map_err(|e| e.inside(&format!("steps[{k}].partition")))?;
             }
         }
-        formulas::check_quantities(self)
+        formulas::check_quantities(self)?;
+        work::check(self)
     }
 }
 
@@ -281,9 +283,15 @@ fn check_frame(frame: &Frame, cracks: usize) -> Checked {
     }
 }
 
+/// Most components of a field: each pixel of a picture holds all of them with their derivatives.
+const MAX_COMPONENTS: usize = 64;
+
 fn check_field(field: &FieldData, step: &Step, equation: &Equation) -> Checked {
     let components = field.components.len();
     require(components > 0, "components", || "a field needs at least one".into())?;
+    require(components <= MAX_COMPONENTS, "components", || {
+        format!("there are {components} components, but at most {MAX_COMPONENTS} may be")
+    })?;
     check_names("components", field.components.iter())?;
     if field.name == "displacement" || field.name == "potential" {
         check_length("components", components, equation.components(), "those of the equation")?;
@@ -347,8 +355,18 @@ fn check_blocks(field: &FieldData, functions: usize) -> Checked {
             format!("coefficients {offset} + {needed} reach beyond the {count} stored")
         })?;
     }
-    Ok(())
+    // blocks that shared theirs could ask for far more than a file holds
+    let sizes = field.block_degree.iter().map(|&degree| monomials(degree.into()) as u64);
+    let all: u64 = sizes.sum();
+    require(all <= count, "block_offset", || {
+        format!(
+            "the blocks take {all} coefficients, but {count} are stored; give each block its own"
+        )
+    })
 }
+
+/// Most rings of a tip: each is compared with all others.
+const MAX_RINGS: usize = 64;
 
 /// Each tip has one entry at most, and ends of other kinds have none.
 fn check_intensities(step: &Step) -> Checked {
@@ -372,6 +390,9 @@ fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
     })?;
     check_number("k1", intensity.k1)?;
     check_number("k2", intensity.k2)?;
+    require(intensity.rings.len() <= MAX_RINGS, "rings", || {
+        format!("there are {} rings, but at most {MAX_RINGS} may be", intensity.rings.len())
+    })?;
     check_all(
         "rings",
         &intensity.rings,

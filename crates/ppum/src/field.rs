@@ -8,6 +8,7 @@
 //! S = Σ W_i     U = Σ W_i v_i     u = U / S     ∇u = (∇U − u ∇S) / S
 //! ```
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::box_tree::BoxTree;
@@ -418,26 +419,27 @@ fn stretched<R: Real, const D: usize>(p: Jet<R>, inverse: [f64; 2]) -> Jet<R> {
     out
 }
 
-/// Groups remembered at a time, more than meet in the patches of one point in practice. A group that
-/// was forgotten is evaluated again.
-const REMEMBERED: usize = 6;
+/// Groups that have a place of their own, more than meet in the patches of one point in practice.
+const PLACES: usize = 6;
 
-/// The functions at one point: a group is evaluated when it is first asked for.
+/// The functions at one point: a group is evaluated when it is first asked for, and once.
 struct FunctionJets<'a, 'f, R> {
     functions: &'a LocalFunctions<'f>,
     offset: [R; 2],
     side: Side,
-    groups: [u32; REMEMBERED],
-    jets: [[Jet<R>; GROUP]; REMEMBERED],
+    groups: [u32; PLACES],
+    jets: [[Jet<R>; GROUP]; PLACES],
     next: usize,
+    /// Where there are more, those that have lost their places.
+    others: BTreeMap<u32, [Jet<R>; GROUP]>,
 }
 
 impl<'a, 'f, R: Real> FunctionJets<'a, 'f, R> {
     #[inline(always)]
     fn new(functions: &'a LocalFunctions<'f>, offset: [R; 2], side: Side) -> Self {
         let zero = Jet::constant(offset[0].lit(0.0));
-        let jets = [[zero; GROUP]; REMEMBERED];
-        Self { functions, offset, side, groups: [u32::MAX; REMEMBERED], jets, next: 0 }
+        let (groups, jets) = ([u32::MAX; PLACES], [[zero; GROUP]; PLACES]);
+        Self { functions, offset, side, groups, jets, next: 0, others: BTreeMap::new() }
     }
 
     #[inline(always)]
@@ -446,15 +448,23 @@ impl<'a, 'f, R: Real> FunctionJets<'a, 'f, R> {
             return Jet::constant(self.offset[0].lit(1.0));
         };
         let mut place = 0;
-        while place < REMEMBERED && self.groups[place] != group {
+        while place < PLACES && self.groups[place] != group {
             place += 1;
         }
-        if place == REMEMBERED {
+        if place == PLACES {
             place = self.next;
-            self.next = (self.next + 1) % REMEMBERED;
+            self.next = (self.next + 1) % PLACES;
+            if self.groups[place] != u32::MAX {
+                self.others.insert(self.groups[place], self.jets[place]);
+            }
             self.groups[place] = group;
             let jets = &mut self.jets[place];
-            self.functions.evaluate::<R, D>(group as usize, self.offset, self.side, jets);
+            match self.others.get(&group) {
+                Some(known) => *jets = *known,
+                None => {
+                    self.functions.evaluate::<R, D>(group as usize, self.offset, self.side, jets);
+                }
+            }
         }
         self.jets[place][entry as usize]
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
+use ppum_solve::effort::{EffortError, check_effort};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
 use ppum_solve::warnings::{judge, kind};
@@ -91,16 +92,26 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     Ok((all, warnings))
 }
 
-/// What the field says; what the solver stored where the loads near the tips are not known.
+/// What the field says; what the solver stored where the loads near the tips are not known, or it takes too much.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     let problem = Problem::of_dataset(dataset);
     let (mut tips, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
-        let (found, remarks) = match &problem {
-            Ok(problem) if problem.as_ref().is_none_or(|p| p.cracks == step.cracks) => {
-                computed(dataset, index, problem.as_ref())?
-            }
-            _ => unknown(name, index, step)?,
+        let of_step = |problem: &&Option<Problem>| {
+            problem.as_ref().is_none_or(|problem| problem.cracks == step.cracks)
+        };
+        let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
+            // What the solver found while it knew the loads.
+            None => known(name, index, step, UNKNOWN)?,
+            Some(problem) => match check_effort(dataset, index) {
+                Err(error @ EffortError::TooMuch { .. }) => {
+                    known(name, index, step, ("too-costly", &error.to_string()))?
+                }
+                effort => {
+                    effort?;
+                    computed(dataset, index, problem.as_ref())?
+                }
+            },
         };
         tips.extend(found);
         warnings.extend(rows(index, &remarks));
@@ -123,20 +134,26 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
-/// What is known of a step whose loads are not.
-fn unknown(file: &str, index: usize, step: &Step) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
+/// Why factors cannot be found again: a word for the kind of the warning, and what to say.
+type Reason<'a> = (&'a str, &'a str);
+
+const UNKNOWN: Reason<'static> = (
+    "loads-unknown",
+    "the stored problem cannot be read, so the loads near the tips are not known",
+);
+
+/// What the solver stored in a step, whose factors cannot be found again.
+fn known(
+    file: &str,
+    index: usize,
+    step: &Step,
+    (kind, reason): Reason<'_>,
+) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let tips = all_tips(index, step);
     if step.intensities.is_empty() && !tips.is_empty() {
-        bail!(
-            "{file}: the stored problem cannot be read, so the loads near the tips are not known, and \
-             no factors are stored; solve the problem again"
-        );
+        bail!("{file}: {reason}, and no factors are stored; solve the problem again");
     }
-    let message = format!(
-        "{file}: the stored problem cannot be read, so the loads near the tips are not known; these are \
-         the factors that the solver stored"
-    );
-    let unknown =
-        Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
-    Ok((tips, step.warnings.iter().cloned().chain([unknown]).collect()))
+    let message = format!("{file}: {reason}; these are the factors that the solver stored");
+    let told = Warning { kind: kind.into(), at: None, value: 0.0, limit: 0.0, message };
+    Ok((tips, step.warnings.iter().cloned().chain([told]).collect()))
 }

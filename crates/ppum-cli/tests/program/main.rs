@@ -3,6 +3,8 @@
 
 mod backend;
 mod bench;
+#[cfg(target_os = "linux")]
+mod cost;
 mod damage;
 mod demo;
 mod determinism;

@@ -27,6 +27,8 @@ mod plan;
 mod spread;
 mod tile;
 
+use std::ops::Range;
+
 use ppum::field::Field;
 use ppum::function::LocalFunctions;
 use ppum::quantity::{Quantity, QuantityError, Source};
@@ -128,15 +130,25 @@ impl<'f, T: Sample> Scene<'f, T> {
     fn draw<const D: usize>(&self) -> Raster<T> {
         let [columns, rows] = self.view.pixels.map(|n| n as usize);
         let mut values = vec![T::default(); columns * rows];
-        values.par_chunks_mut(columns * ROWS).enumerate().for_each_init(
-            Scratch::default,
-            |scratch, (band, out)| {
-                T::dispatch(Band::<'_, '_, T, D> { scene: self, band, scratch, out: &mut *out });
-                self.clear_outside(band * ROWS, out);
-                self.clear_holes(band * ROWS, out);
-            },
-        );
+        let mut rest = values.as_mut_slice();
+        for bands in self.plan.strips() {
+            let pixels = rest.len().min(bands.len() * columns * ROWS);
+            let (strip, later) = rest.split_at_mut(pixels);
+            self.draw_strip::<D>(bands, strip);
+            rest = later;
+        }
         Raster::new(self.view.pixels, values)
+    }
+
+    fn draw_strip<const D: usize>(&self, bands: Range<usize>, strip: &mut [T]) {
+        let tiles = &self.plan.tiles(&bands);
+        let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
+        chunks.for_each_init(Scratch::default, |scratch, (k, out)| {
+            let (scene, band) = (self, bands.start + k);
+            T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });
+            self.clear_outside(band * ROWS, out);
+            self.clear_holes(band * ROWS, out);
+        });
     }
 
     /// Sets the pixels outside the domain's box to NaN.
@@ -162,7 +174,8 @@ impl<'f, T: Sample> Scene<'f, T> {
                 let line = &mut out[(row - first_row) * width..][..width];
                 for column in seen.columns.clone() {
                     let offset = self.view.offset(column as u32, row as u32);
-                    if seen.hole.contains(offset) {
+                    // holes may lie over each other
+                    if !line[column].to_f64().is_nan() && seen.hole.contains(offset) {
                         line[column] = T::from_f64(f64::NAN);
                     }
                 }

@@ -71,7 +71,10 @@ pub(super) struct Plan<'f> {
     pub(super) inside: [Range<usize>; 2],
     /// The holes in sight.
     pub(super) holes: Vec<HolePixels>,
-    tiles: Tiles,
+    /// Columns of tiles, and rows of them: bands.
+    tiles: [usize; 2],
+    /// Rows of a tile.
+    rows: usize,
 }
 
 /// A hole seen from the view's centre, and the columns and rows of pixels that may lie in it.
@@ -95,29 +98,54 @@ impl<'f> Plan<'f> {
             coefficients: coefficients(field.data, quantity),
             inside: view.inside(&field.domain.bounds),
             holes: holes(&field.domain.holes, view.center, &pixels),
-            tiles: Tiles::default(),
+            tiles: [
+                (view.pixels[0] as usize).div_ceil(COLUMNS),
+                (view.pixels[1] as usize).div_ceil(rows),
+            ],
+            rows,
         };
         for &index in &visible {
             let blocks = plan.add_blocks(field, index as usize, quantity);
             plan.patches.push(patch(field, index as usize, view, &pixels, blocks));
         }
-        plan.tiles = Tiles::new(&plan.patches, view.pixels, rows);
         plan
     }
 
-    /// The patches that meet a tile, ascending.
-    pub(super) fn tile(&self, column: usize, row: usize) -> &[u32] {
-        self.tiles.of(column, row)
+    /// The bands in strips whose lists of patches are short enough to be kept; the whole picture where it can be.
+    pub(super) fn strips(&self) -> Vec<Range<usize>> {
+        let (mut strips, mut start, mut entries) = (Vec::new(), 0, 0);
+        for (band, more) in self.entries_of_bands().into_iter().enumerate() {
+            if band > start && entries + more > MOST_ENTRIES {
+                strips.push(start..band);
+                (start, entries) = (band, 0);
+            }
+            entries += more;
+        }
+        strips.push(start..self.tiles[1]);
+        strips
     }
 
-    /// True if a patch of the tile may have functions.
-    pub(super) fn has_functions(&self, column: usize, row: usize) -> bool {
-        self.tiles.functions[row * self.tiles.columns + column]
+    /// How many patches the tiles of each band have.
+    fn entries_of_bands(&self) -> Vec<usize> {
+        let mut changes = vec![0i64; self.tiles[1] + 1];
+        for patch in &self.patches {
+            let (bands, columns) = (tiles(&patch.rows, self.rows), tiles(&patch.columns, COLUMNS));
+            if !bands.is_empty() {
+                changes[bands.start] += columns.len() as i64;
+                changes[bands.end] -= columns.len() as i64;
+            }
+        }
+        changes.pop();
+        let sums = changes.into_iter().scan(0, |sum, change| {
+            *sum += change;
+            Some(*sum as usize)
+        });
+        sums.collect()
     }
 
-    /// Number of tiles in a row of tiles.
-    pub(super) fn tile_columns(&self) -> usize {
-        self.tiles.columns
+    /// The tiles of some bands.
+    pub(super) fn tiles(&self, bands: &Range<usize>) -> Tiles {
+        Tiles::new(&self.patches, self.tiles[0], bands, self.rows)
     }
 
     /// Coefficients of a block for one component.
@@ -196,10 +224,16 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
     seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
 }
 
-/// The patches of each tile in compressed rows.
-#[derive(Debug, Default)]
-struct Tiles {
-    columns: usize,
+/// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million patches that a picture
+/// resolves have two million entries.
+const MOST_ENTRIES: usize = 1 << 25;
+
+/// The patches of each tile of a strip in compressed rows.
+#[derive(Debug)]
+pub(super) struct Tiles {
+    /// Number of tiles in a band.
+    pub(super) columns: usize,
+    first: usize,
     starts: Vec<u32>,
     patches: Vec<u32>,
     /// Whether patches of the tile have functions.
@@ -207,13 +241,18 @@ struct Tiles {
 }
 
 impl Tiles {
-    fn new(patches: &[Patch], pixels: [u32; 2], rows: usize) -> Self {
-        let columns = (pixels[0] as usize).div_ceil(COLUMNS);
-        let count = columns * (pixels[1] as usize).div_ceil(rows);
+    fn new(patches: &[Patch], columns: usize, bands: &Range<usize>, rows: usize) -> Self {
+        let count = columns * bands.len();
+        let for_each_tile = |patch: &Patch, f: &mut dyn FnMut(usize)| {
+            let of = tiles(&patch.rows, rows);
+            for band in of.start.max(bands.start)..of.end.min(bands.end) {
+                tiles(&patch.columns, COLUMNS).for_each(|c| f((band - bands.start) * columns + c));
+            }
+        };
         // Entry t + 2 counts tile t, becomes its start, and, after filling, its end: entry t + 1.
         let mut starts = vec![0; count + 2];
         for patch in patches {
-            for_each_tile(patch, columns, rows, |tile| starts[tile + 2] += 1);
+            for_each_tile(patch, &mut |tile| starts[tile + 2] += 1);
         }
         for tile in 0..count {
             starts[tile + 2] += starts[tile + 1];
@@ -221,26 +260,28 @@ impl Tiles {
         let mut entries = vec![0; starts[count + 1] as usize];
         let mut functions = vec![false; count];
         for (index, patch) in (0u32..).zip(patches) {
-            for_each_tile(patch, columns, rows, |tile| {
+            for_each_tile(patch, &mut |tile| {
                 entries[starts[tile + 1] as usize] = index;
                 starts[tile + 1] += 1;
                 functions[tile] |= patch.blocks.len() > 1;
             });
         }
-        Self { columns, starts, patches: entries, functions }
+        Self { columns, first: bands.start, starts, patches: entries, functions }
     }
 
-    fn of(&self, column: usize, row: usize) -> &[u32] {
-        let tile = row * self.columns + column;
+    /// The patches that meet a tile, ascending.
+    pub(super) fn of(&self, column: usize, band: usize) -> &[u32] {
+        let tile = self.index(column, band);
         &self.patches[self.starts[tile] as usize..self.starts[tile + 1] as usize]
     }
-}
 
-fn for_each_tile(patch: &Patch, columns: usize, rows: usize, mut f: impl FnMut(usize)) {
-    for row in tiles(&patch.rows, rows) {
-        for column in tiles(&patch.columns, COLUMNS) {
-            f(row * columns + column);
-        }
+    /// True if a patch of the tile may have functions.
+    pub(super) fn has_functions(&self, column: usize, band: usize) -> bool {
+        self.functions[self.index(column, band)]
+    }
+
+    fn index(&self, column: usize, band: usize) -> usize {
+        (band - self.first) * self.columns + column
     }
 }
 

@@ -7,7 +7,7 @@ use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, Factor, ROWS, Rows, collapse, evaluate, polynomials, splat, table_len};
 use super::plan::{Affine, Patch};
-use super::tile::{Active, Part, Scratch, Tile, basis_len, basis_stride, load_jet};
+use super::tile::{Part, Scratch, Tile, basis_len, basis_stride, load_jet};
 
 /// A patch collapsed on the rows of a tile: the weight's factor and slope in y, then for each
 /// component the tables of its blocks.
@@ -71,7 +71,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     /// Lists the blocks of a patch and makes room for their tables.
     #[inline(always)]
     fn list_terms<R: Real<Scalar = T>>(&self, patch: &Patch, scratch: &mut Scratch<T>) {
-        let Scratch { collapsed, active, shift, .. } = scratch;
+        let Scratch { collapsed, places, shift, .. } = scratch;
         collapsed.terms.clear();
         collapsed.len = 0;
         for block in &self.scene.plan.blocks[patch.blocks()] {
@@ -80,7 +80,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let function = match block.function {
                 Slot::One => None,
                 Slot::Jet { group, entry } => {
-                    Some(basis_offset::<R, D>(active, group) + entry as usize * size::<R, D>())
+                    let place = places[group as usize] as usize;
+                    Some(place * basis_len::<R, D>() + entry as usize * size::<R, D>())
                 }
             };
             collapsed.terms.push(Term { degree, len, function });
@@ -360,16 +361,6 @@ fn add_weight<R: Real, const D: usize>(sum: &mut [R::Scalar], a: Factor<R>, b: R
         a.slope.mul_add(b, b.load(&sum[n..])).store(&mut sum[n..]);
         a.value.mul_add(db, b.load(&sum[2 * n..])).store(&mut sum[2 * n..]);
     }
-}
-
-/// Where a group begins in the basis.
-#[inline(always)]
-fn basis_offset<R: Real, const D: usize>(active: &[Active], group: u32) -> usize {
-    let mut index = 0;
-    while active[index].group != group {
-        index += 1;
-    }
-    index * basis_len::<R, D>()
 }
 
 /// Numbers a function has at a vector of points.

@@ -10,11 +10,14 @@ use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
 use super::collapse::{ROWS, splat};
-use super::plan::{COLUMNS, Patch};
+use super::plan::{COLUMNS, Patch, Tiles};
 use super::spread::{Collapsed, size};
 
 /// Vectors of points at which formulas are evaluated at a time.
 const VECTORS: usize = 32;
+
+/// Groups of functions that are kept at a time for the patches of a tile, more if one patch has them: 25 MB.
+const MOST_ACTIVE: usize = 256;
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
@@ -28,6 +31,8 @@ pub(super) struct Scratch<T> {
     pub(super) formulas: FormulaScratch<T>,
     /// The groups in `basis`.
     pub(super) active: Vec<Active>,
+    /// Of each group its place among the active ones, if it is one of them.
+    pub(super) places: Vec<u32>,
     /// The patch at hand.
     pub(super) collapsed: Collapsed<T>,
     /// Subtracted from each component.
@@ -51,6 +56,7 @@ pub(super) struct Active {
 /// Draws a band: the tiles of some rows, with `D` derivatives.
 pub(super) struct Band<'a, 'f, T, const D: usize> {
     pub(super) scene: &'a Scene<'f, T>,
+    pub(super) tiles: &'a Tiles,
     pub(super) band: usize,
     pub(super) scratch: &'a mut Scratch<T>,
     /// The band's rows of the raster.
@@ -63,9 +69,9 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
     #[inline(always)]
     fn run<R: Real<Scalar = T>>(self, zero: R) {
         let mut column = 0;
-        while column < self.scene.plan.tile_columns() {
+        while column < self.tiles.columns {
             let tile = Tile::<T, D> { scene: self.scene, column, band: self.band };
-            tile.sum(self.scratch, zero);
+            tile.sum(self.tiles, self.scratch, zero);
             tile.finish(self.scratch, self.out, zero);
             column += 1;
         }
@@ -88,22 +94,25 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 
     /// Sums over the patches.
     #[inline(always)]
-    fn sum<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
+    fn sum<R: Real<Scalar = T>>(&self, tiles: &Tiles, scratch: &mut Scratch<T>, zero: R) {
         let plan = &self.scene.plan;
-        let list = plan.tile(self.column, self.band);
+        let mut list = tiles.of(self.column, self.band);
         let len = points::<R>() * size::<R, D>() * (1 + plan.coefficients.len());
         scratch.sums.resize(len, T::default());
         self.choose_shift(list, &mut scratch.shift);
-        scratch.active.clear();
-        if plan.has_functions(self.column, self.band) {
-            self.activate::<R>(list, &mut scratch.active);
+        let has_functions = tiles.has_functions(self.column, self.band);
+        scratch.places.resize(self.scene.functions.table().groups(), 0);
+        while !list.is_empty() {
+            scratch.active.clear();
+            let count = if has_functions { self.activate::<R>(list, scratch) } else { list.len() };
             self.evaluate_functions(scratch, zero);
-        }
-        for &index in list {
-            let patch = &plan.patches[index as usize];
-            let part = self.part::<R>(patch);
-            self.collapse(patch, &part, scratch, zero);
-            self.spread(patch, &part, scratch, zero);
+            for &index in &list[..count] {
+                let patch = &plan.patches[index as usize];
+                let part = self.part::<R>(patch);
+                self.collapse(patch, &part, scratch, zero);
+                self.spread(patch, &part, scratch, zero);
+            }
+            list = &list[count..];
         }
     }
 
@@ -132,22 +141,30 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// Finds the groups of functions the patches need, and where.
+    /// Finds the groups of functions the patches need, and where; returns for how many of the patches: all,
+    /// unless they need more than there is room for.
     #[inline(always)]
-    fn activate<R: Real<Scalar = T>>(&self, list: &[u32], active: &mut Vec<Active>) {
+    fn activate<R: Real<Scalar = T>>(&self, list: &[u32], scratch: &mut Scratch<T>) -> usize {
         let plan = &self.scene.plan;
-        for &index in list {
+        for (count, &index) in list.iter().enumerate() {
             let patch = &plan.patches[index as usize];
+            let (known, part) = (scratch.active.len(), self.part::<R>(patch));
             let mut last = None;
             for block in &plan.blocks[patch.blocks()] {
                 if let Slot::Jet { group, .. } = block.function
                     && last != Some(group)
                 {
-                    need(active, group, self.part::<R>(patch));
+                    need(scratch, group, &part);
                     last = Some(group);
                 }
             }
+            if scratch.active.len() > MOST_ACTIVE && count > 0 {
+                // the parts of those before may have grown: that does no harm
+                scratch.active.truncate(known);
+                return count;
+            }
         }
+        list.len()
     }
 
     /// Fills the basis.
@@ -276,9 +293,13 @@ fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scal
 }
 
 /// Notes that a group is needed on a part.
-fn need(active: &mut Vec<Active>, group: u32, part: Part) {
-    match active.iter_mut().find(|known| known.group == group) {
-        None => active.push(Active { group, part }),
+fn need<T>(scratch: &mut Scratch<T>, group: u32, part: &Part) {
+    let place = &mut scratch.places[group as usize];
+    match scratch.active.get_mut(*place as usize).filter(|known| known.group == group) {
+        None => {
+            *place = scratch.active.len() as u32;
+            scratch.active.push(Active { group, part: part.clone() });
+        }
         Some(known) => {
             known.part.vectors = union(&known.part.vectors, &part.vectors);
             known.part.rows = union(&known.part.rows, &part.rows);

@@ -4,7 +4,7 @@ use super::Loads;
 use super::auxiliary::{Auxiliary, Gradients, auxiliary};
 use super::faces::Faces;
 use crate::law::{Law, LawAt};
-use crate::quadrature::Rule;
+use crate::quadrature::{Doubt, Quadrature, Rule};
 use crate::space::Space;
 use ppum::crack::{LocalTip, Side, TipId, TipPoint};
 use ppum::dataset::{Material, Ring};
@@ -35,6 +35,8 @@ struct Integrals {
     modes: Modes,
     /// Twice the strain energy in the largest disc.
     energy: f64,
+    /// What the rules do not resolve.
+    doubt: Doubt,
 }
 
 /// What is found at a tip.
@@ -42,6 +44,8 @@ pub(super) struct Found {
     pub(super) rings: [Ring; RINGS],
     /// See [`Outcome::strength`](super::Outcome::strength).
     pub(super) strength: f64,
+    /// What quadrature does not resolve in the discs.
+    pub(super) doubt: Doubt,
 }
 
 /// The interaction integrals around one tip.
@@ -86,14 +90,15 @@ impl<'a> Interaction<'a> {
         (0..cells.len()).filter(|&c| cells[c].distance(self.center) < self.largest())
     }
 
-    fn cell(&self, c: usize) -> Integrals {
+    fn cell(&self, quadrature: &Quadrature<'_>, c: usize) -> Integrals {
         let cell = &self.space.partition.cell[c];
         let small = cell.size().length() < SMALL * self.radii[0];
         let order = if small { self.space.degree() + 4 } else { ORDER };
-        let quadrature = self.space.quadrature(0);
         let coverers = &self.space.coverers[c];
         let rules = quadrature.disc(cell, coverers, self.center, self.largest(), order);
-        rules.iter().map(|rule| self.rule(rule)).fold(Integrals::default(), sum)
+        let mut sums = rules.iter().map(|rule| self.rule(rule)).fold(Integrals::default(), sum);
+        rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
+        sums
     }
 
     /// The part of a rule's points inside the largest disc.
@@ -142,7 +147,7 @@ impl<'a> Interaction<'a> {
             let (q, slope) = cut_off(square(point), radius);
             parts.map(|(flow, source)| slope * flow + q * source)
         });
-        Integrals { modes, energy }
+        Integrals { modes, energy, doubt: Doubt::default() }
     }
 
     fn stresses(&self, place: &Place) -> Stresses {
@@ -172,7 +177,7 @@ impl<'a> Interaction<'a> {
         let crack = &self.field.step.cracks[tip.crack as usize];
         let faces = self.loads.faces.map(|load| Faces { crack, tip: *tip, material, radii, load });
         let modes = faces.map_or_else(Modes::default, |faces| faces.integrals());
-        Integrals { modes, energy: 0.0 }
+        Integrals { modes, energy: 0.0, doubt: Doubt::default() }
     }
 
     /// K = E′/2 M
@@ -183,7 +188,7 @@ impl<'a> Interaction<'a> {
             Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
         });
         let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
-        Found { rings, strength }
+        Found { rings, strength, doubt: integrals.doubt }
     }
 }
 
@@ -216,14 +221,36 @@ fn work(s: &[[f64; 2]; 2], g: &Gradients) -> f64 {
     s[0][0] * g[0].x + s[0][1] * (g[0].y + g[1].x) + s[1][1] * g[1].y
 }
 
+/// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes some hundred; what
+/// more would be good for is told by a [`Doubt`].
+const MOST_DIVISIONS: usize = 50_000;
+
+/// The same in operations of the formulas, one of which takes these many points in a division.
+const DIVISION_OPERATIONS: usize = 1 << 32;
+const DIVISION_POINTS: usize = 1 << 10;
+
+/// Pairs of tips and cells that are worked on at a time.
+const BATCH: usize = 1 << 14;
+
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
-pub(super) fn found(tips: &[Interaction<'_>]) -> Vec<Found> {
-    let pairs = |k: usize| tips[k].cells().map(move |c| (k, c));
-    let work: Vec<_> = (0..tips.len()).flat_map(pairs).collect();
-    let parts: Vec<_> = work.par_iter().map(|&(k, c)| tips[k].cell(c)).collect();
+pub(super) fn found(space: &Space<'_>, tips: &[Interaction<'_>]) -> Vec<Found> {
+    let cells: Vec<Vec<usize>> = tips.par_iter().map(|tip| tip.cells().collect()).collect();
+    let pairs = cells.iter().map(Vec::len).sum::<usize>().max(1);
+    let operations = space.probe_operations().max(1);
+    let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
+    let quadrature = space.quadrature(0).with_divisions(divisions / pairs);
     let mut integrals: Vec<_> = tips.iter().map(Interaction::start).collect();
-    for ((k, _), part) in work.into_iter().zip(parts) {
-        integrals[k] = sum(integrals[k], part);
+    let mut work = (0..tips.len()).flat_map(|k| cells[k].iter().map(move |&c| (k, c)));
+    loop {
+        let batch: Vec<_> = work.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            break;
+        }
+        let part = |&(k, c): &(usize, usize)| tips[k].cell(&quadrature, c);
+        let parts: Vec<_> = batch.par_iter().map(part).collect();
+        for ((k, _), part) in batch.into_iter().zip(parts) {
+            integrals[k] = sum(integrals[k], part);
+        }
     }
     tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect()
 }
@@ -231,13 +258,15 @@ pub(super) fn found(tips: &[Interaction<'_>]) -> Vec<Found> {
 fn sum(a: Integrals, b: Integrals) -> Integrals {
     let mode = |k: usize, i: usize| a.modes[k][i] + b.modes[k][i];
     let modes = std::array::from_fn(|k| [mode(k, 0), mode(k, 1)]);
-    Integrals { modes, energy: a.energy + b.energy }
+    let mut doubt = a.doubt;
+    doubt.add(&b.doubt);
+    Integrals { modes, energy: a.energy + b.energy, doubt }
 }
 
 impl Integrals {
     fn times(self, weight: f64) -> Self {
         let modes = self.modes.map(|modes| modes.map(|m| weight * m));
-        Self { modes, energy: weight * self.energy }
+        Self { modes, energy: weight * self.energy, doubt: self.doubt }
     }
 }
 

@@ -27,6 +27,7 @@ mod integral;
 mod interface;
 mod room;
 
+use crate::quadrature::Doubt;
 use crate::space::Space;
 use integral::{Found, Interaction, RINGS, found};
 pub(crate) use interface::interface_distance;
@@ -85,6 +86,8 @@ pub struct Outcome {
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
     /// where the crack concentrates stress, and far above K where nothing does. Zero without factors.
     pub strength: f64,
+    /// What the quadrature in the discs does not resolve.
+    pub doubt: Doubt,
 }
 
 impl Outcome {
@@ -120,10 +123,12 @@ pub fn intensities(
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
-    for (outcome, Found { rings, strength }) in wanted.into_iter().zip(found(&integrals)) {
+    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals)) {
+        let Found { rings, strength, doubt } = found;
         let Ring { k1, k2, .. } = rings[RINGS - 1];
         outcome.factors = Some(TipIntensity { tip: outcome.tip, k1, k2, rings: rings.to_vec() });
         outcome.strength = strength;
+        outcome.doubt = doubt;
     }
     tips
 }
@@ -137,6 +142,15 @@ impl Outcome {
         let reach = room.radius.min(AMPLE_ROOM * cell);
         let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
         let interface = elastic.and_then(|body| interface_distance(body, at, reach));
-        Self { tip, at, room, cell, interface, factors: None, strength: 0.0 }
+        Self {
+            tip,
+            at,
+            room,
+            cell,
+            interface,
+            factors: None,
+            strength: 0.0,
+            doubt: Doubt::default(),
+        }
     }
 }

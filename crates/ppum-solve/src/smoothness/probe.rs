@@ -50,6 +50,18 @@ impl Probe {
         Ok(Self::Coefficient(Box::new([formula.clone(), x, y])))
     }
 
+    /// Operations of an evaluation, about.
+    pub(crate) fn operations(&self) -> usize {
+        match self {
+            Self::Function { table, cracks } => match table.of(0) {
+                Slot::Jet { group, .. } => table.cost(group as usize, cracks),
+                Slot::One => 0,
+            },
+            Self::Coefficient(formulas) => formulas.iter().map(|f| f.text().len()).sum(),
+            Self::Load { formula, .. } => formula.text().len(),
+        }
+    }
+
     /// Value and gradient at `anchor + offset`.
     pub(crate) fn jet(&self, anchor: Vec2, offset: Vec2) -> [f64; 3] {
         let mut out = Vec::with_capacity(1);

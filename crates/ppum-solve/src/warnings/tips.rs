@@ -1,6 +1,6 @@
 //! Warnings about tips and their stress intensity factors.
 
-use super::{kind, short, warning};
+use super::{LARGE_ERROR, kind, short, warning};
 use crate::intensity::{AMPLE_ROOM, Obstacle, Outcome};
 use ppum::crack::Crack;
 use ppum::dataset::{Ring, TipIntensity, Warning};
@@ -30,8 +30,12 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -
         let length = cracks[outcome.tip.crack as usize].length();
         let at = &places.show(outcome.at);
         let about_factors = match &outcome.factors {
-            Some(factors) => [negative(outcome, factors, at), spread(outcome, factors, at)],
-            None => [Some(no_room(outcome, at)), None],
+            Some(factors) => [
+                negative(outcome, factors, at),
+                spread(outcome, factors, at),
+                unresolved(outcome, at, &places.show(outcome.doubt.at)),
+            ],
+            None => [Some(no_room(outcome, at)), None, None],
         };
         let about_place = [
             little_room(outcome, at),
@@ -86,6 +90,16 @@ fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning
     );
     (spread > LARGE_SPREAD)
         .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
+}
+
+fn unresolved(outcome: &Outcome, tip: &str, place: &str) -> Option<Warning> {
+    let error = outcome.doubt.functions;
+    let message = format!(
+        "tip {tip}: a function or a coefficient varies too fast around {place}: integrals over a piece of a cell in its disc \
+         are off by about {error:.1e}; use smaller cells there, or a smoother formula"
+    );
+    let place = Some(outcome.doubt.at);
+    (error > LARGE_ERROR).then(|| warning(kind::QUADRATURE, place, [error, LARGE_ERROR], message))
 }
 
 fn no_room(outcome: &Outcome, at: &str) -> Warning {

@@ -16,6 +16,7 @@
 //!
 //! whatever the names of the variables: they are the independent ones of the scope, in their order.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::derivative::gradients;
@@ -108,12 +109,15 @@ impl FormulaJets {
     /// promise to hold the number of inputs.
     pub fn wgsl_of_used(&self, name: &str) -> Result<String, WgslError> {
         wgsl::check(&self.program, self.used().count())?;
-        Ok(wgsl::function(name, &self.scope, &self.program, |input| self.uses(input)))
+        let used: BTreeSet<_> = self.used().collect();
+        Ok(wgsl::function(name, &self.scope, &self.program, |input| used.contains(&input)))
     }
 
     /// Indices of the inputs that are [used](Self::uses), in their order.
     pub fn used(&self) -> impl Iterator<Item = usize> {
-        (0..self.scope.n_inputs()).filter(|&input| self.uses(input))
+        let input = |op: &Op| if let Op::Input(input) = op { Some(*input as usize) } else { None };
+        let used: BTreeSet<_> = self.program.ops().iter().filter_map(input).collect();
+        used.into_iter()
     }
 
     /// True if a result depends on this input, by its index among [`Scope::inputs`]. A dependent

@@ -1,6 +1,7 @@
 //! The variables a formula may use.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::{Arc, LazyLock};
 
 use super::Table;
@@ -42,6 +43,8 @@ pub struct Scope {
     defined: Arc<[Defined]>,
     parameters: Vec<(String, f64)>,
     tables: Arc<[Arc<Table>]>,
+    /// The dependent variables that are sides of cracks: they follow each other.
+    sides: Range<usize>,
 }
 
 /// A dependent variable.
@@ -149,6 +152,7 @@ impl Scope {
             defined: Arc::default(),
             parameters: vec![],
             tables: Arc::default(),
+            sides: 0..0,
         };
         independent.iter().try_fold(empty, |mut scope, name| {
             scope.check_name(name)?;
@@ -273,14 +277,17 @@ impl Scope {
 
     /// Adds the sides of cracks as inputs called `side(0)` to `side(n - 1)`: +1 on the left of crack k,
     /// −1 on its right, with derivatives 0. Formulas write them so.
+    ///
+    /// # Panics
+    /// When inputs were added after sides.
     #[must_use]
     pub fn with_sides(mut self, n: usize) -> Self {
+        let (first, end) = (self.n_sides(), self.dependent.len());
+        assert!(first == 0 || self.sides.end == end, "sides of cracks follow each other");
         let rules: Arc<[Ast]> = vec![self.built_in("0"); self.independent.len()].into();
-        let first = self.n_sides();
-        self.dependent.extend(
-            (first..first + n)
-                .map(|k| Dependent { name: format!("side({k})"), rules: rules.clone() }),
-        );
+        let side = |k| Dependent { name: format!("side({k})"), rules: rules.clone() };
+        self.dependent.extend((first..first + n).map(side));
+        self.sides = end - first..end + n;
         self
     }
 
@@ -308,7 +315,7 @@ impl Scope {
 
     /// Number of cracks whose sides are inputs.
     pub(super) fn n_sides(&self) -> usize {
-        self.inputs().filter(|name| name.starts_with("side(")).count()
+        self.sides.len()
     }
 
     /// Indices of the inputs cos(θ/2) and sin(θ/2), if there are any.
@@ -318,7 +325,24 @@ impl Scope {
 
     /// Index of an input.
     pub(super) fn input(&self, name: &str) -> Option<u32> {
-        (0..).zip(self.inputs()).find(|(_, known)| *known == name).map(|(index, _)| index)
+        let first = self.independent.len() + self.sides.start;
+        // there may be many sides, and each name in a formula is looked up
+        let (before, after) = (first, first + self.sides.len());
+        let at = |index: &usize| self.input_name(*index) == name;
+        let mut others = (0..before).chain(after..self.n_inputs());
+        let found = match side_number(name) {
+            Some(k) => (first..after).nth(k).filter(at),
+            None => others.find(at),
+        };
+        found.map(|index| index as u32)
+    }
+
+    /// Name of an input by its index.
+    fn input_name(&self, index: usize) -> &str {
+        match index.checked_sub(self.independent.len()) {
+            Some(dependent) => &self.dependent[dependent].name,
+            None => &self.independent[index],
+        }
     }
 
     /// The nodes of the functions with derivative rules of their own, added to a graph: cos θ and
@@ -388,6 +412,11 @@ impl Scope {
         }
         Ok(())
     }
+}
+
+/// k of `side(k)`.
+fn side_number(name: &str) -> Option<usize> {
+    name.strip_prefix("side(")?.strip_suffix(')')?.parse().ok()
 }
 
 #[cfg(test)]

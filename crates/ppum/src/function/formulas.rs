@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Frame;
 use super::seen::Seen;
-use crate::crack::{LocalCrack, LocalTip, Side, TipPoint};
+use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
 use crate::real::{Real, Scalar};
@@ -42,8 +42,9 @@ impl Formulas {
         let [v, d, dd] = [0, 1, 2].map(|order| FormulaJets::new(&all, order));
         let jets = [v?, d?, dd?];
         // Derivatives use inputs that values do not.
-        let uses = (0..formulas[0].scope().inputs().count()).map(|input| jets[2].uses(input));
-        let compiled = Compiled { uses: uses.collect(), jets, formulas };
+        let mut uses = vec![false; formulas[0].scope().inputs().count()];
+        jets[2].used().for_each(|input| uses[input] = true);
+        let compiled = Compiled { uses, jets, formulas };
         Ok(Self { compiled: Arc::new(compiled), frame })
     }
 
@@ -56,6 +57,19 @@ impl Formulas {
     /// Number of functions.
     pub(super) fn len(&self) -> usize {
         self.compiled.formulas.len()
+    }
+
+    /// Operations of an evaluation with the first derivatives, inputs and the segments of cracks whose sides
+    /// are needed counted too.
+    pub(super) fn cost(&self, cracks: &[Crack]) -> usize {
+        let Compiled { jets, uses, .. } = &*self.compiled;
+        let sides = cracks.iter().zip(&uses[POLAR..]).filter(|(_, used)| **used);
+        let frame = match self.frame {
+            Frame::Tip(tip) => cracks[tip.crack as usize].points.len(),
+            _ => 0,
+        };
+        let segments: usize = sides.map(|(crack, _)| crack.points.len()).sum();
+        jets[1].n_operations() + uses.len() + segments + frame
     }
 
     /// Number of operations with two derivatives.

@@ -4,6 +4,7 @@ use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, TipId};
 use crate::vec2::Vec2;
 
 /// Cracks seen from an anchor.
+#[derive(Clone, Debug)]
 pub(super) struct Seen<'a> {
     pub(super) cracks: &'a [Crack],
     pub(super) anchor: Vec2,

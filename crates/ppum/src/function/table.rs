@@ -4,7 +4,7 @@
 //! the four Westergaard functions of a tip, formulas in one frame that follow each other.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::formulas::{Formulas, LocalFormulas};
 use super::seen::Seen;
@@ -35,6 +35,10 @@ pub struct FunctionTable {
     slots: Vec<Slot>,
     groups: Vec<Group>,
 }
+
+/// What any group is counted with at least in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
+/// a picture, and turned into the world.
+pub const LEAST_COST: usize = 256;
 
 /// Largest number of functions in a group.
 pub const GROUP: usize = 4;
@@ -86,6 +90,8 @@ pub struct TooLarge {
 const MAX_TEXT: usize = 1 << 22;
 /// Names that the formulas of a table know: cracks, tables and parameters, counted for each function.
 const MAX_NAMES: usize = 1 << 20;
+/// Parameters of a function: each is compared with all others, and looked for wherever a formula has a name.
+const MAX_PARAMETERS: usize = 1 << 10;
 /// Operations of all different formulas of a table with two derivatives: a hundred megabytes.
 const MAX_OPERATIONS: usize = 1 << 20;
 
@@ -137,10 +143,26 @@ impl FunctionTable {
         }
     }
 
-    /// The table as seen from an anchor.
+    /// What an evaluation of a group takes, with its first derivatives: operations, and segments of cracks.
+    /// That of any function counts as [`LEAST_COST`] at least.
+    ///
+    /// # Panics
+    /// If the cracks are not those of the table's step.
     #[must_use]
-    pub fn at(&self, cracks: &[Crack], anchor: Vec2) -> LocalFunctions<'_> {
-        self.seen(&Seen { cracks, anchor, on: None })
+    pub fn cost(&self, group: usize, cracks: &[Crack]) -> usize {
+        let segments = |crack: u32| cracks[crack as usize].points.len();
+        LEAST_COST
+            + match &self.groups[group] {
+                Group::Side(crack) => segments(*crack),
+                Group::Westergaard(tip) => segments(tip.crack),
+                Group::Formulas(formulas) => formulas.cost(cracks),
+            }
+    }
+
+    /// The table as seen from an anchor. What a group sees is formed when it is first asked for.
+    #[must_use]
+    pub fn at<'t>(&'t self, cracks: &'t [Crack], anchor: Vec2) -> LocalFunctions<'t> {
+        LocalFunctions::new(self, Seen { cracks, anchor, on: None })
     }
 
     /// The table as seen from an anchor, for points that lie on a segment of a crack: what depends on
@@ -150,17 +172,14 @@ impl FunctionTable {
     /// # Panics
     /// If there is no such segment.
     #[must_use]
-    pub fn on(&self, cracks: &[Crack], segment: SegmentId, anchor: Vec2) -> LocalFunctions<'_> {
-        self.seen(&Seen { cracks, anchor, on: Some(segment) })
-    }
-
-    fn seen(&self, seen: &Seen<'_>) -> LocalFunctions<'_> {
-        let local = |group| match group {
-            &Group::Side(crack) => LocalGroup::Side(seen.crack(crack)),
-            &Group::Westergaard(tip) => LocalGroup::Westergaard(seen.tip(tip)),
-            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(seen)),
-        };
-        LocalFunctions { table: self, groups: self.groups.iter().map(local).collect() }
+    pub fn on<'t>(
+        &'t self,
+        cracks: &'t [Crack],
+        segment: SegmentId,
+        anchor: Vec2,
+    ) -> LocalFunctions<'t> {
+        assert!((segment.crack as usize) < cracks.len(), "there is no crack {}", segment.crack);
+        LocalFunctions::new(self, Seen { cracks, anchor, on: Some(segment) })
     }
 }
 
@@ -264,6 +283,7 @@ impl<'a> Compiler<'a> {
     fn count(&mut self, text: &str, parameters: usize) -> Result<(), TooLarge> {
         self.text += text.len();
         self.names += self.cracks + self.tables.len() + parameters;
+        limit(parameters, "parameters of it", MAX_PARAMETERS)?;
         limit(self.text, "bytes of formulas", MAX_TEXT)?;
         limit(self.names, "cracks, tables and parameters in formulas", MAX_NAMES)
     }
@@ -334,20 +354,25 @@ pub fn function_scope(
     cracks: usize,
     tables: &[Arc<Table>],
 ) -> Result<Scope, ScopeError> {
-    let mut tables = tables.iter();
-    let scope = tables.try_fold(Scope::polar().with_sides(cracks), |scope, table| {
-        scope.with_table(Arc::clone(table))
-    })?;
+    let scope = Scope::polar().with_sides(cracks).with_tables(tables)?;
     let mut parameters = parameters.iter();
     parameters.try_fold(scope, |scope, (name, value)| scope.with_parameter(name, *value))
 }
 
 /// The functions of a step seen from an anchor.
+///
+/// A step may have far more functions than are needed near an anchor, so each is formed when it is first asked
+/// for, and the places for them are made in pages.
 #[derive(Clone, Debug)]
 pub struct LocalFunctions<'t> {
     table: &'t FunctionTable,
-    groups: Vec<LocalGroup<'t>>,
+    seen: Seen<'t>,
+    /// Groups of a page.
+    page: usize,
+    pages: Vec<OnceLock<Page<'t>>>,
 }
+
+type Page<'t> = Vec<OnceLock<LocalGroup<'t>>>;
 
 #[derive(Clone, Debug)]
 enum LocalGroup<'t> {
@@ -357,6 +382,29 @@ enum LocalGroup<'t> {
 }
 
 impl<'t> LocalFunctions<'t> {
+    /// As many pages as a page has places.
+    fn new(table: &'t FunctionTable, seen: Seen<'t>) -> Self {
+        let page = table.groups.len().isqrt() + 1;
+        Self { table, seen, page, pages: vec![OnceLock::new(); page] }
+    }
+
+    #[inline(always)]
+    fn group(&self, group: usize) -> &LocalGroup<'t> {
+        let formed =
+            self.pages[group / self.page].get().and_then(|page| page[group % self.page].get());
+        formed.unwrap_or_else(|| self.form(group))
+    }
+
+    #[cold]
+    fn form(&self, group: usize) -> &LocalGroup<'t> {
+        let page = self.pages[group / self.page].get_or_init(|| vec![OnceLock::new(); self.page]);
+        page[group % self.page].get_or_init(|| match &self.table.groups[group] {
+            &Group::Side(crack) => LocalGroup::Side(self.seen.crack(crack)),
+            &Group::Westergaard(tip) => LocalGroup::Westergaard(self.seen.tip(tip)),
+            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(&self.seen)),
+        })
+    }
+
     /// The table these functions belong to.
     #[must_use]
     pub fn table(&self) -> &'t FunctionTable {
@@ -373,7 +421,7 @@ impl<'t> LocalFunctions<'t> {
         side: Side,
         out: &mut [Jet<R>],
     ) {
-        match &self.groups[group] {
+        match self.group(group) {
             LocalGroup::Side(crack) => out[0] = Jet::constant(crack.side(offset, side)),
             LocalGroup::Westergaard(tip) => {
                 let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
@@ -397,7 +445,7 @@ impl<'t> LocalFunctions<'t> {
         scratch: &mut Scratch<R::Scalar>,
         out: &mut [[Jet<R>; GROUP]],
     ) {
-        if let LocalGroup::Formulas(formulas) = &self.groups[group] {
+        if let LocalGroup::Formulas(formulas) = self.group(group) {
             formulas.fill::<R, D>(offsets, side, scratch, out);
             return;
         }
@@ -411,6 +459,6 @@ impl<'t> LocalFunctions<'t> {
     /// True if a group is evaluated by a kernel, not by formulas.
     #[must_use]
     pub fn is_native(&self, group: usize) -> bool {
-        !matches!(self.groups[group], LocalGroup::Formulas(_))
+        !matches!(self.table.groups[group], Group::Formulas(_))
     }
 }

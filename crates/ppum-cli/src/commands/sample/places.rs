@@ -10,7 +10,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::MOST;
-use crate::sides::{on_crack, seen};
+use crate::sides::{Segments, seen};
 use crate::standard::{self, is_standard};
 
 /// A point on a side.
@@ -52,19 +52,19 @@ pub(super) fn evaluate(
 
 /// Points with an anchor for each block, a point on a crack on both of its sides.
 pub(super) fn both_sides(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
-    sided(cracks, points).into_iter().flatten().collect()
+    sided(&Segments::new(cracks), points).into_iter().flatten().collect()
 }
 
 /// One place a point, on a crack two.
-fn sided(cracks: &[Crack], points: &[Vec2]) -> Vec<Vec<Place>> {
+fn sided(segments: &Segments<'_>, points: &[Vec2]) -> Vec<Vec<Place>> {
     let block = |points: &[Vec2]| -> Vec<Vec<Place>> {
-        points.iter().map(|&point| places(cracks, points[0], point)).collect()
+        points.iter().map(|&point| places(segments, points[0], point)).collect()
     };
     points.chunks(BLOCK).flat_map(block).collect()
 }
 
-fn places(cracks: &[Crack], anchor: Vec2, point: Vec2) -> Vec<Place> {
-    let on = on_crack(cracks, point, Vec2::ZERO);
+fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<Place> {
+    let on = segments.at(point, Vec2::ZERO);
     if on.is_none() {
         let offset = point - anchor;
         return vec![Place { point, anchor, offset, on, side: Side::Above, mark: 0.0 }];
@@ -77,7 +77,7 @@ fn places(cracks: &[Crack], anchor: Vec2, point: Vec2) -> Vec<Place> {
 pub(super) fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> (Vec<f64>, Vec<Place>) {
     let points: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
     let (mut lengths, mut all) = (Vec::new(), Vec::new());
-    for (point, places) in points.iter().zip(sided(cracks, &points)) {
+    for (point, places) in points.iter().zip(sided(&Segments::new(cracks), &points)) {
         lengths.extend(places.iter().map(|_| (*point - a).length()));
         all.extend(places);
     }
@@ -96,12 +96,12 @@ fn between(a: Vec2, b: Vec2, k: usize, count: usize) -> Vec2 {
 
 /// The points of a grid in rows of constant y, the lowest first; of points on cracks the upper side.
 pub(super) fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
-    let Rect { min, max } = window;
+    let (Rect { min, max }, segments) = (window, Segments::new(cracks));
     let row = |j: u32| {
         let y = between(min, max, j as usize, ny as usize).y;
         let x = |i: u32| between(min, max, i as usize, nx as usize).x;
         let points: Vec<Vec2> = (0..nx).map(|i| vec2(x(i), y)).collect();
-        let sided = sided(cracks, &points).into_iter();
+        let sided = sided(&segments, &points).into_iter();
         sided.map(|places| places[0]).collect::<Vec<_>>()
     };
     (0..ny).flat_map(row).collect()

@@ -1,0 +1,141 @@
+//! Small files that ask for much: for every loop over what a file says there is one whose sizes multiply.
+//!
+//! All of them are datasets as a writer could make them, most of equal numbers, so that hundreds of thousands of
+//! patches, blocks or cracks are some ten kilobytes of a file. Each is there to be read within the bounds of
+//! docs/cli.md, or to be refused with its reason; [`Costly::refused`] says which.
+
+mod formulas;
+mod many;
+mod stored;
+
+use ppum::cover::Cover;
+use ppum::crack::{Crack, CrackEnd};
+use ppum::dataset::{
+    Dataset, Equation, FieldData, Material, Partition, Record, Step, StressState, monomials,
+};
+use ppum::function::{Function, FunctionKind};
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
+
+/// A dataset that is costly to somebody who reads it carelessly.
+#[derive(Clone, Debug)]
+pub struct Costly {
+    /// What there is much of, as the name of a file.
+    pub name: &'static str,
+    /// The dataset.
+    pub dataset: Dataset,
+    /// Words of the error, where a reader has to refuse it.
+    pub refused: Option<&'static str>,
+}
+
+/// All of them.
+#[must_use]
+pub fn all() -> Vec<Costly> {
+    let makers: [&[Maker]; 3] = [many::ALL, formulas::ALL, stored::ALL];
+    let made = |&(name, refused, make): &Maker| Costly { name, dataset: make(), refused };
+    makers.into_iter().flatten().map(made).collect()
+}
+
+/// The dataset of this name.
+///
+/// # Panics
+/// If there is none.
+#[must_use]
+pub fn named(name: &str) -> Dataset {
+    let makers: [&[Maker]; 3] = [many::ALL, formulas::ALL, stored::ALL];
+    let maker = makers.into_iter().flatten().find(|maker| maker.0 == name);
+    (maker.unwrap_or_else(|| panic!("there is no costly dataset `{name}`")).2)()
+}
+
+/// Name, words of the error if it is refused, and what makes it.
+type Maker = (&'static str, Option<&'static str>, fn() -> Dataset);
+
+/// The plate all of them are made from: [0, 1]², cells × cells patches of the order, with cracks.
+fn plate(cells: u32, order: u8, cracks: Vec<Crack>) -> Dataset {
+    let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+    let cover = Cover::grid(domain, [cells, cells]).expect("a cover");
+    let partition = cover.partition(1.3, WeightFunction::Linear).expect("a partition");
+    let functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
+    let blocks = vec![vec![(0, order)]; partition.len()];
+    let step = Step {
+        load: 1.0,
+        fields: vec![displacement(&blocks)],
+        partition,
+        cracks,
+        functions,
+        attributes: Vec::new(),
+        intensities: Vec::new(),
+        history: vec![Record { name: "energy".into(), value: 1.0, unit: String::new() }],
+        warnings: Vec::new(),
+        reactions: Vec::new(),
+    };
+    let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+    Dataset {
+        title: "costly".into(),
+        program: "ppum".into(),
+        problem: None,
+        domain: domain.into(),
+        equation: Equation::elasticity(material),
+        quantities: Vec::new(),
+        tables: Vec::new(),
+        steps: vec![step],
+    }
+}
+
+/// A displacement whose patches have blocks of these functions and degrees, all coefficients alike.
+fn displacement(patches: &[Vec<(u32, u8)>]) -> FieldData {
+    let (mut rows, mut offsets, mut end) = (vec![0], Vec::new(), 0);
+    for blocks in patches {
+        rows.push(rows[rows.len() - 1] + blocks.len() as u32);
+        for &(_, degree) in blocks {
+            offsets.push(end);
+            end += monomials(degree.into()) as u64;
+        }
+    }
+    FieldData {
+        name: "displacement".into(),
+        unit: String::new(),
+        components: ["ux", "uy"].map(str::to_owned).into(),
+        patch_blocks: rows,
+        block_function: patches.iter().flatten().map(|block| block.0).collect(),
+        block_degree: patches.iter().flatten().map(|block| block.1).collect(),
+        block_offset: offsets,
+        coefficients: vec![vec![0.5; end as usize]; 2],
+        exact: Vec::new(),
+    }
+}
+
+/// A partition of patches that all lie over the whole plate.
+fn piled(patches: usize) -> Partition {
+    let (center, half) = (vec2(0.5, 0.5), vec2(1.0, 1.0));
+    Partition {
+        weight: WeightFunction::Linear,
+        center: vec![center; patches],
+        half: vec![half; patches],
+        origin: vec![center; patches],
+        scale: vec![half; patches],
+        cell: vec![Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)); patches],
+        level: vec![0; patches],
+        point: vec![None; patches],
+        points: Vec::new(),
+    }
+}
+
+/// A crack from the left to the right with two tips.
+fn straight(left: Vec2, length: f64) -> Crack {
+    Crack { points: vec![left, left + vec2(length, 0.0)], ends: [CrackEnd::Tip; 2] }
+}
+
+/// One crack in the middle.
+fn middle() -> Vec<Crack> {
+    vec![straight(vec2(0.25, 0.4375), 0.5)]
+}
+
+/// The plate with blocks of the functions, which every patch has.
+fn with_functions(mut dataset: Dataset, functions: Vec<Function>) -> Dataset {
+    let step = &mut dataset.steps[0];
+    let blocks: Vec<_> = (0..functions.len() as u32).map(|function| (function, 1)).collect();
+    step.fields = vec![displacement(&vec![blocks; step.partition.len()])];
+    step.functions = functions;
+    dataset
+}

@@ -1,0 +1,253 @@
+//! What an evaluation at a point may take.
+//!
+//! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
+//! a point takes is bounded here, once, and all others rely on it.
+
+use std::collections::BTreeMap;
+
+use super::{Checked, fail};
+use crate::dataset::{Dataset, FieldData, Partition, Step, monomials};
+use crate::function::{FunctionTable, Slot};
+use crate::vec2::{Rect, Vec2, vec2};
+use crate::weight::WeightFunction;
+
+/// Most that an evaluation at a point may take: coefficients of the blocks of all patches that cover it, operations of
+/// weights and functions, segments of cracks.
+///
+/// A patch of order 2 with jump and tip functions takes 50, one of order 8 some 500, and graded covers have up to thirty
+/// patches over a point. A crack of 100,000 vertices may cut through.
+const MOST_WORK: u64 = 1 << 18;
+
+/// What a patch takes beside its blocks: finding it, its weight.
+const PATCH: usize = 16;
+
+/// Checks every field of every step.
+pub(super) fn check(dataset: &Dataset) -> Checked {
+    for (k, step) in dataset.steps.iter().enumerate() {
+        let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables);
+        let Ok(table) = table else { continue };
+        for (f, field) in step.fields.iter().enumerate() {
+            let Some(at) = too_much(&works(step, field, &table)) else { continue };
+            let place = format!("steps[{k}].fields[{f}]");
+            let problem = format!(
+                "an evaluation at a point near ({}, {}) takes more than {MOST_WORK} coefficients of the patches that \
+                 cover it, operations of their functions, and segments of cracks; let fewer patches overlap there, or \
+                 give them fewer functions",
+                at.x, at.y
+            );
+            return fail(&place, problem);
+        }
+    }
+    Ok(())
+}
+
+/// What each patch takes where it is, and each group of functions where a patch has it.
+fn works(step: &Step, field: &FieldData, table: &FunctionTable) -> Vec<(Rect, u64)> {
+    let (partition, mut all) = (&step.partition, Vec::new());
+    let mut groups: BTreeMap<u32, Rect> = BTreeMap::new();
+    let own = PATCH + weight(partition);
+    for patch in 0..partition.len() {
+        let support = partition.support(patch);
+        let mut work = own;
+        for block in field.blocks(patch) {
+            work += monomials(field.block_degree[block].into()) * field.components.len();
+            if let Slot::Jet { group, .. } = table.of(field.block_function[block]) {
+                let part = groups.entry(group).or_insert(support);
+                *part = part.union(&support);
+            }
+        }
+        all.push((support, work as u64));
+    }
+    let cost = |group: u32| table.cost(group as usize, &step.cracks) as u64;
+    all.extend(groups.into_iter().map(|(group, part)| (part, cost(group))));
+    all
+}
+
+/// Operations of a weight, in both directions.
+fn weight(partition: &Partition) -> usize {
+    match &partition.weight {
+        WeightFunction::Formula(formula) => 2 * formula.jets().n_operations(),
+        _ => 0,
+    }
+}
+
+/// A point at which the works of the boxes over it are too much together; half-open boxes do not touch. A line sweeps
+/// over the plane from left to right. O(n log n).
+fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
+    if boxes.iter().map(|(_, work)| work).sum::<u64>() <= MOST_WORK {
+        return None;
+    }
+    let mut heights: Vec<f64> = boxes.iter().flat_map(|(b, _)| [b.min.y, b.max.y]).collect();
+    heights.sort_unstable_by(f64::total_cmp);
+    heights.dedup();
+    let rank = |y: f64| heights.partition_point(|&known| known < y);
+    let mut events: Vec<(f64, bool, u32)> = Vec::with_capacity(2 * boxes.len());
+    for (k, (b, _)) in (0..).zip(boxes) {
+        events.extend([(b.min.x, true, k), (b.max.x, false, k)]);
+    }
+    // what ends at a place goes before what begins there
+    events.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut line = Line::new(heights.len());
+    for (x, begins, k) in events {
+        let (b, work) = &boxes[k as usize];
+        let work = if begins { *work as i64 } else { -(*work as i64) };
+        line.add(rank(b.min.y), rank(b.max.y), work);
+        if line.most[1] > MOST_WORK as i64 {
+            return Some(vec2(x, heights[line.place()]));
+        }
+    }
+    None
+}
+
+/// Sums over the intervals of a line: a tree whose nodes know what was added to all below them, and the largest sum there.
+struct Line {
+    leaves: usize,
+    added: Vec<i64>,
+    most: Vec<i64>,
+}
+
+impl Line {
+    fn new(intervals: usize) -> Self {
+        let leaves = intervals.next_power_of_two();
+        Self { leaves, added: vec![0; 2 * leaves], most: vec![0; 2 * leaves] }
+    }
+
+    /// Adds to the intervals from one to another, which is not among them.
+    fn add(&mut self, from: usize, to: usize, work: i64) {
+        let (mut low, mut high) = (from + self.leaves, to + self.leaves);
+        let ends = [low, high.saturating_sub(1)];
+        while low < high {
+            if low % 2 == 1 {
+                self.put(low, work);
+                low += 1;
+            }
+            if high % 2 == 1 {
+                high -= 1;
+                self.put(high, work);
+            }
+            (low, high) = (low / 2, high / 2);
+        }
+        ends.into_iter().for_each(|leaf| self.mend(leaf));
+    }
+
+    fn put(&mut self, node: usize, work: i64) {
+        self.added[node] += work;
+        self.most[node] += work;
+    }
+
+    /// Forms the sums of the nodes above a leaf again.
+    fn mend(&mut self, leaf: usize) {
+        let mut node = leaf / 2;
+        while node > 0 {
+            let below = self.most[2 * node].max(self.most[2 * node + 1]);
+            self.most[node] = self.added[node] + below;
+            node /= 2;
+        }
+    }
+
+    /// The interval with the largest sum.
+    fn place(&self) -> usize {
+        let mut node = 1;
+        while node < self.leaves {
+            node = 2 * node + usize::from(self.most[2 * node + 1] > self.most[2 * node]);
+        }
+        node - self.leaves
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::tests::{dataset, place_after};
+    use crate::dataset::{Ring, TipIntensity};
+    use crate::random::Random;
+
+    /// The largest sum over the corners of boxes, among which its place must be.
+    fn largest(boxes: &[(Rect, u64)]) -> u64 {
+        let sum = |x: f64, y: f64| -> u64 {
+            let holds = |b: &Rect| b.min.x <= x && x < b.max.x && b.min.y <= y && y < b.max.y;
+            boxes.iter().filter(|(b, _)| holds(b)).map(|(_, work)| work).sum()
+        };
+        let corners = boxes.iter().flat_map(|(a, _)| boxes.iter().map(|(b, _)| (a.min.x, b.min.y)));
+        corners.map(|(x, y)| sum(x, y)).max().unwrap_or(0)
+    }
+
+    #[test]
+    fn the_largest_sum_is_found() {
+        let mut random = Random(7);
+        let mut found = 0;
+        for n in [1, 2, 3, 10, 40] {
+            for _ in 0..40 {
+                let boxes: Vec<_> = (0..n)
+                    .map(|k| {
+                        // on a lattice, so that borders coincide
+                        let (p, size) = (random.point() * 8.0, random.point() * 4.0);
+                        let (p, size) =
+                            (vec2(p.x.floor(), p.y.floor()), vec2(size.x.ceil(), size.y.ceil()));
+                        (Rect::new(p, p + size), MOST_WORK / 3 + k)
+                    })
+                    .collect();
+                let most = largest(&boxes);
+                let told = too_much(&boxes);
+                assert_eq!(told.is_some(), most > MOST_WORK, "{boxes:?}");
+                if let Some(at) = told {
+                    let over = boxes.iter().filter(|(b, _)| {
+                        b.min.x <= at.x && at.x < b.max.x && b.min.y <= at.y && at.y < b.max.y
+                    });
+                    assert!(over.map(|(_, work)| work).sum::<u64>() > MOST_WORK, "{boxes:?}");
+                    found += 1;
+                }
+            }
+        }
+        assert!((20..180).contains(&found), "{found}");
+    }
+
+    /// Blocks share no coefficients, and what could be multiplied by something else has a limit.
+    #[test]
+    fn sizes_that_multiply_have_limits() {
+        let twice = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.block_offset.fill(0);
+            field.coefficients.iter_mut().for_each(|component| component.truncate(3));
+        };
+        assert_eq!(place_after(twice), "steps[0].fields[0].block_offset");
+        let components = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.name = "values".into();
+            field.components = (0..65).map(|k| format!("v{k}")).collect();
+            field.coefficients = vec![field.coefficients[0].clone(); 65];
+        };
+        assert_eq!(place_after(components), "steps[0].fields[0].components");
+        let rings = |d: &mut Dataset| {
+            let ring = Ring { r1: 0.0, r2: 1.0, k1: 1.0, k2: 0.0 };
+            let TipIntensity { rings, .. } = &mut d.steps[0].intensities[0];
+            *rings = vec![ring; 65];
+        };
+        assert_eq!(place_after(rings), "steps[0].intensities[0].rings");
+    }
+
+    /// Patches over a point: as many as a graded cover has, and far more.
+    #[test]
+    fn patches_that_overlap_are_counted() {
+        let piled = |n: usize| {
+            let mut data = dataset();
+            let step = &mut data.steps[0];
+            let (partition, field) = (&mut step.partition, &mut step.fields[0]);
+            partition.center = vec![partition.center[0]; n];
+            partition.half = vec![partition.half[0]; n];
+            partition.origin = vec![partition.origin[0]; n];
+            partition.scale = vec![partition.scale[0]; n];
+            partition.cell = vec![partition.cell[0]; n];
+            partition.level = vec![0; n];
+            partition.point = vec![None; n];
+            step.attributes.clear();
+            let last = field.patch_blocks[1];
+            field.patch_blocks.resize(n + 1, last);
+            check(&data)
+        };
+        assert_eq!(piled(1000), Ok(()));
+        let error = piled(1 << 15).expect_err("too many");
+        assert_eq!(error.place, "steps[0].fields[0]");
+        assert!(error.problem.contains("let fewer patches overlap there"), "{error}");
+    }
+}
