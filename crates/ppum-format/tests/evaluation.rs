@@ -33,8 +33,8 @@ fn sum(functions: &[(f64, &str, Frame)], cracks: Vec<Crack>) -> Dataset {
         patch_blocks: (0..=n).map(|k| k * f).collect(),
         block_function: (0..n).flat_map(|_| 0..f).collect(),
         block_degree: vec![0; (n * f) as usize],
-        block_offset: (0..n).flat_map(|_| 0..u64::from(f)).collect(),
-        coefficients: vec![functions.iter().map(|(factor, ..)| *factor).collect()],
+        block_offset: (0..u64::from(n * f)).collect(),
+        coefficients: vec![(0..n).flat_map(|_| functions.iter().map(|f| f.0)).collect()],
         exact: vec![],
     };
     let step = Step {

@@ -127,8 +127,8 @@ fn foreign_crates_have_one_door() {
 }
 
 /// Calls that read or write files.
-const FILE_CALLS: [&str; 5] =
-    ["fs::read", "fs::write", "File::open", "File::create", "OpenOptions"];
+const FILE_CALLS: [&str; 6] =
+    ["fs::read(", "fs::read_to_string", "fs::write", "File::open", "File::create", "OpenOptions"];
 
 /// Whatever reads or writes a file goes through `ppum-file`, which knows limits and loses nothing.
 #[test]

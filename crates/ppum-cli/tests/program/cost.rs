@@ -32,7 +32,7 @@ const BOUNDS: [Bound; 6] = [
         seconds: 60,
         memory: 512,
     },
-    Bound { command: "sif FILE", seconds: 300, memory: 2048 },
+    Bound { command: "sif FILE --recompute", seconds: 300, memory: 2048 },
 ];
 
 #[test]

@@ -62,8 +62,8 @@ fn hostile_texts_are_escaped_by_every_command() {
     for (arguments, has_texts) in [
         ("info plate.h5", true),
         ("info plate.h5 --json", true),
-        ("sif plate.h5", false),
-        ("sif plate.h5 --json", false),
+        ("sif plate.h5", true),
+        ("sif plate.h5 --json", true),
         ("probe plate.h5 --at 0.5,0.5", false),
         ("probe plate.h5 --at 0.5,0.5 --json", false),
         ("probe plate.h5 --at 0.5,0.5 -q @formula.txt", false),

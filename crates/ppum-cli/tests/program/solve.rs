@@ -85,7 +85,7 @@ fn check_finds_what_solve_would_refuse() {
         ("unbalanced", unbalanced, "balance"),
         ("large", CRACKED.replace("order = 1", "order = 8"), "MiB"),
         ("text", CRACKED.replace("Small plate", "Small \u{FFFD} plate"), "U+FFFD"),
-        ("own", format!("{CRACKED}\n[[enrichment]]\nfunction = \"1/x\"\n"), "finite"),
+        ("own", format!("{CRACKED}\n[[enrichment]]\nfunction = \"sqrt(x)\"\n"), "finite"),
         ("swallowed", format!("{CRACKED}\n{swallowed}"), "swallow"),
     ];
     for (name, text, word) in cases {

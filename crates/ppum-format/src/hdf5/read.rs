@@ -79,7 +79,6 @@ impl<'f> Walk<'f> {
         self.attributes(header, path)?;
         for (name, target) in links(header).map_err(|e| error(path, e))? {
             let inner = join(path, &name);
-            self.visit(&inner)?;
             if name.is_empty() || name.contains(['/', '@', '\0']) || name.starts_with('.') {
                 return Err(error(&inner, "is no name of an object"));
             }

@@ -62,14 +62,22 @@ impl Room {
 
     /// The room without regard of materials.
     pub(crate) fn among_cracks(cracks: &[Crack], domain: &Domain, tip: TipId) -> Self {
-        let own = &cracks[tip.crack as usize];
+        Self::among(cracks.iter().enumerate(), domain, (&cracks[tip.crack as usize], tip))
+    }
+
+    /// The same among some of the cracks, with their numbers, of which the tip's own one is left out.
+    pub(crate) fn among<'c>(
+        cracks: impl Iterator<Item = (usize, &'c Crack)>,
+        domain: &Domain,
+        (own, tip): (&Crack, TipId),
+    ) -> Self {
         let p = own.end_point(tip.end);
         let border = (p - domain.bounds.min).min(domain.bounds.max - p);
         let border = Self { radius: border.x.min(border.y), end: Obstacle::Border };
         let rims = domain.holes.iter().enumerate();
         let rims =
             rims.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
-        let others = cracks.iter().enumerate().filter(|(k, _)| *k != tip.crack as usize);
+        let others = cracks.filter(|(k, _)| *k != tip.crack as usize);
         let others =
             others.map(|(k, c)| Self { radius: nearest(&c.points, p), end: Obstacle::Crack(k) });
         border.with(rims).with(others.chain([Self { radius: behind(own, p), end: Obstacle::Kink }]))

@@ -122,7 +122,9 @@ impl Needs {
     fn new(problem: &Problem) -> Self {
         let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
         let points: Vec<_> = tips(&problem.cracks).map(tip).collect();
-        let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, tip));
+        let cracks = problem.cracks.iter().enumerate();
+        let cracks = Placed::new(cracks.map(|crack| (around(&crack.1.points), crack)));
+        let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
         Self {
@@ -296,12 +298,14 @@ struct Need {
 }
 
 impl Need {
-    fn new(problem: &Problem, id: TipId) -> Self {
+    fn new(problem: &Problem, cracks: &Placed<(usize, &Crack)>, id: TipId) -> Self {
         let crack = &problem.cracks[id.crack as usize];
         let share = crack.length() / crack.tips().count() as f64;
         let tip = crack.end_point(id.end);
-        let room = Room::among_cracks(&problem.cracks, &problem.domain, id).radius;
-        let room = room.min(AMPLE_ROOM * LARGEST * share);
+        // what is farther away asks for nothing
+        let reach = AMPLE_ROOM * LARGEST * share;
+        let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
+        let room = Room::among(near, &problem.domain, (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
         let interface = elastic.and_then(|body| interface_distance(body, tip, room));
         let room = interface.unwrap_or(room);

@@ -105,16 +105,18 @@ fn displacement(patches: &[Vec<(u32, u8)>]) -> FieldData {
     }
 }
 
-/// A partition of patches that all lie over the whole plate.
+/// A partition of patches that all lie over the whole plate, their cells strips of it.
 fn piled(patches: usize) -> Partition {
     let (center, half) = (vec2(0.5, 0.5), vec2(1.0, 1.0));
+    let at = |k: usize| k as f64 / patches as f64;
+    let strip = |k: usize| Rect::new(vec2(0.0, at(k)), vec2(1.0, at(k + 1)));
     Partition {
         weight: WeightFunction::Linear,
         center: vec![center; patches],
         half: vec![half; patches],
         origin: vec![center; patches],
         scale: vec![half; patches],
-        cell: vec![Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)); patches],
+        cell: (0..patches).map(strip).collect(),
         level: vec![0; patches],
         point: vec![None; patches],
         points: Vec::new(),
