@@ -103,7 +103,7 @@ fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
         let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
             // What the solver found while it knew the loads.
             None => known(name, index, step, UNKNOWN)?,
-            Some(problem) => match check_effort(dataset, index) {
+            Some(problem) => match check_effort(dataset, index, problem.as_ref()) {
                 Err(error @ EffortError::TooMuch { .. }) => {
                     known(name, index, step, ("too-costly", &error.to_string()))?
                 }

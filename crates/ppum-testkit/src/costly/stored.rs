@@ -43,9 +43,9 @@ fn problem_boundaries() -> Dataset {
 /// Loads that vary everywhere around the tips.
 fn problem_loads() -> Dataset {
     problem(
-        "body_force = [\"sin(1e6*x)*sin(1e6*y)\", \"if(sin(1e5*x*y) > 0, 1, -1)\"]\n\
+        "[body_force]\nvalue = [\"sin(1e6*x)*sin(1e6*y)\", \"if(sin(1e5*x*y) > 0, 1, -1)\"]\n\
          [[boundary]]\non = \"bottom\"\ndisplacement = [0.0, 0.0]\n\
-         [[boundary]]\non = \"crack 0\"\ntraction = [\"sin(1e7*x)\", \"if(sin(1e6*x) > 0, 1, 0)\"]\n",
+         [[boundary]]\non = { crack = 0 }\ntraction = [\"sin(1e7*x)\", \"if(sin(1e6*x) > 0, 1, 0)\"]\n",
     )
 }
 
