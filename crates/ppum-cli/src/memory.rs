@@ -2,7 +2,7 @@
 
 use sysinfo::{MemoryRefreshKind, System};
 
-/// Memory that is free [bytes], of the machine and of what its container may use; nothing if the system does
+/// Memory that is free \[bytes\], of the machine and of what its container may use; nothing if the system does
 /// not tell.
 pub(crate) fn free() -> Option<u64> {
     let mut system = System::new();

@@ -108,6 +108,11 @@ impl Balance {
         }
     }
 
+    /// True if all loads are.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.magnitude.is_finite() && self.resultant.iter().all(|work| work.is_finite())
+    }
+
     /// Adds what another part of the plate has of the same piece.
     pub(crate) fn add(&mut self, part: &Self) {
         for (row, part) in self.held.iter_mut().zip(&part.held) {

@@ -57,9 +57,9 @@ pub struct Estimate {
     pub nonzeros: f64,
     /// Values of its factor.
     pub factor: f64,
-    /// Memory [bytes], right within a third.
+    /// Memory \[bytes\], right within a third.
     pub memory: f64,
-    /// Time on this number of cores [s], right within a factor of about three on a machine of today; what the
+    /// Time on this number of cores \[s\], right within a factor of about three on a machine of today; what the
     /// formulas of a problem take is not in it.
     pub seconds: f64,
 }

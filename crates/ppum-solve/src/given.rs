@@ -1,6 +1,7 @@
 //! What a problem gives, its source and its boundary conditions, cell by cell: with rules of their own where those
 //! of the system do not resolve it.
 
+use crate::around::Around;
 use crate::balance::Balance;
 use crate::batch::in_batches;
 use crate::border::BorderPiece;
@@ -94,10 +95,18 @@ impl<'p> Given<'p> {
     }
 
     /// What holds and loads the pieces of the plate.
-    pub(crate) fn balance(&self, space: &Space<'_>, pieces: &Pieces) -> Vec<Balance> {
+    ///
+    /// # Errors
+    /// Where something that is given is not finite.
+    pub(crate) fn balance(
+        &self,
+        space: &Space<'_>,
+        pieces: &Pieces,
+    ) -> Result<Vec<Balance>, Around> {
         let components = self.problem.components();
         let quadrature = space.quadrature(0);
         let mut sum = Balance::of(pieces, components);
+        let mut failed = None;
         in_batches(
             if self.is_empty() { 0 } else { space.partition.len() },
             || (),
@@ -110,14 +119,18 @@ impl<'p> Given<'p> {
                         None => add_source(&mut part, &source, &shared(), pieces, components),
                     }
                 }
-                for piece in self.border(space, &quadrature, cell) {
-                    add_border(&mut part, &piece, pieces, components);
-                }
-                part
+                let border = self.border(space, &quadrature, cell);
+                border.iter().for_each(|piece| add_border(&mut part, piece, pieces, components));
+                let is_finite = border.iter().all(is_finite) && part.iter().all(Balance::is_finite);
+                (part, is_finite)
             },
-            |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
+            |cell, (part, is_finite)| {
+                sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part));
+                let place = || space.partition.cell[cell].into();
+                failed = failed.or_else(|| (!is_finite).then(place));
+            },
         );
-        sum
+        failed.map_or(Ok(sum), Err)
     }
 
     /// The loads and data that their own rules do not resolve.
@@ -177,6 +190,16 @@ fn add_border(sum: &mut [Balance], piece: &BorderPiece<'_>, pieces: &Pieces, com
     points(piece.own.unwrap_or(&piece.rules), &mut |at, x, normal, weight| {
         sum[at].add_load(x, &piece.loads(x, normal)[..components], weight);
     });
+}
+
+/// True if all that is given on a piece of the border is finite, values that hold it among them.
+fn is_finite(piece: &BorderPiece<'_>) -> bool {
+    piece.own.unwrap_or(&piece.rules).iter().all(|rule| {
+        let points = rule.offsets.iter().zip(&rule.normals);
+        points.into_iter().all(|(&offset, &normal)| {
+            (piece.values)(rule.anchor + offset, normal).iter().all(|value| value.is_finite())
+        })
+    })
 }
 
 /// The rules on a part of the border in one cell.

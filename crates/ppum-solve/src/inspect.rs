@@ -128,7 +128,8 @@ fn look(
         let mut jets = [Jet::constant(0.0); GROUP];
         seen.evaluate::<f64, 1>(group as usize, [offset.x, offset.y], Side::Above, &mut jets);
         let Jet { v: value, x, y, .. } = jets[entry as usize];
-        if !(value.is_finite() && x.is_finite() && y.is_finite()) {
+        // integrals are of squares
+        if ![value, x, y].iter().all(|v| (v * v).is_finite()) {
             let (name, gradient) = (name.to_owned(), vec2(x, y));
             return Err(InspectError::NotFinite { name, point, value, gradient });
         }

@@ -121,7 +121,7 @@ pub enum SolveError {
     TooLarge {
         /// What it needs, at least.
         needs: Estimate,
-        /// The memory [bytes].
+        /// The memory \[bytes\].
         memory: u64,
     },
 }
@@ -188,7 +188,7 @@ pub struct Plan<'p> {
 }
 
 impl<'p> Plan<'p> {
-    /// The plan of a problem, whose solution may take so much memory [bytes].
+    /// The plan of a problem, whose solution may take so much memory \[bytes\].
     ///
     /// # Errors
     /// A space that cannot be built, functions that are not finite, a solution that takes more memory or could not
@@ -399,8 +399,11 @@ impl Solver<'_> {
     /// The loads, and what they meet.
     fn loaded(&self, space: &Space<'_>) -> Result<Loaded<'_>, SolveError> {
         let pieces = Pieces::new(&self.problem.domain, &self.problem.cracks);
+        if pieces.all().is_empty() {
+            return Err(SpaceError::Nothing.into());
+        }
         let given = Given::new(self.problem, space);
-        let balance = given.balance(space, &pieces);
+        let balance = given.balance(space, &pieces).map_err(SolveError::Data)?;
         let free = free_motions(&balance, &pieces)?;
         Ok(Loaded { given, pieces, balance, free })
     }

@@ -132,7 +132,7 @@ impl Args {
         Ok(())
     }
 
-    /// The memory that the solution may take [bytes].
+    /// The memory that the solution may take \[bytes\].
     fn memory(&self) -> Option<u64> {
         self.memory.map(|gibibytes| (gibibytes * f64::from(1 << 30)) as u64).or_else(memory::free)
     }

@@ -85,6 +85,16 @@ fn check_finds_what_solve_would_refuse() {
         ("unbalanced", unbalanced, "balance"),
         ("large", CRACKED.replace("order = 1", "order = 8"), "MiB"),
         ("text", CRACKED.replace("Small plate", "Small \u{FFFD} plate"), "U+FFFD"),
+        (
+            "load",
+            CRACKED.replace("traction = [0.0, 1.0]", "traction = [\"sqrt(x)\", 1.0]"),
+            "finite",
+        ),
+        (
+            "held",
+            CRACKED.replace("traction = [0.0, 1.0]", "displacement = [\"log(x)\", 1]"),
+            "finite",
+        ),
         ("own", format!("{CRACKED}\n[[enrichment]]\nfunction = \"sqrt(x)\"\n"), "finite"),
         ("swallowed", format!("{CRACKED}\n{swallowed}"), "swallow"),
     ];
@@ -97,6 +107,23 @@ fn check_finds_what_solve_would_refuse() {
         assert_eq!(lab.fail(&line), checked, "{name}");
     }
     assert!(!lab.files().iter().any(|file| file.ends_with(".h5")));
+}
+
+/// What is left of a plate may be too little for a piece; and the smallest of datasets can be read again.
+#[test]
+fn next_to_nothing_is_told_or_solved() {
+    let lab = Lab::new();
+    let hole =
+        |radius: f64| format!("{}\n[[hole]]\ncenter = [0, 0]\nradius = {radius}\n", crate::sound());
+    lab.write("nothing.toml", &hole(0.5_f64.sqrt() * 2.0 - 1e-8));
+    for line in ["solve nothing.toml --check", "solve nothing.toml"] {
+        assert!(lab.fail(line).contains("the holes swallow the whole domain"));
+    }
+    let smallest =
+        crate::sound().replace("level = 1", "level = 0").replace("order = 1", "order = 0");
+    lab.write("smallest.toml", &smallest);
+    lab.run("solve smallest.toml");
+    lab.run("info smallest.h5");
 }
 
 #[test]

@@ -34,6 +34,9 @@ const FREE_EXPANDED: u64 = 1 << 32;
 /// Smallest number of bytes an object of a file takes, with its link.
 const OBJECT_BYTES: u64 = 64;
 
+/// Objects that any file may have: the smallest datasets are mostly objects.
+const FREE_OBJECTS: u64 = 256;
+
 /// Arrays that take less than this together are always within the account: none has to be stored plain.
 pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 
@@ -53,7 +56,7 @@ impl Account {
             memory: account(EXPANSION, FREE_BYTES),
             readings: account(READINGS, FREE_READINGS),
             expanded: account(READINGS, FREE_EXPANDED),
-            objects: Cell::new(length / OBJECT_BYTES),
+            objects: Cell::new(FREE_OBJECTS + length / OBJECT_BYTES),
         }
     }
 
