@@ -6,6 +6,7 @@
 //! thousand patches with a thousand cracks, stays below them.
 
 use crate::intensity::Room;
+use crate::problem::Problem;
 use ppum::box_tree::BoxTree;
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::{Dataset, FieldData, Step, monomials};
@@ -30,7 +31,7 @@ const MOST_OPERATIONS: u64 = 1 << 40;
 const PLACES: u64 = 32;
 
 /// Looks at each rim from a cell.
-const RIM_LOOKS: u64 = 4;
+const RIM_LOOKS: u64 = 32;
 
 /// Places along a crack.
 const CRACK_PLACES: u64 = 192;
@@ -40,6 +41,9 @@ const POINTS: u64 = 9 * 144;
 
 /// Points at which two curves are compared.
 const COMPARED: u64 = 1152;
+
+/// Comparisons at a corner of the border for each condition on it.
+const CORNER_LOOKS: u64 = 1 << 12;
 
 /// Finding a patch at a point, and its weight.
 const PATCH: u64 = 16;
@@ -69,14 +73,19 @@ pub enum EffortError {
     Function(#[from] FunctionError),
 }
 
-/// Looks whether the factors of a step's tips can be found within bounds of time and memory.
+/// Looks whether the factors of a step's tips can be found within bounds of time and memory, and the warnings about a
+/// `problem` that it solves.
 ///
 /// # Errors
 /// What there is too much of.
 ///
 /// # Panics
 /// If there is no such step, or it has no field.
-pub fn check_effort(dataset: &Dataset, step: usize) -> Result<(), EffortError> {
+pub fn check_effort(
+    dataset: &Dataset,
+    step: usize,
+    problem: Option<&Problem>,
+) -> Result<(), EffortError> {
     let step = &dataset.steps[step];
     let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?;
     let count = Count { dataset, step, data: &step.fields[0], table };
@@ -89,7 +98,12 @@ pub fn check_effort(dataset: &Dataset, step: usize) -> Result<(), EffortError> {
     };
     let within =
         |what, count, most| if count <= most { Ok(()) } else { Err(error(what, count, most)) };
-    within("comparisons", count.looks(), MOST_LOOKS)?;
+    let of_corners = problem.map_or(0, |problem| {
+        let conditions = problem.boundary.len() as u64;
+        // each has two ends
+        conditions.saturating_mul(2 * conditions + count.rims()).saturating_mul(CORNER_LOOKS)
+    });
+    within("comparisons", count.looks().saturating_add(of_corners), MOST_LOOKS)?;
     within("pairs of patches and kinks", count.kinks_of_patches(), MOST_PAIRS)?;
     let neighbours = count.neighbours();
     within(

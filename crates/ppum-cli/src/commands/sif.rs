@@ -78,7 +78,7 @@ impl Report {
             let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
                 // What the solver found while it knew the loads.
                 None => stored(&file, index, step, UNKNOWN)?,
-                Some(problem) => match check_effort(dataset, index) {
+                Some(problem) => match check_effort(dataset, index, problem.as_ref()) {
                     Err(error @ EffortError::TooMuch { .. }) => {
                         stored(&file, index, step, ("too-costly", &error.to_string()))?
                     }

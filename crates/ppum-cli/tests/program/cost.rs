@@ -88,9 +88,9 @@ fn failure(
     let code = output.status.code();
     let is_right = match refused {
         Some(words) => code == Some(1) && complaint.contains(words) && output.stdout.is_empty(),
-        // factors that would take too much are not found
+        // factors that would take too much are not found again
         None if bound.command.starts_with("sif") => {
-            code == Some(0) || code == Some(1) && complaint.contains("are done")
+            code == Some(0) || code == Some(1) && complaint.contains("no factors are stored")
         }
         None => code == Some(0),
     };

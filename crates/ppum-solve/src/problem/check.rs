@@ -241,8 +241,9 @@ fn check_boundary(problem: &Problem) -> Vec<Violation> {
     let mut found = Vec::new();
     for (index, condition) in problem.boundary.iter().enumerate() {
         found.extend(check_part(index, condition, problem));
-        let earlier = problem.boundary[..index].iter().enumerate();
-        found.extend(earlier.filter_map(|(other, earlier)| {
+        let mut earlier = problem.boundary[..index].iter().enumerate();
+        // one is enough: of conditions that are all alike each pair is a mistake
+        found.extend(earlier.find_map(|(other, earlier)| {
             let message = contradiction(earlier, condition)?;
             Some(Violation::new(on(index), message).with_other(on(other)))
         }));

@@ -20,16 +20,16 @@ pub(super) fn level(hole: &Hole) -> Option<Arc<Level>> {
 }
 
 /// The holes whose bounding boxes meet a rectangle.
-pub(super) fn near<'h>(holes: &'h [Hole], rect: &Rect) -> Vec<&'h Hole> {
-    holes.iter().filter(|hole| hole.bounds().overlaps(rect)).collect()
+pub(super) fn near<'h>(holes: &[&'h Hole], rect: &Rect) -> Vec<&'h Hole> {
+    holes.iter().copied().filter(|hole| hole.bounds().overlaps(rect)).collect()
 }
 
 /// True if a rectangle lies in one round hole.
-pub(super) fn covered(holes: &[Hole], rect: &Rect) -> bool {
+pub(super) fn covered(holes: &[&Hole], rect: &Rect) -> bool {
     let holds = |hole: &Hole| {
         matches!(hole, Hole::Circle { .. }) && corners(rect).iter().all(|&p| hole.contains(p))
     };
-    holes.iter().any(holds)
+    holes.iter().copied().any(holds)
 }
 
 /// Removes the pieces that lie in a hole; each lies on one side of every rim.

@@ -126,6 +126,9 @@ pub struct Quadrature<'a> {
     segments: Vec<[Vec2; 2]>,
     /// Round rims: at least as many as there are round holes.
     circles: Vec<Arc<Level>>,
+    /// Boxes of the holes, and of the round ones.
+    boxes: Vec<Rect>,
+    circle_boxes: Vec<Rect>,
     /// Most divisions in one cell, or along one line through it.
     divisions: usize,
 }
@@ -145,7 +148,11 @@ impl<'a> Quadrature<'a> {
         let of_cracks = geometry.cracks.iter().flat_map(of_crack);
         let segments = of_cracks.chain(geometry.holes.iter().flat_map(Hole::sides)).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
-        Self { geometry, orders, segments, circles, divisions: adapt::MOST_DIVISIONS }
+        let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
+        let circle_boxes = round.map(Hole::bounds).collect();
+        let boxes = geometry.holes.iter().map(Hole::bounds).collect();
+        let divisions = adapt::MOST_DIVISIONS;
+        Self { geometry, orders, segments, circles, boxes, circle_boxes, divisions }
     }
 
     /// The same with fewer divisions of a cell where formulas are probed.
@@ -194,10 +201,13 @@ impl<'a> Quadrature<'a> {
         disc: Option<Disc>,
     ) -> Vec<Rule> {
         let segments = self.segments_near(cell).collect();
+        let boxes = self.boxes.iter().zip(self.geometry.holes);
+        let holes = boxes.filter(|(b, _)| b.overlaps(cell)).map(|(_, hole)| hole).collect();
         let size = cell.size();
         let least = LEAST_AREA * size.x * size.y;
         let (rules, left) = (Rules::default(), Cell::new(self.divisions));
-        let mut run = Run { quadrature: self, cell, orders, disc, segments, least, rules, left };
+        let quadrature = self;
+        let mut run = Run { quadrature, cell, orders, disc, segments, holes, least, rules, left };
         let mut sorted = coverers.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
@@ -241,6 +251,8 @@ struct Run<'a> {
     orders: Orders,
     disc: Option<Disc>,
     segments: Vec<[Vec2; 2]>,
+    /// The holes whose boxes meet the cell.
+    holes: Vec<&'a Hole>,
     least: f64,
     rules: Rules,
     /// Divisions that are left.
@@ -254,7 +266,7 @@ impl Run<'_> {
             return;
         }
         let geometry = self.quadrature.geometry;
-        if holes::covered(geometry.holes, rect) {
+        if holes::covered(&self.holes, rect) {
             return;
         }
         let diameter = rect.size().length();
@@ -267,7 +279,8 @@ impl Run<'_> {
         let kinks = geometry.active_kinks(patches);
         let active = geometry.active_probes(patches);
         let mut curves = curves_near(&kinks, rect);
-        let circles = self.quadrature.circles.iter().map(Arc::as_ref);
+        let circles = self.quadrature.circles.iter().zip(&self.quadrature.circle_boxes);
+        let circles = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
         curves.extend(circles.filter(|&level| curve::may_meet(level, rect)));
         let order = self.orders.choose(&Active {
             patches: patches.len(),
@@ -284,7 +297,7 @@ impl Run<'_> {
             size: self.cell.size().length(),
             least: self.least,
             curves: &curves,
-            holes: &holes::near(geometry.holes, rect),
+            holes: &holes::near(&self.holes, rect),
             probes: (geometry.probes, &active),
             left: &self.left,
         };

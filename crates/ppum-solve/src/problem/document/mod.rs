@@ -11,6 +11,9 @@ use super::error::{Finding, Place};
 pub(super) use nearest::nearest;
 pub(super) use value::Value;
 
+/// Most findings that are kept: mistakes of pairs are as many as pairs, and nobody reads on.
+const MOST_FINDINGS: usize = 1000;
+
 /// Collects findings; shared by all sections and values of a document.
 pub(super) struct Report<'a> {
     file: &'a str,
@@ -26,6 +29,9 @@ impl<'a> Report<'a> {
 
     /// Reports a mistake at a byte of the text.
     pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
+        if self.is_full() {
+            return;
+        }
         let (line, column) = self.position(offset);
         let place = Place::Text { file: self.file.to_owned(), line, column };
         self.add(offset, Finding { place, message: message.into() });
@@ -33,7 +39,13 @@ impl<'a> Report<'a> {
 
     /// Reports a finding in another file, named at a byte of this text.
     pub(super) fn add(&self, offset: usize, finding: Finding) {
-        self.findings.borrow_mut().push((offset, finding));
+        if !self.is_full() {
+            self.findings.borrow_mut().push((offset, finding));
+        }
+    }
+
+    fn is_full(&self) -> bool {
+        self.findings.borrow().len() >= MOST_FINDINGS
     }
 
     /// Line and column in characters, from 1.
