@@ -6,6 +6,7 @@ use ppum::dataset::Dataset;
 pub(super) const ALL: &[Maker] = &[
     ("problem-keys", None, problem_keys),
     ("problem-boundaries", None, problem_boundaries),
+    ("problem-mistakes", None, problem_mistakes),
     ("problem-loads", None, problem_loads),
     ("problem-polygon", None, problem_polygon),
 ];
@@ -29,15 +30,18 @@ fn problem_keys() -> Dataset {
 /// Parts of the border, each with ends at which the field is singular.
 fn problem_boundaries() -> Dataset {
     let part = |k: u32| {
-        let at = |j: u32| f64::from(2 * k + j) / 3700.0;
-        format!(
-            "[[boundary]]\non = \"top\"\nfrom = {}\nto = {}\ntraction = [0.0, 1.0]\n",
-            at(0),
-            at(1)
-        )
+        let at = |j: u32| f64::from(2 * k + j) / 4096.0;
+        let on = format!("{{ edge = \"top\", from = {}, to = {} }}", at(0), at(1));
+        format!("[[boundary]]\non = {on}\ntraction = [0, 1]\n")
     };
-    let parts: String = (0..2000).map(part).collect();
+    let parts: String = (0..2048).map(part).collect();
     problem(&format!("[[boundary]]\non = \"bottom\"\ndisplacement = [0.0, 0.0]\n{parts}"))
+}
+
+/// Conditions that are all given at the same place, so that each pair of them is a mistake.
+fn problem_mistakes() -> Dataset {
+    let twice = "[[boundary]]\non = \"top\"\ntraction = [0, 1]\n";
+    problem(&twice.repeat(3000))
 }
 
 /// Loads that vary everywhere around the tips.
