@@ -26,9 +26,9 @@ pub enum InspectError {
     Compile(#[from] FunctionError),
     /// It has no finite value or gradient.
     #[error(
-        "the enrichment `{name}` is {value} at [{}, {}], with the gradient [{}, {}]; keep its patches \
-         away from there, or change the formula so that it is finite",
-        trimmed(.point.x), trimmed(.point.y), trimmed(.gradient.x), trimmed(.gradient.y)
+        "the enrichment `{name}` is {} at [{}, {}], with the gradient [{}, {}]; keep its patches away \
+         from there, or change the formula so that it and its square are finite",
+        trimmed(*.value), trimmed(.point.x), trimmed(.point.y), trimmed(.gradient.x), trimmed(.gradient.y)
     )]
     NotFinite {
         /// Name of the function.
