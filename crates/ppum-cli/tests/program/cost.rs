@@ -22,7 +22,7 @@ struct Bound {
 }
 
 /// The bounds of docs/cli.md for two threads, 12,288 pixels and 8,000 points.
-const BOUNDS: [Bound; 6] = [
+const BOUNDS: [Bound; 7] = [
     Bound { command: "info FILE", seconds: 10, memory: 0 },
     Bound { command: "info FILE --json", seconds: 10, memory: 64 },
     Bound { command: "probe FILE --at 0.3,0.3 --at 0.5,0.4375", seconds: 10, memory: 0 },
@@ -32,6 +32,7 @@ const BOUNDS: [Bound; 6] = [
         seconds: 60,
         memory: 512,
     },
+    Bound { command: "formula x --of FILE", seconds: 10, memory: 0 },
     Bound { command: "sif FILE --recompute", seconds: 300, memory: 2048 },
 ];
 
