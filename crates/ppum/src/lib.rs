@@ -14,6 +14,7 @@
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
+//! - [`progress`] is how long calls are followed and stopped.
 //! - [`printable`](mod@printable) is how texts of files may be shown.
 //! - [`text`] writes numbers and places for people, and finds the words that they meant.
 //!
@@ -216,6 +217,7 @@ pub mod library;
 mod morton;
 pub mod polynomial;
 pub mod printable;
+pub mod progress;
 pub mod quantity;
 #[cfg(test)]
 mod random;
