@@ -210,19 +210,17 @@ pub mod domain;
 pub mod equation;
 pub mod expression;
 pub mod field;
-pub mod formula;
 pub mod function;
 pub mod jet;
 pub mod library;
 mod morton;
 pub mod polynomial;
-pub mod printable;
 pub mod progress;
 pub mod quantity;
-#[cfg(test)]
-mod random;
-pub mod real;
 pub mod replace;
 pub mod text;
 pub mod vec2;
 pub mod weight;
+
+pub use ppum_formula as formula;
+pub use ppum_formula::{printable, real};
