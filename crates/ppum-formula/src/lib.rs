@@ -6,7 +6,7 @@
 //!
 //! let f = Formula::parse("exp(-x^2)*cos(y)", &Scope::cartesian())?;
 //! assert_eq!(f.evaluate(&[0.0, 0.0]), 1.0);
-//! assert_eq!(f.derivative("y")?.text(), "-exp(-x^2)*sin(y)");
+//! assert_eq!(f.derivative("y")?.text(), "-(exp(-x^2)*sin(y))");
 //!
 //! let jets = FormulaJets::new(&[&f], 1)?; // with both first derivatives, compiled together
 //! let mut scratch = Scratch::<f64>::default();

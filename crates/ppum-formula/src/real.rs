@@ -13,6 +13,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::tape::Interpret;
 
+/// Lanes of the widest vector there is: f32 on 512 bits.
+pub const WIDEST: usize = 16;
+
 /// A number or a vector of numbers.
 pub trait Real:
     Copy
@@ -62,8 +65,38 @@ pub trait Real:
     fn store_array(self, array: &mut Self::Array);
     /// Writes the lanes to the start of a slice.
     fn store(self, to: &mut [Self::Scalar]);
+    /// The lanes widened to f64; zero beyond [`Self::LANES`].
+    #[inline(always)]
+    fn lanes(self) -> [f64; WIDEST] {
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        self.store(&mut lanes);
+        lanes.map(Scalar::to_f64)
+    }
+    /// The number of each lane, rounded from f64; `self` is any value to take the kind from.
+    #[inline(always)]
+    fn with_lanes(self, mut number: impl FnMut(usize) -> f64) -> Self {
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        for (k, lane) in lanes.iter_mut().enumerate().take(Self::LANES) {
+            *lane = Self::Scalar::from_f64(number(k));
+        }
+        self.load(&lanes)
+    }
     /// Applies a scalar function in f64 lane by lane: the slow path for functions without a kernel.
-    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let lanes = self.lanes();
+        self.with_lanes(|k| f(lanes[k]))
+    }
+    /// Writes the lanes to a slice, or as many as there is room for.
+    #[inline(always)]
+    fn store_some(self, to: &mut [Self::Scalar]) {
+        if to.len() >= Self::LANES {
+            return self.store(to);
+        }
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        self.store(&mut lanes);
+        to.copy_from_slice(&lanes[..to.len()]);
+    }
     /// +1 where the mask holds, else −1; `one` is a one to take the kind from.
     #[inline(always)]
     fn sign(positive: Self::Mask, one: Self) -> Self {
@@ -247,15 +280,6 @@ macro_rules! scalar {
             #[inline(always)]
             fn store(self, to: &mut [$t]) {
                 self.store_slice(&mut to[..$lanes]);
-            }
-            #[inline(always)]
-            fn map(self, f: impl Fn(f64) -> f64) -> Self {
-                let mut lanes = [0.0; $lanes];
-                self.store_slice(&mut lanes);
-                for lane in &mut lanes {
-                    *lane = f(f64::from(*lane)) as $t;
-                }
-                Self::from_slice(self.token(), &lanes)
             }
         }
     };
