@@ -7,10 +7,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::dataset::Step;
-use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
+use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
 /// A text that cannot take the place of a function or of the weight.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
