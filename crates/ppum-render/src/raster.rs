@@ -1,10 +1,12 @@
 //! Values at the pixel centres of a view.
 
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
 use ppum::real::Scalar;
 use rayon::prelude::*;
 
+use crate::error::RenderError;
 use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
@@ -22,7 +24,8 @@ pub trait Sample: Scalar + Into<f64> {
         field: &Field<'_>,
         view: &View,
         quantity: &Quantity,
-    ) -> Result<Raster<Self>, QuantityError>;
+        watcher: &dyn Watcher,
+    ) -> Result<Raster<Self>, RenderError>;
 }
 
 /// One value a pixel, row by row from the top; NaN where nothing is defined (outside the domain).

@@ -18,7 +18,8 @@ use ppum_testkit::wgsl::Module;
 
 use super::compute::{around, point_functions, run};
 use super::gpu_or_skip;
-use crate::geometry::{Geometry, GroupFrame};
+use crate::frame::geometry::Geometry;
+use crate::scene::groups::GroupFrame;
 
 /// Unit roundoff of single precision.
 const U: f64 = f32::EPSILON as f64 / 2.0;
