@@ -85,7 +85,7 @@ pub enum GpuError {
     FormulaTooLarge {
         /// The formula.
         what: String,
-        /// What it has too much of.
+        /// The limit it exceeds.
         error: WgslError,
     },
     /// A quantity that single precision cannot show.

@@ -1,4 +1,4 @@
-//! What tests share, and the functions of shaders against their twins.
+//! Parts that tests share, and the functions of shaders against their twins.
 
 mod compute;
 mod corpus;

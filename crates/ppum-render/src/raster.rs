@@ -28,7 +28,7 @@ pub trait Sample: Scalar + Into<f64> {
     ) -> Result<Raster<Self>, RenderError>;
 }
 
-/// One value a pixel, row by row from the top; NaN where nothing is defined (outside the domain).
+/// One value per pixel, row by row from the top; NaN where nothing is defined (outside the domain).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster<T = f64> {
     /// Columns and rows.
@@ -37,7 +37,7 @@ pub struct Raster<T = f64> {
     pub values: Vec<T>,
 }
 
-/// What a raster holds. Minimum, maximum and mean are those of the finite values.
+/// Statistics of a raster. Minimum, maximum and mean are those of the finite values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of finite values.
@@ -62,7 +62,7 @@ impl<T: Sample> Raster<T> {
     #[must_use]
     pub fn new(size: [u32; 2], values: Vec<T>) -> Self {
         let pixels = size[0] as usize * size[1] as usize;
-        assert_eq!(values.len(), pixels, "a raster needs one value a pixel");
+        assert_eq!(values.len(), pixels, "a raster needs one value per pixel");
         Self { size, values }
     }
 

@@ -1,4 +1,4 @@
-//! The reference renderer: one scalar evaluation a pixel, slow and plain.
+//! The reference renderer: one scalar evaluation per pixel, slow and plain.
 
 use ppum::crack::Side;
 use ppum::field::Field;

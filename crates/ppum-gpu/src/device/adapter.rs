@@ -5,12 +5,12 @@ use wgpu::{Adapter, Backends, DeviceType, Features, InstanceDescriptor, Instance
 use crate::choice::{AdapterKind, Choice};
 use crate::error::GpuError;
 
-/// What a graphics adapter is and what it takes.
+/// A graphics adapter and its limits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterInfo {
     /// Name, as the driver gives it.
     pub name: String,
-    /// What kind of device it is.
+    /// The kind of device.
     pub kind: AdapterKind,
     /// The interface it is driven by: `vulkan`, `metal`, `dx12`, in a browser `webgpu`.
     pub backend: String,
@@ -113,7 +113,7 @@ fn kind_of(kind: DeviceType) -> AdapterKind {
     }
 }
 
-/// What an adapter is and takes.
+/// The name, kind and limits of an adapter.
 pub(crate) fn info(adapter: &Adapter) -> AdapterInfo {
     let (info, limits) = (adapter.get_info(), adapter.limits());
     AdapterInfo {

@@ -18,7 +18,7 @@ pub struct Gpu {
     state: Arc<State>,
 }
 
-/// What the driver tells without being asked.
+/// News from the driver that nobody asked for.
 #[derive(Debug, Default)]
 struct State {
     lost: AtomicBool,
@@ -58,7 +58,7 @@ impl Gpu {
         Ok(Self { device, queue, info: adapter::info(adapter), state })
     }
 
-    /// What is opened.
+    /// The adapter that is opened.
     #[must_use]
     pub fn info(&self) -> &AdapterInfo {
         &self.info
@@ -74,12 +74,12 @@ impl Gpu {
         &self.queue
     }
 
-    /// What the device was opened with: WebGPU's defaults, but for larger textures and buffers.
+    /// The limits that the device was opened with: WebGPU's defaults, but for larger textures and buffers.
     pub(crate) fn limits(&self) -> Limits {
         self.device.limits()
     }
 
-    /// What `f` gives, or the error that the driver found in it; `what` says what is tried, as in
+    /// The result of `f`, or the error that the driver found in it; `what` names the action, as in
     /// "make the pipeline".
     ///
     /// A browser answers later only: there errors are left to [`Gpu::verdict`].
@@ -121,9 +121,9 @@ impl Gpu {
         let scopes = filters.map(|filter| self.device.push_error_scope(filter));
         let value = f();
         // scopes are a stack
-        let errors = scopes.into_iter().rev().map(|scope| pollster::block_on(scope.pop()));
+        let popped = scopes.into_iter().rev().map(|scope| pollster::block_on(scope.pop()));
         // all are popped, whatever the first one has
-        let errors: Vec<_> = errors.collect();
+        let errors: Vec<_> = popped.collect();
         (value, errors.into_iter().flatten().next())
     }
 
@@ -132,7 +132,7 @@ impl Gpu {
         (f(), None)
     }
 
-    /// What the driver has complained about, outside of [`Gpu::checked`], since this was asked last.
+    /// The first complaint of the driver, outside of [`Gpu::checked`], since this was asked last.
     #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page asks later"))]
     pub(crate) fn verdict(&self) -> Result<(), GpuError> {
         let complaint = self.state.complaint.lock().unwrap_or_else(PoisonError::into_inner).take();

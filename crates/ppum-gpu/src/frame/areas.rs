@@ -1,4 +1,4 @@
-//! Where a picture needs more than smooth terms.
+//! The areas of a picture, by the terms they need beside smooth ones.
 //!
 //! A shader that evaluates functions costs twice what one does that has smooth terms only, also on the
 //! pixels where there are no functions: processors that run many pixels in step take every branch. So the

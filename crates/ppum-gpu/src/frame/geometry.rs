@@ -31,9 +31,9 @@ pub(crate) struct Geometry {
     /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every crack; the
     /// segments; the holes.
     pub(crate) pairs: Vec<[f32; 2]>,
-    /// Where the cracks begin.
+    /// First pair of the cracks.
     pub(crate) cracks: u32,
-    /// Where the holes begin.
+    /// First pair of the holes.
     pub(crate) holes: u32,
     /// Number of holes.
     pub(crate) n_holes: u32,

@@ -1,4 +1,4 @@
-//! What a view changes: numbers formed in double precision, once a frame.
+//! Data of one frame: numbers that change with the view, formed in double precision.
 
 pub(crate) mod areas;
 pub(crate) mod geometry;

@@ -21,7 +21,7 @@ pub struct Shading {
     pub normalization: Normalization,
     /// The colours, those below and above the range included.
     pub colormap: Colormap,
-    /// Where there is no value.
+    /// The colour of pixels without a value.
     pub undefined: Rgba,
 }
 

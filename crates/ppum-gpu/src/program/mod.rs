@@ -21,7 +21,7 @@ use pipelines::Pipelines;
 /// A quantity of a scene compiled for the card: what [`Renderer::compile`](crate::Renderer::compile) makes.
 /// It yields `O`: [`Values`](crate::Values), [`Colors`] or [`Derivatives`](crate::Derivatives).
 ///
-/// Where functions of the dataset are replaced, compile another program for the scene
+/// When functions of the dataset are replaced, compile another program for the scene
 /// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
 #[derive(Debug)]
 pub struct Program<'f, O> {
@@ -47,13 +47,13 @@ impl<'f, O: Output> Program<'f, O> {
         &self.scene
     }
 
-    /// What is written at a pixel.
+    /// The output at a pixel.
     #[must_use]
     pub fn output(&self) -> &O {
         &self.output
     }
 
-    /// How patches come together.
+    /// The way patches come together.
     #[must_use]
     pub fn method(&self) -> Method {
         self.shader.method()

@@ -59,8 +59,8 @@ impl Pipelines {
             [data_layout(gpu), textures_layout(gpu, sums + 1)]
         })?;
         let builder = PipelineBuilder { gpu, data: &data };
-        let splat = slots.map(|slots| SplatPasses::new(builder, shader, layout, slots));
-        let splat = splat.transpose()?;
+        let passes = |slots| SplatPasses::new(builder, shader, layout, slots);
+        let splat = slots.map(passes).transpose()?;
         Ok(Self { gpu: Arc::clone(gpu), layout, data, textures, splat, finish: BTreeMap::new() })
     }
 

@@ -147,7 +147,7 @@ impl Renderer {
     /// Waits until everything begun is drawn.
     ///
     /// # Errors
-    /// What went wrong meanwhile.
+    /// [`GpuError::Device`] for anything that failed meanwhile.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(&self) -> Result<(), GpuError> {
         read::wait(self.gpu())

@@ -135,9 +135,9 @@ impl Targets {
         last_pass: &Finish,
     ) -> Vec<Texture> {
         let palette = self.palette.as_ref().map(|(_, view)| view);
-        let textures = self.sums[..pipelines.sums()].iter().chain(palette);
-        let textures = textures.map(BindingResource::TextureView).collect();
-        let textures = group(gpu, &pipelines.textures, textures);
+        let summed = self.sums[..pipelines.sums()].iter().chain(palette);
+        let resources = summed.map(BindingResource::TextureView).collect();
+        let textures = group(gpu, &pipelines.textures, resources);
         let formats = last_pass.formats.iter();
         let drawn: Vec<_> = formats.map(|&format| target(gpu, self.size, format)).collect();
         let views: Vec<_> = drawn.iter().map(|t| t.create_view(&Default::default())).collect();

@@ -151,8 +151,7 @@ fn may_split(bin: Rect, list: &[u32], patches: &[Covered], margin: f64, depth: u
         return false;
     }
     let size = bin.size();
-    let smallest = list.iter().map(|&p| patches[p as usize].cell);
-    let smallest = smallest.fold(size, Vec2::min);
+    let smallest = list.iter().map(|&p| patches[p as usize].cell).fold(size, Vec2::min);
     size.x > 0.5 * smallest.x && size.y > 0.5 * smallest.y && size.x.min(size.y) > 8.0 * margin
 }
 

@@ -53,7 +53,7 @@ pub(crate) struct OnCard {
     /// The address of each patch's body.
     pub(crate) bodies: Vec<u32>,
     pub(crate) lattice: Option<Lattice>,
-    /// Where there are more than smooth terms.
+    /// Boxes around the patches with more than smooth terms.
     pub(crate) enriched: Vec<(Rect, Others)>,
     region: Option<UploadedRegion>,
 }
@@ -79,7 +79,7 @@ pub(crate) struct SceneLayout {
 pub(crate) struct UploadedRegion {
     pub(crate) region: Region,
     pub(crate) texture: TextureView,
-    /// Where list and records begin.
+    /// First texels of list and records.
     pub(crate) list: u32,
     pub(crate) patches: u32,
 }

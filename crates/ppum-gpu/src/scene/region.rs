@@ -9,8 +9,8 @@
 //!
 //! ```text
 //! node of a bin    of a lattice: the addresses of the patches at its four corners, by x + 2 y
-//!                  else two nodes a texel, see bins.rs
-//! list             four patches a texel, by their records
+//!                  else two nodes per texel, see bins.rs
+//! list             four patches per texel, by their records
 //! record           origin, high and low · reciprocal half-extents, address of the body
 //!                  the same for the frame of the polynomials, if that is another one
 //! ```
@@ -23,7 +23,7 @@ use super::bins::{Bins, Covered};
 use super::lattice::Lattice;
 use crate::layout::halves_by;
 
-/// How much wider than the view a new region is.
+/// Width of a new region in widths of the view.
 const AROUND: f64 = 16.0;
 
 /// A view is too deep if its region is more than this wider.
@@ -35,13 +35,13 @@ const MARGIN: f64 = 1e-6;
 /// Patches in a region, ready for upload.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
-    /// Where views may be, in the world.
+    /// The part of the world that views may show.
     bounds: Rect,
     /// The point that positions are relative to.
     pub(crate) anchor: Vec2,
     /// The patches' indices in the dataset, ascending; none are listed of a lattice.
     pub(crate) patches: Vec<u32>,
-    /// Where they are found.
+    /// The bins that they are found by.
     pub(crate) bins: Bins,
 }
 

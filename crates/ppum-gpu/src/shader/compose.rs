@@ -82,12 +82,12 @@ impl ShaderText {
         })
     }
 
-    /// How patches come together.
+    /// The way patches come together.
     pub(crate) fn method(&self) -> Method {
         self.method
     }
 
-    /// What is written at a pixel.
+    /// The last pass.
     pub(crate) fn last_pass(&self) -> &Finish {
         &self.last_pass
     }
@@ -146,7 +146,7 @@ impl ShaderText {
         })
     }
 
-    /// What evaluates smooth terms, and reads constants.
+    /// The code that evaluates smooth terms and reads constants.
     fn smooth(&self, layout: SceneLayout) -> String {
         let Components { lanes, groups, .. } = layout.components;
         let smooth = match layout.shape.degree {
@@ -197,7 +197,7 @@ impl ShaderText {
         text
     }
 
-    /// What splatting has beside its file: targets, slots, textures.
+    /// Declarations of splatting beside its file: targets, slots, textures.
     fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
         let slots = self.slots(layout);
         let mut text = texts::SPLAT.to_owned();
@@ -276,7 +276,7 @@ fn targets(name: &str, count: u32) -> String {
     format!("struct {name} {{\n{members}}}\n")
 }
 
-/// What is summed of a weight, with the number of patches and the weight of the chosen one.
+/// The sums of a weight, with the number of patches and the weight of the chosen one.
 fn weights_of(count: u32) -> String {
     let (second, read) = if count == 2 {
         (", vec4<f32>(w.xx, w.xy, w.yy, part)", "textureLoad(weights_1, index, 0)")
@@ -294,7 +294,7 @@ fn second_weights(index: vec2<u32>) -> vec4<f32> {{
     )
 }
 
-/// What a pass writes of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
+/// The output of a pass of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
 fn fields_of(pass: FieldPass, lanes: usize) -> String {
     const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
     let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };

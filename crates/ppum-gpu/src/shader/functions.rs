@@ -19,7 +19,7 @@ const MEMBERS: [&str; 6] = ["v", "x", "y", "xx", "xy", "yy"];
 /// Numbers of a jet by its order.
 const SIZE: [usize; 3] = [1, 3, 6];
 
-/// What a step's formulas are compiled with.
+/// The surroundings that a step's formulas are compiled in.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surroundings<'a> {
     /// Number of cracks, whose sides formulas may use.
@@ -60,7 +60,7 @@ pub(crate) fn functions_wgsl(
     Ok(text + &chooser(&runs) + &is_one_wgsl(ones))
 }
 
-/// What evaluates a group.
+/// The kind of code that evaluates a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     One,
@@ -146,13 +146,13 @@ fn constant(value: &str) -> String {
 struct Formulas {
     /// The first function, for messages.
     name: String,
-    /// What gives each function.
+    /// The code of each function.
     sources: Vec<Source>,
     /// Those that are evaluated as formulas, together.
     jets: Option<FormulaJets>,
 }
 
-/// What gives a function.
+/// The code of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
     /// A function of Westergaard's by its index.
@@ -248,7 +248,7 @@ fn call(jets: &FormulaJets, name: &str) -> String {
     text + &format!("    let jets = {name}({});\n", arguments.join(", "))
 }
 
-/// What stands for an input of functions.
+/// The WGSL of an input of functions.
 fn argument(index: usize) -> String {
     let polar = ["p.x", "p.y", "r", "tip_theta(half)", "half.x", "half.y"];
     match polar.get(index) {

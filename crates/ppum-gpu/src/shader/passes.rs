@@ -42,7 +42,7 @@ pub(crate) struct FieldPass {
     pub(crate) slots: u32,
 }
 
-/// Slots that one pass writes: 32 bytes a pixel, what WebGPU promises.
+/// Slots that one pass writes: 32 bytes per pixel, what WebGPU promises.
 const SLOTS_PER_PASS: u32 = 2;
 
 /// The format of what is added up.

@@ -132,7 +132,7 @@ fn of_formula(
     Ok(text + &returning(&before, &value))
 }
 
-/// What stands for an input of a formula.
+/// The WGSL of an input of a formula.
 fn argument(input: Input) -> String {
     match input {
         Input::X => "at.position.x".to_owned(),

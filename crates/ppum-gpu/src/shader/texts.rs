@@ -48,7 +48,7 @@ pub(crate) const SMOOTH: &str = include_str!("wgsl/smooth.wgsl");
 pub(crate) const GATHER: &str = include_str!("wgsl/gather.wgsl");
 /// Three passes.
 pub(crate) const SPLAT: &str = include_str!("wgsl/splat.wgsl");
-/// What is written at a pixel.
+/// The value of a pixel.
 pub(crate) const FINISH: &str = include_str!("wgsl/finish.wgsl");
 /// The transfer function.
 pub(crate) const COLOR: &str = include_str!("wgsl/color.wgsl");

@@ -37,7 +37,7 @@ pub(crate) fn around(text: &str, rows: usize, inputs: usize, outputs: usize) -> 
     )
 }
 
-/// What `row` of a text writes for each row, `outputs` numbers.
+/// The `outputs` numbers that `row` of a text writes for each row.
 pub(crate) fn run<const N: usize>(
     gpu: &Gpu,
     text: &str,

@@ -27,10 +27,10 @@ const U: f64 = f32::EPSILON as f64 / 2.0;
 /// A weight for the texts that test none.
 const WEIGHT: &str = "fn weight(xi: f32) -> vec3<f32> { return weight_cubic(xi); }\n";
 
-/// Where the cracks are in the view's data of one group of functions.
+/// Place of the cracks in the view's data of one group of functions.
 const CRACKS: u32 = 4;
 
-/// What must come out: a number and the size of what it is a sum of.
+/// The expected result: a number and the size of what it is a sum of.
 type Expected = Vec<(f64, f64)>;
 
 /// Rows that differ from what is expected by more than `units` roundoffs.

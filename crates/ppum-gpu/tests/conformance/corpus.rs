@@ -18,7 +18,7 @@ const RELATIVE: f64 = 1e-5;
 /// Largest share of pixels that may lie in the band.
 const MOST_IN_BAND: f64 = 0.02;
 
-/// What draws.
+/// An evaluator of pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Evaluator {
     Scalar,
@@ -30,7 +30,7 @@ enum Evaluator {
 use Evaluator::{Double, Gpu, Scalar, Single};
 
 const ALL: [Evaluator; 5] = [Scalar, Double, Single, Gpu(Method::Gather), Gpu(Method::Splat)];
-/// Where splatting stands among them.
+/// Index of splatting among them.
 const SPLATTING: usize = 4;
 
 /// A scene and its programs, where there is a graphics device.
@@ -81,7 +81,7 @@ fn agree(group: &str, cases: &[Case], check: impl Fn(&str, Evaluator, &Differenc
 /// Draws the values of a view, row by row from the top.
 type Draw<'a> = Box<dyn FnMut(&View) -> Option<Vec<f64>> + 'a>;
 
-/// How an evaluator draws a view; nothing where there is no device.
+/// The function by which an evaluator draws a view; it gives nothing if there is no device.
 fn drawing<'a>(
     evaluator: Evaluator,
     field: &'a Field<'a>,

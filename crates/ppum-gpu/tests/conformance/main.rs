@@ -40,7 +40,7 @@ const METHODS: [Method; 2] = [Method::Gather, Method::Splat];
 /// A renderer, if there is a device.
 ///
 /// # Panics
-/// When one is required and there is none, or when opening it fails.
+/// If one is required and there is none, or if opening it fails.
 fn renderer_or_skip() -> Option<Renderer> {
     match Renderer::open(Choice::Any) {
         Ok(renderer) => Some(renderer),
@@ -60,7 +60,7 @@ fn quantity(text: &str, field: &Field<'_>) -> Quantity {
     good(Quantity::parse(text, field))
 }
 
-/// What must not fail here.
+/// The value of a result that must not be an error here.
 fn good<T, E: Display>(result: Result<T, E>) -> T {
     result.unwrap_or_else(|error| panic!("{error}"))
 }

@@ -81,7 +81,7 @@ fn replaced_functions_survive_a_loss() {
     }
 }
 
-/// Where a function that has taken the place of 1 has no value, patches without a smooth part do not mind.
+/// Patches without a smooth part do not mind that the function in place of 1 has no value.
 #[test]
 fn a_function_is_not_asked_where_it_is_not_used() {
     let Some(mut renderer) = renderer_or_skip() else { return };
@@ -120,7 +120,7 @@ fn a_broken_formula_leaves_the_old_picture() {
     assert_eq!(wrong, dataset);
 }
 
-/// What is said of a table of 3000 knots.
+/// The message about a table of 3000 knots.
 fn too_large(renderer: &mut Renderer, scene: &Scene<'_>, dataset: &Dataset) -> String {
     let x: Vec<f64> = (0..3000).map(f64::from).collect();
     let values = x.iter().map(|x| x.sin()).collect();

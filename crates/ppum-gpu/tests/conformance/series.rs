@@ -8,7 +8,7 @@ use ppum_testkit::synthetic::{Recipe, crack, kinked};
 
 use crate::{bits, check, good, quantity, renderer_or_skip, view, window};
 
-/// How each step is drawn.
+/// The method for each step.
 const WAYS: [Method; 3] = [Method::Gather, Method::Splat, Method::Gather];
 
 /// Three steps: without a crack, with one, with another and its tips, on other covers.

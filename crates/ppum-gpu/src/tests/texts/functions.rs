@@ -23,8 +23,8 @@ const CENTER: Vec2 = vec2(0.8, 0.2);
 fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
     let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0)).into();
     let geometry = Geometry::new(step, &domain, frames, CENTER);
-    let bits = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
-    let bits: Vec<String> = bits.collect();
+    let words = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
+    let bits: Vec<String> = words.collect();
     let (count, bits) = (bits.len(), bits.join(", "));
     format!(
         "struct View {{ cracks: u32 }}
