@@ -18,7 +18,7 @@ pub(super) struct FunctionJets<'a, 'f, R> {
     groups: [u32; PLACES],
     jets: [[Jet<R>; GROUP]; PLACES],
     next: usize,
-    /// Where there are more, those that have lost their places.
+    /// Groups that have lost their places to others.
     others: BTreeMap<u32, [Jet<R>; GROUP]>,
 }
 

@@ -68,7 +68,7 @@ pub enum FieldError {
     Name {
         /// The field asked for.
         name: String,
-        /// What there is.
+        /// The names there are.
         known: String,
     },
     /// A function of the step is wrong.
@@ -82,7 +82,7 @@ pub enum FieldError {
     Exact {
         /// The field.
         name: String,
-        /// What is wrong.
+        /// The mistake.
         source: Box<FormulaError>,
     },
 }
