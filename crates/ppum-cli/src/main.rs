@@ -19,7 +19,6 @@ mod output;
 mod panics;
 mod progress;
 mod replacements;
-mod sides;
 mod signals;
 mod standard;
 mod target;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record};
 use ppum_solve::problem::Problem;
-use ppum_solve::solve::Plan;
+use ppum_solve::solve::{Plan, Progress};
 use serde::Serialize;
 
 use super::info::reactions::{self, ReactionRow};
@@ -71,7 +71,7 @@ impl Args {
         )?;
         let dataset = {
             let bar = Bar::new();
-            let mut show = |progress| bar.show(progress);
+            let mut show = |now: Progress| bar.show(now.phase.name(), now.done, now.total);
             let memory = self.memory();
             let solve = || {
                 let plan = Plan::new(&problem, memory, &mut show)?;

@@ -1,20 +1,32 @@
 //! Points on a crack: on which segment.
 //!
 //! The decimal digits of a point on an oblique crack are rarely f64 numbers that lie on it. A point
-//! within rounding of a crack therefore counts as on it, and is evaluated on its segment, on the side that
-//! is asked for. Points given with an offset mean exactly what they say, and are on a crack only up to the
-//! rounding of the offset.
+//! within rounding of a crack therefore counts as on it, and is evaluated on its segment
+//! ([`Field::on`](crate::field::Field::on)), on the side that is asked for. Points given with an offset mean
+//! exactly what they say, and are on a crack only up to the rounding of the offset.
+//!
+//! ```
+//! use crate::crack::{Crack, CrackEnd, SegmentId};
+//! use crate::sides::Segments;
+//! use crate::vec2::{Vec2, vec2};
+//!
+//! let points = vec![vec2(-1.0, -0.3), vec2(1.0, 0.4)];
+//! let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];
+//! let segments = Segments::new(&cracks);
+//! assert_eq!(segments.at(vec2(0.3, 0.155), Vec2::ZERO), Some(SegmentId { crack: 0, segment: 0 }));
+//! assert_eq!(segments.at(vec2(0.3, 0.155), vec2(0.0, 1e-30)), None);
+//! ```
 
-use ppum::box_tree::BoxTree;
-use ppum::crack::{Crack, CrackEnd, SegmentId};
-use ppum::field::{Field, LocalField};
-use ppum::vec2::{Rect, Vec2, vec2};
+use crate::box_tree::BoxTree;
+use crate::crack::{Crack, CrackEnd, SegmentId};
+use crate::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of a point's coordinates and of its distance from a line, in parts of their size.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The segments of cracks, to be asked which of them a point lies on: many points, many segments.
-pub(crate) struct Segments<'c> {
+/// The segments of cracks in a search tree, to be asked which of them a point lies on.
+#[derive(Clone, Debug)]
+pub struct Segments<'c> {
     cracks: &'c [Crack],
     /// All segments in their order.
     all: Vec<SegmentId>,
@@ -24,7 +36,9 @@ pub(crate) struct Segments<'c> {
 }
 
 impl<'c> Segments<'c> {
-    pub(crate) fn new(cracks: &'c [Crack]) -> Self {
+    /// The segments of the cracks of a step, each of two points or more; O(n log n) for n segments.
+    #[must_use]
+    pub fn new(cracks: &'c [Crack]) -> Self {
         let (mut all, mut boxes, mut size) = (Vec::new(), Vec::new(), 0.0f64);
         for (index, crack) in (0..).zip(cracks) {
             for (segment, ends) in (0..).zip(crack.points.windows(2)) {
@@ -37,9 +51,10 @@ impl<'c> Segments<'c> {
         Self { cracks, all, tree: BoxTree::new(&boxes), size }
     }
 
-    /// The segment that `anchor + offset` lies on, if it lies on a crack: the first. Tips do not count: there
-    /// is nothing to part.
-    pub(crate) fn at(&self, anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
+    /// The segment that `anchor + offset` lies on, if it lies on a crack; of several the first. Tips do not
+    /// count: there is nothing to part. O(log n).
+    #[must_use]
+    pub fn at(&self, anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
         let point = anchor + offset;
         let size = [anchor.x, anchor.y, point.x, point.y].into_iter().fold(self.size, largest);
         // more than the rounding that counts as on a segment
@@ -53,30 +68,12 @@ impl<'c> Segments<'c> {
     }
 }
 
-/// The same for a few points.
-pub(crate) fn on_crack(cracks: &[Crack], anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
-    (0..).zip(cracks).find_map(|(index, crack)| {
-        let mut segments = 0..crack.points.len() as u32 - 1;
-        let segment = segments.find(|&k| touches_segment(crack, k, anchor, offset))?;
-        Some(SegmentId { crack: index, segment })
-    })
-}
-
 /// True if `anchor + offset` lies on a segment of a crack, and not at a tip.
 fn touches_segment(crack: &Crack, segment: u32, anchor: Vec2, offset: Vec2) -> bool {
     let (k, last) = (segment as usize, crack.points.len() - 2);
     let is_tip =
         [k == 0 && crack.ends[0] == CrackEnd::Tip, k == last && crack.ends[1] == CrackEnd::Tip];
     touches([crack.points[k], crack.points[k + 1]], is_tip, anchor, offset)
-}
-
-/// The field as seen from an anchor, on a segment of a crack if points lie on one.
-pub(crate) fn seen<'f>(
-    field: &'f Field<'_>,
-    segment: Option<SegmentId>,
-    anchor: Vec2,
-) -> LocalField<'f> {
-    segment.map_or_else(|| field.at(anchor), |segment| field.on(segment, anchor))
 }
 
 /// True if `anchor + offset` lies on a segment, up to rounding.
@@ -109,6 +106,17 @@ mod tests {
         Crack { points: points.iter().map(|&(x, y)| vec2(x, y)).collect(), ends }
     }
 
+    /// The segment that is found, and that asking all segments in their order finds the same.
+    fn found(cracks: &[Crack], anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
+        let by_all = (0..).zip(cracks).find_map(|(index, crack)| {
+            let mut segments = 0..crack.points.len() as u32 - 1;
+            let segment = segments.find(|&k| touches_segment(crack, k, anchor, offset))?;
+            Some(SegmentId { crack: index, segment })
+        });
+        assert_eq!(Segments::new(cracks).at(anchor, offset), by_all, "{anchor:?} {offset:?}");
+        by_all
+    }
+
     /// Points a + t (b − a), rounded, of many oblique segments.
     #[test]
     fn rounded_points_on_oblique_cracks() {
@@ -117,21 +125,15 @@ mod tests {
             let (a, b) = (vec2(0.3 * cos, 0.3 * sin), vec2(-0.5 * sin - 0.9 * cos, 0.2 * cos));
             let crack = crack(&[(a.x, a.y), (b.x, b.y)], [CrackEnd::Tip; 2]);
             let point = a + (b - a) * (0.01 + 0.98 * f64::from(k) / 500.0);
-            let (cracks, on) = ([crack], Some(SegmentId { crack: 0, segment: 0 }));
-            assert_eq!(on_crack(&cracks, point, Vec2::ZERO), on, "{point:?}");
-            assert_eq!(Segments::new(&cracks).at(point, Vec2::ZERO), on, "{point:?}");
+            let on = Some(SegmentId { crack: 0, segment: 0 });
+            assert_eq!(found(&[crack], point, Vec2::ZERO), on, "{point:?}");
         }
     }
 
     #[test]
     fn tips_do_not_count_and_mouths_and_kinks_do() {
         let bent = [crack(&[(0.0, 0.1), (0.3, 0.1), (0.5, 0.7)], [CrackEnd::Mouth, CrackEnd::Tip])];
-        let segments = Segments::new(&bent);
-        let at = |x, y| {
-            let found = on_crack(&bent, vec2(x, y), Vec2::ZERO);
-            assert_eq!(segments.at(vec2(x, y), Vec2::ZERO), found, "{x} {y}");
-            found
-        };
+        let at = |x, y| found(&bent, vec2(x, y), Vec2::ZERO);
         let segment = |segment| Some(SegmentId { crack: 0, segment });
         assert_eq!(at(0.0, 0.1), segment(0));
         assert_eq!(at(0.3, 0.1), segment(0));
@@ -144,11 +146,7 @@ mod tests {
     #[test]
     fn offsets_mean_what_they_say() {
         let straight = [crack(&[(-0.5, 0.3), (0.5, 0.3)], [CrackEnd::Tip; 2])];
-        let at = |dx, dy| {
-            let found = on_crack(&straight, vec2(0.5, 0.3), vec2(dx, dy));
-            assert_eq!(Segments::new(&straight).at(vec2(0.5, 0.3), vec2(dx, dy)), found);
-            found
-        };
+        let at = |dx, dy| found(&straight, vec2(0.5, 0.3), vec2(dx, dy));
         assert!(at(-1e-30, 0.0).is_some());
         assert_eq!(at(1e-30, 0.0), None);
         assert_eq!(at(-1e-30, 1e-40), None);
