@@ -13,7 +13,7 @@ use crate::quadrature::{Doubt, EdgeRule, Rule};
 use crate::reaction::Reactions;
 use crate::space::Space;
 use ppum::crack::Side;
-use ppum::domain::segment_distance;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2};
 
 /// The assembled system.
@@ -164,8 +164,9 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 /// The traction on a face of a crack at a point of it.
 pub(crate) fn face_load(problem: &Problem, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
     let segments = problem.cracks[crack].points.windows(2);
-    let nearest = segments
-        .min_by(|s, t| segment_distance(s[0], s[1], x).total_cmp(&segment_distance(t[0], t[1], x)));
+    let nearest = segments.min_by(|s, t| {
+        segment::distance([s[0], s[1]], x).total_cmp(&segment::distance([t[0], t[1]], x))
+    });
     let Some(&[a, b]) = nearest else { return [0.0; 2] };
     let left = (b - a).unit().left();
     let normal = if side == Side::Above { -left } else { left };

@@ -114,15 +114,16 @@ fn quantize(fraction: f64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
     use crate::vec2::vec2;
+    use ppum_testkit::random::Random;
 
     /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
     fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {
         let lattice = |v: Vec2| vec2((v.x * 8.0).floor() / 8.0, (v.y * 8.0).floor() / 8.0);
         (0..n)
             .map(|k| {
-                let (p, size) = (random.point(), random.point());
+                let (p, size) =
+                    (vec2(random.unit(), random.unit()), vec2(random.unit(), random.unit()));
                 match k % 4 {
                     0 => Rect::new(lattice(p), lattice(p) + vec2(0.125, 0.25)),
                     1 => Rect::around(p, size * 0.3),
@@ -149,10 +150,10 @@ mod tests {
             let tree = BoxTree::new(&boxes);
             for _ in 0..200 {
                 let mut found = Vec::new();
-                let p = random.point();
+                let p = vec2(random.unit(), random.unit());
                 tree.query_point(p, &mut found);
                 assert_eq!(found, containing(&boxes, p));
-                let q = Rect::around(p, random.point() * 0.1);
+                let q = Rect::around(p, vec2(random.unit(), random.unit()) * 0.1);
                 found.clear();
                 tree.query_box(&q, &mut found);
                 assert_eq!(found, overlapping(&boxes, &q));

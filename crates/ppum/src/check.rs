@@ -448,54 +448,29 @@ mod tests {
     }
 
     fn field() -> FieldData {
-        FieldData {
-            name: "displacement".into(),
-            unit: String::new(),
-            components: vec!["ux".into(), "uy".into()],
-            patch_blocks: vec![0, 2],
-            block_function: vec![0, 1],
-            block_degree: vec![1, 0],
-            block_offset: vec![0, 3],
-            coefficients: vec![vec![0.0; 4], vec![1.0; 4]],
-            exact: vec![],
-        }
+        let mut field = FieldData::new("displacement", &["ux", "uy"]);
+        field.push_patch(&[(0, 1), (1, 0)]);
+        field.coefficients[1].fill(1.0);
+        field
     }
 
     pub(super) fn dataset() -> Dataset {
         let tip = TipId { crack: 0, end: End::Last };
         let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
-        let step = Step {
-            load: 1.0,
-            partition: partition(),
-            cracks: vec![Crack {
-                points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
-                ends: [CrackEnd::Mouth, CrackEnd::Tip],
-            }],
-            functions: vec![
-                Function { name: "one".into(), kind: FunctionKind::One },
-                Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } },
-            ],
-            fields: vec![field()],
-            attributes: vec![Attribute { name: "order".into(), values: vec![f64::NAN] }],
-            intensities: vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }],
-            history: vec![],
-            warnings: vec![],
-            reactions: vec![],
+        let crack = Crack {
+            points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
         };
-        Dataset {
-            title: "one patch".into(),
-            program: "test".into(),
-            problem: None,
-            domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)).into(),
-            equation: Equation::elasticity(Material {
-                young: 1.0,
-                poisson: 0.3,
-                state: StressState::PlaneStrain,
-            }),
-            quantities: Vec::new(),
-            tables: Vec::new(),
-            steps: vec![step],
-        }
+        let mut step = Step::new(partition())
+            .with_crack(crack)
+            .with_function("one", FunctionKind::One)
+            .with_function("side", FunctionKind::Side { crack: 0 })
+            .with_field(field());
+        step.attributes = vec![Attribute { name: "order".into(), values: vec![f64::NAN] }];
+        step.intensities = vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }];
+        let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+        let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+        Dataset::new(domain, Equation::elasticity(material)).with_step(step)
     }
 
     /// The place of the error after one change of a good dataset.

@@ -17,8 +17,7 @@ use crate::crack::{Crack, TipId};
 use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::formula::Table;
-use crate::function::Function;
-pub use crate::quantity::NamedQuantity;
+use crate::function::{Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 
@@ -41,6 +40,30 @@ pub struct Dataset {
     pub tables: Vec<Arc<Table>>,
     /// Quasi-static series, at least one.
     pub steps: Vec<Step>,
+}
+
+impl Dataset {
+    /// A dataset without steps, titles and names.
+    #[must_use]
+    pub fn new(domain: impl Into<Domain>, equation: Equation) -> Self {
+        Self {
+            title: String::new(),
+            program: String::new(),
+            problem: None,
+            domain: domain.into(),
+            equation,
+            quantities: Vec::new(),
+            tables: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+
+    /// The dataset with one more step at its end.
+    #[must_use]
+    pub fn with_step(mut self, step: Step) -> Self {
+        self.steps.push(step);
+        self
+    }
 }
 
 /// One state of a quasi-static series.
@@ -66,6 +89,46 @@ pub struct Step {
     pub warnings: Vec<Warning>,
     /// What the supports exert on the plate, one a boundary condition that gives values.
     pub reactions: Vec<Reaction>,
+}
+
+impl Step {
+    /// A step of load factor 1 with a partition and nothing else.
+    #[must_use]
+    pub fn new(partition: Partition) -> Self {
+        Self {
+            load: 1.0,
+            partition,
+            cracks: Vec::new(),
+            functions: Vec::new(),
+            fields: Vec::new(),
+            attributes: Vec::new(),
+            intensities: Vec::new(),
+            history: Vec::new(),
+            warnings: Vec::new(),
+            reactions: Vec::new(),
+        }
+    }
+
+    /// The step with one more crack.
+    #[must_use]
+    pub fn with_crack(mut self, crack: Crack) -> Self {
+        self.cracks.push(crack);
+        self
+    }
+
+    /// The step with one more function, which blocks name by its place in the list.
+    #[must_use]
+    pub fn with_function(mut self, name: &str, kind: FunctionKind) -> Self {
+        self.functions.push(Function { name: name.into(), kind });
+        self
+    }
+
+    /// The step with one more field.
+    #[must_use]
+    pub fn with_field(mut self, field: FieldData) -> Self {
+        self.fields.push(field);
+        self
+    }
 }
 
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
@@ -163,6 +226,50 @@ pub const fn monomials(degree: usize) -> usize {
 }
 
 impl FieldData {
+    /// A field without patches.
+    #[must_use]
+    pub fn new(name: &str, components: &[&str]) -> Self {
+        Self {
+            name: name.into(),
+            unit: String::new(),
+            components: components.iter().map(|&component| component.into()).collect(),
+            patch_blocks: vec![0],
+            block_function: Vec::new(),
+            block_degree: Vec::new(),
+            block_offset: Vec::new(),
+            coefficients: vec![Vec::new(); components.len()],
+            exact: Vec::new(),
+        }
+    }
+
+    /// Adds a patch with blocks of these functions and degrees. Its coefficients are zero, and lie behind
+    /// all others.
+    pub fn push_patch(&mut self, blocks: &[(u32, u8)]) {
+        for &(function, degree) in blocks {
+            let start = self.coefficients.first().map_or(0, Vec::len);
+            self.block_function.push(function);
+            self.block_degree.push(degree);
+            self.block_offset.push(start as u64);
+            for component in &mut self.coefficients {
+                component.resize(start + monomials(degree.into()), 0.0);
+            }
+        }
+        self.patch_blocks.push(self.block_function.len() as u32);
+    }
+
+    /// The coefficients of a patch, one slice per component, block after block, where these follow each
+    /// other as [`push_patch`](Self::push_patch) lays them.
+    pub fn coefficients_mut(&mut self, patch: usize) -> impl Iterator<Item = &mut [f64]> {
+        let blocks = self.blocks(patch);
+        let end =
+            |b: usize| self.block_offset[b] as usize + monomials(self.block_degree[b] as usize);
+        let range = match blocks.clone().last() {
+            Some(last) => self.block_offset[blocks.start] as usize..end(last),
+            None => 0..0,
+        };
+        self.coefficients.iter_mut().map(move |component| &mut component[range.clone()])
+    }
+
     /// The blocks of a patch as a range of block indices.
     #[must_use]
     pub fn blocks(&self, patch: usize) -> std::ops::Range<usize> {
@@ -176,6 +283,17 @@ impl FieldData {
         let count = monomials(self.block_degree[block] as usize);
         &self.coefficients[component][start..start + count]
     }
+}
+
+/// A quantity that a dataset names: the text of a [`QuantityFormula`](crate::quantity::QuantityFormula).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedQuantity {
+    /// Its name, a word that no built-in quantity has.
+    pub name: String,
+    /// The formula.
+    pub text: String,
+    /// Unit for labels; may be empty.
+    pub unit: String,
 }
 
 /// Named values, one a patch: order, enrichment, functions cut off, …

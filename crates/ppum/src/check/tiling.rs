@@ -198,8 +198,8 @@ fn place_beside(gap: &Rect, holes: &[Hole]) -> Option<Vec2> {
 mod tests {
     use super::*;
     use crate::cover::Cover;
-    use crate::random::Random;
     use crate::weight::WeightFunction;
+    use ppum_testkit::random::Random;
 
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
 

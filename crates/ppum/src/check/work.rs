@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::check::tests::{dataset, place_after};
     use crate::dataset::{Ring, TipIntensity};
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     /// The largest sum over the corners of boxes, among which its place must be.
     fn largest(boxes: &[(Rect, u64)]) -> u64 {
@@ -181,7 +181,10 @@ mod tests {
                 let boxes: Vec<_> = (0..n)
                     .map(|k| {
                         // on a lattice, so that borders coincide
-                        let (p, size) = (random.point() * 8.0, random.point() * 4.0);
+                        let (p, size) = (
+                            vec2(random.unit(), random.unit()) * 8.0,
+                            vec2(random.unit(), random.unit()) * 4.0,
+                        );
                         let (p, size) =
                             (vec2(p.x.floor(), p.y.floor()), vec2(size.x.ceil(), size.y.ceil()));
                         (Rect::new(p, p + size), MOST_WORK / 3 + k)

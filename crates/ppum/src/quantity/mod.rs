@@ -12,13 +12,14 @@ mod tensors;
 use std::sync::Arc;
 
 use crate::crack::Side;
+use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::text::hint;
 use crate::vec2::Vec2;
-pub use formula::{Input, NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
 use tensors::Strain;
 
 /// A scalar made of a field. Made from its name or formula with [`Quantity::parse`].
@@ -253,7 +254,7 @@ impl Quantity {
         if let Ok(known) = Self::from_name(text, field.equation, components) {
             return Ok(known);
         }
-        let mut vocabulary = field.vocabulary();
+        let mut vocabulary = Vocabulary::of(field);
         if let Some(at) = field.quantities.iter().position(|named| named.name == text) {
             let NamedQuantity { name, text, unit } = &field.quantities[at];
             vocabulary.named = &field.quantities[..at];
