@@ -1,6 +1,6 @@
 //! Round trips, damaged files, and files that must not be lost.
 
-#[path = "../examples/fixture/everything.rs"]
+#[path = "../../examples/fixture/everything.rs"]
 mod everything;
 
 use std::fs;
@@ -41,7 +41,7 @@ fn round_trip_is_exact_to_the_last_bit() {
 /// one, side of a crack, √r sin(θ/2) of its tip and a wave, with the factors 2, 3, 5, 7.
 #[test]
 fn files_of_version_1_0_are_read() {
-    let old = from_bytes(include_bytes!("data/version-1.0.h5").to_vec()).unwrap();
+    let old = from_bytes(include_bytes!("../data/version-1.0.h5").to_vec()).unwrap();
     assert_eq!(old.equation, Equation::poisson(2.5));
     assert!(old.tables.is_empty() && old.quantities.is_empty());
     let field = Field::new(&old, 0).unwrap();
@@ -62,7 +62,7 @@ fn files_of_version_1_0_are_read() {
 /// from a table, a weight, a function and quantities by formulas. The solver is right to 1e-11.
 #[test]
 fn files_of_version_1_1_are_read() {
-    let old = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let old = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
     let names: Vec<_> = old.quantities.iter().map(|q| q.name.as_str()).collect();
     assert_eq!((old.tables.len(), names), (1, vec!["flux-x", "twice"]));
     let step = &old.steps[0];
@@ -93,9 +93,9 @@ fn files_of_version_1_1_are_read() {
 /// The same dataset as the file of version 1.0, written by h5py: other layouts, texts of variable length.
 #[test]
 fn files_of_h5py_are_read() {
-    let own = from_bytes(include_bytes!("data/version-1.0.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.0.h5").to_vec()).unwrap();
     let files: [&[u8]; 2] =
-        [include_bytes!("data/h5py-earliest.h5"), include_bytes!("data/h5py-v110.h5")];
+        [include_bytes!("../data/h5py-earliest.h5"), include_bytes!("../data/h5py-v110.h5")];
     for bytes in files {
         assert!(same(&from_bytes(bytes.to_vec()).unwrap(), &own));
     }
@@ -105,7 +105,7 @@ fn files_of_h5py_are_read() {
 /// attributes (`tests/python/h5py_files.py`); the checksum covers what some files hold besides.
 #[test]
 fn files_of_all_layouts_are_read() {
-    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
     let files = files_of_h5py();
     assert!(files.len() >= 12, "{} files", files.len());
     for (name, bytes) in files {
@@ -295,7 +295,7 @@ fn forged_metadata_is_an_error() {
 /// effect, and at once.
 #[test]
 fn forged_files_of_other_programs_are_errors() {
-    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
     let mut random = Random(8);
     let mut kinds = std::collections::BTreeSet::new();
     for (name, bytes) in files_of_h5py() {
@@ -334,7 +334,7 @@ const LONG: Duration = Duration::from_secs(10);
 /// Files of other programs, damaged in all ways that the fuzzer knows.
 #[test]
 fn damaged_files_of_other_programs_are_errors() {
-    let own = from_bytes(include_bytes!("data/version-1.1.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
     let mut random = Random(9);
     let mut refused = 0;
     for (name, bytes) in files_of_h5py() {
@@ -453,4 +453,13 @@ mod on_disk {
         let error = read(&path).unwrap_err().to_string();
         assert!(error.ends_with("it has more than 4 GiB, the most that are read"), "{error}");
     }
+}
+
+/// Errors go from thread to thread and into any box of errors.
+#[test]
+fn errors_are_values_of_their_own() {
+    fn is_free<E: std::error::Error + Send + Sync + 'static>() -> bool {
+        size_of::<E>() > 0
+    }
+    assert!(is_free::<ReadError>() && is_free::<WriteError>());
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use ppum::library::{ELASTICITY, POISSON};
 
-const PAGE: &str = include_str!("../../../FORMAT.md");
+const PAGE: &str = include_str!("../../../../FORMAT.md");
 
 /// Definitions of quantities as the page lists them, a name and a formula in a line.
 #[test]
