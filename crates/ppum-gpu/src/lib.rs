@@ -13,44 +13,30 @@
 //! patches relative to a region around it, in two halves. So views may be 10⁻¹² of the domain wide.
 //! Values agree with the CPU renderer to 2·10⁻⁵ of the field's local scale and mostly to 10⁻⁶.
 
-mod adapter;
-mod areas;
-mod bins;
-mod bodies;
-mod color;
-mod compose;
+mod choice;
 mod device;
 mod error;
-mod functions;
-mod geometry;
-mod groups;
-mod lattice;
+mod frame;
 mod layout;
-mod pipeline;
 mod program;
-mod quads;
-mod quantity;
-#[cfg(not(target_arch = "wasm32"))]
-mod read;
-mod region;
 mod renderer;
 mod scene;
-mod seen;
 mod shader;
-mod smooth;
-mod targets;
 #[doc(hidden)]
 pub mod testing;
 #[cfg(test)]
 mod tests;
-mod weight;
 
-#[cfg(not(target_arch = "wasm32"))]
-pub use adapter::adapters;
-pub use adapter::{AdapterInfo, AdapterKind, Choice};
-pub use color::Shading;
+pub use choice::{AdapterKind, Choice};
 pub use device::Gpu;
-pub use error::GpuError;
-pub use program::{Method, Output, Program};
-pub use renderer::{Drawn, RenderError, Renderer};
+pub use device::adapter::AdapterInfo;
+#[cfg(not(target_arch = "wasm32"))]
+pub use device::adapter::adapters;
+pub use error::{GpuError, RenderError};
+pub use frame::shading::Shading;
+pub use program::Program;
+pub use program::output::{Colors, Derivatives, Output, Values};
+pub use renderer::Renderer;
+pub use renderer::drawn::Drawn;
 pub use scene::Scene;
+pub use shader::passes::Method;

@@ -10,9 +10,11 @@
 //! Pictures do not depend on the number of threads.
 
 pub mod colormap;
+mod error;
 pub mod figure;
 pub mod image;
 pub mod overlay;
+mod parts;
 pub mod picture;
 pub mod pixels;
 pub mod png;
@@ -24,3 +26,5 @@ pub mod scatter;
 mod text;
 pub mod ticks;
 pub mod view;
+
+pub use error::RenderError;

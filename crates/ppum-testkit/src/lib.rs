@@ -25,5 +25,7 @@ pub mod exact;
 pub mod extended;
 pub mod fields;
 pub mod random;
+pub mod rooms;
+pub mod skipped;
 pub mod synthetic;
 pub mod wgsl;

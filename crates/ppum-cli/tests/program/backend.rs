@@ -1,5 +1,7 @@
 //! What draws: the CPU, or a graphics device by gathering or splatting.
 
+use ppum_testkit::skipped::skipped;
+
 use crate::{CRACKED, LINEAR, Lab, Png, keys, with_formulas};
 
 /// Variables that hide all Vulkan drivers from a command: of new loaders and of old ones.
@@ -11,9 +13,8 @@ fn has_adapter(lab: &Lab) -> bool {
     let report = lab.json("info --gpu");
     let adapters = report["adapters"].as_array().unwrap();
     let found = adapters.iter().any(|row| row["splat"] == true);
-    assert!(found || std::env::var_os("PPUM_REQUIRE_GPU").is_none(), "no graphics adapter");
     if !found {
-        eprintln!("SKIPPED: no graphics adapter");
+        skipped(&"no graphics adapter");
     }
     found
 }

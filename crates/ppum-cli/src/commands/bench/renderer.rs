@@ -10,11 +10,11 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
-use ppum_gpu::{AdapterKind, Choice, Method, Output, Program, Renderer, Scene, Shading};
+use ppum_gpu::{AdapterKind, Choice, Colors, Method, Program, Renderer, Shading};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::{Raster, Sample};
@@ -23,6 +23,7 @@ use ppum_render::view::View;
 use serde::Serialize;
 
 use super::synthetic::{self, DOMAIN};
+use crate::backend::message;
 use crate::drivers;
 
 /// What `ppum bench` tells of the renderers.
@@ -110,8 +111,8 @@ impl Way {
 /// A cover with all that draws it, and the seconds of its frames, wall and processor.
 struct Subject<'d> {
     cover: &'static str,
-    field: Field<'d>,
-    card: Option<Card>,
+    field: &'d Field<'d>,
+    card: Option<Card<'d>>,
     seconds: [Vec<[f64; 2]>; 4],
 }
 
@@ -122,10 +123,9 @@ struct Look {
 }
 
 /// A field on the card.
-struct Card {
-    scene: Scene,
-    gather: Program,
-    splat: Option<Program>,
+struct Card<'f> {
+    gather: Program<'f, Colors>,
+    splat: Option<Program<'f, Colors>>,
 }
 
 impl Report {
@@ -134,17 +134,19 @@ impl Report {
         let pixels = if quick { [256, 192] } else { [1024, 768] };
         let (mut renderer, missing) = match drivers::opening(|| Renderer::open(Choice::Any)) {
             Ok(renderer) => (Some(renderer), None),
-            Err(error) => (None, Some(error.to_string())),
+            Err(error) => (None, Some(message(&error.into()))),
         };
         let covers = covers(quick);
         let datasets =
             covers.iter().map(|&(_, [level, tip_level])| synthetic::dataset(level, tip_level));
         let datasets = datasets.collect::<anyhow::Result<Vec<_>>>()?;
-        let named = covers.iter().map(|&(cover, _)| cover).zip(&datasets);
-        let subjects =
-            named.map(|(cover, dataset)| Subject::new(cover, dataset, renderer.as_mut()));
-        let mut subjects = subjects.collect::<anyhow::Result<Vec<_>>>()?;
+        let fields = datasets.iter().map(|dataset| Field::new(dataset, 0));
+        let fields = fields.collect::<Result<Vec<_>, _>>()?;
         let look = Look::new()?;
+        let named = covers.iter().map(|&(cover, _)| cover).zip(&fields);
+        let subjects =
+            named.map(|(cover, field)| Subject::new(cover, field, renderer.as_mut(), &look));
+        let mut subjects = subjects.collect::<anyhow::Result<Vec<_>>>()?;
         // the first frames are not counted: they find nothing prepared
         for frame in 0..=frames {
             let view = view(frame, pixels)?;
@@ -183,11 +185,11 @@ fn view(frame: u32, pixels: [u32; 2]) -> anyhow::Result<View> {
 impl<'d> Subject<'d> {
     fn new(
         cover: &'static str,
-        dataset: &'d Dataset,
+        field: &'d Field<'d>,
         renderer: Option<&mut Renderer>,
+        look: &Look,
     ) -> anyhow::Result<Self> {
-        let field = Field::new(dataset, 0)?;
-        let card = renderer.map(|renderer| Card::new(renderer, &field)).transpose()?;
+        let card = renderer.map(|renderer| Card::new(renderer, field, look)).transpose()?;
         Ok(Self { cover, field, card, seconds: Default::default() })
     }
 
@@ -216,10 +218,10 @@ impl<'d> Subject<'d> {
         renderer: Option<&mut Renderer>,
     ) -> anyhow::Result<bool> {
         match (way, &mut self.card, renderer) {
-            (Way::CpuF64, ..) => on_cpu::<f64>(&self.field, view, look)?,
-            (Way::CpuF32, ..) => on_cpu::<f32>(&self.field, view, look)?,
+            (Way::CpuF64, ..) => on_cpu::<f64>(self.field, view, look)?,
+            (Way::CpuF32, ..) => on_cpu::<f32>(self.field, view, look)?,
             (_, Some(card), Some(renderer)) => {
-                return card.draw(way, renderer, &self.field, (view, look));
+                return card.draw(way, renderer, view);
             }
             _ => return Ok(false),
         }
@@ -244,37 +246,31 @@ impl<'d> Subject<'d> {
 
 /// Draws and colours in `T`.
 fn on_cpu<T: Sample>(field: &Field<'_>, view: &View, look: &Look) -> anyhow::Result<()> {
-    let raster = render::<T>(field, view, &Quantity::VonMises)?;
+    let raster = render::<T>(field, view, &Quantity::VonMises, unwatched())?;
     black_box(Picture::bare(&raster, view, &look.style)?);
     Ok(())
 }
 
-impl Card {
-    fn new(renderer: &mut Renderer, field: &Field<'_>) -> anyhow::Result<Self> {
+impl<'f> Card<'f> {
+    fn new(renderer: &mut Renderer, field: &'f Field<'f>, look: &Look) -> anyhow::Result<Self> {
         let scene = renderer.upload(field)?;
         let few = field.step.partition.len() <= MOST_SPLATTED;
         let can_splat = renderer.gpu().info().blends_floats && few;
-        let mut compile =
-            |method| renderer.compile(&scene, field, &Quantity::VonMises, method, Output::Colors);
+        let output = Colors { quantity: Quantity::VonMises, shading: look.shading.clone() };
+        let mut compile = |method| renderer.compile(&scene, output.clone(), method);
         let gather = compile(Method::Gather)?;
         let splat = can_splat.then(|| compile(Method::Splat)).transpose()?;
-        Ok(Self { scene, gather, splat })
+        Ok(Self { gather, splat })
     }
 
     /// Draws and waits, without reading back.
-    fn draw(
-        &mut self,
-        way: Way,
-        renderer: &mut Renderer,
-        field: &Field<'_>,
-        (view, look): (&View, &Look),
-    ) -> anyhow::Result<bool> {
+    fn draw(&mut self, way: Way, renderer: &mut Renderer, view: &View) -> anyhow::Result<bool> {
         let program = match way {
             Way::Splat => self.splat.as_mut(),
             _ => Some(&mut self.gather),
         };
         let Some(program) = program else { return Ok(false) };
-        black_box(renderer.draw(&mut self.scene, program, field, view, Some(&look.shading))?);
+        black_box(renderer.draw(program, view)?);
         renderer.wait()?;
         Ok(true)
     }
