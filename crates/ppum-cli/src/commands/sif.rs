@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
-use ppum_solve::effort::{EffortError, check_effort};
+use ppum_solve::diagnostics::effort::{EffortError, check_effort};
+use ppum_solve::diagnostics::{judge, kind};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::{judge, kind};
 use serde::Serialize;
 
 use crate::dataset::open;

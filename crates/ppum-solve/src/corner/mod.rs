@@ -9,7 +9,7 @@
 mod exponent;
 mod sectors;
 
-use crate::clip::rim_crossings;
+use crate::geometry::rim_crossings;
 use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;

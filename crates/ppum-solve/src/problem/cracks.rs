@@ -10,7 +10,7 @@ use super::boundary::Edge;
 use super::check::Violation;
 use super::key::Key;
 use super::nearby::{Nearby, Segment, TooDense, first_pair};
-use crate::placed::{Placed, wider};
+use crate::geometry::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.

@@ -14,7 +14,7 @@ pub struct Discretization {
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
     /// Degree of the local polynomials. Problem files that give none get
-    /// [`default_order`](crate::locking::default_order).
+    /// [`default_order`](super::default_order).
     pub order: Order,
     /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,

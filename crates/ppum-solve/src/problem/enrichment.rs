@@ -10,7 +10,7 @@ use ppum::vec2::{Rect, Vec2};
 use super::check::{Violation, too_wide};
 use super::key::Key;
 use super::{Problem, expression};
-use crate::clip::meets;
+use crate::geometry::meets;
 
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
 /// polynomials up to a degree: `[[enrichment]]` in problem files.

@@ -42,7 +42,9 @@ mod nearby;
 mod points;
 pub(crate) mod quantities;
 mod read;
+mod restraint;
 mod scopes;
+mod stiffness;
 mod table_file;
 #[cfg(test)]
 mod tests;
@@ -62,6 +64,10 @@ pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
 pub use ppum::expression::Expression;
+pub use restraint::restraint_center;
+pub(crate) use restraint::restraint_words;
+pub use stiffness::default_order;
+pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use table_file::read_table;
 
 /// What is to be solved, and how.

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use ppum::box_tree::BoxTree;
 use ppum::vec2::{Rect, Vec2};
 
-use crate::placed::{self, wider};
+use crate::geometry::{around, wider};
 
 /// A straight piece of a crack or of a rim.
 pub(super) type Segment = [Vec2; 2];
@@ -38,7 +38,7 @@ impl TooDense {
 impl Nearby {
     /// Segments that are near where they come as close as `touch`.
     pub(super) fn new(segments: &[Segment], touch: f64) -> Self {
-        let boxes: Vec<_> = segments.iter().map(|&segment| around(segment, touch)).collect();
+        let boxes: Vec<_> = segments.iter().map(|&segment| touching(segment, touch)).collect();
         Self { tree: BoxTree::new(&boxes), touch, left: Cell::new(MOST) }
     }
 
@@ -48,15 +48,15 @@ impl Nearby {
     /// The segments lie too close together.
     pub(super) fn of(&self, segment: Segment) -> Result<Vec<usize>, TooDense> {
         let mut found = Vec::new();
-        self.tree.query_box(&around(segment, self.touch), &mut found);
+        self.tree.query_box(&touching(segment, self.touch), &mut found);
         let left = self.left.get().checked_sub(found.len()).ok_or(TooDense)?;
         self.left.set(left);
         Ok(found.into_iter().map(|index| index as usize).collect())
     }
 }
 
-fn around(segment: Segment, margin: f64) -> Rect {
-    wider(&placed::around(&segment), margin)
+fn touching(segment: Segment, margin: f64) -> Rect {
+    wider(&around(&segment), margin)
 }
 
 /// The first pair i < j of segments, by j and then by i, that `meet` and may touch.

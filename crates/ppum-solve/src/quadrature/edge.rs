@@ -25,7 +25,7 @@ const INWARD: f64 = 1e-9;
 
 /// A face of a crack: one side of one of its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Face {
+pub(crate) struct Face {
     /// The segment.
     pub segment: SegmentId,
     /// The side that the material lies on.
@@ -34,7 +34,7 @@ pub struct Face {
 
 impl Face {
     /// The faces of a crack on one side, one a segment.
-    pub fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
+    pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
         let segment = move |segment| SegmentId { crack: index as u32, segment };
         (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
     }
@@ -49,7 +49,7 @@ impl Face {
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EdgeRule {
+pub(crate) struct EdgeRule {
     /// What the offsets are measured from: the singular point they are graded toward, else the
     /// centre of the cell.
     pub anchor: Vec2,
@@ -94,7 +94,7 @@ impl Quadrature<'_> {
     /// # Panics
     /// If there is no such segment.
     #[must_use]
-    pub fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
+    pub(crate) fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
@@ -109,7 +109,7 @@ impl Quadrature<'_> {
     /// for nothing. A segment along a cell's border belongs to the cell that `normal` points out of.
     /// `coverers` are the patches whose open supports meet the cell; more of them do no harm.
     #[must_use]
-    pub fn edge(
+    pub(crate) fn edge(
         &self,
         cell: &Rect,
         coverers: &[u32],

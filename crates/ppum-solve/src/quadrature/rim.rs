@@ -26,7 +26,7 @@ impl Quadrature<'_> {
     /// Rules on the part of a hole's rim that belongs to a cell; empty if none does. Normals point
     /// into the hole.
     #[must_use]
-    pub fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
+    pub(crate) fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
         if !closed_meet(cell, &hole.bounds()) {
             return Vec::new();
         }

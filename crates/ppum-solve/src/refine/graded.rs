@@ -6,7 +6,7 @@
 //! same part in each, and does not depend on the finest size.
 
 use crate::corner::{Corner, Nature};
-use crate::placed::{around, wider};
+use crate::geometry::{around, wider};
 use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};

@@ -2,7 +2,7 @@
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
-//!   half the room that its stress intensity is found in, and half the distance to the next interface of two
+//!   half its clearance, and half the distance to the next interface of two
 //!   materials.
 //! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
 //!   unless the problem has functions of its own: the field is singular there.
@@ -17,12 +17,13 @@
 mod graded;
 mod ligament;
 
-use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
-use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
-use crate::interfaces::Interfaces;
-use crate::placed::{Placed, around, wider};
+use crate::geometry::{
+    AMPLE_CLEARANCE, Placed, TipClearance, around, interface_distance, rim_crossings, runs_inside,
+    runs_of_rim, wider,
+};
 use crate::problem::{Cells, Enrichment, Problem};
+use crate::smoothness::Interfaces;
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
 use ppum::cover::{Cover, CoverError};
@@ -50,7 +51,7 @@ const LARGEST: f64 = 0.25;
 /// Radius around a tip, in the same measure, within which cells are that small.
 const NEAR: f64 = 0.75;
 
-/// Cells at a tip that are not refined further for little room around it, in the same measure: tips
+/// Cells at a tip that are not refined further for little clearance, in the same measure: tips
 /// nearly at the border or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
 
@@ -303,15 +304,15 @@ impl Need {
         let share = crack.length() / crack.tips().count() as f64;
         let tip = crack.end_point(id.end);
         // what is farther away asks for nothing
-        let reach = AMPLE_ROOM * LARGEST * share;
+        let reach = AMPLE_CLEARANCE * LARGEST * share;
         let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
-        let room = Room::among(near, &problem.domain, (crack, id)).radius.min(reach);
+        let clearance = TipClearance::among(near, &problem.domain, (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
-        let interface = elastic.and_then(|body| interface_distance(body, tip, room));
-        let room = interface.unwrap_or(room);
+        let interface = elastic.and_then(|body| interface_distance(body, tip, clearance));
+        let clearance = interface.unwrap_or(clearance);
         Self {
             tip,
-            largest: (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share),
+            largest: (clearance / AMPLE_CLEARANCE).clamp(SMALLEST * share, LARGEST * share),
             ample: LARGEST * share,
             near: NEAR * share,
             apart: crack.points[1..crack.points.len() - 1].to_vec(),

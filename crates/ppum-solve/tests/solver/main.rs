@@ -20,6 +20,7 @@ mod positions;
 mod problem_files;
 mod random;
 mod reactions;
+mod rooms;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;

@@ -40,7 +40,7 @@ fn record(dataset: &Dataset, name: &str) -> f64 {
     found.expect("a record of the solver").value
 }
 
-fn refused(problem: &Problem) -> ppum_solve::balance::UnbalancedError {
+fn refused(problem: &Problem) -> ppum_solve::solve::UnbalancedError {
     problem.check().expect("a problem in order");
     match solve(problem, &mut |_| {}) {
         Err(SolveError::Unbalanced(error)) => error,

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use ppum::dataset::{Dataset, Step, TipIntensity, Warning};
 use ppum::domain::segment_distance;
 use ppum::vec2::Vec2;
+use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::kind;
 use serde_json::Value;
 
 use crate::studies::support::solved;

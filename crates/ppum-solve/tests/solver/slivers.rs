@@ -8,8 +8,8 @@ use ppum::jet::Jet;
 use ppum::library::WEIGHTS;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
+use ppum_solve::diagnostics::{FEW_DIGITS, judge, kind, rounding};
 use ppum_solve::problem::{Cells, Condition, Edge, Problem};
-use ppum_solve::warnings::{FEW_DIGITS, judge, kind, rounding};
 use ppum_testkit::extended::{Extended, point};
 use ppum_testkit::random::Random;
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::studies::support::solved;
 use ppum::dataset::{Dataset, Warning};
 use ppum::vec2::Vec2;
+use ppum_solve::diagnostics::{judge, kind};
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::{judge, kind};
 
 /// A plate with a crack, 8 × 8 cells.
 fn text(points: &str, loads: &str, discretization: &str) -> String {
