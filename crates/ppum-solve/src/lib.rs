@@ -7,6 +7,7 @@
 //! ```
 //! use std::path::Path;
 //!
+//! use ppum::progress::unwatched;
 //! use ppum_solve::problem::Problem;
 //! use ppum_solve::solve::solve;
 //!
@@ -30,7 +31,7 @@
 //!     level = 4
 //! "#;
 //! let problem = Problem::parse(text, "plate.toml", Path::new("."))?;
-//! let dataset = solve(&problem, &mut |_| {})?;
+//! let dataset = solve(&problem, unwatched())?;
 //! // K_I / (σ √(πa)) of a square plate with a/W = 1/2 is 1.333712
 //! let factor = dataset.steps[0].intensities[0].k1 / (0.5 * std::f64::consts::PI).sqrt();
 //! assert!((factor / 1.333712 - 1.0).abs() < 1e-3);
@@ -39,7 +40,6 @@
 
 mod assembly;
 mod basis;
-mod batch;
 mod corner;
 pub mod diagnostics;
 mod equilibrium;
@@ -50,8 +50,9 @@ mod linear;
 pub mod norms;
 pub mod problem;
 mod quadrature;
-mod random;
 mod refine;
+pub mod report;
 mod smoothness;
 pub mod solve;
 pub mod space;
+mod watched;

@@ -1,5 +1,6 @@
 //! `ppum sif`: stress intensity factors of a stored field.
 
+use ppum::progress::unwatched;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -7,7 +8,7 @@ use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
-use ppum_solve::diagnostics::{judge, kind};
+use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
 use serde::Serialize;
@@ -125,7 +126,7 @@ fn computed(
     index: usize,
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let (outcomes, warnings) = judge(dataset, index, problem)?;
+    let (outcomes, warnings) = recompute(dataset, index, problem, unwatched())?;
     let step = &dataset.steps[index];
     let tip = |outcome: &Outcome| match &outcome.factors {
         Some(factors) => Tip::new(index, step, factors),

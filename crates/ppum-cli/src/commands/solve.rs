@@ -1,5 +1,6 @@
 //! `ppum solve`: from a problem file to a dataset.
 
+use ppum::progress::unwatched;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -71,12 +72,11 @@ impl Args {
         )?;
         let dataset = {
             let bar = Bar::new();
-            let mut show = |progress| bar.show(progress);
             let memory = self.memory();
             let solve = || {
-                let plan = Plan::new(&problem, memory, &mut show)?;
+                let plan = Plan::new(&problem, memory, &bar)?;
                 ppum_format::check(plan.dataset())?;
-                anyhow::Ok(plan.solve(&mut show)?)
+                anyhow::Ok(plan.solve(&bar)?)
             };
             threads::with(self.threads, solve)??
         };
@@ -121,8 +121,8 @@ impl Args {
     /// Does all but solving: what is refused is told now.
     fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
         let checked = || {
-            let plan = Plan::new(problem, self.memory(), &mut |_| {})?;
-            plan.check()?;
+            let plan = Plan::new(problem, self.memory(), unwatched())?;
+            plan.check(unwatched())?;
             ppum_format::check(plan.dataset())?;
             anyhow::Ok(*plan.estimate())
         };

@@ -4,14 +4,14 @@
 //! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
 //! ```
 
+use super::Assembly;
 use super::border::{Border, BorderPiece};
 use super::cell_system::CellSystem;
 use super::functions::CellFunctions;
-use crate::basis::{BasisEvaluator, Shapes, StableBasis};
-use crate::law::{Law, LawAt};
+use crate::basis::{BasisEvaluator, Shapes};
+use crate::law::LawAt;
 use crate::linear::{EigenError, add_at};
 use crate::quadrature::Rule;
-use crate::space::Space;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::vec2::Vec2;
@@ -26,19 +26,17 @@ pub(crate) struct Source<'a> {
     pub(crate) rules: Option<&'a [Rule]>,
 }
 
-/// Works on the cells of a space.
+/// Assembles the systems of cells; keeps what belongs to the last one.
 pub(crate) struct CellAssembler<'s> {
-    space: &'s Space<'s>,
-    basis: &'s StableBasis,
-    law: &'s Law<'s>,
+    assembly: Assembly<'s>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
 
 impl<'s> CellAssembler<'s> {
-    pub(crate) fn new(space: &'s Space<'s>, basis: &'s StableBasis, law: &'s Law<'s>) -> Self {
-        let (evaluator, shapes) = (BasisEvaluator::new(space, basis), Shapes::default());
-        Self { space, basis, law, evaluator, shapes }
+    pub(crate) fn new(assembly: Assembly<'s>) -> Self {
+        let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
+        Self { assembly, evaluator, shapes: Shapes::default() }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -52,8 +50,8 @@ impl<'s> CellAssembler<'s> {
         source: Option<Source<'_>>,
         border: &[BorderPiece<'_>],
     ) -> Result<CellSystem, EigenError> {
-        let functions = CellFunctions::new(self.space, self.basis, cell);
-        let (n, components) = (functions.len(), self.law.components);
+        let functions = CellFunctions::new(&self.assembly, cell);
+        let (n, components) = (functions.len(), self.assembly.law.components);
         let mut system = CellSystem {
             matrix: Mat::zeros(n * components, n * components),
             load: vec![0.0; n * components],
@@ -63,7 +61,7 @@ impl<'s> CellAssembler<'s> {
         };
         let zero = || Mat::zeros(n, n);
         let products = || Products { xx: zero(), xy: zero(), yy: zero() };
-        let mut products: Vec<_> = self.law.terms.iter().map(|_| products()).collect();
+        let mut products: Vec<_> = self.assembly.law.terms.iter().map(|_| products()).collect();
         let own = source.and_then(|source| Some((source.values, source.rules?)));
         let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
         for rule in rules {
@@ -75,15 +73,15 @@ impl<'s> CellAssembler<'s> {
                 self.load(rule, values, &mut system);
             }
         }
-        for (products, term) in products.iter().zip(&self.law.terms) {
+        for (products, term) in products.iter().zip(&self.assembly.law.terms) {
             products.add_to(&mut system.matrix, term, components);
         }
         if !border.is_empty() {
-            let mut on_border = Border::new(self.law, n * components);
+            let mut on_border = Border::new(self.assembly, n * components);
             for piece in border {
                 on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
             }
-            let size = self.space.partition.cell[cell].size();
+            let size = self.assembly.space.partition().cell[cell].size();
             on_border.finish(size.x.max(size.y), &mut system)?;
         }
         Ok(system)
@@ -100,7 +98,7 @@ impl<'s> CellAssembler<'s> {
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let x = rule.anchor + offset;
             let values = source(x);
-            let values = &values[..self.law.components];
+            let values = &values[..self.assembly.law.components];
             self.shapes.add_load(q, &numbers, values, weight, &mut system.load);
         }
     }
@@ -118,13 +116,13 @@ impl<'s> CellAssembler<'s> {
         }
         let shapes = &mut self.shapes;
         let numbers = system.functions.numbers(&rule.patches);
-        if self.law.is_uniform() {
+        if self.assembly.law.is_uniform() {
             shapes.scale(&rule.weights);
             products[0].add(&numbers, shapes, shapes);
             return;
         }
         let points = rule.offsets.iter().map(|&offset| rule.anchor + offset);
-        let coefficients: Vec<_> = points.map(|x| self.law.coefficients(x)).collect();
+        let coefficients: Vec<_> = points.map(|x| self.assembly.law.coefficients(x)).collect();
         for (m, products) in products.iter_mut().enumerate() {
             let mut right = shapes.clone();
             let weights = rule.weights.iter().zip(&coefficients).map(|(w, a)| w * a[m]);

@@ -1,8 +1,7 @@
 //! The functions that live in a cell, and the places of their unknowns in the system.
 
-use crate::basis::StableBasis;
+use super::Assembly;
 use crate::linear::BlockMatrix;
-use crate::space::Space;
 
 /// The functions of a cell's patches, numbered patch after patch.
 #[derive(Clone, Debug)]
@@ -14,11 +13,11 @@ pub(crate) struct CellFunctions {
 }
 
 impl CellFunctions {
-    pub(crate) fn new(space: &Space<'_>, basis: &StableBasis, cell: usize) -> Self {
-        let patches = space.coverers[cell].clone();
+    pub(crate) fn new(assembly: &Assembly<'_>, cell: usize) -> Self {
+        let patches = assembly.space.coverers[cell].clone();
         let mut first = vec![0];
         for &patch in &patches {
-            first.push(first[first.len() - 1] + basis.sizes[patch as usize]);
+            first.push(first[first.len() - 1] + assembly.basis.sizes[patch as usize]);
         }
         Self { patches, first }
     }

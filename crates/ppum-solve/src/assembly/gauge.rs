@@ -9,12 +9,12 @@
 //! one patch, which is exact for balanced loads whatever its size. Solutions for the same functionals
 //! as loads are the rigid-body modes themselves, in whatever functions, and they are subtracted.
 
+use super::Assembly;
 use super::functions::CellFunctions;
-use crate::basis::{BasisEvaluator, Shapes, StableBasis};
-use crate::batch::in_batches;
-use crate::equilibrium::{Balance, PerMode, Pieces, RigidModes};
-use crate::linear::{BlockMatrix, Cholesky, CholeskyError};
-use crate::space::Space;
+use crate::basis::{BasisEvaluator, Shapes};
+use crate::equilibrium::{PerMode, Pieces, Plate, RigidModes};
+use crate::linear::{BlockMatrix, LinearError, LinearSolver};
+use crate::watched::{Halt, Stage, in_batches};
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 
@@ -41,16 +41,14 @@ impl Gauge {
     ///
     /// Cost: where there are free modes, one more pass over the cells.
     pub(crate) fn new(
-        space: &Space<'_>,
-        basis: &StableBasis,
-        pieces: &Pieces,
-        balances: &[Balance],
-        free: &[Vec<PerMode>],
+        assembly: Assembly<'_>,
+        plate: &Plate,
         matrix: &BlockMatrix,
-    ) -> Self {
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
         let mut modes = Vec::new();
         let mut groups = 0;
-        for (piece, (balance, free)) in balances.iter().zip(free).enumerate() {
+        for (piece, (balance, free)) in plate.balances.iter().zip(&plate.free).enumerate() {
             let of_piece =
                 |&mode: &PerMode| Mode { piece, modes: balance.modes, mode, group: groups };
             modes.extend(free.iter().map(of_piece));
@@ -58,10 +56,10 @@ impl Gauge {
         }
         let mut gauge = Self { moments: Vec::new(), modes, patches: Vec::new() };
         if groups > 0 {
-            gauge.moments = gauge.integrate(space, basis, pieces, matrix);
+            gauge.moments = gauge.integrate(assembly, &plate.pieces, matrix, stage)?;
             gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
         }
-        gauge
+        Ok(gauge)
     }
 
     /// Number of free modes.
@@ -89,10 +87,10 @@ impl Gauge {
     /// Those of the linear solver.
     pub(crate) fn center(
         &self,
-        solver: &Cholesky<'_>,
+        solver: &dyn LinearSolver,
         matrix: &BlockMatrix,
         solution: &mut [f64],
-    ) -> Result<(), CholeskyError> {
+    ) -> Result<(), LinearError> {
         if self.modes.is_empty() {
             return Ok(());
         }
@@ -152,19 +150,21 @@ impl Gauge {
     /// ∫ N·m over the pieces of the modes, cell by cell.
     fn integrate(
         &self,
-        space: &Space<'_>,
-        basis: &StableBasis,
+        assembly: Assembly<'_>,
         pieces: &Pieces,
         matrix: &BlockMatrix,
-    ) -> Vec<Vec<f64>> {
+        stage: &Stage<'_>,
+    ) -> Result<Vec<Vec<f64>>, Halt> {
+        let Assembly { space, basis, .. } = assembly;
         let quadrature = space.quadrature(0);
-        let components = if self.modes[0].modes.count() == 1 { 1 } else { 2 };
+        let components = assembly.components();
         let mut moments = vec![vec![0.0; matrix.n_unknowns()]; self.modes.len()];
         in_batches(
-            space.partition.len(),
+            stage,
+            space.partition().len(),
             || (BasisEvaluator::new(space, basis), Shapes::default()),
             |(evaluator, shapes), cell| {
-                let functions = CellFunctions::new(space, basis, cell);
+                let functions = CellFunctions::new(&assembly, cell);
                 let mut parts = vec![vec![0.0; functions.len() * components]; self.modes.len()];
                 for rule in space.rules(&quadrature, cell).iter() {
                     evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
@@ -182,19 +182,19 @@ impl Gauge {
                         }
                     }
                 }
-                (functions, parts)
+                Ok((functions, parts))
             },
             |_, (functions, parts)| {
                 for (sum, part) in moments.iter_mut().zip(&parts) {
                     functions.add_to(matrix, components, part, sum);
                 }
             },
-        );
-        moments
+        )?;
+        Ok(moments)
     }
 }
 
-fn solve_all(solver: &Cholesky<'_>, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CholeskyError> {
+fn solve_all(solver: &dyn LinearSolver, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
     loads.iter().map(|load| Ok(solver.solve(load)?.unknowns)).collect()
 }
 

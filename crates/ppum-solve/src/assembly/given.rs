@@ -5,13 +5,12 @@ use super::border::BorderPiece;
 use super::cell::Source;
 use super::loads::{LoadRules, border_rules, of_condition, of_source};
 use super::reaction::modes;
-use super::system::Unresolved;
-use crate::batch::in_batches;
 use crate::equilibrium::{Balance, Pieces};
-use crate::geometry::Around;
 use crate::problem::{BoundaryCondition, Problem};
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
+use crate::report::Unresolved;
 use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
 use ppum::vec2::Vec2;
 
 /// A source as a function of position.
@@ -37,22 +36,31 @@ struct GivenCondition<'p> {
 
 impl<'p> Given<'p> {
     /// All that is given, and rules that resolve it.
-    pub(crate) fn new(problem: &'p Problem, space: &Space<'_>) -> Self {
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(crate) fn new(
+        problem: &'p Problem,
+        space: &Space<'_>,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
         let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
         let source = move |x: Vec2| problem.source_at(x);
         let conditions = problem.boundary.iter().enumerate();
-        Self {
+        let given = |(number, condition)| {
+            let own = of_condition(problem, space, condition, stage)?;
+            Ok(GivenCondition::new(number, condition, own))
+        };
+        Ok(Self {
             problem,
             source: has_source.then(|| Box::new(source) as Values<'p>),
-            source_rules: of_source(problem, space),
-            conditions: conditions
-                .map(|(k, c)| GivenCondition::new(k, c, of_condition(problem, space, c)))
-                .collect(),
-        }
+            source_rules: of_source(problem, space, stage)?,
+            conditions: conditions.map(given).collect::<Result<_, Halt>>()?,
+        })
     }
 
     /// The conditions that give values, with the rules of the system.
-    pub(crate) fn supports(problem: &'p Problem) -> Self {
+    pub(crate) fn restraints(problem: &'p Problem) -> Self {
         let conditions = problem.boundary.iter().enumerate();
         let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
         Self {
@@ -83,7 +91,7 @@ impl<'p> Given<'p> {
         quadrature: &Quadrature<'_>,
         cell: usize,
     ) -> Vec<BorderPiece<'_>> {
-        let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+        let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
         let piece = |given: &'_ GivenCondition<'p>| {
             border_rules(self.problem, given.condition.on, quadrature, rect, coverers)
         };
@@ -100,13 +108,14 @@ impl<'p> Given<'p> {
         &self,
         space: &Space<'_>,
         pieces: &Pieces,
-    ) -> Result<Vec<Balance>, Around> {
+        stage: &Stage<'_>,
+    ) -> Result<Vec<Balance>, Halt> {
         let components = self.problem.components();
         let quadrature = space.quadrature(0);
         let mut sum = Balance::of(pieces, components);
-        let mut failed = None;
         in_batches(
-            if self.is_empty() { 0 } else { space.partition.len() },
+            stage,
+            if self.is_empty() { 0 } else { space.partition().len() },
             || (),
             |(), cell| {
                 let mut part = Balance::of(pieces, components);
@@ -120,15 +129,11 @@ impl<'p> Given<'p> {
                 let border = self.border(space, &quadrature, cell);
                 border.iter().for_each(|piece| add_border(&mut part, piece, pieces, components));
                 let is_finite = border.iter().all(is_finite) && part.iter().all(Balance::is_finite);
-                (part, is_finite)
+                is_finite.then_some(part).ok_or(Halt::at(space.partition().cell[cell]))
             },
-            |cell, (part, is_finite)| {
-                sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part));
-                let place = || space.partition.cell[cell].into();
-                failed = failed.or_else(|| (!is_finite).then(place));
-            },
-        );
-        failed.map_or(Ok(sum), Err)
+            |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
+        )?;
+        Ok(sum)
     }
 
     /// The loads and data that their own rules do not resolve.

@@ -5,11 +5,11 @@
 //! compared with those by a rule that goes up to its kinks and is divided until it resolves the formula. Where
 //! they agree the rule of the system stays, else the other one takes its place for this load.
 
-use crate::batch::in_batches;
 use crate::problem::{BorderPart, BoundaryCondition, Condition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -101,7 +101,7 @@ impl<R: Points> LoadRules<R> {
 
 /// Divisions that a load may cost in a cell.
 fn divisions(space: &Space<'_>) -> usize {
-    (DIVISIONS / space.partition.len()).max(LEAST_DIVISIONS)
+    (DIVISIONS / space.partition().len()).max(LEAST_DIVISIONS)
 }
 
 /// A load: its formulas, its values at places with their normals, and the rules that a quadrature has for the
@@ -113,23 +113,28 @@ struct Load<'l, R> {
 }
 
 /// The rules of the source.
-pub(crate) fn of_source(problem: &Problem, space: &Space<'_>) -> LoadRules<Rule> {
+pub(super) fn of_source(
+    problem: &Problem,
+    space: &Space<'_>,
+    stage: &Stage<'_>,
+) -> Result<LoadRules<Rule>, Halt> {
     let load = Load {
         formulas: problem.source.iter().collect(),
         values: &|x, _| problem.source_at(x),
         rules: &|quadrature, cell| {
-            quadrature.cell(&space.partition.cell[cell], &space.coverers[cell])
+            quadrature.cell(&space.partition().cell[cell], &space.coverers[cell])
         },
     };
-    load.rules_on(space)
+    load.rules_on(space, stage)
 }
 
 /// The rules of the data of a condition.
-pub(crate) fn of_condition(
+pub(super) fn of_condition(
     problem: &Problem,
     space: &Space<'_>,
     condition: &BoundaryCondition,
-) -> LoadRules<EdgeRule> {
+    stage: &Stage<'_>,
+) -> Result<LoadRules<EdgeRule>, Halt> {
     let components = condition.components.iter().filter_map(|c| match c {
         Condition::Free => None,
         Condition::Dirichlet(g) | Condition::Neumann(g) => Some(g),
@@ -138,11 +143,11 @@ pub(crate) fn of_condition(
         formulas: components.chain(&condition.pressure).collect(),
         values: &|x, normal| condition.values(x, normal),
         rules: &|quadrature, cell| {
-            let (rect, coverers) = (&space.partition.cell[cell], &space.coverers[cell]);
+            let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
             border_rules(problem, condition.on, quadrature, rect, coverers)
         },
     };
-    load.rules_on(space)
+    load.rules_on(space, stage)
 }
 
 /// What a round found.
@@ -152,31 +157,31 @@ struct Round<R> {
 }
 
 impl<R: Points> Load<'_, R> {
-    fn rules_on(&self, space: &Space<'_>) -> LoadRules<R> {
+    fn rules_on(&self, space: &Space<'_>, stage: &Stage<'_>) -> Result<LoadRules<R>, Halt> {
         let mut mean = 0.0;
         if self.extended(space, mean).is_none() {
-            return LoadRules::default();
+            return Ok(LoadRules::default());
         }
         for round in 1..=ROUNDS {
             let Some((smoothness, places)) = self.extended(space, mean) else {
-                return LoadRules::default();
+                return Ok(LoadRules::default());
             };
-            let found = self.round(space, &smoothness, &places, mean);
+            let found = self.round(space, (&smoothness, &places), mean, stage)?;
             let found_mean = found.rules.magnitude / found.measure.max(f64::MIN_POSITIVE);
             let [least, most] = MEAN_FOUND.map(|part| part * mean);
             // the first round has no mean to go by
             let is_right = mean > 0.0 && (least..=most).contains(&found_mean);
             if is_right || round == ROUNDS || !found_mean.is_finite() || found.measure == 0.0 {
-                return found.rules;
+                return Ok(found.rules);
             }
             mean = found_mean.max(f64::MIN_POSITIVE);
         }
-        LoadRules::default()
+        Ok(LoadRules::default())
     }
 
     fn extended(&self, space: &Space<'_>, mean: f64) -> Option<(Smoothness, Vec<Kink>)> {
         let data: Vec<_> = self.formulas.iter().map(|&formula| (formula, mean)).collect();
-        space.smoothness().with_data(&box_of(space.partition), &data)
+        space.smoothness().with_data(&box_of(space.partition()), &data)
     }
 
     /// The rules that resolve the load up to parts of a mean; with a mean of zero those of the system, to
@@ -184,33 +189,34 @@ impl<R: Points> Load<'_, R> {
     fn round(
         &self,
         space: &Space<'_>,
-        smoothness: &Smoothness,
-        places: &[Kink],
+        (smoothness, places): (&Smoothness, &[Kink]),
         mean: f64,
-    ) -> Round<R> {
+        stage: &Stage<'_>,
+    ) -> Result<Round<R>, Halt> {
         let [plain, finer] = [0, EXTRA].map(|extra| space.quadrature(extra));
         let own = space.quadrature_of(smoothness, 0).with_divisions(divisions(space));
         let same = mean * if places.is_empty() { SAME_OF_SMOOTH } else { SAME };
         let mut round = Round { rules: LoadRules::default(), measure: 0.0 };
         in_batches(
-            space.partition.len(),
+            stage,
+            space.partition().len(),
             || (),
             |(), cell| {
-                let rect = &space.partition.cell[cell];
+                let rect = &space.partition().cell[cell];
                 let moments = |rules: &[R]| self.moments(rect, rules);
                 let plain = (self.rules)(&plain, cell);
                 let known = moments(&plain);
                 let meets = places.iter().any(|place| place.may_meet(rect));
                 if plain.is_empty() || mean == 0.0 {
-                    return (known, None);
+                    return Ok((known, None));
                 }
                 if !meets && known.is_near(&moments(&(self.rules)(&finer, cell)), same) {
-                    return (known, None);
+                    return Ok((known, None));
                 }
                 let own = (self.rules)(&own, cell);
                 let better = moments(&own);
                 let is_same = known.is_near(&better, same);
-                (better, (!is_same).then_some(own))
+                Ok((better, (!is_same).then_some(own)))
             },
             |_, (moments, own)| {
                 let doubts = own.iter().flatten().map(Points::doubt);
@@ -219,8 +225,8 @@ impl<R: Points> Load<'_, R> {
                 round.rules.magnitude += moments.magnitude;
                 round.rules.own.push(own);
             },
-        );
-        round
+        )?;
+        Ok(round)
     }
 
     fn moments(&self, cell: &Rect, rules: &[R]) -> Moments {

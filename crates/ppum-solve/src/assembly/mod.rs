@@ -3,6 +3,9 @@
 //! ```text
 //! K = ∫ ∇N·C·∇N + Nitsche's terms        f = ∫ N·b + ∫_Γt N·t + Nitsche's terms
 //! ```
+//!
+//! [`Given`] says what acts on a cell and on its border, `CellAssembler` integrates it into a `CellSystem`,
+//! [`System`] adds these up. [`Gauge`] makes solutions unique on pieces of the plate that nothing holds.
 
 mod border;
 mod cell;
@@ -16,4 +19,30 @@ mod system;
 
 pub(crate) use gauge::Gauge;
 pub(crate) use given::Given;
-pub(crate) use system::{System, Unresolved, assemble, pattern, slivers};
+pub(crate) use system::{System, pattern, slivers};
+
+use crate::basis::StableBasis;
+use crate::law::Law;
+use crate::problem::Problem;
+use crate::space::Space;
+
+/// A system that is to be assembled: the problem, the functions, and the law of its equation.
+#[derive(Clone, Copy)]
+pub(crate) struct Assembly<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) space: &'a Space<'a>,
+    pub(crate) basis: &'a StableBasis,
+    pub(crate) law: &'a Law<'a>,
+}
+
+impl Assembly<'_> {
+    /// Components of the unknown field.
+    pub(crate) fn components(&self) -> usize {
+        self.law.components
+    }
+
+    /// Number of cells.
+    pub(crate) fn n_cells(&self) -> usize {
+        self.space.partition().len()
+    }
+}

@@ -1,4 +1,4 @@
-//! What supports exert on the plate: their resultant force and moment.
+//! Reactions: the resultant force and moment that restraints exert on the plate.
 //!
 //! ```text
 //! R_k = ∫ m_k,i t_i     t_i = (σ(u) n)_i − β (u_i − g_i)     over the components i that are held
@@ -21,7 +21,7 @@ pub(crate) fn modes(problem: &Problem) -> RigidModes {
 
 /// Integrals over the border of a cell where one condition gives values, for every rigid-body mode m.
 #[derive(Clone, Debug)]
-pub(crate) struct Support {
+pub(crate) struct Restraint {
     /// Number of the condition.
     pub(crate) condition: usize,
     /// ∫ m_i (σ(N) n)_i, one number a cell's unknown.
@@ -32,7 +32,7 @@ pub(crate) struct Support {
     given: PerMode,
 }
 
-impl Support {
+impl Restraint {
     pub(crate) fn new(condition: usize, unknowns: usize) -> Self {
         let zero = || std::array::from_fn(|_| vec![0.0; unknowns]);
         Self { condition, traction: zero(), value: zero(), given: [0.0; MODES] }
@@ -95,7 +95,7 @@ impl Reactions {
         }
     }
 
-    /// The reactions of a solution in the order of the matrix, one a condition that gives values.
+    /// The reactions of a solution in the order of the matrix, one entry per condition that gives values.
     pub(crate) fn of(
         &self,
         problem: &Problem,

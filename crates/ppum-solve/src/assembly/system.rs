@@ -1,19 +1,18 @@
 //! The whole system in the stable basis, summed over the cells.
 
+use super::Assembly;
 use super::border::BorderPiece;
 use super::cell::CellAssembler;
 use super::cell_system::CellSystem;
 use super::given::Given;
 use super::reaction::Reactions;
-use crate::basis::{Penalty, StableBasis};
-use crate::batch::in_batches;
-use crate::geometry::Around;
-use crate::law::Law;
+use crate::basis::Penalty;
 use crate::linear::{BlockMatrix, BlockPattern};
-use crate::problem::Problem;
 use crate::quadrature::{Doubt, EdgeRule, Rule};
+use crate::report::Unresolved;
 use crate::space::Space;
-use ppum::vec2::{Rect, Vec2};
+use crate::watched::{Halt, Stage, in_batches};
+use ppum::vec2::Rect;
 
 /// The assembled system.
 pub(crate) struct System {
@@ -30,109 +29,43 @@ pub(crate) struct System {
     pub(crate) unresolved: Vec<Unresolved>,
 }
 
-/// Something that quadrature does not resolve.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Unresolved {
-    /// What it is, in words of the problem; functions of the space and coefficients if there are none.
-    pub(crate) load: Option<String>,
-    /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions that of
-    /// their integrals over a piece of a cell.
-    pub(crate) error: f64,
-    /// Where most of it is.
-    pub(crate) at: Vec2,
-}
-
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
 /// have 3 to 36.
 const SLIVER: f64 = 50.0;
 
-/// The cells with a β so large that the basis should see it.
+/// The penalties of the cells where β is so large that the basis should see it. Advances the stage by the number of
+/// cells.
 ///
 /// # Errors
 /// Where data are not finite.
-pub(crate) fn slivers(
-    problem: &Problem,
-    space: &Space<'_>,
-    basis: &StableBasis,
-    law: &Law<'_>,
-) -> Result<Vec<Penalty>, Around> {
+pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
+    let Assembly { problem, space, .. } = assembly;
     let quadrature = space.quadrature(0);
-    let given = Given::supports(problem);
-    let mut found = Ok(Vec::new());
+    let given = Given::restraints(problem);
+    let mut found = Vec::new();
     in_batches(
-        if given.is_empty() { 0 } else { space.partition.len() },
-        || CellAssembler::new(space, basis, law),
+        stage,
+        if given.is_empty() { 0 } else { assembly.n_cells() },
+        || CellAssembler::new(assembly),
         |assembler, cell| {
             let on_border = given.border(space, &quadrature, cell);
             if on_border.is_empty() {
                 return Ok(None);
             }
+            let rect = space.partition().cell[cell];
             let rules = space.rules(&quadrature, cell);
             let part = assembler.assemble(cell, &rules, None, &on_border);
-            let part = part.map_err(|_| space.partition.cell[cell])?;
+            let weight = part.map_err(|_| Halt::at(rect))?.penalty;
             let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
-            let is_large = part.penalty * width(&space.partition.cell[cell]) > SLIVER;
-            Ok(is_large.then_some(Penalty { rules, weight: part.penalty }))
+            Ok((weight * width(&rect) > SLIVER).then_some(Penalty { rules, weight }))
         },
-        |_, part: Result<Option<Penalty>, Around>| match (&mut found, part) {
-            (Ok(all), Ok(part)) => all.extend(part),
-            (Ok(_), Err(error)) => found = Err(error),
-            (Err(_), _) => {}
-        },
-    );
-    found
+        |_, penalty| found.extend(penalty),
+    )?;
+    Ok(found)
 }
 
 fn width(cell: &Rect) -> f64 {
     cell.size().x.max(cell.size().y)
-}
-
-/// Assembles the system of what is given on a space. `progress` is told the cells that are done.
-///
-/// # Errors
-/// Where data are not finite.
-pub(crate) fn assemble(
-    given: &Given<'_>,
-    space: &Space<'_>,
-    basis: &StableBasis,
-    law: &Law<'_>,
-    progress: &mut dyn FnMut(usize),
-) -> Result<System, Around> {
-    let quadrature = space.quadrature(0);
-    let mut system = System::new(space, basis, law.components);
-    system.unresolved = given.unresolved();
-    let (mut failed, mut doubt) = (None, Doubt::default());
-    in_batches(
-        space.partition.len(),
-        || CellAssembler::new(space, basis, law),
-        |assembler, cell| {
-            let rules = space.rules(&quadrature, cell);
-            let pieces = given.border(space, &quadrature, cell);
-            let source = given.source(cell);
-            let own = source.and_then(|source| source.rules);
-            let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
-            let part = assembler.assemble(cell, &rules, source, &pieces);
-            (part, points, doubt_of(&rules, &pieces))
-        },
-        |cell, (part, points, left)| {
-            system.points += points;
-            doubt.add(&left);
-            match part {
-                Ok(part) => {
-                    system.nitsche =
-                        system.nitsche.max(part.penalty * width(&space.partition.cell[cell]));
-                    system.add(&part, law.components);
-                    system.reactions.push(part);
-                }
-                Err(_) => failed = failed.or(Some(space.partition.cell[cell].into())),
-            }
-            progress(cell + 1);
-        },
-    );
-    if doubt.functions > 0.0 {
-        system.unresolved.push(Unresolved { load: None, error: doubt.functions, at: doubt.at });
-    }
-    failed.map_or(Ok(system), Err)
 }
 
 fn n_cell_points(rules: &[Rule]) -> usize {
@@ -158,9 +91,51 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    fn new(space: &Space<'_>, basis: &StableBasis, components: usize) -> Self {
-        let sizes: Vec<_> = basis.sizes.iter().map(|n| n * components).collect();
-        let matrix = BlockMatrix::new(&sizes, pattern(space));
+    /// Assembles the system of what is given. Advances the stage by the number of cells.
+    ///
+    /// # Errors
+    /// Where data are not finite.
+    pub(crate) fn new(
+        assembly: Assembly<'_>,
+        given: &Given<'_>,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
+        let Assembly { space, .. } = assembly;
+        let quadrature = space.quadrature(0);
+        let (mut system, mut doubt) = (Self::zero(&assembly), Doubt::default());
+        in_batches(
+            stage,
+            assembly.n_cells(),
+            || CellAssembler::new(assembly),
+            |assembler, cell| {
+                let rules = space.rules(&quadrature, cell);
+                let pieces = given.border(space, &quadrature, cell);
+                let source = given.source(cell);
+                let own = source.and_then(|source| source.rules);
+                let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
+                let part = assembler.assemble(cell, &rules, source, &pieces);
+                let part = part.map_err(|_| Halt::at(space.partition().cell[cell]))?;
+                Ok((part, points, doubt_of(&rules, &pieces)))
+            },
+            |cell, (part, points, left)| {
+                system.points += points;
+                doubt.add(&left);
+                let penalty = part.penalty * width(&space.partition().cell[cell]);
+                system.nitsche = system.nitsche.max(penalty);
+                system.add(part, assembly.components());
+            },
+        )?;
+        system.unresolved = given.unresolved();
+        if doubt.functions > 0.0 {
+            let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
+            system.unresolved.push(functions);
+        }
+        Ok(system)
+    }
+
+    fn zero(assembly: &Assembly<'_>) -> Self {
+        let sizes = assembly.basis.sizes.iter().map(|n| n * assembly.components());
+        let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
             matrix,
@@ -171,7 +146,7 @@ impl System {
         }
     }
 
-    fn add(&mut self, part: &CellSystem, components: usize) {
+    fn add(&mut self, part: CellSystem, components: usize) {
         part.functions.add_to(&self.matrix, components, &part.load, &mut self.load);
         let patches = &part.functions.patches;
         for (k, &p) in patches.iter().enumerate() {
@@ -185,13 +160,14 @@ impl System {
                 self.matrix.add_block(p, q as usize, block.as_ref());
             }
         }
+        self.reactions.push(part);
     }
 }
 
 /// Two patches are coupled when their open supports meet.
 pub(crate) fn pattern(space: &Space<'_>) -> BlockPattern {
-    let support = |p: u32| space.partition.support(p as usize);
-    let mut rows = vec![Vec::new(); space.partition.len()];
+    let support = |p: u32| space.partition().support(p as usize);
+    let mut rows = vec![Vec::new(); space.partition().len()];
     for patches in &space.coverers {
         for (k, &p) in patches.iter().enumerate() {
             let meets = |q: &&u32| support(p).overlaps(&support(**q));

@@ -9,16 +9,14 @@
 mod shape;
 mod transform;
 
-use crate::batch::in_batches;
-use crate::geometry::Around;
 use crate::linear::SymmetricEigen;
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
-use rayon::prelude::*;
 use shape::ShapeEvaluator;
 pub(crate) use shape::Shapes;
 use std::collections::BTreeMap;
@@ -42,32 +40,39 @@ pub(crate) struct StableBasis {
 }
 
 impl StableBasis {
-    /// The basis of a space, from the Gram matrices of its patches.
+    /// The basis of a space, from the Gram matrices of its patches. Advances the stage by twice the number of cells.
     ///
     /// # Errors
     /// Where functions are not finite.
-    pub(crate) fn new(space: &Space<'_>) -> Result<Self, Around> {
-        let grams = grams(space);
-        let transform = |(i, Gram { weighted, plain }): (usize, &Gram)| {
-            Transform::new(weighted.as_ref(), plain, space.n_polynomials(i), CUT_OFF)
-                .map_err(|_| Around::from(space.partition.support(i)))
-        };
-        let transforms: Vec<_> =
-            grams.par_iter().enumerate().map(transform).collect::<Result<_, _>>()?;
+    pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+        let grams = grams(space, stage)?;
+        let mut transforms = Vec::with_capacity(grams.len());
+        in_batches(
+            stage,
+            grams.len(),
+            || (),
+            |(), i| {
+                let Gram { weighted, plain } = &grams[i];
+                Transform::new(weighted.as_ref(), plain, space.n_polynomials(i), CUT_OFF)
+                    .map_err(|_| Halt::at(space.partition().support(i)))
+            },
+            |_, transform| transforms.push(transform),
+        )?;
         let sizes = transforms.iter().map(|t| t.matrix.nrows()).collect();
         Ok(Self { transforms, sizes })
     }
 
-    /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions that a large penalty acts on become small, and no row of the matrix is much
-    /// larger than others. Nothing is cut off.
+    /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions
+    /// that a large penalty acts on become small, and no row of the matrix is much larger than others. Nothing is
+    /// cut off.
     ///
     /// # Errors
     /// Where functions are not finite.
-    pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Around> {
+    pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
             let matrix = &mut self.transforms[patch as usize].matrix;
-            let eigen = SymmetricEigen::new(gram.as_ref());
-            let eigen = eigen.map_err(|_| space.partition.support(patch as usize))?;
+            let eigen = SymmetricEigen::new(gram.as_ref())
+                .map_err(|_| Halt::at(space.partition().support(patch as usize)))?;
             *matrix = &eigen.vectors * eigen.inverse_root(0.0) * &*matrix;
         }
         Ok(())
@@ -141,8 +146,8 @@ impl StableBasis {
 /// have the degree of the polynomials, which come first.
 fn undo_shifts(space: &Space<'_>, patch: usize, coefficients: &mut [f64]) {
     let mut first = 0;
-    for block in space.data.blocks(patch) {
-        let size = monomials(space.data.block_degree[block] as usize);
+    for block in space.data().blocks(patch) {
+        let size = monomials(space.data().block_degree[block] as usize);
         let shift = space.shifts[block];
         if shift != 0.0 {
             for k in 0..size {
@@ -225,11 +230,12 @@ impl Gram {
 const LEAST: f64 = 1e-280;
 
 /// The Gram matrix of every patch, over the domain.
-fn grams(space: &Space<'_>) -> Vec<Gram> {
+fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Gram>, Halt> {
     let quadrature = space.quadrature(0);
     let mut grams: Vec<_> = space.sizes.iter().map(|&n| Gram::zero(n)).collect();
     in_batches(
-        space.partition.len(),
+        stage,
+        space.partition().len(),
         || (ShapeEvaluator::new(space), Shapes::default()),
         |(evaluator, shapes), cell| {
             let coverers = &space.coverers[cell];
@@ -240,15 +246,15 @@ fn grams(space: &Space<'_>) -> Vec<Gram> {
                 shapes.scale(&rule.weights);
                 add_grams(space, rule, coverers, shapes, &mut parts);
             }
-            parts
+            Ok(parts)
         },
         |cell, parts| {
             for (&patch, part) in space.coverers[cell].iter().zip(&parts) {
                 grams[patch as usize].add_part(part);
             }
         },
-    );
-    grams
+    )?;
+    Ok(grams)
 }
 
 /// Adds the points of shapes that carry the roots of the weights.
@@ -264,6 +270,6 @@ fn add_grams(
         let range = first..first + space.sizes[patch as usize];
         first = range.end;
         let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
-        parts[k].add(shapes, range, &rule.weights, space.partition.half[patch as usize]);
+        parts[k].add(shapes, range, &rule.weights, space.partition().half[patch as usize]);
     }
 }

@@ -154,7 +154,7 @@ impl<'s> ShapeEvaluator<'s> {
 const ZERO: Jet<f64> = Jet { v: 0.0, x: 0.0, y: 0.0, xx: 0.0, xy: 0.0, yy: 0.0 };
 
 fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'s> {
-    let cracks = &space.step.cracks;
+    let cracks = &space.step().cracks;
     match face {
         Some(face) => space.functions.on(cracks, face.segment, anchor),
         None => space.functions.at(cracks, anchor),
@@ -163,9 +163,9 @@ fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'
 
 /// The function groups that the blocks of some patches use, ascending.
 fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {
-    let blocks = patches.iter().flat_map(|&p| space.data.blocks(p as usize));
+    let blocks = patches.iter().flat_map(|&p| space.data().blocks(p as usize));
     let mut groups: Vec<_> = blocks
-        .filter_map(|b| match space.functions.of(space.data.block_function[b]) {
+        .filter_map(|b| match space.functions.of(space.data().block_function[b]) {
             Slot::One => None,
             Slot::Jet { group, .. } => Some(group as usize),
         })
@@ -196,7 +196,7 @@ impl Point<'_> {
             out.push(Jet { v: 1.0, ..ZERO });
             return;
         }
-        let partition = self.space.partition;
+        let partition = self.space.partition();
         let mut sum = ZERO;
         for &patch in patches {
             let inverse = reciprocal(partition.half[patch as usize]);
@@ -219,10 +219,10 @@ impl Point<'_> {
         function: usize,
         out: &mut Shapes,
     ) -> usize {
-        let data = self.space.data;
-        let inverse = reciprocal(self.space.partition.scale[patch]);
+        let data = self.space.data();
+        let inverse = reciprocal(self.space.partition().scale[patch]);
         let monomials =
-            Monomials::new(self.local(self.space.partition.origin[patch], inverse), inverse);
+            Monomials::new(self.local(self.space.partition().origin[patch], inverse), inverse);
         let mut next = function;
         for block in data.blocks(patch) {
             let factor = match self.space.functions.of(data.block_function[block]) {

@@ -122,7 +122,7 @@ fn orthonormal_enrichments(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     /// Gram matrix of functions on [−1, 1], by the midpoint rule with many points, in the inner
     /// product ∫ f g dx: enough for the algebra, which knows nothing of functions.
@@ -219,8 +219,8 @@ mod tests {
 
     #[test]
     fn the_scale_of_the_functions_does_not_matter() {
-        let mut random = Random::new(3);
-        let factor = Mat::from_fn(12, 12, |_, _| random.signed());
+        let mut random = Random(3);
+        let factor = Mat::from_fn(12, 12, |_, _| random.between(-1.0, 1.0));
         let m = &factor * factor.transpose();
         let scales: Vec<f64> = (0..12).map(|k| 10.0_f64.powi(k - 6)).collect();
         let rescaled = scaled(m.as_ref(), &scales);

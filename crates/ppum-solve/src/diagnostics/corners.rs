@@ -27,7 +27,7 @@ pub(super) fn of_corners(
         if corner.nature == Nature::Jump {
             return Some(infinite(corner, places));
         }
-        let cells = &space.partition.cell;
+        let cells = &space.partition().cell;
         let touching = (0..cells.len()).filter(|&c| cells[c].distance(corner.at) == 0.0);
         let touching: Vec<_> = touching.collect();
         let size =

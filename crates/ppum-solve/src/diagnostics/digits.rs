@@ -45,14 +45,13 @@ pub fn rounding(dataset: &Dataset, step: usize) -> Result<(f64, Vec2), FieldErro
     Ok(largest.map_or((0.0, Vec2::ZERO), |(error, cell)| (error, cell.center())))
 }
 
-/// The warning about a field that few digits are left of.
+/// The warning about a field that few digits are left of, by its rounding error and where that is.
 pub(super) fn of_digits(
-    dataset: &Dataset,
-    step: usize,
+    (error, at): (f64, Vec2),
+    cutters: Cutters,
     places: &Places,
-) -> Result<Option<Warning>, FieldError> {
-    let (error, at) = rounding(dataset, step)?;
-    let cause = match Cutters::new(&dataset.steps[step], &dataset.domain) {
+) -> Option<Warning> {
+    let cause = match cutters {
         Cutters::Nothing => "functions of a patch nearly depend on each other".into(),
         cutters => format!("{} leaves next to nothing of a patch", cutters.name()),
     };
@@ -62,7 +61,7 @@ pub(super) fn of_digits(
         places.show(at),
         short(error)
     );
-    Ok((error > FEW_DIGITS).then(|| warning(kind::DIGITS, Some(at), [error, FEW_DIGITS], message)))
+    (error > FEW_DIGITS).then(|| warning(kind::DIGITS, Some(at), [error, FEW_DIGITS], message))
 }
 
 /// The step with coefficients δ_k c_k, δ_k = 2 {k g} − 1 with the golden ratio g.

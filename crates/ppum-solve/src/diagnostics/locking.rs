@@ -29,7 +29,7 @@ use ppum::field::Field;
 #[must_use]
 pub(super) fn locking(field: &Field<'_>, space: &Space<'_>) -> f64 {
     let ratio = stiffness_ratio(field.equation, field.domain);
-    let (data, n_patches) = (space.data, space.partition.len());
+    let (data, n_patches) = (space.data(), space.partition().len());
     let order = |patch: usize| usize::from(data.block_degree[data.blocks(patch).start]);
     if ratio <= STIFF || (0..n_patches).all(|patch| order(patch) >= FREE_OF_LOCKING) {
         return 0.0;

@@ -1,8 +1,8 @@
-//! What a specialist would remark on: findings about a solution that do not make it wrong to have, but
-//! wrong to trust unread.
+//! Diagnostics: findings about a solution that do not make it wrong to have, but wrong to trust unread.
 //!
 //! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the bound
-//! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset.
+//! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset; [`recompute`] finds them
+//! again from a dataset, with the stress intensity factors.
 
 mod corners;
 mod digits;
@@ -16,21 +16,22 @@ mod tips;
 pub use digits::{FEW_DIGITS, rounding};
 pub use tips::relative_spread;
 
-use crate::assembly::Unresolved;
-use crate::intensity::{FaceLoad, Loads, Outcome, PointLoad, intensities};
+use crate::intensity::{Outcome, intensities_under};
 use crate::problem::Problem;
+use crate::report::{SolverReport, Unresolved};
 use crate::space::Space;
+use crate::watched::Stage;
 use corners::of_corners;
 use digits::of_digits;
 use faces::of_faces;
 use interfaces::of_interfaces;
 use locking::locking;
-use ppum::crack::Side;
-use ppum::dataset::{Dataset, Record, Step, Warning};
+use ppum::dataset::{Dataset, Warning};
 use ppum::field::{Field, FieldError};
+use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::text::{Places, trimmed_to};
 use ppum::vec2::Vec2;
-use report::{Cutters, of_history};
+use report::{Cutters, of_report};
 use tips::of_tips;
 
 /// Relative residual of the linear system above which it is not solved as well as it should be:
@@ -97,43 +98,95 @@ pub mod kind {
     pub const QUADRATURE: &str = "quadrature";
 }
 
+/// A solution that is to be diagnosed.
+pub(crate) struct Case<'a> {
+    pub(crate) dataset: &'a Dataset,
+    /// Number of the step.
+    pub(crate) step: usize,
+    /// The first field of the step.
+    pub(crate) field: &'a Field<'a>,
+    pub(crate) space: &'a Space<'a>,
+    /// The problem that it solves, if that is known.
+    pub(crate) problem: Option<&'a Problem>,
+    pub(crate) report: &'a SolverReport,
+    /// Integrands of the system that were not resolved.
+    pub(crate) unresolved: &'a [Unresolved],
+}
+
+/// The findings about a solution.
+pub(crate) struct Diagnosis {
+    pub(crate) warnings: Vec<Warning>,
+    /// The relative rounding error of stresses, see [`rounding`].
+    pub(crate) rounding: f64,
+}
+
+/// A dataset whose factors and warnings cannot be found again.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecomputeError {
+    /// Its functions do not compile, or there is no such step.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
 /// it solves, on the cracks of the step: its loads act near the tips. Without one none do.
 ///
+/// What it takes is asked by [`check_effort`](effort::check_effort).
+///
 /// # Errors
-/// A step that is not there, functions that do not compile.
-pub fn judge(
+/// A step that is not there, functions that do not compile; cancelled, within the time of one cell.
+pub fn recompute(
     dataset: &Dataset,
     step: usize,
     problem: Option<&Problem>,
-) -> Result<(Vec<Outcome>, Vec<Warning>), FieldError> {
+    watcher: &dyn Watcher,
+) -> Result<(Vec<Outcome>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
-    let space = Space::new(field.step, &dataset.domain, &dataset.equation, &dataset.tables)?;
-    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| problem.source_at(x));
-    let face = |crack: u32, side: Side, x: Vec2| {
-        problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
-    };
-    let loads = Loads {
-        force: problem.map(|_| &force as PointLoad<'_>),
-        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
-    };
-    let tips = intensities(dataset, &field, &space, loads);
-    let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
-    let mut warnings = of_tips(&tips, &field.step.cracks, &places);
-    warnings.extend(of_faces(&field, &places));
-    if let Some((problem, energy)) = problem.zip(recorded(field.step, "energy")) {
-        warnings.extend(of_corners(problem, &field, &space, (energy, &places)));
-    }
-    warnings.extend(of_interfaces(&field, dataset, &places));
-    warnings.extend(of_history(field.step, &dataset.domain));
-    warnings.extend(of_digits(dataset, step, &places)?);
-    warnings.extend(of_locking(&field, &space));
+    let Dataset { domain, equation, tables, .. } = dataset;
+    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
+    let report = &SolverReport::of(&field.step.history);
+    let (field, space) = (&field, &space);
+    let case = Case { dataset, step, field, space, problem, report, unresolved: &[] };
+    let Diagnosis { warnings, .. } = case.diagnose(&tips, watcher)?;
     Ok((tips, warnings))
 }
 
-/// A number of the solver's report.
-fn recorded(step: &Step, name: &str) -> Option<f64> {
-    step.history.iter().find(|r: &&Record| r.name == name).map(|r| r.value)
+impl Case<'_> {
+    /// The findings about the solution and its tips.
+    ///
+    /// # Errors
+    /// Functions that do not compile; cancelled.
+    pub(crate) fn diagnose(
+        &self,
+        tips: &[Outcome],
+        watcher: &dyn Watcher,
+    ) -> Result<Diagnosis, RecomputeError> {
+        let Self { dataset, field, space, .. } = *self;
+        let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+        let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
+        let cutters = Cutters::new(field.step, &dataset.domain);
+        let mut warnings = of_tips(tips, &field.step.cracks, &places);
+        warnings.extend(of_faces(field, &places));
+        stage.advance(0)?;
+        if let Some((problem, energy)) = self.problem.zip(self.report.energy) {
+            warnings.extend(of_corners(problem, field, space, (energy, &places)));
+        }
+        stage.advance(0)?;
+        warnings.extend(of_interfaces(field, dataset, &places));
+        warnings.extend(of_report(self.report, cutters));
+        stage.advance(0)?;
+        let rounding = rounding(dataset, self.step)?;
+        warnings.extend(of_digits(rounding, cutters, &places));
+        stage.advance(0)?;
+        warnings.extend(of_locking(field, space));
+        warnings.extend(of_quadrature(self.unresolved, &places));
+        Ok(Diagnosis { warnings, rounding: rounding.0 })
+    }
 }
 
 /// The warning about an order too low for a plate that hardly changes its volume.
@@ -148,8 +201,7 @@ fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
 }
 
 /// The warnings about what quadrature does not resolve.
-pub(crate) fn of_quadrature(unresolved: &[Unresolved], dataset: &Dataset) -> Vec<Warning> {
-    let places = Places::new(&dataset.domain.bounds, &dataset.steps[0].cracks);
+fn of_quadrature(unresolved: &[Unresolved], places: &Places) -> Vec<Warning> {
     let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
     let warning = |found: &Unresolved| {
         let Unresolved { load, error, at } = found;

@@ -1,25 +1,23 @@
 //! Warnings about the solution as a whole, from the numbers of the solver's report.
 
-use super::{
-    LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, kind, recorded, warning,
-};
+use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, kind, warning};
+use crate::report::SolverReport;
 use ppum::dataset::{Step, Warning};
 use ppum::domain::Domain;
 
-/// The warnings about the solution as a whole, from the solver's report in the step's history.
-pub(super) fn of_history(step: &Step, domain: &Domain) -> Vec<Warning> {
-    let cutters = Cutters::new(step, domain);
-    let value = |name| recorded(step, name);
-    let cut = value("cut-off").zip(value("unknowns")).map_or(0.0, |(cut, all)| cut / all);
-    let or_zero = |name| value(name).unwrap_or(0.0);
+/// The warnings about the solution as a whole, from the solver's report. What the report does not hold is not
+/// judged.
+pub(super) fn of_report(report: &SolverReport, cutters: Cutters) -> Vec<Warning> {
     let rules = [
-        (kind::RESIDUAL, or_zero("residual"), LARGE_RESIDUAL, residual as Text),
-        (kind::IMBALANCE, or_zero("imbalance"), LARGE_IMBALANCE, imbalance),
-        (kind::CUT_OFF, cut, LARGE_CUT_OFF, cut_off),
-        (kind::NITSCHE, or_zero("nitsche"), LARGE_NITSCHE, nitsche),
-        (kind::CROSSED_TWICE, or_zero("crossed twice"), 0.0, crossed_twice),
+        (kind::RESIDUAL, report.residual, LARGE_RESIDUAL, residual as Text),
+        (kind::IMBALANCE, report.imbalance, LARGE_IMBALANCE, imbalance),
+        (kind::CUT_OFF, report.cut_off_part(), LARGE_CUT_OFF, cut_off),
+        (kind::NITSCHE, report.nitsche, LARGE_NITSCHE, nitsche),
+        (kind::CROSSED_TWICE, report.crossed_twice, 0.0, crossed_twice),
     ];
-    let passed = rules.into_iter().filter(|(_, value, limit, _)| value > limit);
+    let passed = rules.into_iter().filter_map(|(kind, value, limit, message)| {
+        value.filter(|value| *value > limit).map(|value| (kind, value, limit, message))
+    });
     passed
         .map(|(kind, value, limit, message)| {
             warning(kind, None, [value, limit], message(value, cutters))

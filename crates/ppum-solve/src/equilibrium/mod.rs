@@ -3,9 +3,11 @@
 
 mod balance;
 mod pieces;
+mod plate;
 mod rigid;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
-pub(crate) use pieces::{Piece, Pieces};
+pub(crate) use pieces::Pieces;
+pub(crate) use plate::{Plate, PlateError};
 pub(crate) use rigid::{MODES, PerMode, RigidModes};

@@ -46,13 +46,18 @@ pub(crate) fn around(points: &[Vec2]) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     /// What is not found lies apart; also boxes without extent, and those that touch.
     #[test]
     fn all_that_meets_a_box_is_found() {
-        let mut random = Random::new(3);
-        let mut point = || vec2((8.0 * random.signed()).round(), (8.0 * random.signed()).round());
+        let mut random = Random(3);
+        let mut point = || {
+            vec2(
+                (8.0 * random.between(-1.0, 1.0)).round(),
+                (8.0 * random.between(-1.0, 1.0)).round(),
+            )
+        };
         let boxes: Vec<Rect> = (0..80).map(|_| around(&[point(), point()])).collect();
         let placed = Placed::new(boxes.iter().copied().zip(0..));
         for _ in 0..200 {

@@ -27,12 +27,15 @@ mod integral;
 
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use crate::geometry::{Obstacle, TipClearance};
+use crate::problem::Problem;
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
+use crate::watched::Stage;
 use integral::{Found, Interaction, RINGS, found};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
 use ppum::field::Field;
+use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::Vec2;
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages most.
@@ -61,7 +64,7 @@ pub struct Loads<'a> {
     pub faces: Option<FaceLoad<'a>>,
 }
 
-/// What is known of a tip.
+/// The findings about a tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The tip.
@@ -98,41 +101,67 @@ impl Outcome {
 /// The field is evaluated in the cells that meet the discs, for all tips in parallel; the values do
 /// not depend on the number of threads.
 ///
+/// # Errors
+/// Cancelled, within the time of one cell.
+///
 /// # Panics
 /// If the field is not of the dataset and step of `space`.
-#[must_use]
 pub fn intensities(
     dataset: &Dataset,
     field: &Field<'_>,
     space: &Space<'_>,
     loads: Loads<'_>,
-) -> Vec<Outcome> {
-    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(dataset, space, tip));
-    let mut tips: Vec<_> = tips.collect();
+    watcher: &dyn Watcher,
+) -> Result<Vec<Outcome>, Cancelled> {
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+    let outcome = |tip| stage.advance(0).map(|()| Outcome::new(dataset, space, tip));
+    let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|o| o.clearance.radius >= o.needed()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
-    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals)) {
+    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals, watcher)?) {
         let Found { rings, strength, doubt } = found;
         let Ring { k1, k2, .. } = rings[RINGS - 1];
         outcome.factors = Some(TipIntensity { tip: outcome.tip, k1, k2, rings: rings.to_vec() });
         outcome.strength = strength;
         outcome.doubt = doubt;
     }
-    tips
+    Ok(tips)
+}
+
+/// The same under the loads of a problem that the field solves; none act without one.
+///
+/// # Errors
+/// Cancelled.
+pub(crate) fn intensities_under(
+    problem: Option<&Problem>,
+    dataset: &Dataset,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Outcome>, Cancelled> {
+    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| problem.source_at(x));
+    let face = |crack: u32, side: Side, x: Vec2| {
+        problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
+    };
+    let loads = Loads {
+        force: problem.map(|_| &force as PointLoad<'_>),
+        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
+    };
+    intensities(dataset, field, space, loads, watcher)
 }
 
 impl Outcome {
     fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
-        let at = space.step.cracks[tip.crack as usize].end_point(tip.end);
-        let own = space.partition.cell.iter().filter(|cell| cell.contains(at));
+        let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
+        let own = space.partition().cell.iter().filter(|cell| cell.contains(at));
         let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);
-        let clearance = TipClearance::new(dataset, &space.step.cracks, tip, cell);
+        let clearance = TipClearance::new(dataset, &space.step().cracks, tip, cell);
         let reach = clearance.radius.min(AMPLE_CLEARANCE * cell);
         let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
         let interface = elastic.and_then(|body| interface_distance(body, at, reach));

@@ -202,8 +202,8 @@ fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
     use faer::Mat;
+    use ppum_testkit::random::Random;
 
     /// Patches 0–1–2 and 0–3 coupled, with different sizes, one of them empty.
     fn pattern() -> BlockPattern {
@@ -212,11 +212,11 @@ mod tests {
 
     /// A random matrix as blocks, and the same in full.
     fn random_matrix(sizes: &[usize]) -> (BlockMatrix, Mat<f64>) {
-        let mut random = Random::new(11);
+        let mut random = Random(11);
         let mut blocks = BlockMatrix::new(sizes, pattern());
         let mut full = Mat::zeros(blocks.n_unknowns(), blocks.n_unknowns());
         for (i, j) in pattern().pairs() {
-            let mut block = Mat::from_fn(sizes[i], sizes[j], |_, _| random.signed());
+            let mut block = Mat::from_fn(sizes[i], sizes[j], |_, _| random.between(-1.0, 1.0));
             if i == j {
                 block = &block + block.transpose();
             }
@@ -247,8 +247,8 @@ mod tests {
     fn product_and_conversion_agree_with_the_full_matrix() {
         let (blocks, full) = random_matrix(&[3, 2, 0, 4]);
         assert_eq!(in_full(&blocks), full);
-        let mut random = Random::new(5);
-        let x: Vec<f64> = (0..9).map(|_| random.signed()).collect();
+        let mut random = Random(5);
+        let x: Vec<f64> = (0..9).map(|_| random.between(-1.0, 1.0)).collect();
         let expected = &full * Mat::from_fn(9, 1, |i, _| x[i]);
         for (i, y) in blocks.multiply(&x).into_iter().enumerate() {
             assert!((y - expected[(i, 0)]).abs() < 1e-14);

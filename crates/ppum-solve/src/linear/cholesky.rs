@@ -21,6 +21,7 @@ use faer::sparse::{FaerError, SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::block_matrix::{BlockMatrix, BlockPattern};
+use super::solver::{LinearError, LinearSolution, LinearSolver};
 
 /// A pivot L_kk² up to this fraction of K_kk is rounding noise and counts as zero. In a system
 /// after the stable transformation the fraction is at least the reciprocal condition number, seen
@@ -41,61 +42,6 @@ const LEFT_OUT: f64 = 1e40;
 /// 1e−7, where pivots just above the limit are left; loads on a piece that nothing holds leave 1.
 const CONSISTENT: f64 = 1e-6;
 
-/// A system that cannot be solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CholeskyError {
-    /// A zero, negative or undefined pivot.
-    #[error(
-        "the solution is not unique there: hold the plate by displacements if a part of it can move freely; if \
-         cracks or holes leave thin strips of material between them, use smaller cells; if functions of \
-         [[enrichment]] depend on each other, leave one out"
-    )]
-    NotPositiveDefinite {
-        /// The patch.
-        patch: usize,
-        /// Unknown within the patch, component-major.
-        unknown: usize,
-    },
-    /// A right-hand side that is not finite.
-    #[error(
-        "the load is not finite there; look at the tractions, body forces and given displacements"
-    )]
-    LoadNotFinite {
-        /// The patch.
-        patch: usize,
-    },
-    /// The factor does not fit into memory.
-    #[error(
-        "no memory to factorise {unknowns} unknowns; use a coarser cover, a lower order or a \
-         smaller overlap"
-    )]
-    OutOfMemory {
-        /// Unknowns of the system.
-        unknowns: usize,
-    },
-}
-
-impl CholeskyError {
-    /// The patch that it is about.
-    #[must_use]
-    pub fn patch(&self) -> Option<usize> {
-        match *self {
-            Self::NotPositiveDefinite { patch, .. } | Self::LoadNotFinite { patch } => Some(patch),
-            Self::OutOfMemory { .. } => None,
-        }
-    }
-}
-
-/// A solution and how well it solves the system.
-#[derive(Clone, Debug)]
-pub(crate) struct LinearSolution {
-    /// u, one entry for each unknown.
-    pub(crate) unknowns: Vec<f64>,
-    /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
-    pub(crate) relative_residual: f64,
-}
-
 /// The factorisation of a symmetric positive semi-definite matrix, for any number of right-hand sides.
 #[derive(Debug)]
 pub(crate) struct Cholesky<'a> {
@@ -105,7 +51,7 @@ pub(crate) struct Cholesky<'a> {
     symbolic: SymbolicCholesky<usize>,
     factor: Factor,
     /// Unknowns that are left out, because they depend on others.
-    pub(crate) dependent: Vec<usize>,
+    dependent: Vec<usize>,
 }
 
 /// The values of a factorisation, in the order of the symbolic one.
@@ -122,12 +68,12 @@ impl<'a> Cholesky<'a> {
     ///
     /// # Errors
     /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for the memory.
-    pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, CholeskyError> {
+    pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, LinearError> {
         let mut lower = matrix.lower_triangle();
         let scale = inverse_root_diagonal(matrix, &lower)?;
         multiply(&mut lower, &scale);
         let unknowns = matrix.n_unknowns();
-        let no_memory = |_: FaerError| CholeskyError::OutOfMemory { unknowns };
+        let no_memory = |_: FaerError| LinearError::OutOfMemory { unknowns };
         let symbolic = analyse(&lower).map_err(no_memory)?;
         let values = definite(&symbolic, &lower).map_err(no_memory)?;
         let factor = match values {
@@ -139,17 +85,35 @@ impl<'a> Cholesky<'a> {
         Ok(cholesky)
     }
 
-    /// Solves K u = f with up to two steps of iterative refinement.
-    ///
-    /// # Errors
-    /// A right-hand side that is not finite, or that no u fits because K is singular.
-    ///
-    /// # Panics
-    /// If `f` has not one entry for each unknown.
-    pub(crate) fn solve(&self, f: &[f64]) -> Result<LinearSolution, CholeskyError> {
+    /// f − K u.
+    fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+        let product = self.matrix.multiply(u);
+        f.iter().zip(product).map(|(f, ku)| f - ku).collect()
+    }
+
+    /// The unknowns whose pivots were replaced, ascending.
+    fn replaced_pivots(&self) -> Result<Vec<usize>, LinearError> {
+        let Factor::Semidefinite(values) = &self.factor else { return Ok(Vec::new()) };
+        let mut replaced = Vec::new();
+        for (k, pivot) in diagonal(&self.symbolic, values).into_iter().enumerate() {
+            let u = original_index(&self.symbolic, k);
+            if !pivot.is_finite() {
+                return Err(not_positive_definite(self.matrix, u));
+            }
+            // other pivots are at most 1, the diagonal
+            replaced.extend((pivot > 2.0).then_some(u));
+        }
+        replaced.sort_unstable();
+        Ok(replaced)
+    }
+}
+
+impl LinearSolver for Cholesky<'_> {
+    /// Up to two steps of iterative refinement.
+    fn solve(&self, f: &[f64]) -> Result<LinearSolution, LinearError> {
         assert_eq!(f.len(), self.matrix.n_unknowns(), "one entry for each unknown");
         if let Some(u) = f.iter().position(|x| !x.is_finite()) {
-            return Err(CholeskyError::LoadNotFinite { patch: self.matrix.patch_of(u) });
+            return Err(LinearError::LoadNotFinite { patch: self.matrix.patch_of(u) });
         }
         let mut unknowns = f.to_vec();
         self.apply_inverse(&mut unknowns);
@@ -175,14 +139,8 @@ impl<'a> Cholesky<'a> {
         }
     }
 
-    /// f − K u.
-    fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
-        let product = self.matrix.multiply(u);
-        f.iter().zip(product).map(|(f, ku)| f - ku).collect()
-    }
-
     /// x ← D (L Lᵀ)⁻¹ D x, permutations included.
-    pub(crate) fn apply_inverse(&self, x: &mut [f64]) {
+    fn apply_inverse(&self, x: &mut [f64]) {
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut buffer = MemBuffer::new(scratch);
         let n = x.len();
@@ -198,20 +156,8 @@ impl<'a> Cholesky<'a> {
         x.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);
     }
 
-    /// The unknowns whose pivots were replaced, ascending.
-    fn replaced_pivots(&self) -> Result<Vec<usize>, CholeskyError> {
-        let Factor::Semidefinite(values) = &self.factor else { return Ok(Vec::new()) };
-        let mut replaced = Vec::new();
-        for (k, pivot) in diagonal(&self.symbolic, values).into_iter().enumerate() {
-            let u = original_index(&self.symbolic, k);
-            if !pivot.is_finite() {
-                return Err(not_positive_definite(self.matrix, u));
-            }
-            // other pivots are at most 1, the diagonal
-            replaced.extend((pivot > 2.0).then_some(u));
-        }
-        replaced.sort_unstable();
-        Ok(replaced)
+    fn n_dependent(&self) -> usize {
+        self.dependent.len()
     }
 }
 
@@ -219,7 +165,7 @@ impl<'a> Cholesky<'a> {
 fn inverse_root_diagonal(
     matrix: &BlockMatrix,
     lower: &SparseColMat<usize, f64>,
-) -> Result<Vec<f64>, CholeskyError> {
+) -> Result<Vec<f64>, LinearError> {
     // The diagonal is the first entry of its column of the lower triangle.
     let root = |u: usize| match lower.val_of_col(u)[0] {
         d if d > 0.0 && d.is_finite() => Ok(d.sqrt().recip()),
@@ -361,9 +307,9 @@ fn original_index(symbolic: &SymbolicCholesky<usize>, k: usize) -> usize {
     symbolic.perm().map_or(k, |perm| perm.arrays().0[k])
 }
 
-fn not_positive_definite(matrix: &BlockMatrix, u: usize) -> CholeskyError {
+fn not_positive_definite(matrix: &BlockMatrix, u: usize) -> LinearError {
     let patch = matrix.patch_of(u);
-    CholeskyError::NotPositiveDefinite { patch, unknown: u - matrix.unknowns(patch).start }
+    LinearError::NotPositiveDefinite { patch, unknown: u - matrix.unknowns(patch).start }
 }
 
 fn norm(x: &[f64]) -> f64 {
@@ -372,10 +318,10 @@ fn norm(x: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::linear::BlockPattern;
     use super::*;
-    use crate::random::Random;
+    use crate::linear::BlockPattern;
     use faer::Mat;
+    use ppum_testkit::random::Random;
 
     /// n × n patches, each coupled to its eight neighbours.
     fn grid(n: usize) -> BlockPattern {
@@ -394,13 +340,13 @@ mod tests {
 
     /// A random, diagonally dominant matrix on a grid with patches of 3 to 5 unknowns.
     fn dominant(n: usize) -> BlockMatrix {
-        let mut random = Random::new(2);
+        let mut random = Random(2);
         let sizes: Vec<usize> = (0..n * n).map(|i| 3 + i % 3).collect();
         let pattern = grid(n);
         let mut matrix = BlockMatrix::new(&sizes, pattern.clone());
         for i in 0..n * n {
             for j in pattern.row(i).iter().map(|&j| j as usize) {
-                let mut block = Mat::from_fn(sizes[i], sizes[j], |_, _| random.signed());
+                let mut block = Mat::from_fn(sizes[i], sizes[j], |_, _| random.between(-1.0, 1.0));
                 if i == j {
                     let shift = Mat::<f64>::identity(sizes[i], sizes[i]) * faer::Scale(25.0);
                     block = &block + block.transpose() + shift;
@@ -448,8 +394,8 @@ mod tests {
     #[test]
     fn a_known_solution_on_a_grid_is_found_again() {
         let matrix = dominant(12);
-        let mut random = Random::new(9);
-        let exact: Vec<f64> = (0..matrix.n_unknowns()).map(|_| random.signed()).collect();
+        let mut random = Random(9);
+        let exact: Vec<f64> = (0..matrix.n_unknowns()).map(|_| random.between(-1.0, 1.0)).collect();
         let cholesky = Cholesky::new(&matrix).unwrap();
         let solution = cholesky.solve(&matrix.multiply(&exact)).unwrap();
         for (u, exact) in solution.unknowns.iter().zip(&exact) {
@@ -491,7 +437,7 @@ mod tests {
         let free = Cholesky::new(&matrix).unwrap();
         assert_eq!(free.dependent.len(), 1);
         let error = free.solve(&[1.0; 60]).unwrap_err();
-        assert!(matches!(error, CholeskyError::NotPositiveDefinite { .. }), "{error}");
+        assert!(matches!(error, LinearError::NotPositiveDefinite { .. }), "{error}");
         // balanced loads stretch it
         let mut load = [0.0; 60];
         (load[3], load[50]) = (-1.0, 1.0);
@@ -547,7 +493,7 @@ mod tests {
                     });
                     matrix.add_block(i, i, block.as_ref());
                 }
-                let expected = CholeskyError::NotPositiveDefinite { patch, unknown };
+                let expected = LinearError::NotPositiveDefinite { patch, unknown };
                 assert_eq!(Cholesky::new(&matrix).unwrap_err(), expected);
             }
         }
@@ -559,7 +505,7 @@ mod tests {
         let mut load = [1.0; 12];
         load[7] = f64::INFINITY;
         let error = Cholesky::new(&matrix).unwrap().solve(&load).unwrap_err();
-        assert_eq!(error, CholeskyError::LoadNotFinite { patch: 2 });
+        assert_eq!(error, LinearError::LoadNotFinite { patch: 2 });
     }
 
     #[test]

@@ -7,13 +7,15 @@ mod cholesky;
 mod dense;
 mod eigen;
 mod pencil;
+mod solver;
 mod spectrum;
 
 pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
-pub use cholesky::CholeskyError;
 pub(crate) use cholesky::{Cholesky, fill};
 pub(crate) use dense::add_at;
 pub use eigen::EigenError;
 pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
 pub(crate) use pencil::largest_eigenvalue;
+pub use solver::LinearError;
+pub(crate) use solver::LinearSolver;
 pub use spectrum::Spectrum;

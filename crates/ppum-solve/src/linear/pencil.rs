@@ -43,8 +43,8 @@ pub(crate) fn largest_eigenvalue(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
     use faer::Mat;
+    use ppum_testkit::random::Random;
 
     #[test]
     fn a_bar_in_polynomials_of_degree_p() {
@@ -69,8 +69,8 @@ mod tests {
     #[test]
     fn a_null_space_in_general_position_is_left_out() {
         // A = Gᵀ diag(1, 2, 4, 0) G and B = Gᵀ diag(3, 5, 4, 0) G: eigenvalues 3, 5/2, 1.
-        let mut random = Random::new(7);
-        let g = Mat::from_fn(4, 4, |_, _| random.signed());
+        let mut random = Random(7);
+        let g = Mat::from_fn(4, 4, |_, _| random.between(-1.0, 1.0));
         let with = |d: [f64; 4]| g.transpose() * Mat::from_fn(4, 4, |i, j| d[i] * g[(i, j)]);
         let (a, b) = (with([1.0, 2.0, 4.0, 0.0]), with([3.0, 5.0, 4.0, 0.0]));
         let lambda = largest_eigenvalue(a.as_ref(), b.as_ref()).unwrap();

@@ -6,9 +6,8 @@
 //! thousandth of θ (Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 13).
 
 use super::block_matrix::BlockMatrix;
-use super::cholesky::Cholesky;
 use super::eigen::{EigenError, SymmetricEigen};
-use crate::random::Random;
+use super::solver::LinearSolver;
 use faer::Mat;
 
 /// Relative accuracy of the eigenvalues.
@@ -17,8 +16,9 @@ const ACCURACY: f64 = 1e-3;
 /// Steps after which the best value so far is taken, a lower bound of the largest eigenvalue.
 const MOST_STEPS: usize = 120;
 
-/// The start vector has parts of all eigenvectors, and is the same in each run.
-const SEED: u64 = 1;
+/// The golden ratio less one: the fractions {k² g} are spread evenly and without pattern, so that a start vector of
+/// such numbers has parts of all eigenvectors.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The extreme eigenvalues of a stiffness matrix in the stable basis, supports and gauge included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,15 +30,24 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// The extreme eigenvalues of a matrix and its factorisation.
-    pub(crate) fn new(matrix: &BlockMatrix, factor: &Cholesky<'_>) -> Result<Self, EigenError> {
+    /// The extreme eigenvalues of a matrix and its solver. `step` is called before each product, and ends the work
+    /// by an error.
+    ///
+    /// # Errors
+    /// That of `step`; entries that are not finite.
+    pub(crate) fn new<E: From<EigenError>>(
+        matrix: &BlockMatrix,
+        solver: &dyn LinearSolver,
+        step: &dyn Fn() -> Result<(), E>,
+    ) -> Result<Self, E> {
         let n = matrix.n_unknowns();
-        let inverse = |x: &[f64]| {
+        let inverse = |x: &[f64]| -> Result<Vec<f64>, E> {
+            step()?;
             let mut y = x.to_vec();
-            factor.apply_inverse(&mut y);
-            y
+            solver.apply_inverse(&mut y);
+            Ok(y)
         };
-        let largest = largest_eigenvalue(n, |x| matrix.multiply(x))?;
+        let largest = largest_eigenvalue(n, |x| step().map(|()| matrix.multiply(x)))?;
         Ok(Self { largest, smallest: largest_eigenvalue(n, inverse)?.recip() })
     }
 
@@ -50,15 +59,18 @@ impl Spectrum {
 }
 
 /// The largest eigenvalue of a symmetric operator on n unknowns.
-fn largest_eigenvalue(n: usize, apply: impl Fn(&[f64]) -> Vec<f64>) -> Result<f64, EigenError> {
-    let mut random = Random::new(SEED);
-    let mut next: Vec<f64> = (0..n).map(|_| random.signed()).collect();
+fn largest_eigenvalue<E: From<EigenError>>(
+    n: usize,
+    apply: impl Fn(&[f64]) -> Result<Vec<f64>, E>,
+) -> Result<f64, E> {
+    let mut next: Vec<f64> =
+        (0..n).map(|k| 2.0 * ((k * k) as f64 * GOLDEN).fract() - 1.0).collect();
     let (mut basis, mut diagonal, mut coupling) = (Vec::new(), Vec::new(), vec![norm(&next)]);
     let mut found = 0.0;
     for step in 0..MOST_STEPS.min(n) {
         next.iter_mut().for_each(|x| *x /= coupling[step]);
         basis.push(next);
-        next = apply(&basis[step]);
+        next = apply(&basis[step])?;
         diagonal.push(dot(&next, &basis[step]));
         orthogonalise(&mut next, &basis);
         coupling.push(norm(&next));
@@ -101,8 +113,8 @@ fn norm(x: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::linear::BlockPattern;
     use super::*;
+    use crate::linear::{BlockPattern, Cholesky};
 
     /// Second differences on a line have the eigenvalues 2 − 2 cos(kπ/(n + 1)).
     #[test]
@@ -119,7 +131,8 @@ mod tests {
             }
         }
         let factor = Cholesky::new(&matrix).expect("a definite matrix");
-        let found = Spectrum::new(&matrix, &factor).expect("eigenvalues");
+        let found =
+            Spectrum::new(&matrix, &factor, &|| Ok::<(), EigenError>(())).expect("eigenvalues");
         let exact = |k: usize| 2.0 - 2.0 * (std::f64::consts::PI * k as f64 / (n + 1) as f64).cos();
         assert!((found.smallest / exact(1) - 1.0).abs() < ACCURACY, "{found:?}");
         assert!((found.largest / exact(n) - 1.0).abs() < ACCURACY, "{found:?}");

@@ -83,10 +83,10 @@ mod tests {
     use ppum::vec2::vec2;
 
     use super::*;
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     fn random_segments(n: usize, random: &mut Random) -> Vec<Segment> {
-        let mut point = || vec2(random.signed(), random.signed());
+        let mut point = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
         (0..n)
             .map(|_| {
                 let a = point();
@@ -98,7 +98,7 @@ mod tests {
     /// What the tree leaves out is farther away.
     #[test]
     fn all_that_is_near_is_found() {
-        let mut random = Random::new(7);
+        let mut random = Random(7);
         for touch in [1e-9, 1e-3] {
             let segments = random_segments(60, &mut random);
             let nearby = Nearby::new(&segments, touch);
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn the_first_pair_is_that_of_a_search_through_all() {
-        let mut random = Random::new(8);
+        let mut random = Random(8);
         for n in [0, 1, 2, 9, 40] {
             let segments = random_segments(n, &mut random);
             let meet = |i: usize, j: usize| {

@@ -58,7 +58,11 @@ mod tests {
             (BorderPart::Hole(0), vec2(0.5, 0.25)),
             (BorderPart::Hole(1), vec2(2.5, 0.5)),
         ] {
-            assert_eq!(restraint_center(&restraint_words(part, &domain), &domain), Some(center), "{part}");
+            assert_eq!(
+                restraint_center(&restraint_words(part, &domain), &domain),
+                Some(center),
+                "{part}"
+            );
         }
         for other in ["", "hole 2", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
             assert_eq!(restraint_center(other, &domain), None, "{other}");

@@ -24,12 +24,14 @@ use crate::geometry::{
 };
 use crate::problem::{Cells, Enrichment, Problem};
 use crate::smoothness::Interfaces;
+use crate::watched::Stage;
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::domain::{Domain, Hole};
+use ppum::progress::Cancelled;
 use ppum::vec2::{Rect, Vec2};
 
 /// Part of a crack's length, or of a hole's size, below which cells are not divided to part its runs.
@@ -84,10 +86,17 @@ pub enum RefineError {
         /// Cells that the memory holds.
         most: usize,
     },
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// The cover of a problem, refined at its tips unless the problem says otherwise, of at most so many cells.
-pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError> {
+pub(crate) fn cover(
+    problem: &Problem,
+    most: usize,
+    stage: &Stage<'_>,
+) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
     if !problem.discretization.refine {
         return Ok(cover);
@@ -103,8 +112,14 @@ pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError
             return Err(RefineError::TooMany { most });
         }
         let affordable = cover.n_cells() < wishes.most_cells;
-        let asks = |cell: Rect, level: u8| must(&cell) || affordable && wishes.asks(&cell, level);
-        if cover.refine(asks)? == 0 {
+        // who is to stop asks for nothing
+        let asks = |cell: Rect, level: u8| {
+            let goes_on = stage.advance(0).is_ok();
+            goes_on && (must(&cell) || affordable && wishes.asks(&cell, level))
+        };
+        let divided = cover.refine(asks)?;
+        stage.advance(0)?;
+        if divided == 0 {
             return Ok(cover);
         }
     }

@@ -6,9 +6,11 @@ use crate::geometry::Placed;
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
-use crate::refine::{RefineError, cover, n_crossed_twice};
-use ppum::dataset::{Attribute, FieldData, Partition, Record, Step, monomials};
+use crate::refine::{RefineError, cover};
+use crate::watched::Stage;
+use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
 use ppum::domain::Hole;
+use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
 
 /// The space of a problem cannot be built.
@@ -17,7 +19,7 @@ use ppum::vec2::{Rect, vec2};
 pub enum SpaceError {
     /// The cover.
     #[error(transparent)]
-    Refine(#[from] RefineError),
+    Refine(RefineError),
     /// Holes that leave nothing.
     #[error("the holes swallow the whole domain; make them smaller")]
     Nothing,
@@ -27,35 +29,51 @@ pub enum SpaceError {
     /// A function that cannot be used.
     #[error(transparent)]
     Function(#[from] InspectError),
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<RefineError> for SpaceError {
+    fn from(error: RefineError) -> Self {
+        match error {
+            RefineError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Refine(error),
+        }
+    }
 }
 
 /// The step of a problem with all coefficients zero.
 ///
 /// # Errors
 /// A cover that cannot be built or refined, an order formula that gives no order, a function that is
-/// not finite on its patches.
-pub fn discretise(problem: &Problem) -> Result<Step, SpaceError> {
-    discretise_within(problem, usize::MAX)
+/// not finite on its patches; cancelled.
+pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, SpaceError> {
+    discretise_within(problem, usize::MAX, &Stage::uncounted(watcher, Phase::Cover)?)
 }
 
 /// The same on a cover of at most so many cells, before those in holes are left out.
 ///
 /// # Errors
 /// See [`discretise`]; a cover with more cells.
-pub(crate) fn discretise_within(problem: &Problem, most: usize) -> Result<Step, SpaceError> {
+pub(crate) fn discretise_within(
+    problem: &Problem,
+    most: usize,
+    stage: &Stage<'_>,
+) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
-    let partition = cover(problem, most)?
+    let partition = cover(problem, most, stage)?
         .partition(set.overlap, set.weight.clone())
         .map_err(RefineError::from)?;
     let partition = solid_part(partition, &problem.domain.holes)?;
     let mut enrichments = Enrichments::new(problem);
-    enrichments.add_interfaces(&partition).map_err(InspectError::from)?;
+    enrichments.add_interfaces(&partition, stage)?;
     let mut blocks = Vec::with_capacity(partition.len());
     for patch in 0..partition.len() {
+        stage.advance(0)?;
         let degree = set.order.at(partition.center[patch])? as u8;
         blocks.push(enrichments.blocks(&partition, patch, degree));
     }
-    let crossed = n_crossed_twice(problem, &partition) as f64;
     let step = Step {
         load: 1.0,
         cracks: problem.cracks.clone(),
@@ -64,7 +82,7 @@ pub(crate) fn discretise_within(problem: &Problem, most: usize) -> Result<Step, 
         functions: enrichments.table,
         partition,
         intensities: Vec::new(),
-        history: vec![Record { name: "crossed twice".into(), value: crossed, unit: String::new() }],
+        history: Vec::new(),
         warnings: Vec::new(),
         reactions: Vec::new(),
     };

@@ -5,6 +5,7 @@ mod discretise;
 mod enrichment;
 mod inspect;
 
+use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
 pub use crate::refine::RefineError;
 use crate::smoothness::Smoothness;
@@ -26,25 +27,21 @@ use std::sync::{Arc, OnceLock};
 /// linear weights.
 const WEIGHT_ACCURACY: f64 = 1e-5;
 
-/// A step and its walks. The step may hold a solution: errors and stress intensity are integrated
-/// over the same cells as the system.
+/// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated over
+/// the same cells as the system, so one space serves from the first estimate to the last warning: what it
+/// looks at of its step is everything but the coefficients.
 #[derive(Debug)]
 pub struct Space<'d> {
-    /// What is cut out of the cells.
+    step: Cow<'d, Step>,
+    /// The holes that are cut out of the cells.
     pub(crate) holes: &'d [Hole],
-    /// The partition of unity.
-    pub(crate) partition: &'d Partition,
-    /// The step.
-    pub(crate) step: &'d Step,
-    /// The field.
-    pub(crate) data: &'d FieldData,
     /// The step's functions, compiled.
     pub(crate) functions: FunctionTable,
-    /// Of each cell, the patches whose open supports meet it.
+    /// The patches whose open supports meet a cell, cell by cell.
     pub(crate) coverers: Vec<Vec<u32>>,
-    /// Of each patch, the number of functions of its local space.
+    /// The number of functions of a patch's local space, patch by patch.
     pub(crate) sizes: Vec<usize>,
-    /// Of each block, the constant σ its function is replaced by f − σ with while solving.
+    /// The constant σ that a block's function f is replaced by f − σ with while solving, block by block.
     ///
     /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
@@ -70,29 +67,58 @@ impl<'d> Space<'d> {
         equation: &Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
+        Self::on(Cow::Borrowed(step), domain, equation, tables)
+    }
+
+    /// The walks over a step of a problem, with formulas in place of kernels where the problem wants that.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
+        let Problem { domain, equation, tables, .. } = problem;
+        let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
+        if !problem.solver.kernels {
+            let Step { functions, cracks, .. } = &*space.step;
+            space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
+        }
+        Ok(space)
+    }
+
+    fn on(
+        step: Cow<'d, Step>,
+        domain: &'d Domain,
+        equation: &Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
         let (partition, data) = (&step.partition, &step.fields[0]);
-        let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
-        let tree = BoxTree::new(&supports);
-        let coverers = partition.cell.iter().map(|cell| {
-            let mut found = Vec::new();
-            tree.query_box(cell, &mut found);
-            found
-        });
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let smoothness = Smoothness::new(step, data, equation, tables)?;
+        let smoothness = Smoothness::new(&step, data, equation, tables)?;
         Ok(Self {
             holes: &domain.holes,
-            partition,
-            step,
-            data,
             functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
-            coverers: coverers.collect(),
+            coverers: coverers(partition),
             sizes: (0..partition.len()).map(size).collect(),
-            shifts: shifts(step, data),
+            shifts: shifts(&step, data),
             orders: orders(partition, smoothness.degree()),
             probed: vec![OnceLock::new(); partition.len()],
             smoothness,
+            step,
         })
+    }
+
+    /// The step, whose coefficients play no part.
+    pub(crate) fn step(&self) -> &Step {
+        &self.step
+    }
+
+    /// The partition of unity.
+    pub(crate) fn partition(&self) -> &Partition {
+        &self.step.partition
+    }
+
+    /// The field, whose coefficients play no part.
+    pub(crate) fn data(&self) -> &FieldData {
+        &self.step.fields[0]
     }
 
     /// The quadrature over the cells. `extra` Gauss points in each direction come on top of the
@@ -105,7 +131,7 @@ impl<'d> Space<'d> {
     /// are made once.
     pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
         let coverers = &self.coverers[cell];
-        let rules = || quadrature.cell(&self.partition.cell[cell], coverers);
+        let rules = || quadrature.cell(&self.partition().cell[cell], coverers);
         if self.smoothness.has_probes(coverers) {
             Cow::Borrowed(self.probed[cell].get_or_init(rules))
         } else {
@@ -129,10 +155,10 @@ impl<'d> Space<'d> {
         smoothness: &'q Smoothness,
         extra: usize,
     ) -> Quadrature<'q> {
-        let geometry = smoothness.geometry(self.partition, &self.step.cracks, self.holes);
+        let geometry = smoothness.geometry(self.partition(), &self.step.cracks, self.holes);
         let orders = match extra {
             0 => self.orders,
-            _ => orders(self.partition, self.degree() + extra),
+            _ => orders(self.partition(), self.degree() + extra),
         };
         Quadrature::new(geometry, orders)
     }
@@ -144,8 +170,20 @@ impl<'d> Space<'d> {
 
     /// Number of polynomials of a patch: the functions of its first block.
     pub(crate) fn n_polynomials(&self, patch: usize) -> usize {
-        block_size(self.data, self.data.blocks(patch).start)
+        block_size(self.data(), self.data().blocks(patch).start)
     }
+}
+
+/// Of each cell, the patches whose open supports meet it.
+fn coverers(partition: &Partition) -> Vec<Vec<u32>> {
+    let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
+    let tree = BoxTree::new(&supports);
+    let of_cell = |cell| {
+        let mut found = Vec::new();
+        tree.query_box(cell, &mut found);
+        found
+    };
+    partition.cell.iter().map(of_cell).collect()
 }
 
 /// The numbers of Gauss points that polynomials of a degree and the partition's weights need.

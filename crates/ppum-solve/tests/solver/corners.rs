@@ -6,6 +6,7 @@
 
 use ppum::crack::End;
 use ppum::dataset::Dataset;
+use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use std::path::Path;
@@ -36,7 +37,7 @@ fn solved_with(tables: &str, keys: &str) -> Dataset {
          state = \"plane-strain\"\n{tables}\n[discretization]\nlevel = 4\n{keys}\n"
     );
     let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
-    solve(&problem, &mut |_| {}).expect("a solution")
+    solve(&problem, unwatched()).expect("a solution")
 }
 
 fn solved(tables: &str) -> Dataset {

@@ -1,5 +1,6 @@
 //! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
 
+use ppum::progress::unwatched;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -61,7 +62,7 @@ pub(crate) fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] +
 /// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has the
 /// same cover.
 pub(crate) fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
-    let step = discretise(fine).expect("a space");
+    let step = discretise(fine, unwatched()).expect("a space");
     let space = Space::new(&step, &fine.domain, &fine.equation, &fine.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
@@ -384,8 +385,9 @@ fn functions_that_cannot_be_used() {
         ("theta", at(0.3, 0.2), Region::Near(0.5), "`theta at [0.3, 0.2]` has infinite energy"),
         ("abs(y)", Site::World, right(2.0), "no patch has the enrichment `abs(y)`"),
     ] {
-        let error = solve(&problem(function, site, region), &mut |_| {}).expect_err(function);
+        let error = solve(&problem(function, site, region), unwatched()).expect_err(function);
         assert!(error.to_string().contains(part), "{function}: {error}");
     }
-    discretise(&problem("sqrt(x)", Site::World, right(0.5))).expect("finite where it is needed");
+    discretise(&problem("sqrt(x)", Site::World, right(0.5)), unwatched())
+        .expect("finite where it is needed");
 }

@@ -4,6 +4,7 @@ use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::solved;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::intensity::{Loads, Obstacle, Outcome, intensities};
 use ppum_solve::problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
@@ -14,7 +15,8 @@ fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
     let step = &dataset.steps[0];
     let space =
         Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
-    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads)
+    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads, unwatched())
+        .expect("nobody stops it")
 }
 
 /// The right half of two collinear cracks in the infinite plane, cut out by its exact tractions: the

@@ -1,5 +1,6 @@
 //! Materials that jump, without an enrichment of the problem's own.
 
+use ppum::progress::unwatched;
 use std::path::Path;
 
 use ppum::dataset::Step;
@@ -143,7 +144,7 @@ fn cracked(young: &str, poisson: &str) -> Problem {
 }
 
 fn space(problem: &Problem) -> Step {
-    discretise(problem).expect("a space")
+    discretise(problem, unwatched()).expect("a space")
 }
 
 /// E and ν that jump on the same curve, however it is written, are one interface.

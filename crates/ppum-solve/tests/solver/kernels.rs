@@ -1,5 +1,6 @@
 //! Problems solved with formulas where there are kernels for them: the same answers.
 
+use ppum::progress::unwatched;
 use std::path::Path;
 
 use ppum::crack::Side;
@@ -64,7 +65,7 @@ functions = [
 fn solved(discretization: &str) -> Dataset {
     let text = PLATE.to_owned() + discretization;
     let problem = Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem");
-    solve(&problem, &mut |_| {}).expect("a solution")
+    solve(&problem, unwatched()).expect("a solution")
 }
 
 /// Relative differences of K and of the energy, and the largest of strains, which are of size 1.

@@ -8,13 +8,72 @@ use std::path::{Path, PathBuf};
 
 /// Floors from the ground up: each room with the rooms that it imports from.
 const FLOORS: &[&[(&str, &[&str])]] = &[
+    &[("geometry", &[]), ("law", &[]), ("linear", &[]), ("quadrature", &[]), ("report", &[])],
     &[
-        ("batch", &[]),
-        ("geometry", &[]),
-        ("law", &[]),
-        ("linear", &[]),
-        ("quadrature", &[]),
+        ("equilibrium", &["linear", "quadrature"]),
+        ("problem", &["geometry"]),
+        ("smoothness", &["geometry", "law", "quadrature"]),
+        ("watched", &["geometry"]),
     ],
+    &[("corner", &["geometry", "problem", "quadrature", "smoothness"])],
+    &[("refine", &["corner", "geometry", "problem", "smoothness", "watched"])],
+    &[("space", &["geometry", "problem", "quadrature", "refine", "smoothness", "watched"])],
+    &[
+        ("basis", &["linear", "quadrature", "space", "watched"]),
+        ("intensity", &["geometry", "law", "problem", "quadrature", "space", "watched"]),
+        ("norms", &["law", "space"]),
+    ],
+    &[
+        (
+            "assembly",
+            &[
+                "basis",
+                "equilibrium",
+                "law",
+                "linear",
+                "problem",
+                "quadrature",
+                "report",
+                "smoothness",
+                "space",
+                "watched",
+            ],
+        ),
+        (
+            "diagnostics",
+            &[
+                "corner",
+                "geometry",
+                "intensity",
+                "law",
+                "norms",
+                "problem",
+                "report",
+                "smoothness",
+                "space",
+                "watched",
+            ],
+        ),
+    ],
+    &[(
+        "solve",
+        &[
+            "assembly",
+            "basis",
+            "diagnostics",
+            "equilibrium",
+            "geometry",
+            "intensity",
+            "law",
+            "linear",
+            "norms",
+            "problem",
+            "refine",
+            "report",
+            "space",
+            "watched",
+        ],
+    )],
 ];
 
 type Arrows = BTreeMap<String, BTreeSet<String>>;
@@ -126,7 +185,8 @@ fn arrows_lead_down() {
 
 #[test]
 fn imports_are_found_in_all_forms() {
-    let code = "use crate::a::b;\nuse crate::{c::{d, e}, f, g::h as i};\nlet x = crate::j(1); self::k";
+    let code =
+        "use crate::a::b;\nuse crate::{c::{d, e}, f, g::h as i};\nlet x = crate::j(1); self::k";
     let names = ["a", "c", "f", "g", "j"].map(str::to_owned);
     assert_eq!(imports(code), BTreeSet::from(names));
 }

@@ -1,5 +1,6 @@
 //! The phases of the solver.
 
+use ppum::progress::unwatched;
 use std::io::Write;
 use std::path::Path;
 
@@ -34,7 +35,7 @@ impl Run {
     pub(super) fn new(level: u32) -> anyhow::Result<Self> {
         let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
         problem.discretization.cells = Cells::Level(level);
-        let dataset = solve(&problem, &mut |_| {})?;
+        let dataset = solve(&problem, unwatched())?;
         let phases = phases(&dataset);
         Ok(Self {
             level,

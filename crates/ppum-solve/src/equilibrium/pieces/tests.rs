@@ -64,9 +64,9 @@ fn cracks_from_border_to_border() {
 /// Cracks at many slopes and places: one that ends on the border cuts it whatever its numbers are.
 #[test]
 fn any_slope_cuts() {
-    let mut random = crate::random::Random::new(3);
+    let mut random = ppum_testkit::random::Random(3);
     for _ in 0..300 {
-        let [from, kink_x, kink_y, to] = std::array::from_fn(|_| random.signed() * 0.999);
+        let [from, kink_x, kink_y, to] = std::array::from_fn(|_| random.between(-1.0, 1.0) * 0.999);
         let found = pieces(&[], &[&[[-1.0, from], [kink_x, kink_y], [1.0, to]]]);
         assert_eq!(found.all().len(), 2, "{from} {kink_x} {kink_y} {to}");
         let total: f64 = found.all().iter().map(|piece| piece.area).sum();
@@ -120,13 +120,14 @@ fn chains_of_holes() {
 /// Two cracks from a round hole to opposite sides, at any angle and place.
 #[test]
 fn cracks_from_a_round_hole() {
-    let mut random = crate::random::Random::new(11);
+    let mut random = ppum_testkit::random::Random(11);
     for _ in 0..300 {
-        let center = vec2(random.signed(), random.signed()) * 0.3;
-        let radius = 0.1 + 0.2 * random.signed().abs();
+        let center = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * 0.3;
+        let radius = 0.1 + 0.2 * random.between(0.0, 1.0);
         let around = Domain { bounds: bounds(), holes: vec![Hole::Circle { center, radius }] };
         let rim = |to: Vec2| center + (to - center).unit() * radius;
-        let [left, right] = [vec2(-1.0, random.signed()), vec2(1.0, random.signed())];
+        let [left, right] =
+            [vec2(-1.0, random.between(-1.0, 1.0)), vec2(1.0, random.between(-1.0, 1.0))];
         let cracks = [[left.into(), rim(left).into()], [rim(right).into(), right.into()]];
         let found = mouths(&around, &[&cracks[0], &cracks[1]]);
         assert_eq!(found.all().len(), 2, "{center:?} {radius} {left:?} {right:?}");

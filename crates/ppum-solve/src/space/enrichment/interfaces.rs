@@ -3,9 +3,13 @@
 use super::{Degree, Enrichments, Instance, Patch, Patches};
 use crate::problem::Enrichment;
 use crate::smoothness::{BESIDE, Interface, Interfaces, Place, Probe};
+use crate::space::SpaceError;
+use crate::space::inspect::InspectError;
+use crate::watched::Stage;
 use ppum::crack::{Crack, LocalCrack, Side};
 use ppum::dataset::Partition;
 use ppum::function::{Frame, Function, FunctionError, FunctionKind};
+use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -27,8 +31,12 @@ impl Enrichments<'_> {
     /// function has the kink; and side(k) |ψ| where crack k cuts through patch and interface.
     ///
     /// # Errors
-    /// A function of the problem's own that does not compile.
-    pub(crate) fn add_interfaces(&mut self, partition: &Partition) -> Result<(), FunctionError> {
+    /// A function of the problem's own that does not compile; cancelled.
+    pub(crate) fn add_interfaces(
+        &mut self,
+        partition: &Partition,
+        stage: &Stage<'_>,
+    ) -> Result<(), SpaceError> {
         let set = &self.problem.discretization;
         if !set.interfaces || set.enrichment == Enrichment::None {
             return Ok(());
@@ -37,12 +45,13 @@ impl Enrichments<'_> {
         if interfaces.all.is_empty() {
             return Ok(());
         }
-        let probes = self.own_probes()?;
+        let probes = self.own_probes().map_err(InspectError::from)?;
         let cuts = |patch: usize| {
             let patch = Patch::new(partition, patch, self.problem);
-            self.cuts(&patch, &interfaces, &probes)
+            stage.advance(0).map(|()| self.cuts(&patch, &interfaces, &probes))
         };
-        let cuts: Vec<Vec<Cut>> = (0..partition.len()).into_par_iter().map(cuts).collect();
+        let cuts = (0..partition.len()).into_par_iter().map(cuts);
+        let cuts = cuts.collect::<Result<Vec<_>, Cancelled>>()?;
         for (index, interface) in interfaces.all.iter().enumerate() {
             let cracks = (0..self.problem.cracks.len()).map(Some);
             for crack in [None].into_iter().chain(cracks) {
