@@ -50,7 +50,7 @@ impl<'e> Law<'e> {
         LawAt { components: self.components, tensor }
     }
 
-    /// The coefficients a_m at a point, one a term.
+    /// The coefficients a_m at a point, one per term.
     pub(crate) fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
         if self.uniform {
             return [1.0, 0.0];

@@ -111,7 +111,7 @@ pub(crate) struct Unresolved {
     /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions that of
     /// their integrals over a piece of a cell.
     pub(crate) error: f64,
-    /// Where most of it is.
+    /// The place of most of it.
     pub(crate) at: Vec2,
 }
 

@@ -1,12 +1,12 @@
 //! `ppum sif`: stress intensity factors of a stored field.
 
-use ppum::progress::unwatched;
 use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
+use ppum::progress::unwatched;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::intensity::Outcome;

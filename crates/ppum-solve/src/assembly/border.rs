@@ -41,10 +41,10 @@ use ppum::vec2::{Vec2, vec2};
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
 const FACTOR: f64 = 2.0;
 
-/// Data given on a border: position, normal out of the material → values, one a component.
+/// Data given on a border: position, normal out of the material → values, one per component.
 pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
 
-/// Largest ratio of cell to border that the spring of a short support grows with: it yields a
+/// Largest ratio of cell to border that the spring of a short restraint grows with: it yields a
 /// thousandth then, and the condition number does not suffer.
 const STIFFEST: f64 = 1e3;
 
@@ -97,7 +97,7 @@ pub(crate) struct Border<'a> {
     length: f64,
     /// C: the largest modulus there.
     modulus: f64,
-    /// What the restraints exert, one entry per condition that gives values.
+    /// Forces of the restraints, one entry per condition that gives values.
     restraints: Vec<Restraint>,
 }
 

@@ -16,7 +16,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::vec2::Vec2;
 
-/// Data given at a point: position → values, one a component.
+/// Data given at a point: position → values, one per component.
 pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
 /// The source, and rules for it in a cell that take the place of the cell's.
@@ -125,8 +125,8 @@ impl<'s> CellAssembler<'s> {
         let coefficients: Vec<_> = points.map(|x| self.assembly.law.coefficients(x)).collect();
         for (m, products) in products.iter_mut().enumerate() {
             let mut right = shapes.clone();
-            let weights = rule.weights.iter().zip(&coefficients).map(|(w, a)| w * a[m]);
-            let weights: Vec<_> = weights.collect();
+            let weights: Vec<_> =
+                rule.weights.iter().zip(&coefficients).map(|(w, a)| w * a[m]).collect();
             right.scale(&weights.iter().map(|w| w.abs()).collect::<Vec<_>>());
             // λ is negative where ν is: the sign goes to one side of the product.
             let mut left = right.clone();

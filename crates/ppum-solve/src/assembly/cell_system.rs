@@ -15,7 +15,7 @@ pub(crate) struct CellSystem {
     pub(crate) load: Vec<f64>,
     /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.
     pub(crate) penalty: f64,
-    /// What the supports in the cell exert, one a condition that gives values.
+    /// Forces of the restraints in the cell, one entry per condition that gives values.
     pub(crate) reactions: Vec<CellReaction>,
 }
 

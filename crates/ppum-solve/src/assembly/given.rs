@@ -1,4 +1,4 @@
-//! What a problem gives, its source and its boundary conditions, cell by cell: with rules of their own where those
+//! The data of a problem, its source and its boundary conditions, cell by cell: with rules of their own where those
 //! of the system do not resolve it.
 
 use super::border::BorderPiece;
@@ -100,10 +100,10 @@ impl<'p> Given<'p> {
         some.map(|(given, rules)| given.piece(self.problem, cell, rules)).collect()
     }
 
-    /// What holds and loads the pieces of the plate.
+    /// Restraints and loads of the pieces of the plate.
     ///
     /// # Errors
-    /// Where something that is given is not finite.
+    /// Data that are not finite, with their place; cancelled.
     pub(crate) fn balance(
         &self,
         space: &Space<'_>,

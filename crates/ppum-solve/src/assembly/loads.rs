@@ -150,7 +150,7 @@ pub(super) fn of_condition(
     load.rules_on(space, stage)
 }
 
-/// What a round found.
+/// The findings of a round.
 struct Round<R> {
     rules: LoadRules<R>,
     measure: f64,

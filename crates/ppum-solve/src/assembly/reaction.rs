@@ -24,7 +24,7 @@ pub(crate) fn modes(problem: &Problem) -> RigidModes {
 pub(crate) struct Restraint {
     /// Number of the condition.
     pub(crate) condition: usize,
-    /// ∫ m_i (σ(N) n)_i, one number a cell's unknown.
+    /// ∫ m_i (σ(N) n)_i, one number per unknown of the cell.
     traction: [Vec<f64>; MODES],
     /// ∫ m_i N_i
     value: [Vec<f64>; MODES],

@@ -21,7 +21,7 @@ pub(crate) struct System {
     pub(crate) load: Vec<f64>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub(crate) nitsche: f64,
-    /// What the supports exert on the plate.
+    /// Forces of the restraints on the plate.
     pub(crate) reactions: Reactions,
     /// Number of quadrature points, those of loads that have their own among them.
     pub(crate) points: usize,
@@ -37,7 +37,7 @@ const SLIVER: f64 = 50.0;
 /// cells.
 ///
 /// # Errors
-/// Where data are not finite.
+/// Data that are not finite, with their place; cancelled.
 pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
     let Assembly { problem, space, .. } = assembly;
     let quadrature = space.quadrature(0);
@@ -82,7 +82,7 @@ fn n_edge_points(rules: &[EdgeRule]) -> usize {
     rules.iter().map(|rule| rule.weights.len()).sum()
 }
 
-/// What the rules of a cell and of its border do not resolve.
+/// Errors that the rules of a cell and of its border leave.
 fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
     let border = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
     let mut sum = Doubt::default();
@@ -94,7 +94,7 @@ impl System {
     /// Assembles the system of what is given. Advances the stage by the number of cells.
     ///
     /// # Errors
-    /// Where data are not finite.
+    /// Data that are not finite, with their place; cancelled.
     pub(crate) fn new(
         assembly: Assembly<'_>,
         given: &Given<'_>,

@@ -43,7 +43,7 @@ impl StableBasis {
     /// The basis of a space, from the Gram matrices of its patches. Advances the stage by twice the number of cells.
     ///
     /// # Errors
-    /// Where functions are not finite.
+    /// Functions that are not finite, with their place; cancelled.
     pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let grams = grams(space, stage)?;
         let mut transforms = Vec::with_capacity(grams.len());
@@ -67,7 +67,7 @@ impl StableBasis {
     /// cut off.
     ///
     /// # Errors
-    /// Where functions are not finite.
+    /// Functions that are not finite, with their place; cancelled.
     pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
             let matrix = &mut self.transforms[patch as usize].matrix;
@@ -99,7 +99,7 @@ impl StableBasis {
         grams
     }
 
-    /// Functions cut off, a patch.
+    /// Functions cut off, patch by patch.
     pub(crate) fn dropped(&self) -> impl Iterator<Item = usize> + '_ {
         self.transforms.iter().map(|t| t.dropped)
     }
@@ -190,7 +190,7 @@ impl<'s> BasisEvaluator<'s> {
     }
 }
 
-/// What the functions of a patch are measured by.
+/// The measures of a patch's functions.
 #[derive(Clone, Debug)]
 struct Gram {
     /// ∫ ∇(φψ)·∇(φψ′) + h⁻² φ² ψ ψ′

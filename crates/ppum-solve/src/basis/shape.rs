@@ -93,7 +93,7 @@ pub(crate) struct ShapeEvaluator<'s> {
     seen: Option<(Seat, LocalFunctions<'s>)>,
 }
 
-/// What functions are seen from: the anchor, and the face that points lie on.
+/// The seat that functions are seen from: the anchor, and the face that points lie on.
 type Seat = (Vec2, Option<Face>);
 
 impl<'s> ShapeEvaluator<'s> {

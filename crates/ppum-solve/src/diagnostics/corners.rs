@@ -12,8 +12,8 @@ use ppum::text::Places;
 /// Part of the energy that may be missed at a singular point; factors nearby are off by several times that.
 const LARGE_MISS: f64 = 5e-4;
 
-/// What cells at a singular point miss of their own energy, over (1 − λ)²: 0.5 to 2 in plates with clamped corners,
-/// supports that end, corners of holes and kinks (order 2, held against energies of another method).
+/// Part of their own energy that cells at a singular point miss, over (1 − λ)²: 0.5 to 2 in plates with clamped corners,
+/// restraints that end, corners of holes and kinks (order 2, held against energies of another method).
 const MISSED: f64 = 0.9;
 
 /// The warnings about the singular points of a problem; `energy` is that of the field.
@@ -28,8 +28,8 @@ pub(super) fn of_corners(
             return Some(infinite(corner, places));
         }
         let cells = &space.partition().cell;
-        let touching = (0..cells.len()).filter(|&c| cells[c].distance(corner.at) == 0.0);
-        let touching: Vec<_> = touching.collect();
+        let touching: Vec<_> =
+            (0..cells.len()).filter(|&c| cells[c].distance(corner.at) == 0.0).collect();
         let size =
             touching.iter().map(|&c| cells[c].size()).fold(0.0f64, |m, s| m.max(s.x.max(s.y)));
         let share = energy_of(field, space, &touching) / energy;
@@ -39,7 +39,7 @@ pub(super) fn of_corners(
     corners(problem).iter().filter_map(of_corner).collect()
 }
 
-/// How displacements grow at a singular point.
+/// Growth of displacements at a singular point, in words.
 fn growth(corner: &Corner) -> String {
     match corner.nature {
         Nature::Load => "r ln r".into(),

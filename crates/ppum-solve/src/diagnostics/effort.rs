@@ -1,4 +1,4 @@
-//! What it takes to find the stress intensity factors of a dataset's step again, before anything of it is done.
+//! The effort of finding the stress intensity factors of a dataset's step again, known before anything of it is done.
 //!
 //! Factors are integrals over all cells in a disc, and a file of some kilobytes can ask for a hundred thousand tips in a
 //! hundred thousand cells. What is looked at, and how often, is added up here from sizes alone, and compared with bounds
@@ -61,11 +61,11 @@ pub enum EffortError {
         tips: usize,
         /// Cells of the step.
         cells: usize,
-        /// How much there is.
+        /// The amount.
         count: f64,
         /// Of what.
         what: &'static str,
-        /// How much may be.
+        /// The most that is done.
         most: f64,
     },
     /// A function that does not compile.
@@ -77,7 +77,7 @@ pub enum EffortError {
 /// `problem` that it solves.
 ///
 /// # Errors
-/// What there is too much of.
+/// The first thing of which there is too much.
 ///
 /// # Panics
 /// If there is no such step, or it has no field.

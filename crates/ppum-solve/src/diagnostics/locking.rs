@@ -5,7 +5,7 @@
 //! cell to cell. Polynomials of degree four and more keep their rates (Scott & Vogelius 1985), and their stresses are right point
 //! by point, as no reduced integration would have them.
 //!
-//! How much is lost is seen in the solution. The exact pressure p varies little within a cell and stores the energy
+//! The loss is seen in the solution. The exact pressure p varies little within a cell and stores the energy
 //! ½ ∫ p²/λ, which vanishes; what the fluctuation of div u within cells stores is therefore error,
 //!
 //! ```text

@@ -135,7 +135,7 @@ pub enum RecomputeError {
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
 /// it solves, on the cracks of the step: its loads act near the tips. Without one none do.
 ///
-/// What it takes is asked by [`check_effort`](effort::check_effort).
+/// [`check_effort`](effort::check_effort) tells before whether it takes too much.
 ///
 /// # Errors
 /// A step that is not there, functions that do not compile; cancelled, within the time of one cell.

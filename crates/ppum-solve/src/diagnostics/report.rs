@@ -25,10 +25,10 @@ pub(super) fn of_report(report: &SolverReport, cutters: Cutters) -> Vec<Warning>
         .collect()
 }
 
-/// What a number of the report means, on a plate with these cutters.
+/// The meaning of a number of the report, on a plate with these cutters.
 type Text = fn(f64, Cutters) -> String;
 
-/// What cuts cells of a plate into parts, as far as there is any: texts speak of nothing else.
+/// The things that cut cells of a plate into parts, as far as there are any: texts speak of nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cutters {
     Nothing,

@@ -1,4 +1,4 @@
-//! What holds a piece of the plate and what loads it: the rigid-body modes that nothing holds, and
+//! Restraints and loads of a piece of the plate: the rigid-body modes that nothing holds, and
 //! whether the loads are in equilibrium there.
 
 use super::pieces::{Piece, Pieces};
@@ -78,7 +78,7 @@ pub(crate) struct Balance {
 }
 
 impl Balance {
-    /// One balance a piece, all empty.
+    /// One balance per piece, all empty.
     pub(crate) fn of(pieces: &Pieces, components: usize) -> Vec<Self> {
         let empty = |piece: &Piece| Self {
             modes: RigidModes::new(piece.centroid, piece.area.sqrt(), components),
@@ -136,7 +136,7 @@ impl Balance {
         Ok(free.map(mode).collect())
     }
 
-    /// What remains of the loads on free modes, as a part of their magnitude.
+    /// The loads' remaining work on free modes, as a part of their magnitude.
     pub(crate) fn imbalance(&self, free: &[PerMode]) -> f64 {
         let remaining = self.remaining(free).iter().fold(0.0f64, |m, r| m.max(r.abs()));
         if remaining > 0.0 { remaining / self.magnitude } else { 0.0 }

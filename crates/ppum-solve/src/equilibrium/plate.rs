@@ -37,8 +37,8 @@ impl Plate {
             balance.check(&free, several.then_some(piece.inside))?;
             Ok(free)
         };
-        let free = balances.iter().zip(pieces.all()).map(of_piece);
-        let free = free.collect::<Result<_, PlateError>>()?;
+        let free =
+            balances.iter().zip(pieces.all()).map(of_piece).collect::<Result<_, PlateError>>()?;
         Ok(Self { pieces, balances, free })
     }
 

@@ -1,11 +1,11 @@
-//! Rigid-body modes: the kernel of the operator, which supports or a gauge must remove.
+//! Rigid-body modes: the kernel of the operator, which restraints or a gauge must remove.
 
 use ppum::vec2::Vec2;
 
 /// Most rigid-body modes a field can have.
 pub(crate) const MODES: usize = 3;
 
-/// One number a rigid-body mode.
+/// One number per rigid-body mode.
 pub(crate) type PerMode = [f64; MODES];
 
 /// Two translations and the rotation about a centre, in units of a size; for one component the

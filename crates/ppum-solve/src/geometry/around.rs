@@ -1,4 +1,4 @@
-//! Where on the plate something is that an error is about.
+//! The place on the plate that an error is about.
 
 use ppum::text::{beside, trimmed};
 use ppum::vec2::{Rect, Vec2};
@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Around {
     /// Its middle.
     pub center: Vec2,
-    /// How far it reaches along x and y.
+    /// Its extent from the middle along x and y.
     pub reach: Vec2,
 }
 

@@ -6,7 +6,7 @@ use ppum::dataset::Dataset;
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 
-/// How far from a tip, in cells, the material is compared with the tip's: more than rounding of the
+/// Distance from a tip, in cells, at which the material is compared with the tip's: more than rounding of the
 /// coordinates, and nothing against the lengths over which a material varies smoothly.
 const BESIDE: f64 = 1e-9;
 
@@ -20,11 +20,11 @@ pub(crate) const AMPLE_CLEARANCE: f64 = 2.0;
 pub struct TipClearance {
     /// Its radius.
     pub radius: f64,
-    /// What ends it.
+    /// The obstacle that ends it.
     pub end: Obstacle,
 }
 
-/// What ends the [`TipClearance`] of a tip.
+/// The end of the [`TipClearance`] of a tip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Obstacle {

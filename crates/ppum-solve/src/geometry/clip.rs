@@ -144,12 +144,13 @@ mod tests {
     fn runs_of_a_rim_in_a_box() {
         let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         let runs = |points: &[[f64; 2]]| {
+            let turns = points.len();
             let mut points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
-            let all = (0..points.len()).map(|_| {
+            let mut turned = || {
                 points.rotate_left(1);
                 runs_of_rim(&points, &unit)
-            });
-            let all: Vec<_> = all.collect();
+            };
+            let all: Vec<_> = (0..turns).map(|_| turned()).collect();
             assert!(all.iter().all(|n| *n == all[0]), "wherever it begins: {all:?}");
             all[0]
         };

@@ -1,4 +1,4 @@
-//! Where the material jumps, seen from a tip.
+//! Jumps of the material, seen from a tip.
 
 use ppum::dataset::{Elasticity, Material};
 use ppum::vec2::{Vec2, vec2};

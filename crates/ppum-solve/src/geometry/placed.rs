@@ -48,7 +48,7 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    /// What is not found lies apart; also boxes without extent, and those that touch.
+    /// All that is not found lies apart; also boxes without extent, and those that touch.
     #[test]
     fn all_that_meets_a_box_is_found() {
         let mut random = Random(3);

@@ -37,16 +37,16 @@ struct Integrals {
     modes: Modes,
     /// Twice the strain energy in the largest disc.
     energy: f64,
-    /// What the rules do not resolve.
+    /// Errors that the rules leave.
     doubt: Doubt,
 }
 
-/// What is found at a tip.
+/// The findings at a tip.
 pub(super) struct Found {
     pub(super) rings: [Ring; RINGS],
     /// See [`Outcome::strength`](super::Outcome::strength).
     pub(super) strength: f64,
-    /// What quadrature does not resolve in the discs.
+    /// Errors that quadrature leaves in the discs.
     pub(super) doubt: Doubt,
 }
 
@@ -173,7 +173,7 @@ impl<'a> Interaction<'a> {
         vec2(flow(0) - work, flow(1))
     }
 
-    /// What does not come from the cells: the loads on the faces.
+    /// The part that does not come from the cells: the loads on the faces.
     fn start(&self) -> Integrals {
         let Self { tip, material, radii, .. } = self;
         let crack = &self.field.step.cracks[tip.crack as usize];

@@ -69,7 +69,7 @@ pub struct Loads<'a> {
 pub struct Outcome {
     /// The tip.
     pub tip: TipId,
-    /// Where it is.
+    /// Its place.
     pub at: Vec2,
     /// Its clearance.
     pub clearance: TipClearance,
@@ -83,7 +83,7 @@ pub struct Outcome {
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
     /// where the crack concentrates stress, and far above K where nothing does. Zero without factors.
     pub strength: f64,
-    /// What the quadrature in the discs does not resolve.
+    /// Errors that quadrature leaves in the discs.
     pub doubt: Doubt,
 }
 

@@ -35,7 +35,7 @@ const LEFT_OUT_BELOW: f64 = 1e-10;
 /// Most steps of iterative refinement.
 const REFINEMENTS: usize = 2;
 
-/// What a vanishing pivot is replaced by: its unknown becomes zero, and the rest does not see it.
+/// Substitute for a vanishing pivot: its unknown becomes zero, and the rest does not see it.
 const LEFT_OUT: f64 = 1e40;
 
 /// Relative residual up to which a load is consistent with a semi-definite matrix. Seen are 1e−12 to
@@ -192,7 +192,7 @@ fn analyse(lower: &SparseColMat<usize, f64>) -> Result<SymbolicCholesky<usize>, 
     factorize_symbolic_cholesky(lower.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
 }
 
-/// What elimination makes of a pattern of blocks.
+/// The factor that elimination makes of a pattern of blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fill {
     /// Values of the factor.

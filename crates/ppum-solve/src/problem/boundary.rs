@@ -155,9 +155,9 @@ impl fmt::Display for BorderPart {
 /// a component of which nothing is said anywhere is free of traction (of flux).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCondition {
-    /// Where.
+    /// The place.
     pub on: BorderPart,
-    /// One condition a component of the unknown field.
+    /// One condition per component of the unknown field.
     pub components: Vec<Condition>,
     /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
     pub pressure: Option<Expression>,
@@ -175,7 +175,7 @@ pub enum Condition {
 }
 
 impl BoundaryCondition {
-    /// Conditions on a part of the border, one a component.
+    /// Conditions on a part of the border, one per component.
     #[must_use]
     pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
         Self { on, components, pressure: None }

@@ -1,4 +1,4 @@
-//! How a problem is discretised.
+//! The discretisation of a problem.
 
 use ppum::dataset::MAX_DEGREE;
 use ppum::vec2::Vec2;
@@ -20,7 +20,7 @@ pub struct Discretization {
     pub overlap: f64,
     /// The weight function.
     pub weight: WeightFunction,
-    /// Where the local spaces are enriched.
+    /// The patches whose local spaces are enriched.
     pub enrichment: Enrichment,
     /// Resolve jumps of the material: kinks of the solution on patches that an interface cuts.
     pub interfaces: bool,
@@ -96,9 +96,9 @@ impl Discretization {
     .point.y
 )]
 pub struct OrderError {
-    /// What the formula gives.
+    /// Value of the formula.
     pub value: f64,
-    /// Where.
+    /// The place.
     pub point: Vec2,
 }
 

@@ -1,4 +1,4 @@
-//! What holes may be, and where they may lie.
+//! Rules for the shapes and places of holes.
 
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};

@@ -26,7 +26,7 @@ pub(super) struct Nearby {
 pub(super) struct TooDense;
 
 impl TooDense {
-    /// What is wrong with the things `what` whose segments these are.
+    /// The mistakes of the things `what` whose segments these are.
     pub(super) fn message(what: &str) -> String {
         format!(
             "{what} lie too close together: more than {MOST} pairs of their segments are near each other; \
@@ -95,7 +95,7 @@ mod tests {
             .collect()
     }
 
-    /// What the tree leaves out is farther away.
+    /// All that the tree leaves out is farther away.
     #[test]
     fn all_that_is_near_is_found() {
         let mut random = Random(7);

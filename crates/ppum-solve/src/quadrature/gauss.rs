@@ -72,7 +72,7 @@ pub(crate) fn gauss(n: usize) -> &'static GaussRule {
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(GaussRule::new).collect())[n - 1]
 }
 
-/// How far from the ends the outermost points of a closed rule lie, as a part of the interval: on
+/// Distance of the outermost points of a closed rule from the ends, as a part of the interval: on
 /// the right side of a jump at the end, whatever rounding does to coordinates.
 const INSET: f64 = 1e-6;
 

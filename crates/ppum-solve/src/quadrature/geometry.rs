@@ -1,4 +1,4 @@
-//! What decides where integrands are smooth.
+//! The geometry that decides where integrands are smooth.
 
 use super::gauss::MAX_POINTS;
 use ppum::crack::Crack;
@@ -15,7 +15,7 @@ const LEAST_EXPONENT: f64 = 0.04;
 /// More points along a ray for the exponent λ: this over √λ.
 const EXTRA_POINTS: f64 = 8.0;
 
-/// What decides where integrands are smooth. Lists of a patch are indices into the slices before
+/// The geometry that decides where integrands are smooth. Lists of a patch are indices into the slices before
 /// them, in any order; an empty `patch_…` slice means that no patch has any.
 #[derive(Clone, Copy)]
 pub(crate) struct Geometry<'a> {
@@ -100,11 +100,11 @@ fn union(lists: &[Vec<u32>], common: &[u32], patches: &[u32]) -> Vec<u32> {
 pub(crate) struct Singular {
     /// The point.
     pub point: Vec2,
-    /// How functions behave there.
+    /// The growth of functions there.
     pub growth: Growth,
 }
 
-/// How functions behave at a distance r of a singular point, times smooth functions of the angle
+/// Growth of functions with the distance r of a singular point, times smooth functions of the angle
 /// and of the position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Growth {

@@ -70,7 +70,7 @@ const SAME_POINT: f64 = 1e-9;
 /// A rule on a part of a cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Rule {
-    /// What the offsets are measured from: a singular point near it, else the centre of the cell.
+    /// Origin of the offsets: a singular point near it, else the centre of the cell.
     pub anchor: Vec2,
     /// Points, relative to the anchor; inside the part, never on its border or on a crack.
     pub offsets: Vec<Vec2>,
@@ -78,7 +78,7 @@ pub(crate) struct Rule {
     pub weights: Vec<f64>,
     /// The patches whose open supports hold the points, ascending.
     pub patches: Vec<u32>,
-    /// What the points do not resolve.
+    /// Errors that the points leave.
     pub doubt: Doubt,
 }
 

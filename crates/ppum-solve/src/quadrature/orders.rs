@@ -18,9 +18,9 @@ const CELLS: [f64; 7] = [2.0, 2.0, 1.0, 1.0, 2.0, 2.0, 1.0];
 /// Numbers of Gauss points in each direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Orders {
-    /// Where several patches overlap.
+    /// Order where several patches overlap.
     pub overlap: usize,
-    /// Where one patch is alone, φ = 1, and the integrand a polynomial.
+    /// Order where one patch is alone, φ = 1, and the integrand a polynomial.
     pub flat: usize,
     /// Near points where a function is singular, and where functions are probed.
     pub singular: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Orders {
     pub parts: usize,
 }
 
-/// What is active on a piece.
+/// The patches and functions that are active on a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Active {
     /// Number of patches.

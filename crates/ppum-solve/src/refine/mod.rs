@@ -128,7 +128,7 @@ pub(crate) fn cover(
     resolved.then_some(cover).ok_or(RefineError::Unresolved)
 }
 
-/// What tips and the mouths of cracks need, and all tips.
+/// The needs of tips and of the mouths of cracks, and all tips.
 struct Needs {
     needs: Placed<Need>,
     tips: Placed<Vec2>,
@@ -162,7 +162,7 @@ fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
     Rect::around(cell.center(), cell.size() * (0.5 * problem.discretization.overlap))
 }
 
-/// What makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
+/// Refinement that makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
 /// ligaments, and at singular points of interfaces.
 struct Wishes<'p> {
     problem: &'p Problem,
@@ -301,7 +301,7 @@ impl<'p> Crossings<'p> {
     }
 }
 
-/// What one tip asks of the cells around it.
+/// The demand of one tip on the cells around it.
 struct Need {
     tip: Vec2,
     /// Largest cells at the tip, and near it.
@@ -342,7 +342,7 @@ impl Need {
     }
 }
 
-/// What the ends of a crack at holes ask: the side of the crack, which jumps on its straight extension
+/// The demands of a crack's ends at holes: the side of the crack, which jumps on its straight extension
 /// too, must not be among the functions beyond the hole.
 fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
@@ -362,7 +362,7 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     at_hole.collect()
 }
 
-/// Where the way from the end of a crack at a hole comes out of it into the plate again.
+/// The point at which the way from the end of a crack at a hole comes out of it into the plate again.
 fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
     let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
     let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();

@@ -1,4 +1,4 @@
-//! Where the functions of a step and the coefficients of its equation are not smooth, for quadrature.
+//! Places at which the functions of a step and the coefficients of its equation are not smooth, for quadrature.
 //!
 //! Formulas show where they have kinks; the singular points of a function are the origin of its frame,
 //! if it uses polar coordinates, and those it declares. How fast it grows there is measured. The
@@ -35,7 +35,7 @@ pub(crate) use traits::{box_of, levels_of_data};
 /// Part of the domain's size that two lines may be apart by rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Where a step is not smooth; owns what a [`Geometry`] borrows.
+/// The places at which a step is not smooth; owns what a [`Geometry`] borrows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Smoothness {
     singular: Vec<Singular>,
@@ -62,7 +62,7 @@ struct Indices {
 }
 
 impl Smoothness {
-    /// What quadrature has to know of a step.
+    /// The places at which a step is not smooth.
     ///
     /// # Errors
     /// A function that does not compile.
@@ -108,8 +108,8 @@ impl Smoothness {
         domain: &Rect,
         data: &[(&Expression, f64)],
     ) -> Option<(Self, Vec<Kink>)> {
-        let all = data.iter().filter_map(|(data, mean)| traits_of_data(data, *mean));
-        let all: Vec<Traits> = all.collect();
+        let all: Vec<Traits> =
+            data.iter().filter_map(|(data, mean)| traits_of_data(data, *mean)).collect();
         if all.is_empty() {
             return None;
         }
@@ -123,7 +123,7 @@ impl Smoothness {
         Some((extended, places))
     }
 
-    /// Where the space over a partition is not smooth.
+    /// The places at which the space over a partition is not smooth.
     pub(crate) fn geometry<'a>(
         &'a self,
         partition: &'a Partition,

@@ -64,7 +64,7 @@ pub enum SolveError {
         gibibytes(*memory as f64)
     )]
     TooLarge {
-        /// What it needs, at least.
+        /// Its least needs.
         needs: Estimate,
         /// The memory \[bytes\].
         memory: u64,

@@ -1,4 +1,4 @@
-//! What a solution takes, known before it is computed: unknowns, non-zeros, memory and time.
+//! The effort of a solution, known before it is computed: unknowns, non-zeros, memory and time.
 //!
 //! The patches that overlap are known once there is a cover, and with them the non-zeros of the system. What the
 //! elimination adds is counted on the graph of the patches, in the order of the elimination, each patch with the number
@@ -45,7 +45,7 @@ const CELL_SECONDS: f64 = 1.5e-4;
 /// Seconds that the stress intensity of a tip takes on one core.
 const TIP_SECONDS: f64 = 0.2;
 
-/// What the solution of a problem takes.
+/// The effort of solving a problem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Patches of the cover.
@@ -193,7 +193,7 @@ fn points(degree: usize) -> f64 {
     9.0 * ((degree + 2) * (degree + 2)) as f64
 }
 
-/// Patches that a cover has at least: the solid part of the base cover, and one a tip.
+/// Patches that a cover has at least: the solid part of the base cover, and one per tip.
 fn least_patches(problem: &Problem) -> f64 {
     let base = match &problem.discretization.cells {
         Cells::Level(level) => 4f64.powi(*level as i32),

@@ -112,7 +112,7 @@ impl<'p> Plan<'p> {
         Ok(Self { problem, dataset, space, estimate, crossed_twice, clock })
     }
 
-    /// What the solution takes.
+    /// The effort of the solution.
     #[must_use]
     pub fn estimate(&self) -> &Estimate {
         &self.estimate

@@ -43,7 +43,7 @@ pub(super) struct Assembled {
 }
 
 impl Solving<'_> {
-    /// What is given, and the plate that it acts on.
+    /// The data of the problem, and the plate that they act on.
     ///
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.

@@ -146,7 +146,7 @@ fn kept<T: Clone>(all: &[T], keep: &[bool]) -> Vec<T> {
     all.iter().zip(keep).filter(|(_, keep)| **keep).map(|(entry, _)| entry.clone()).collect()
 }
 
-/// Order of the polynomials, number of blocks with a jump and with a tip function, of each patch.
+/// Order of the polynomials, number of blocks and number of functions of each patch.
 fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
     let attribute = |name: &str, value: &dyn Fn(&Vec<Block>) -> usize| Attribute {
         name: name.into(),

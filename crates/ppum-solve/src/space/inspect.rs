@@ -33,7 +33,7 @@ pub enum InspectError {
     NotFinite {
         /// Name of the function.
         name: String,
-        /// Where.
+        /// The place.
         point: Vec2,
         /// The value there.
         value: f64,
@@ -49,13 +49,12 @@ pub enum InspectError {
     Diverges {
         /// Name of the function.
         name: String,
-        /// Where.
+        /// The place.
         point: Vec2,
     },
     /// No patch has it.
     #[error(
-        "no patch has the enrichment `{name}`; give it a larger `radius`, or a condition in `where` that \
-         holds somewhere"
+        "no patch has the enrichment `{name}`"
     )]
     Nowhere {
         /// Name of the function.

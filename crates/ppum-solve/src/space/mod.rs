@@ -144,7 +144,7 @@ impl<'d> Space<'d> {
         self.smoothness.probe_operations()
     }
 
-    /// Where the functions of the space and the coefficients are not smooth.
+    /// The places at which the functions of the space and the coefficients are not smooth.
     pub(crate) fn smoothness(&self) -> &Smoothness {
         &self.smoothness
     }

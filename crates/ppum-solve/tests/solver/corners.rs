@@ -141,7 +141,7 @@ fn round_holes_and_ligaments_are_resolved() {
     assert_near(&solved(&format!("{PULLED}{ligaments}")), 4.33068214, &[]);
 }
 
-/// Where cells may not be refined a warning says what is missed, and where: within a factor of four.
+/// A warning tells what cells that may not be refined miss, and where: within a factor of four.
 #[test]
 fn what_coarse_cells_miss_is_told() {
     for (tables, exact, places) in [

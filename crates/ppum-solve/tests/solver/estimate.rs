@@ -1,4 +1,4 @@
-//! What a solution takes, told before it is computed.
+//! Estimates of the effort of a solution, against what it takes.
 
 use ppum::dataset::{Material, StressState};
 use ppum::progress::unwatched;

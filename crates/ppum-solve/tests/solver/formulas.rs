@@ -1,6 +1,5 @@
 //! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
 
-use ppum::progress::unwatched;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use ppum::field::Field;
 use ppum::formula::Formula;
 use ppum::function::WESTERGAARD;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::norms::norms;
 use ppum_solve::problem::{
@@ -180,7 +180,7 @@ fn a_corner_function_restores_the_rate() {
     }
 }
 
-/// Where all patches have the corner's function, the solution is in the space.
+/// If all patches have the corner's function, the solution is in the space.
 #[test]
 fn a_corner_function_everywhere_is_exact() {
     let mut problem = corner_problem(2, 2);

@@ -256,7 +256,7 @@ fn slivers_at_rims() {
 }
 
 /// A load on ever shorter intervals is the same force: displacements away from it differ by what the
-/// width does, and short supports hold what they support.
+/// width does, and short restraints hold the plate.
 #[test]
 fn short_intervals() {
     let on =

@@ -1,9 +1,9 @@
 //! Materials that jump, without an enrichment of the problem's own.
 
-use ppum::progress::unwatched;
 use std::path::Path;
 
 use ppum::dataset::Step;
+use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_solve::problem::{Cells, Enrichment, LocalEnrichment, Order, Problem, Region, Site};
 use ppum_solve::space::discretise;

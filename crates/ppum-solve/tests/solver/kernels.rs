@@ -1,12 +1,12 @@
 //! Problems solved with formulas where there are kernels for them: the same answers.
 
-use ppum::progress::unwatched;
 use std::path::Path;
 
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;

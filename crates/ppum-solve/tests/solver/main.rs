@@ -25,4 +25,5 @@ mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
 mod warnings;
+mod watched;
 mod weights;

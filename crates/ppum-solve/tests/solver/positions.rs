@@ -3,9 +3,9 @@
 //! The field is that of a crack in the plane under tension and shear, given on the border of the plate:
 //! wherever the crack is, K is exactly the same.
 
-use ppum::progress::unwatched;
 use std::f64::consts::FRAC_PI_4;
 
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Cells, Problem};
 use ppum_solve::solve::spectrum;
@@ -22,7 +22,7 @@ const HALF_LENGTH: f64 = 3.0 * CELL;
 const CELLS: u32 = 12;
 const CELL: f64 = 2.0 / CELLS as f64;
 
-/// How far a patch reaches beyond its cell.
+/// Reach of a patch beyond its cell.
 const REACH: f64 = 0.15 * CELL;
 
 /// A crack by its last tip and its direction.

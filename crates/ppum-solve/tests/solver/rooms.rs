@@ -138,7 +138,7 @@ fn identifier(text: &str) -> String {
     text.trim_start().chars().take_while(is_part).collect()
 }
 
-/// What each room imports from, itself apart.
+/// The rooms that each room imports from, itself apart.
 fn found() -> Arrows {
     let of = |(name, code): (String, String)| {
         let mut to = imports(&code);

@@ -1,10 +1,10 @@
 //! Warnings: each is provoked, and good problems are silent.
 
-use ppum::progress::unwatched;
 use std::path::Path;
 
 use crate::studies::support::solved;
 use ppum::dataset::{Dataset, Warning};
+use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::problem::Problem;

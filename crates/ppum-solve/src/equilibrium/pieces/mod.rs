@@ -1,7 +1,7 @@
 //! The pieces of the plate: connected components of the domain without its cracks.
 //!
 //! A crack from border to border, or between two holes, cuts the plate. What holds one part says
-//! nothing of the other, so supports, loads and free rigid-body modes are counted piece by piece.
+//! nothing of the other, so restraints, loads and free rigid-body modes are counted piece by piece.
 //!
 //! The border, the rims of holes and the cracks are edges of a constrained Delaunay triangulation;
 //! triangles that meet across an edge that is none of these belong to one piece. Predicates are
@@ -19,7 +19,7 @@ use spade::{Triangulation as _, mitigate_underflow};
 /// Parts of the box of less than this area are rounding.
 const LEAST_AREA: f64 = 1e-12;
 
-/// How far points of the border are moved to be inside, in sizes of the box.
+/// Distance by which points of the border are moved to be inside, in sizes of the box.
 const INWARD: f64 = 1e-9;
 
 type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -34,7 +34,7 @@ pub(crate) struct Pieces {
     map: Option<Map>,
 }
 
-/// Where the pieces are.
+/// The places of the pieces.
 #[derive(Debug)]
 struct Map {
     mesh: Mesh,

@@ -46,7 +46,7 @@ fn in_circle(center: Vec2, radius: f64, segments: &[[Vec2; 2]], holes: &[Hole]) 
     angles.into_iter().map(|angle| center + vec2(angle.cos(), angle.sin()) * radius).collect()
 }
 
-/// Where a segment crosses the circle around the origin.
+/// Crossings of a segment and the circle around the origin.
 fn crossings([a, b]: [Vec2; 2], radius: f64) -> Vec<Vec2> {
     let along = b - a;
     let (square, half) = (along.dot(along), a.dot(along));
@@ -55,7 +55,7 @@ fn crossings([a, b]: [Vec2; 2], radius: f64) -> Vec<Vec2> {
     places.into_iter().filter(|s| (0.0..=1.0).contains(s)).map(|s| a + along * s).collect()
 }
 
-/// Where the circle around the origin meets one around another point, none if it does not.
+/// Crossings of the circle around the origin and one around another point; none if they do not meet.
 fn common(other: Vec2, radius: f64, reach: f64) -> Vec<Vec2> {
     let distance = other.length();
     let along = 0.5 * (distance + (radius - reach) * (radius + reach) / distance);

@@ -32,7 +32,7 @@ const COMPARED: usize = 24;
 /// Part of a level function's size that is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Where the constants of an equation may jump on a domain.
+/// The sets on which constants of an equation may jump on a domain.
 pub(crate) struct Interfaces<'e> {
     /// No two have proportional level functions.
     pub(crate) all: Vec<Interface>,
@@ -96,7 +96,7 @@ impl Interface {
         vec2(x, y)
     }
 
-    /// What reports call it: the equation of its points.
+    /// Its name in reports: the equation of its points.
     pub(crate) fn name(&self) -> String {
         format!("{} = 0", self.name)
     }

@@ -1,4 +1,4 @@
-//! Where in a box an interface runs.
+//! The course of an interface through a box.
 
 use super::{Interface, Interfaces};
 use crate::geometry::inside;
@@ -12,7 +12,7 @@ const STEPS: usize = 16;
 /// Bisections of a step, to rounding.
 const BISECTIONS: usize = 48;
 
-/// How far beside an interface its two sides are looked at, in parts of a box: beyond rounding, and less
+/// Distance beside an interface at which its two sides are looked at, in parts of a box: beyond rounding, and less
 /// than a material that varies smoothly changes over.
 pub(crate) const BESIDE: f64 = 1e-6;
 

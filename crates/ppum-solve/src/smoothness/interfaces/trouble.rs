@@ -1,4 +1,4 @@
-//! Where interfaces ask for more than a kink across a patch.
+//! Places at which interfaces ask for more than a kink across a patch.
 
 use super::{Interfaces, Place};
 use crate::geometry::inside;
@@ -21,7 +21,7 @@ const TOUCH: f64 = 0.1;
 /// Contrast below which singular points of interfaces are not seen in the solution.
 const LEAST_CONTRAST: f64 = 0.2;
 
-/// What a kink does not resolve.
+/// The reason why a kink does not resolve an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// More interfaces than a patch takes.
@@ -64,7 +64,7 @@ impl Cause {
 type Run = (usize, Vec<Place>);
 
 impl Interfaces<'_> {
-    /// What the interfaces in an open box inside the domain ask for beside kinks, if anything.
+    /// The trouble with the interfaces in an open box inside the domain, if kinks do not resolve them.
     pub(crate) fn trouble(&self, rect: &Rect, cracks: &[Crack]) -> Option<Trouble> {
         let runs: Vec<Run> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))
@@ -87,7 +87,7 @@ impl Interfaces<'_> {
         Some(Trouble { cause, at, contrast })
     }
 
-    /// Where two interfaces meet.
+    /// The place at which two interfaces meet.
     fn corner(&self, runs: &[Run], touch: f64) -> Option<Vec2> {
         let near = |index: usize, place: &Place| {
             let interface = &self.all[index];
@@ -119,7 +119,7 @@ fn turn((_, places): &Run) -> Option<Vec2> {
     places.iter().find(away).map(|place| place.at)
 }
 
-/// Where a crack runs into an interface, or a tip of it in the box.
+/// The place at which a crack runs into an interface, or a tip of it in the box.
 fn at_crack<'p>(
     crack: &Crack,
     mut places: impl Iterator<Item = &'p Place>,

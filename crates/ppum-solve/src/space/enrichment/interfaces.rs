@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Change of a gradient across an interface, relative to its size, that is a kink.
 const BENT: f64 = 1e-3;
 
-/// How the names of the functions begin.
+/// Beginning of the names of the functions.
 pub(crate) const KINK: &str = "kink at";
 
 /// Distance of a point to an interface, in parts of a patch, that is rounding.
@@ -50,8 +50,8 @@ impl Enrichments<'_> {
             let patch = Patch::new(partition, patch, self.problem);
             stage.advance(0).map(|()| self.cuts(&patch, &interfaces, &probes))
         };
-        let cuts = (0..partition.len()).into_par_iter().map(cuts);
-        let cuts = cuts.collect::<Result<Vec<_>, Cancelled>>()?;
+        let cuts: Vec<Vec<Cut>> =
+            (0..partition.len()).into_par_iter().map(cuts).collect::<Result<_, Cancelled>>()?;
         for (index, interface) in interfaces.all.iter().enumerate() {
             let cracks = (0..self.problem.cracks.len()).map(Some);
             for crack in [None].into_iter().chain(cracks) {

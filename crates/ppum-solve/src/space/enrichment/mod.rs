@@ -64,7 +64,7 @@ enum Patches<'p> {
     Listed(Vec<u32>),
 }
 
-/// What patches can be near to.
+/// A shape that patches can be near to.
 #[derive(Clone, Copy)]
 enum Shape {
     Point(Vec2),
@@ -83,12 +83,12 @@ enum Degree {
     Holding(Vec2, u8),
 }
 
-/// Where the functions of an enrichment stand, once or several times.
+/// The place of the functions of an enrichment, of which there may be several.
 struct Place {
     frame: Frame,
-    /// What patches are near to; none in the world's frame.
+    /// The shape that patches are near to; none in the world's frame.
     shape: Option<Shape>,
-    /// How near they are by default.
+    /// Their distance from it by default.
     radius: f64,
     degree: Degree,
     /// Added to the functions' names.
@@ -276,7 +276,7 @@ struct Patch<'p> {
     support: Rect,
     /// The support inside the domain, as an open box.
     open: Rect,
-    /// What counts as a cut.
+    /// The shortest cut that counts.
     shortest: f64,
 }
 
