@@ -7,7 +7,6 @@ use std::num::NonZeroUsize;
 
 use clap::ValueEnum;
 use ppum::field::Field;
-use ppum::progress::unwatched;
 use ppum::quantity::{Quantity, Source};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::raster::{Raster, Sample};
@@ -16,6 +15,7 @@ use ppum_render::view::View;
 
 use crate::graphics::{Device, Method};
 use crate::output::tell;
+use crate::progress::Bar;
 use crate::{graphics, threads, undefined};
 
 /// What draws, as it was asked for.
@@ -124,5 +124,5 @@ impl Engine {
 }
 
 fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn> {
-    Drawn::new(&render::<T>(job.field, job.view, job.quantity, unwatched())?, job, by)
+    Drawn::new(&render::<T>(job.field, job.view, job.quantity, &Bar::new())?, job, by)
 }

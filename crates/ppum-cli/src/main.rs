@@ -18,6 +18,7 @@ mod number;
 mod output;
 mod panics;
 mod progress;
+mod remedy;
 mod replacements;
 mod signals;
 mod standard;

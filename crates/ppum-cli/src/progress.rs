@@ -15,20 +15,20 @@ impl Bar {
         Self(bar)
     }
 
-    pub(crate) fn show(&self, phase: &'static str, done: usize, total: usize) {
-        if self.0.message() != phase {
-            self.0.set_message(phase);
-            self.0.set_style(style(total > 1));
+    fn show(&self, progress: Progress) {
+        if self.0.message() != progress.phase.name() {
+            self.0.set_message(progress.phase.name());
+            self.0.set_style(style(progress.total > 1));
         }
-        self.0.set_length(total as u64);
-        self.0.set_position(done as u64);
+        self.0.set_length(progress.total as u64);
+        self.0.set_position(progress.done as u64);
     }
 }
 
 impl Watcher for Bar {
     /// Shows the progress; signals end the program as a whole, so nothing is to be stopped.
     fn hear(&self, progress: Progress) -> Verdict {
-        self.show(progress.phase.name(), progress.done, progress.total);
+        self.show(progress);
         Verdict::GoOn
     }
 }

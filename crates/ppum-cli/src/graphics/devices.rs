@@ -1,11 +1,11 @@
 //! Drawing on devices, and what devices there are.
 
-use ppum::progress::unwatched;
 use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 
 use super::{Adapter, Device, Failure, Method, drivers};
 use crate::backend::{Drawn, Job};
+use crate::progress::Bar;
 
 impl From<Device> for Choice {
     fn from(device: Device) -> Self {
@@ -56,7 +56,8 @@ fn drawn(
     method: ppum_gpu::Method,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
     let mut renderer = drivers::opening(|| Renderer::open(choice))?;
-    let raster = renderer.render(job.field, job.view, job.quantity, method, unwatched())?;
+    // not before: the bar is no word of a driver
+    let raster = renderer.render(job.field, job.view, job.quantity, method, &Bar::new())?;
     Ok((renderer, raster))
 }
 

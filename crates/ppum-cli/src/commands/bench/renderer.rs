@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use ppum::field::Field;
-use ppum::progress::unwatched;
+use ppum::progress::{Phase, Progress, Watcher, unwatched};
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
 use ppum_render::picture::{Picture, Style};
@@ -23,6 +23,7 @@ use serde::Serialize;
 
 use super::synthetic::{self, DOMAIN};
 use crate::graphics::{Card, Cards, Method};
+use crate::progress::Bar;
 
 /// What `ppum bench` tells of the renderers.
 #[derive(Debug, Serialize)]
@@ -134,9 +135,13 @@ impl Report {
             named.map(|(cover, field)| Subject::new(cover, field, cards.as_mut(), &look));
         let mut subjects = subjects.collect::<anyhow::Result<Vec<_>>>()?;
         // the first frames are not counted: they find nothing prepared
+        let (bar, total) = (Bar::new(), (frames as usize + 1) * subjects.len());
+        let watcher: &dyn Watcher = &bar;
         for frame in 0..=frames {
             let view = view(frame, pixels)?;
-            for subject in &mut subjects {
+            for (k, subject) in subjects.iter_mut().enumerate() {
+                let done = frame as usize * covers.len() + k;
+                watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
                 subject.draw_all((&view, &look), cards.as_mut(), frame > 0)?;
             }
         }
