@@ -120,7 +120,7 @@ mod tests;
 mod wgsl;
 
 pub use block::{Block, Scratch};
-pub use error::{FormulaError, Problem};
+pub use error::{FormulaError, Mistake};
 pub use formula::{DerivativeError, Formula, one_line};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
