@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::limits::{MAX_DEPTH, MAX_LENGTH};
 use crate::printable::is_printable;
-use crate::{MAX_DEPTH, MAX_LENGTH};
 
 /// A mistake in the text of a formula.
 ///

@@ -1,12 +1,12 @@
 //! Tokens → syntax tree, by precedence climbing. Names are resolved on the way.
 
-use crate::MAX_DEPTH;
-use crate::MAX_LENGTH;
-use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
 use crate::error::{FormulaError, Mistake, Span, nearest};
-use crate::lexer::{Token, TokenKind, tokens};
+use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
+use crate::language::lexer::{Token, TokenKind, tokens};
+use crate::language::scope::{Meaning, Scope};
 use crate::library::{self, Function};
-use crate::scope::{Meaning, Scope};
+use crate::limits::MAX_DEPTH;
+use crate::limits::MAX_LENGTH;
 
 /// Parses a formula whose names are those of `scope`.
 pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {

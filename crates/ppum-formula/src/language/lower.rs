@@ -1,13 +1,13 @@
 //! Syntax tree → expression graph: types are checked, functions become operations.
 
-use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
 use crate::error::{FormulaError, Mistake};
 use crate::graph::{Graph, NodeId};
-use crate::half_angle::{self, Multiple};
+use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
+use crate::language::half_angle::{self, Multiple};
+use crate::language::parser::parse;
+use crate::language::scope::Scope;
 use crate::library::Function;
 use crate::operation::{Binary, Comparison};
-use crate::parser::parse;
-use crate::scope::Scope;
 
 /// Parses a formula and makes sure that it is a number.
 pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
