@@ -63,6 +63,35 @@ pub use error::RenderError;
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check};
+
+    const FLOORS: Floors<'_> = &[
+        &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
+        &[
+            ("colormap", &["image"]),
+            ("overlay", &["image", "view"]),
+            ("pixels", &["view"]),
+            ("png", &["image"]),
+            ("raster", &["error", "view"]),
+            ("text", &["image"]),
+            ("ticks", &["scale"]),
+        ],
+        &[
+            ("range", &["raster", "scale"]),
+            ("reference", &["error", "parts", "raster", "view"]),
+            ("scatter", &["error", "parts", "pixels", "raster", "view"]),
+        ],
+        &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
+        &[("figure", &["image", "overlay", "picture", "text", "ticks"])],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        check(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), FLOORS);
+    }
+
     #[test]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
