@@ -7,16 +7,16 @@ use std::num::NonZeroUsize;
 
 use clap::ValueEnum;
 use ppum::field::Field;
-use ppum::progress::unwatched;
 use ppum::quantity::{Quantity, Source};
-use ppum_gpu::{Choice, GpuError, Method, RenderError, Renderer};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
+use crate::graphics::{Device, Method};
 use crate::output::tell;
-use crate::{drivers, threads, undefined};
+use crate::progress::Bar;
+use crate::{graphics, threads, undefined};
 
 /// What draws, as it was asked for.
 #[derive(Debug, clap::Args)]
@@ -70,7 +70,11 @@ pub(crate) struct Drawn {
 }
 
 impl Drawn {
-    fn new<T: Sample>(raster: &Raster<T>, job: Job<'_>, by: &str) -> anyhow::Result<Self> {
+    pub(crate) fn new<T: Sample>(
+        raster: &Raster<T>,
+        job: Job<'_>,
+        by: &str,
+    ) -> anyhow::Result<Self> {
         let picture = Picture::bare(raster, job.view, job.style)?;
         let undefined = undefined::pixels(raster, job.field, job.view);
         let is_finite = raster.statistics().finite > 0;
@@ -93,13 +97,13 @@ impl Engine {
     pub(crate) fn draw(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
         match self.backend {
             Backend::Cpu => self.on_cpu(job),
-            Backend::Gpu => told(on_gpu(job, Choice::Any, Method::Gather))?,
-            Backend::Splat => told(on_gpu(job, Choice::Any, Method::Splat))?,
+            Backend::Gpu => graphics::draw(job, Device::Any, Method::Gather)?,
+            Backend::Splat => graphics::draw(job, Device::Any, Method::Splat)?,
             Backend::Auto if self.needs_cpu(job) => self.on_cpu(job),
-            Backend::Auto => match on_gpu(job, Choice::Real, Method::Gather) {
+            Backend::Auto => match graphics::draw(job, Device::Hardware, Method::Gather) {
                 Ok(drawn) => drawn,
                 Err(error) => {
-                    note(&error).iter().for_each(|note| tell(note));
+                    error.note().iter().for_each(|note| tell(note));
                     self.on_cpu(job)
                 }
             },
@@ -120,92 +124,5 @@ impl Engine {
 }
 
 fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn> {
-    Drawn::new(&render::<T>(job.field, job.view, job.quantity, unwatched())?, job, by)
-}
-
-/// The outer error is the device's, after which the CPU may try; the inner one is anything else.
-fn on_gpu(
-    job: Job<'_>,
-    choice: Choice,
-    method: Method,
-) -> Result<anyhow::Result<Drawn>, RenderError> {
-    let mut renderer = drivers::opening(|| Renderer::open(choice))?;
-    let raster = renderer.render(job.field, job.view, job.quantity, method, unwatched())?;
-    let name = &renderer.gpu().info().name;
-    let by = match method {
-        Method::Gather => format!("gpu f32, {name}"),
-        Method::Splat => format!("gpu splat f32, {name}"),
-    };
-    Ok(Drawn::new(&raster, job, &by))
-}
-
-/// The result with the device's error in words.
-fn told<T>(result: Result<T, RenderError>) -> anyhow::Result<T> {
-    result.map_err(|error| anyhow::anyhow!(message(&error)))
-}
-
-/// An error with the remedy that the options of this program offer.
-pub(crate) fn message(error: &RenderError) -> String {
-    let RenderError::Gpu(error) = error else { return error.to_string() };
-    let remedy = match error {
-        GpuError::NoAdapter { .. } => "; `--backend cpu` needs none",
-        GpuError::Device { .. } => "; `--backend cpu` does without it",
-        GpuError::Memory { .. } => "; draw fewer pixels or use `--backend cpu`",
-        GpuError::FormulaTooLarge { .. } => "; `--backend cpu` has no such limit",
-        GpuError::TooLarge { .. }
-        | GpuError::PictureTooLarge { .. }
-        | GpuError::TooMany { .. }
-        | GpuError::NeedsDouble { .. } => "; use `--backend cpu`",
-        _ => "",
-    };
-    format!("{error}{remedy}")
-}
-
-/// What is told when the CPU draws in place of a graphics card: nothing if there is none, as is normal,
-/// or if the CPU will say the same.
-fn note(error: &RenderError) -> Option<String> {
-    match error {
-        RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_) => None,
-        error => {
-            let text = message(error);
-            let lines: Vec<_> = text.lines().map(str::trim).collect();
-            Some(format!(
-                "note: drawn on the CPU, since the graphics card fails: {}",
-                lines.join(" ")
-            ))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn failures_are_told_in_one_line() {
-        let error = GpuError::Shader { message: "expected `;`\n  at 3:4\n".to_owned() };
-        let note = note(&error.into()).expect("a failure");
-        assert!(note.starts_with("note: ") && note.ends_with("expected `;` at 3:4"), "{note}");
-        assert_eq!(note.lines().count(), 1);
-        assert!(super::note(&GpuError::Lost.into()).is_some());
-    }
-
-    #[test]
-    fn errors_of_devices_name_the_option_that_helps() {
-        let missing = message(&GpuError::NoAdapter { choice: Choice::Any }.into());
-        assert!(
-            missing.ends_with("mesa-vulkan-drivers`); `--backend cpu` needs none"),
-            "{missing}"
-        );
-        let large = GpuError::PictureTooLarge { pixels: [20_000, 10], most: 16_384 };
-        let large = message(&large.into());
-        assert!(large.ends_with("at most 16384x16384; use `--backend cpu`"), "{large}");
-        assert_eq!(message(&GpuError::Lost.into()), GpuError::Lost.to_string());
-    }
-
-    #[test]
-    fn a_machine_without_a_graphics_card_is_no_failure() {
-        let missing = GpuError::NoAdapter { choice: Choice::Real };
-        assert_eq!(note(&missing.into()), None);
-    }
+    Drawn::new(&render::<T>(job.field, job.view, job.quantity, &Bar::new())?, job, by)
 }

@@ -1,9 +1,9 @@
-//! The progress of a solver: on a terminal only.
+//! The progress of long calls: on a terminal only.
 
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use ppum_solve::solve::Progress;
+use ppum::progress::{Progress, Verdict, Watcher};
 
 /// A line on standard error that disappears when it is dropped; silent where that is no terminal.
 pub(crate) struct Bar(ProgressBar);
@@ -15,13 +15,21 @@ impl Bar {
         Self(bar)
     }
 
-    pub(crate) fn show(&self, progress: Progress) {
+    fn show(&self, progress: Progress) {
         if self.0.message() != progress.phase.name() {
             self.0.set_message(progress.phase.name());
             self.0.set_style(style(progress.total > 1));
         }
         self.0.set_length(progress.total as u64);
         self.0.set_position(progress.done as u64);
+    }
+}
+
+impl Watcher for Bar {
+    /// Shows the progress; signals end the program as a whole, so nothing is to be stopped.
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.show(progress);
+        Verdict::GoOn
     }
 }
 

@@ -7,7 +7,7 @@ use ppum::crack::{TipId, tips};
 use ppum::dataset::{Ring, Step, TipIntensity};
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
-use ppum_solve::warnings::relative_spread;
+use ppum_solve::diagnostics::relative_spread;
 use serde::Serialize;
 
 use crate::number::Number;

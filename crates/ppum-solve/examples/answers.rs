@@ -7,6 +7,7 @@
 //! `warnings` its `kind`, `value`, `limit`, `at` and `message`. A problem that is refused gives `error`.
 
 use ppum::dataset::{Dataset, Warning};
+use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
@@ -26,7 +27,7 @@ fn main() {
 
 fn answer(file: &Path) -> Result<Value, String> {
     let problem = Problem::read(file).map_err(|e| e.to_string())?;
-    solve(&problem, &mut |_| {}).map(|dataset| numbers(&dataset)).map_err(|e| e.to_string())
+    solve(&problem, unwatched()).map(|dataset| numbers(&dataset)).map_err(|e| e.to_string())
 }
 
 fn numbers(dataset: &Dataset) -> Value {

@@ -13,7 +13,7 @@ type Tensor = [[[[f64; 2]; 2]; 2]; 2];
 /// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where the
 /// constants are the same everywhere there is one term with coefficient 1.
 #[derive(Clone, Debug)]
-pub struct Law<'e> {
+pub(crate) struct Law<'e> {
     /// Components of u.
     pub components: usize,
     equation: &'e Equation,
@@ -28,7 +28,7 @@ pub(crate) const TERMS: usize = 2;
 impl<'e> Law<'e> {
     /// The law of an equation.
     #[must_use]
-    pub fn new(equation: &'e Equation) -> Self {
+    pub(crate) fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
         let mut law = Self { components, equation, terms: units(components), uniform: false };
         if equation.is_uniform() {
@@ -39,7 +39,7 @@ impl<'e> Law<'e> {
 
     /// The law at a point.
     #[must_use]
-    pub fn at(&self, x: Vec2) -> LawAt {
+    pub(crate) fn at(&self, x: Vec2) -> LawAt {
         let coefficients = self.coefficients(x);
         let mut tensor = Tensor::default();
         for (term, a) in self.terms.iter().zip(coefficients) {
@@ -50,7 +50,7 @@ impl<'e> Law<'e> {
         LawAt { components: self.components, tensor }
     }
 
-    /// The coefficients a_m at a point, one a term.
+    /// The coefficients a_m at a point, one per term.
     pub(crate) fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
         if self.uniform {
             return [1.0, 0.0];
@@ -90,7 +90,7 @@ fn units(components: usize) -> Vec<LawAt> {
 
 /// The law at a point, as one tensor.
 #[derive(Clone, Copy, Debug)]
-pub struct LawAt {
+pub(crate) struct LawAt {
     components: usize,
     tensor: Tensor,
 }
@@ -98,39 +98,39 @@ pub struct LawAt {
 impl LawAt {
     /// Components of u.
     #[must_use]
-    pub fn components(&self) -> usize {
+    pub(crate) fn components(&self) -> usize {
         self.components
     }
 
     /// Σ_kl C\[i\]\[k\]\[j\]\[l\] parts\[k\]\[l\].
     #[must_use]
-    pub fn contract(&self, i: usize, j: usize, parts: &[[f64; 2]; 2]) -> f64 {
+    pub(crate) fn contract(&self, i: usize, j: usize, parts: &[[f64; 2]; 2]) -> f64 {
         let entry = |k: usize, l: usize| self.tensor[i][k][j][l] * parts[k][l];
         entry(0, 0) + entry(0, 1) + entry(1, 0) + entry(1, 1)
     }
 
     /// Component i of the traction σ n of the function N e_j with gradient `d`.
     #[must_use]
-    pub fn traction(&self, i: usize, j: usize, d: Vec2, n: Vec2) -> f64 {
+    pub(crate) fn traction(&self, i: usize, j: usize, d: Vec2, n: Vec2) -> f64 {
         let row = |k: usize| self.tensor[i][k][j][0] * d.x + self.tensor[i][k][j][1] * d.y;
         row(0) * n.x + row(1) * n.y
     }
 
     /// The modulus of component i: the traction of a unit stretch along its axis, κ of a potential.
     #[must_use]
-    pub fn modulus(&self, i: usize) -> f64 {
+    pub(crate) fn modulus(&self, i: usize) -> f64 {
         self.tensor[i][i][i][i]
     }
 
     /// λ: the stress along one axis of a unit stretch along the other.
     #[must_use]
-    pub fn lambda(&self) -> f64 {
+    pub(crate) fn lambda(&self) -> f64 {
         self.tensor[0][0][1][1]
     }
 
     /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
-    pub fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+    pub(crate) fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
         let entry = |i: usize, k: usize| {
             (0..self.components)
                 .map(|j| self.tensor[i][k][j][0] * g[j].x + self.tensor[i][k][j][1] * g[j].y)

@@ -2,11 +2,13 @@
 //! particle-partition of unity method.
 //!
 //! A [`Problem`](problem::Problem), from a file or built in code, is solved by [`solve()`](solve::solve);
-//! the result is a [`Dataset`](ppum::dataset::Dataset). Results do not depend on the number of threads.
+//! the result is a [`Dataset`](ppum::dataset::Dataset) with the field, its stress intensity factors, the
+//! [report](report::SolverReport) of the solver and [warnings](diagnostics).
 //!
 //! ```
 //! use std::path::Path;
 //!
+//! use ppum::progress::unwatched;
 //! use ppum_solve::problem::Problem;
 //! use ppum_solve::solve::solve;
 //!
@@ -30,50 +32,58 @@
 //!     level = 4
 //! "#;
 //! let problem = Problem::parse(text, "plate.toml", Path::new("."))?;
-//! let dataset = solve(&problem, &mut |_| {})?;
+//! let dataset = solve(&problem, unwatched())?;
 //! // K_I / (σ √(πa)) of a square plate with a/W = 1/2 is 1.333712
 //! let factor = dataset.steps[0].intensities[0].k1 / (0.5 * std::f64::consts::PI).sqrt();
 //! assert!((factor / 1.333712 - 1.0).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Tour
+//!
+//! - [`problem`]: what is to be solved, read from TOML or built in code, every mistake at its place.
+//! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made; [`solve()`](solve::solve)
+//!   does both; [`spectrum`](solve::spectrum) measures the condition of a discretisation.
+//! - [`intensity`]: stress intensity factors of any field. [`diagnostics`]: they and all warnings once more,
+//!   from a dataset.
+//! - [`norms`]: energies and errors, integrated over the cells of a [`Space`](space::Space).
+//!
+//! # Threads
+//!
+//! Work is spread over the pool of threads that a call is made from, and no pool is made here: what is called
+//! inside `ThreadPool::install` stays on that pool. Results have the same bits on any number of threads. Long
+//! calls take a [`Watcher`](ppum::progress::Watcher), which hears of their progress and can stop them.
+//!
+//! # Rooms
+//!
+//! Modules import from floors below their own only; `tests/solver/rooms.rs` holds them to it.
+//!
+//! ```text
+//! solve                                            plan, system, solution, dataset
+//! assembly        diagnostics                      cells and border → K u = f; warnings
+//! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
+//! space                                            local spaces of a cover, enriched
+//! refine                                           covers
+//! corner                                           singular points of the border
+//! equilibrium     problem         smoothness       watched
+//! geometry        law             linear           quadrature      report
+//! ```
 
-pub mod around;
-pub mod balance;
+mod assembly;
 mod basis;
-mod batch;
-mod block_matrix;
-mod border;
-mod cell;
-mod cholesky;
-mod clip;
 mod corner;
-pub mod effort;
-mod eigen;
-mod enrichment;
-mod estimate;
-mod gauge;
-mod given;
-pub mod inspect;
+pub mod diagnostics;
+mod equilibrium;
+mod geometry;
 pub mod intensity;
-mod interfaces;
-pub mod law;
-mod loads;
-pub mod locking;
+mod law;
+mod linear;
 pub mod norms;
-mod pencil;
-mod pieces;
-mod placed;
 pub mod problem;
-pub mod quadrature;
-mod random;
-pub mod reaction;
+mod quadrature;
 mod refine;
-mod rigid;
-pub mod shape;
+pub mod report;
 mod smoothness;
 pub mod solve;
 pub mod space;
-mod spectrum;
-mod system;
-mod transform;
-pub mod warnings;
+mod watched;

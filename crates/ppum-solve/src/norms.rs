@@ -103,7 +103,7 @@ struct Volume {
 }
 
 fn all_cells(space: &Space<'_>) -> Vec<usize> {
-    (0..space.partition.len()).collect()
+    (0..space.partition().len()).collect()
 }
 
 /// A point of integration.
@@ -124,7 +124,7 @@ fn over_cells<S: Default + Send>(
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
     let rules = |c: usize| match extra {
         0 => space.rules(&quadrature, c),
-        _ => quadrature.cell(&space.partition.cell[c], &space.coverers[c]).into(),
+        _ => quadrature.cell(&space.partition().cell[c], &space.coverers[c]).into(),
     };
     let cell = |&c: &usize| {
         let mut sum = S::default();

@@ -16,10 +16,10 @@ use std::sync::Arc;
 use crate::crack::{Crack, TipId};
 use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
-use crate::formula::Table;
 use crate::function::{Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
+use ppum_formula::Table;
 
 /// A solved problem, or a field from elsewhere in the same representation.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,14 +6,15 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
-use ppum_solve::effort::{EffortError, check_effort};
+use ppum_solve::diagnostics::effort::{EffortError, check_effort};
+use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::{judge, kind};
 use serde::Serialize;
 
 use crate::dataset::open;
 use crate::number::{json, places};
+use crate::progress::Bar;
 use crate::standard;
 use crate::tips::{Tip, all_tips, table};
 use crate::warnings::{WarningRow, rows, warn};
@@ -125,7 +126,7 @@ fn computed(
     index: usize,
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let (outcomes, warnings) = judge(dataset, index, problem)?;
+    let (outcomes, warnings) = recompute(dataset, index, problem, &Bar::new())?;
     let step = &dataset.steps[index];
     let tip = |outcome: &Outcome| match &outcome.factors {
         Some(factors) => Tip::new(index, step, factors),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record};
 use ppum_solve::problem::Problem;
+use ppum_solve::report::SolverReport;
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -17,6 +18,7 @@ use crate::memory;
 use crate::number::{Number, count, json, places};
 use crate::output::Output;
 use crate::progress::Bar;
+use crate::remedy::with_remedy;
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
@@ -71,12 +73,11 @@ impl Args {
         )?;
         let dataset = {
             let bar = Bar::new();
-            let mut show = |progress| bar.show(progress);
             let memory = self.memory();
             let solve = || {
-                let plan = Plan::new(&problem, memory, &mut show)?;
+                let plan = Plan::new(&problem, memory, &bar).map_err(with_remedy)?;
                 ppum_format::check(plan.dataset())?;
-                anyhow::Ok(plan.solve(&mut show)?)
+                plan.solve(&bar).map_err(with_remedy)
             };
             threads::with(self.threads, solve)??
         };
@@ -121,8 +122,9 @@ impl Args {
     /// Does all but solving: what is refused is told now.
     fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
         let checked = || {
-            let plan = Plan::new(problem, self.memory(), &mut |_| {})?;
-            plan.check()?;
+            let bar = Bar::new();
+            let plan = Plan::new(problem, self.memory(), &bar).map_err(with_remedy)?;
+            plan.check(&bar).map_err(with_remedy)?;
             ppum_format::check(plan.dataset())?;
             anyhow::Ok(*plan.estimate())
         };
@@ -168,13 +170,13 @@ impl Report {
         let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
         let phase = |r: &&Record| PhaseRow { name: r.name.clone(), seconds: r.value };
         let is_elastic = dataset.equation.elastic().is_some();
-        let energy = numbers.iter().find(|r| r.name == "energy");
+        let report = SolverReport::of(&step.history);
         Self {
             file,
             title: dataset.title.clone(),
             patches: step.partition.len(),
             unknowns: step.fields[0].coefficients.iter().map(Vec::len).sum(),
-            energy: energy.map(|r| Number(r.value)),
+            energy: report.energy.map(Number),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),

@@ -9,7 +9,7 @@
 mod exponent;
 mod sectors;
 
-use crate::clip::rim_crossings;
+use crate::geometry::rim_crossings;
 use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;
@@ -23,24 +23,24 @@ use sectors::{Sector, Surroundings};
 /// Lengths below this part of the domain's longer side count as zero, as they do for cracks.
 const TOUCH: f64 = 1e-9;
 
-/// What takes the place of 1 − λ where loads jump.
+/// Stand-in for 1 − λ where loads jump.
 const LOGARITHM: f64 = 0.3;
 
 /// A singular point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
-    /// Where it is.
+    /// Its place.
     pub(crate) at: Vec2,
     /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where values jump.
     pub(crate) exponent: f64,
     /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
     pub(crate) room: f64,
-    /// What it is.
+    /// Its nature.
     pub(crate) nature: Nature,
 }
 
 impl Corner {
-    /// How much of the field around the point is not smooth: 1 − λ, and a constant where loads jump.
+    /// The part of the field around the point that is not smooth: 1 − λ, and a constant where loads jump.
     pub(crate) fn weakness(&self) -> f64 {
         match self.nature {
             Nature::Load => LOGARITHM,
@@ -49,7 +49,7 @@ impl Corner {
     }
 }
 
-/// What makes a point singular.
+/// The cause of a singular point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Nature {
     /// A kink of the crack with this index.
@@ -111,7 +111,7 @@ pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
     places.iter().filter_map(corner).collect()
 }
 
-/// What of the equation the exponents depend on.
+/// The part of the equation that the exponents depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Constants {
     /// Kolosov's κ.
@@ -202,7 +202,7 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     all
 }
 
-/// Where what a condition on an edge gives may jump, in the edge's own coordinate.
+/// Places at which the data of a condition on an edge may jump, in the edge's own coordinate.
 fn jumps<'c>(
     condition: &'c BoundaryCondition,
     edge: Edge,
@@ -234,13 +234,13 @@ fn edges_of(rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
     (0..4).map(move |k| [corners[k], corners[(k + 1) % 4]])
 }
 
-/// Where a segment meets a rim.
+/// The points that a segment shares with a rim.
 fn crossing([a, b]: [Vec2; 2], hole: &Hole) -> Vec<Vec2> {
     let on_segment = rim_crossings(a, b, hole).into_iter().filter(|t| (0.0..=1.0).contains(t));
     on_segment.map(|t| a + (b - a) * t).collect()
 }
 
-/// Where two rims meet.
+/// The points that two rims share.
 fn rims_crossing(hole: &Hole, other: &Hole) -> Vec<Vec2> {
     match (hole, other) {
         (Hole::Polygon { .. }, _) => hole.sides().flat_map(|s| crossing(s, other)).collect(),

@@ -1,4 +1,4 @@
-//! What the plate looks like around a point of its border: sectors of material between rays.
+//! The plate around a point of its border: sectors of material between rays.
 
 use crate::problem::{BorderPart, Edge, Problem};
 use ppum::crack::Side;
@@ -46,7 +46,7 @@ struct Ray {
 /// Distance at which loads are looked at, in parts of the room around the point.
 const BESIDE: f64 = 1e-9;
 
-/// What a ray runs on.
+/// The line that a ray runs on.
 #[derive(Clone, Copy)]
 enum On {
     /// An edge, with its own coordinate a step from the point.

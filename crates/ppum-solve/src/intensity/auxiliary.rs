@@ -9,7 +9,7 @@ use ppum::vec2::{Vec2, vec2};
 /// Of each component its gradient, in the tip's frame.
 pub(super) type Gradients = [Vec2; 2];
 
-/// What the interaction integral takes of the field of one mode, at a point in the tip's frame.
+/// The field of one mode as the interaction integral takes it, at a point in the tip's frame.
 pub(super) struct Auxiliary {
     /// ∇uᵃ_i
     pub(super) gradient: Gradients,

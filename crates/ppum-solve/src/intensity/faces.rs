@@ -1,4 +1,4 @@
-//! What the loads on the faces of a crack add to the interaction integral.
+//! The part of the interaction integral that comes from loads on the faces of a crack.
 
 use super::FaceLoad;
 use super::auxiliary::auxiliary;
@@ -15,7 +15,7 @@ const ORDER: usize = 8;
 const PANELS: u32 = 8;
 const DIVISIONS: u32 = 45;
 
-/// Where panels are divided. Not in the middle: the rules of a panel and of its halves give the same for a jump
+/// The place at which panels are divided. Not the middle: the rules of a panel and of its halves give the same for a jump
 /// beside it.
 const SHARE: f64 = 0.4;
 

@@ -6,10 +6,12 @@ use super::faces::Faces;
 use crate::law::{Law, LawAt};
 use crate::quadrature::{Doubt, Quadrature, Rule};
 use crate::space::Space;
+use crate::watched::Stage;
 use ppum::crack::{LocalTip, Side, TipId, TipPoint};
 use ppum::dataset::{Material, Ring};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
+use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 
@@ -35,16 +37,16 @@ struct Integrals {
     modes: Modes,
     /// Twice the strain energy in the largest disc.
     energy: f64,
-    /// What the rules do not resolve.
+    /// Errors that the rules leave.
     doubt: Doubt,
 }
 
-/// What is found at a tip.
+/// The findings at a tip.
 pub(super) struct Found {
     pub(super) rings: [Ring; RINGS],
     /// See [`Outcome::strength`](super::Outcome::strength).
     pub(super) strength: f64,
-    /// What quadrature does not resolve in the discs.
+    /// Errors that quadrature leaves in the discs.
     pub(super) doubt: Doubt,
 }
 
@@ -86,12 +88,12 @@ impl<'a> Interaction<'a> {
 
     /// The cells that meet the largest disc.
     fn cells(&self) -> impl Iterator<Item = usize> {
-        let cells = &self.space.partition.cell;
+        let cells = &self.space.partition().cell;
         (0..cells.len()).filter(|&c| cells[c].distance(self.center) < self.largest())
     }
 
     fn cell(&self, quadrature: &Quadrature<'_>, c: usize) -> Integrals {
-        let cell = &self.space.partition.cell[c];
+        let cell = &self.space.partition().cell[c];
         let small = cell.size().length() < SMALL * self.radii[0];
         let order = if small { self.space.degree() + 4 } else { ORDER };
         let coverers = &self.space.coverers[c];
@@ -171,7 +173,7 @@ impl<'a> Interaction<'a> {
         vec2(flow(0) - work, flow(1))
     }
 
-    /// What does not come from the cells: the loads on the faces.
+    /// The part that does not come from the cells: the loads on the faces.
     fn start(&self) -> Integrals {
         let Self { tip, material, radii, .. } = self;
         let crack = &self.field.step.cracks[tip.crack as usize];
@@ -233,9 +235,17 @@ const DIVISION_POINTS: usize = 1 << 10;
 const BATCH: usize = 1 << 14;
 
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
-pub(super) fn found(space: &Space<'_>, tips: &[Interaction<'_>]) -> Vec<Found> {
+///
+/// # Errors
+/// Cancelled.
+pub(super) fn found(
+    space: &Space<'_>,
+    tips: &[Interaction<'_>],
+    watcher: &dyn Watcher,
+) -> Result<Vec<Found>, Cancelled> {
     let cells: Vec<Vec<usize>> = tips.par_iter().map(|tip| tip.cells().collect()).collect();
     let pairs = cells.iter().map(Vec::len).sum::<usize>().max(1);
+    let stage = Stage::new(watcher, Phase::Intensity, pairs)?;
     let operations = space.probe_operations().max(1);
     let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
     let quadrature = space.quadrature(0).with_divisions(divisions / pairs);
@@ -246,13 +256,14 @@ pub(super) fn found(space: &Space<'_>, tips: &[Interaction<'_>]) -> Vec<Found> {
         if batch.is_empty() {
             break;
         }
-        let part = |&(k, c): &(usize, usize)| tips[k].cell(&quadrature, c);
+        let part =
+            |&(k, c): &(usize, usize)| stage.advance(1).map(|()| tips[k].cell(&quadrature, c));
         let parts: Vec<_> = batch.par_iter().map(part).collect();
         for ((k, _), part) in batch.into_iter().zip(parts) {
-            integrals[k] = sum(integrals[k], part);
+            integrals[k] = sum(integrals[k], part?);
         }
     }
-    tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect()
+    Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect())
 }
 
 fn sum(a: Integrals, b: Integrals) -> Integrals {

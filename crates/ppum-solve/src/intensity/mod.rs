@@ -19,38 +19,35 @@
 //! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is u, so that
 //! \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al. 2009). Interfaces may lie in
 //! the disc; only a tip on one has no factors, because its field is another one. The crack must be straight inside
-//! the disc and nothing else may lie in it: the radii are chosen in the [`Room`] of the tip.
+//! the disc and nothing else may lie in it: the radii are chosen in the [`TipClearance`] of the tip.
 
 mod auxiliary;
 mod faces;
 mod integral;
-mod interface;
-mod room;
 
-use crate::quadrature::Doubt;
+use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
+pub use crate::geometry::{Obstacle, TipClearance};
+use crate::problem::Problem;
+pub use crate::quadrature::Doubt;
 use crate::space::Space;
+use crate::watched::Stage;
 use integral::{Found, Interaction, RINGS, found};
-pub(crate) use interface::interface_distance;
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
 use ppum::field::Field;
+use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::Vec2;
-pub use room::{Obstacle, Room};
 
-/// Radii in parts of the tip's [`Room`]; the last one is preferred, its integral averages most.
+/// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages most.
 const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 
-/// Least radius of a tip's [`Room`], in cells at the tip, for which factors are given.
+/// Least radius of a tip's [`TipClearance`], in cells at the tip, for which factors are given.
 ///
 /// Measured with tips beside another tip and beside the border, at orders 2 and 3 (docs/decisions/0004):
 /// factors are off by at most 0.8 % from half a cell on, by 0.9 % from a fifth on, but by 4 % at a tenth of a
 /// cell, where the spread of the radii may say a tenth of that: the error is that of the field, which cells
-/// larger than the room do not resolve.
-const LEAST_ROOM: f64 = 0.5;
-
-/// Radius of the room, in cells at the tip, from which on the factors are off by less than 0.2 % in the
-/// same study (order 2; 0.05 % at order 3).
-pub const AMPLE_ROOM: f64 = 2.0;
+/// larger than the clearance do not resolve.
+const LEAST_CLEARANCE: f64 = 0.5;
 
 /// A load per area at a point: the body force b.
 pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
@@ -67,85 +64,111 @@ pub struct Loads<'a> {
     pub faces: Option<FaceLoad<'a>>,
 }
 
-/// What is known of a tip.
+/// The findings about a tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The tip.
     pub tip: TipId,
-    /// Where it is.
+    /// Its place.
     pub at: Vec2,
-    /// The room around it.
-    pub room: Room,
+    /// Its clearance.
+    pub clearance: TipClearance,
     /// The longest side of the cells it lies in.
     pub cell: f64,
-    /// Distance to the nearest interface of two materials, if it is in the room and not ample for these
-    /// cells, see [`AMPLE_ROOM`].
+    /// Distance to the nearest interface of two materials, if it is within the clearance and nearer than two of these
+    /// cells.
     pub interface: Option<f64>,
-    /// Its factors; none if there is too little room for them, see [`Outcome::needed`].
+    /// Its factors; none if the clearance is too small for them, see [`Outcome::needed`].
     pub factors: Option<TipIntensity>,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
     /// where the crack concentrates stress, and far above K where nothing does. Zero without factors.
     pub strength: f64,
-    /// What the quadrature in the discs does not resolve.
+    /// Errors that quadrature leaves in the discs.
     pub doubt: Doubt,
 }
 
 impl Outcome {
-    /// Radius of the room below which a tip has no factors.
+    /// Radius of the clearance below which a tip has no factors.
     #[must_use]
     pub fn needed(&self) -> f64 {
-        LEAST_ROOM * self.cell
+        LEAST_CLEARANCE * self.cell
     }
 }
 
 /// The stress intensity factors of all tips of a step, each at three radii chosen in the tip's
-/// [`Room`]; none at all unless the field is a displacement.
+/// [`TipClearance`]; none at all unless the field is a displacement.
 ///
 /// The field is evaluated in the cells that meet the discs, for all tips in parallel; the values do
 /// not depend on the number of threads.
 ///
+/// # Errors
+/// Cancelled, within the time of one cell.
+///
 /// # Panics
 /// If the field is not of the dataset and step of `space`.
-#[must_use]
 pub fn intensities(
     dataset: &Dataset,
     field: &Field<'_>,
     space: &Space<'_>,
     loads: Loads<'_>,
-) -> Vec<Outcome> {
-    let tips = tips(&field.step.cracks).map(|tip| Outcome::new(dataset, space, tip));
-    let mut tips: Vec<_> = tips.collect();
+    watcher: &dyn Watcher,
+) -> Result<Vec<Outcome>, Cancelled> {
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let wanted: Vec<_> = tips.iter_mut().filter(|o| o.room.radius >= o.needed()).collect();
-    let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.room.radius)));
+    let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+    let outcome = |tip| stage.advance(0).map(|()| Outcome::new(dataset, space, tip));
+    let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
+    let wanted: Vec<_> = tips.iter_mut().filter(|o| o.clearance.radius >= o.needed()).collect();
+    let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
-    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals)) {
+    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals, watcher)?) {
         let Found { rings, strength, doubt } = found;
         let Ring { k1, k2, .. } = rings[RINGS - 1];
         outcome.factors = Some(TipIntensity { tip: outcome.tip, k1, k2, rings: rings.to_vec() });
         outcome.strength = strength;
         outcome.doubt = doubt;
     }
-    tips
+    Ok(tips)
+}
+
+/// The same under the loads of a problem that the field solves; none act without one.
+///
+/// # Errors
+/// Cancelled.
+pub(crate) fn intensities_under(
+    problem: Option<&Problem>,
+    dataset: &Dataset,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Outcome>, Cancelled> {
+    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| problem.source_at(x));
+    let face = |crack: u32, side: Side, x: Vec2| {
+        problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
+    };
+    let loads = Loads {
+        force: problem.map(|_| &force as PointLoad<'_>),
+        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
+    };
+    intensities(dataset, field, space, loads, watcher)
 }
 
 impl Outcome {
     fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
-        let at = space.step.cracks[tip.crack as usize].end_point(tip.end);
-        let own = space.partition.cell.iter().filter(|cell| cell.contains(at));
+        let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
+        let own = space.partition().cell.iter().filter(|cell| cell.contains(at));
         let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);
-        let room = Room::new(dataset, &space.step.cracks, tip, cell);
-        let reach = room.radius.min(AMPLE_ROOM * cell);
+        let clearance = TipClearance::new(dataset, &space.step().cracks, tip, cell);
+        let reach = clearance.radius.min(AMPLE_CLEARANCE * cell);
         let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
         let interface = elastic.and_then(|body| interface_distance(body, at, reach));
         Self {
             tip,
             at,
-            room,
+            clearance,
             cell,
             interface,
             factors: None,

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use super::Problem;
 use ppum::crack::Side;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use ppum::expression::Expression;
@@ -153,9 +155,9 @@ impl fmt::Display for BorderPart {
 /// a component of which nothing is said anywhere is free of traction (of flux).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCondition {
-    /// Where.
+    /// The place.
     pub on: BorderPart,
-    /// One condition a component of the unknown field.
+    /// One condition per component of the unknown field.
     pub components: Vec<Condition>,
     /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
     pub pressure: Option<Expression>,
@@ -173,7 +175,7 @@ pub enum Condition {
 }
 
 impl BoundaryCondition {
-    /// Conditions on a part of the border, one a component.
+    /// Conditions on a part of the border, one per component.
     #[must_use]
     pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
         Self { on, components, pressure: None }
@@ -233,5 +235,33 @@ impl BoundaryCondition {
             };
         }
         values
+    }
+}
+
+impl Problem {
+    /// The source (body force) at a point; zero beyond the components.
+    pub(crate) fn source_at(&self, x: Vec2) -> [f64; 2] {
+        let mut source = [0.0; 2];
+        source.iter_mut().zip(&self.source).for_each(|(value, e)| *value = e.value(x));
+        source
+    }
+
+    /// The traction on the face of a crack at a point of it, the sum of all conditions there.
+    pub(crate) fn face_load(&self, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
+        let segments = self.cracks[crack].points.windows(2);
+        let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
+        let nearest = segments.min_by(|s, t| distance(s).total_cmp(&distance(t)));
+        let Some(&[a, b]) = nearest else { return [0.0; 2] };
+        let left = (b - a).unit().left();
+        let normal = if side == Side::Above { -left } else { left };
+        let mut sum = [0.0; 2];
+        for condition in &self.boundary {
+            let BorderPart::Crack { crack: other, face } = condition.on else { continue };
+            if other == crack && face.is_none_or(|face| face == side) {
+                let load = condition.values(x, normal);
+                sum.iter_mut().zip(load).for_each(|(sum, t)| *sum += t);
+            }
+        }
+        sum
     }
 }

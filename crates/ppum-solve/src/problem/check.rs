@@ -1,4 +1,4 @@
-//! What the values of a problem must obey, whether it was read from a file or built in code.
+//! Rules for the values of a problem, whether it was read from a file or built in code.
 
 use std::collections::BTreeMap;
 
@@ -75,7 +75,7 @@ fn check_zone(problem: &Problem) -> Option<Violation> {
     Some(Violation::new(key, format!("`enrichment_radius` {message}")))
 }
 
-/// What is wrong with the radius of a zone around all tips, if it is too large: the functions of a tip
+/// The mistake of the radius of a zone around all tips, if it is too large: the functions of a tip
 /// jump on the whole straight extension of its segment, also beyond the other end of the crack.
 pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
     let two_tips = problem.cracks.iter().filter(|crack| crack.tips().count() == 2);
@@ -129,7 +129,7 @@ fn check_equation(equation: &Equation, domain: &Domain) -> Vec<Violation> {
     mistake.into_iter().collect()
 }
 
-/// One value a component everywhere; files cannot break this, code can.
+/// One value per component everywhere; files cannot break this, code can.
 fn check_components(problem: &Problem) -> Vec<Violation> {
     let expected = problem.components();
     let boundary = (0..)
@@ -321,7 +321,7 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
     Some(Violation::new(on(index), message))
 }
 
-/// How many there are of something.
+/// A number of things in words.
 fn numbered(count: usize, table: &str) -> String {
     match count {
         0 => format!("the problem has no {table}"),

@@ -11,7 +11,7 @@ use super::boundary::Edge;
 use super::check::Violation;
 use super::key::Key;
 use super::nearby::{Nearby, TooDense, first_pair};
-use crate::placed::{Placed, wider};
+use crate::geometry::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.
@@ -99,11 +99,11 @@ const MOST_CONTACTS: usize = 100;
 
 /// No two of the cracks touch.
 fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Violation> {
-    let pieces = in_order.iter().flat_map(|&crack| {
+    let of_crack = |&crack: &usize| {
         let segments = cracks[crack].points.windows(2).enumerate();
         segments.map(move |(k, pair)| (crack, k, [pair[0], pair[1]]))
-    });
-    let pieces: Vec<(usize, usize, Segment)> = pieces.collect();
+    };
+    let pieces: Vec<(usize, usize, Segment)> = in_order.iter().flat_map(of_crack).collect();
     let segments: Vec<_> = pieces.iter().map(|&(.., segment)| segment).collect();
     let nearby = Nearby::new(&segments, touch);
     let mut contacts = BTreeMap::new();
@@ -122,7 +122,7 @@ fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Viola
     contacts.into_iter().take(MOST_CONTACTS).map(contact).collect()
 }
 
-/// What is wrong where a crack, at its segment `k`, touches another one.
+/// The mistake of a crack that touches another one at its segment `k`.
 fn contact(((crack, other), k): ((usize, usize), usize)) -> Violation {
     let message = "the crack crosses or touches another one, which is not supported yet in this version; \
                    move them apart";

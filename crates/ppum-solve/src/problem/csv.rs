@@ -11,7 +11,7 @@ pub(super) struct Line<'t> {
     pub(super) words: Vec<Word<'t>>,
 }
 
-/// What stands between two commas.
+/// The text between two commas.
 pub(super) struct Word<'t> {
     /// Column of its first character, from 1.
     pub(super) column: usize,

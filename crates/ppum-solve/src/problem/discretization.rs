@@ -1,4 +1,4 @@
-//! How a problem is discretised.
+//! The discretisation of a problem.
 
 use ppum::dataset::MAX_DEGREE;
 use ppum::vec2::Vec2;
@@ -14,13 +14,13 @@ pub struct Discretization {
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
     /// Degree of the local polynomials. Problem files that give none get
-    /// [`default_order`](crate::locking::default_order).
+    /// [`default_order`](super::default_order).
     pub order: Order,
     /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,
     /// The weight function.
     pub weight: WeightFunction,
-    /// Where the local spaces are enriched.
+    /// The patches whose local spaces are enriched.
     pub enrichment: Enrichment,
     /// Resolve jumps of the material: kinks of the solution on patches that an interface cuts.
     pub interfaces: bool,
@@ -96,9 +96,9 @@ impl Discretization {
     .point.y
 )]
 pub struct OrderError {
-    /// What the formula gives.
+    /// Value of the formula.
     pub value: f64,
-    /// Where.
+    /// The place.
     pub point: Vec2,
 }
 

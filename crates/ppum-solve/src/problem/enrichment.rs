@@ -10,7 +10,7 @@ use ppum::vec2::{Rect, Vec2};
 use super::check::{Violation, too_wide};
 use super::key::Key;
 use super::{Problem, expression};
-use crate::clip::meets;
+use crate::geometry::meets;
 
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
 /// polynomials up to a degree: `[[enrichment]]` in problem files.
@@ -31,20 +31,20 @@ use crate::clip::meets;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalEnrichment {
-    /// What reports call the functions; if empty, their texts.
+    /// Name of the functions in reports; if empty, their texts.
     pub name: String,
     /// Formulas of x, y, r, theta of the frame that `site` gives.
     pub functions: Vec<String>,
     /// Constants of the formulas.
     pub parameters: Vec<(String, f64)>,
-    /// Where x, y, r and theta are measured.
+    /// The frame in which x, y, r and theta are measured.
     pub site: Site,
     /// Which patches have the functions.
     pub region: Region,
     /// Degree of the polynomials that multiply the functions. `None` is 0, but at tips
     /// [`Discretization::tip_degree`](super::Discretization::tip_degree) on patches that hold the tip.
     pub degree: Option<usize>,
-    /// Where the functions are not smooth, beside what their formulas show; in their frame.
+    /// Places at which the functions are not smooth, beside what their formulas show; in their frame.
     pub declared: Declared,
 }
 
@@ -70,7 +70,7 @@ pub enum Site {
 /// The patches that have an enrichment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// What suits the site. World: all patches; a point or a segment: as `Near(0.0)`; tips: `Near` with
+    /// The region that suits the site. World: all patches; a point or a segment: as `Near(0.0)`; tips: `Near` with
     /// the [enrichment radius](super::Problem::enrichment_radius).
     Default,
     /// Patches that hold the point or tip inside or are cut by the segment, and those whose support

@@ -1,10 +1,10 @@
-//! What is wrong with a problem, and where.
+//! Mistakes of a problem and their places.
 
 use std::fmt;
 
 /// Everything found wrong with a problem, in the order of the file.
 ///
-/// Renders one finding a line, the first hundred of them, e.g.
+/// Renders one finding per line, the first hundred of them, e.g.
 /// ``plate.toml:12:1: unknown key `yong` in [material]; did you mean `young`?``
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", lines(.findings))]
@@ -15,13 +15,13 @@ pub struct ProblemError {
 /// One thing that is wrong, with its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Where it is.
+    /// Its place.
     pub place: Place,
-    /// What is wrong and what to do, lower-case, without the place.
+    /// The mistake and its remedy, lower-case, without the place.
     pub message: String,
 }
 
-/// Where a [`Finding`] is.
+/// The place of a [`Finding`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A file as a whole, e.g. one that cannot be read.

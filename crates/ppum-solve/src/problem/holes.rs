@@ -1,4 +1,4 @@
-//! What holes may be, and where they may lie.
+//! Rules for the shapes and places of holes.
 
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -7,7 +7,7 @@ use super::check::Violation;
 use super::cracks::{TOUCH, crosses_itself};
 use super::key::Key;
 use super::nearby::TooDense;
-use crate::clip::meets;
+use crate::geometry::meets;
 
 /// Most circles and corners of polygons together, as in a dataset.
 const MAX_RIMS: usize = 1 << 14;
@@ -90,7 +90,7 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
 }
 
 fn crosses_box(side: [Vec2; 2], bounds: &Rect) -> bool {
-    crate::clip::segment_inside(side[0], side[1], bounds) > 0.0
+    crate::geometry::segment_inside(side[0], side[1], bounds) > 0.0
 }
 
 fn corners(b: &Rect) -> [Vec2; 4] {

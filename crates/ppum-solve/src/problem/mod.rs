@@ -42,7 +42,9 @@ mod nearby;
 mod points;
 pub(crate) mod quantities;
 mod read;
+mod restraint;
 mod scopes;
+mod stiffness;
 mod table_file;
 #[cfg(test)]
 mod tests;
@@ -62,9 +64,13 @@ pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Finding, Place, ProblemError};
 pub use ppum::expression::Expression;
+pub use restraint::restraint_center;
+pub(crate) use restraint::restraint_words;
+pub use stiffness::default_order;
+pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use table_file::read_table;
 
-/// What is to be solved, and how.
+/// A problem with its discretisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// One line that names the problem; may be empty.
@@ -77,9 +83,9 @@ pub struct Problem {
     pub cracks: Vec<Crack>,
     /// The conditions on the border.
     pub boundary: Vec<BoundaryCondition>,
-    /// The right-hand side f, one expression a component: body force or source.
+    /// The right-hand side f, one expression per component: body force or source.
     pub source: Vec<Expression>,
-    /// The exact solution, one expression a component; empty if unknown.
+    /// The exact solution, one expression per component; empty if unknown.
     pub exact: Vec<Expression>,
     /// Quantities the problem names, beside the built-in ones.
     pub quantities: Vec<NamedQuantity>,
@@ -100,7 +106,7 @@ pub struct Problem {
 /// Longest problem file, in bytes: a hundred thousand cracks take some.
 pub const MAX_LENGTH: u64 = 16 << 20;
 
-/// How the system is made and solved.
+/// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Solver {
     /// The linear solver.
@@ -120,7 +126,7 @@ impl Default for Solver {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SolverKind {
-    /// What suits the problem.
+    /// The choice that suits the problem.
     #[default]
     Auto,
     /// Sparse Cholesky factorisation.
@@ -164,7 +170,7 @@ impl Problem {
         dataset.problem.as_ref().map(read).transpose()
     }
 
-    /// A problem of elasticity on a box, as yet without cracks, loads and supports.
+    /// A problem of elasticity on a box, as yet without cracks, loads and restraints.
     #[must_use]
     pub fn elasticity(
         domain: impl Into<Domain>,
@@ -213,7 +219,7 @@ impl Problem {
         self
     }
 
-    /// The problem with conditions on a whole edge, one a component.
+    /// The problem with conditions on a whole edge, one per component.
     #[must_use]
     pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
         self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));

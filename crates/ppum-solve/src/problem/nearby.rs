@@ -6,7 +6,7 @@ use ppum::box_tree::BoxTree;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
 
-use crate::placed::{self, wider};
+use crate::geometry::{around, wider};
 
 /// Most pairs of near segments that are looked at: a second or two. Cracks and rims that a cover can resolve have a
 /// few pairs a segment.
@@ -24,7 +24,7 @@ pub(super) struct Nearby {
 pub(super) struct TooDense;
 
 impl TooDense {
-    /// What is wrong with the things `what` whose segments these are.
+    /// The mistakes of the things `what` whose segments these are.
     pub(super) fn message(what: &str) -> String {
         format!(
             "{what} lie too close together: more than {MOST} pairs of their segments are near each other; \
@@ -36,7 +36,7 @@ impl TooDense {
 impl Nearby {
     /// Segments that are near where they come as close as `touch`.
     pub(super) fn new(segments: &[Segment], touch: f64) -> Self {
-        let boxes: Vec<_> = segments.iter().map(|&segment| around(segment, touch)).collect();
+        let boxes: Vec<_> = segments.iter().map(|&segment| touching(segment, touch)).collect();
         Self { tree: BoxTree::new(&boxes), touch, left: Cell::new(MOST) }
     }
 
@@ -46,15 +46,15 @@ impl Nearby {
     /// The segments lie too close together.
     pub(super) fn of(&self, segment: Segment) -> Result<Vec<usize>, TooDense> {
         let mut found = Vec::new();
-        self.tree.query_box(&around(segment, self.touch), &mut found);
+        self.tree.query_box(&touching(segment, self.touch), &mut found);
         let left = self.left.get().checked_sub(found.len()).ok_or(TooDense)?;
         self.left.set(left);
         Ok(found.into_iter().map(|index| index as usize).collect())
     }
 }
 
-fn around(segment: Segment, margin: f64) -> Rect {
-    wider(&placed::around(&segment), margin)
+fn touching(segment: Segment, margin: f64) -> Rect {
+    wider(&around(&segment), margin)
 }
 
 /// The first pair i < j of segments, by j and then by i, that `meet` and may touch.
@@ -81,10 +81,10 @@ mod tests {
     use ppum::vec2::vec2;
 
     use super::*;
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     fn random_segments(n: usize, random: &mut Random) -> Vec<Segment> {
-        let mut point = || vec2(random.signed(), random.signed());
+        let mut point = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
         (0..n)
             .map(|_| {
                 let a = point();
@@ -93,10 +93,10 @@ mod tests {
             .collect()
     }
 
-    /// What the tree leaves out is farther away.
+    /// All that the tree leaves out is farther away.
     #[test]
     fn all_that_is_near_is_found() {
-        let mut random = Random::new(7);
+        let mut random = Random(7);
         for touch in [1e-9, 1e-3] {
             let segments = random_segments(60, &mut random);
             let nearby = Nearby::new(&segments, touch);
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_first_pair_is_that_of_a_search_through_all() {
-        let mut random = Random::new(8);
+        let mut random = Random(8);
         for n in [0, 1, 2, 9, 40] {
             let segments = random_segments(n, &mut random);
             let meet = |i: usize, j: usize| {

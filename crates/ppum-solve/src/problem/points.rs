@@ -10,7 +10,7 @@ use super::error::Finding;
 /// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
 ///
 /// # Errors
-/// One finding a line that is not a finite `x,y`, or equals an earlier one; or one for the file.
+/// One finding per line that is not a finite `x,y`, or equals an earlier one; or one for the file.
 pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Finding>> {
     let text = csv::read(path, "points").map_err(|finding| vec![finding])?;
     let points = parse(&text, &path.display().to_string())?;

@@ -22,7 +22,7 @@ pub(super) struct Data {
 /// Reads a file.
 ///
 /// # Errors
-/// One finding a line that has the wrong number of entries, an entry that is not a finite number, or
+/// One finding per line that has the wrong number of entries, an entry that is not a finite number, or
 /// a knot that does not exceed the one before; or one for the file.
 pub(super) fn read(path: &Path) -> Result<Data, Vec<Finding>> {
     let text = csv::read(path, "table").map_err(|finding| vec![finding])?;

@@ -66,14 +66,14 @@ pub(super) trait Part: Clone {
     fn divisions(&self, directions: &[Vec2]) -> Vec<[Self; 2]>;
 }
 
-/// What a division has to resolve.
+/// The integrands that a division has to resolve.
 #[derive(Clone, Copy)]
 pub(super) struct Demand<'a> {
     /// The functions.
     pub(super) probes: &'a dyn Probes,
     /// Those that are active.
     pub(super) active: &'a [u32],
-    /// What offsets are measured from.
+    /// Origin of the offsets.
     pub(super) anchor: Vec2,
     /// True if parts have curved borders: then the integral of 1 is held, too.
     pub(super) curved: bool,
@@ -293,14 +293,14 @@ impl Demand<'_> {
         values.iter().all(|value| value[0].is_finite())
     }
 
-    /// What cannot be divided any more has no error but that of loads.
+    /// A part that cannot be divided any more has no error but that of loads.
     fn forget(&self, errors: &mut [f64]) {
         let is_load =
             |k: usize| k < 3 * self.active.len() && self.probes.load(self.active[k / 3]).is_some();
         errors.iter_mut().enumerate().filter(|(k, _)| !is_load(*k)).for_each(|(_, e)| *e = 0.0);
     }
 
-    /// What parts do not resolve.
+    /// Errors that parts leave.
     fn doubt<P>(&self, entries: &[Entry<P>]) -> Doubt {
         let allowed = self.allowed(entries);
         let cut = entries.len() >= BUDGET || self.left.get() == 0;
@@ -382,9 +382,9 @@ impl Demand<'_> {
     fn directions(&self, samples: [&Samples; 2]) -> Vec<Vec2> {
         let (mut directions, mut ridges): (Vec<Vec2>, bool) = (Vec::new(), true);
         for k in 0..self.active.len() {
-            let gradients = samples.iter().flat_map(|s| s.of(k));
-            let gradients = gradients.map(|(_, [_, x, y])| Vec2 { x, y }).filter(|g| g.is_finite());
-            let gradients: Vec<Vec2> = gradients.collect();
+            let jets = samples.iter().flat_map(|s| s.of(k));
+            let gradients: Vec<Vec2> =
+                jets.map(|(_, [_, x, y])| Vec2 { x, y }).filter(|g| g.is_finite()).collect();
             if let Some((e, ridge)) = principal(&gradients) {
                 ridges &= ridge;
                 if directions.iter().all(|d| d.cross(e).abs() > PARALLEL) {

@@ -216,7 +216,7 @@ struct Grid {
     size: f64,
     /// Values up to this are zero.
     zero: f64,
-    /// What rounding of the coordinates makes of values.
+    /// Error of values that rounding of the coordinates makes.
     rounding: f64,
 }
 
@@ -302,10 +302,9 @@ impl Grid {
 fn slope(points: &[Vec2], values: &[f64], n: usize) -> f64 {
     let beside = (0..points.len()).filter(|k| k % n > 0).map(|k| (k - 1, k));
     let above = (n..points.len()).map(|k| (k - n, k));
-    let steps = beside
-        .chain(above)
-        .map(|(a, b)| ((points[b] - points[a]).length(), (values[b] - values[a]).abs()));
-    let steps: Vec<(f64, f64)> = steps.collect();
+    let step =
+        |(a, b): (usize, usize)| ((points[b] - points[a]).length(), (values[b] - values[a]).abs());
+    let steps: Vec<(f64, f64)> = beside.chain(above).map(step).collect();
     let longest = steps.iter().fold(0.0, |most: f64, step| most.max(step.0));
     let wide = steps.iter().filter(|step| step.0 > PINCHED * longest);
     wide.fold(0.0, |most: f64, (way, change)| most.max(change / way))

@@ -1,8 +1,8 @@
-//! What rules do not resolve.
+//! Errors that rules leave.
 
 use ppum::vec2::Vec2;
 
-/// What is left of the errors that rules are divided for, where division was ended: by its bounds, or
+/// The rest of the errors that rules are divided for, where division was ended: by its bounds, or
 /// because it did not help.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Doubt {
@@ -11,7 +11,7 @@ pub struct Doubt {
     pub load: f64,
     /// The same of functions and coefficients, relative to the integrals over their pieces.
     pub functions: f64,
-    /// Where the largest part of it lies.
+    /// The place of its largest part.
     pub at: Vec2,
     /// That part.
     worst: f64,

@@ -20,12 +20,12 @@ const ZERO: f64 = 1e-14;
 /// Distances from the line of a segment below this part of its length count as zero.
 const ON_LINE: f64 = 1e-14;
 
-/// How far behind a border, in units of a cell, it is asked whether there is a hole.
+/// Distance behind a border, in units of a cell, at which it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
 
 /// A face of a crack: one side of one of its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Face {
+pub(crate) struct Face {
     /// The segment.
     pub segment: SegmentId,
     /// The side that the material lies on.
@@ -33,8 +33,8 @@ pub struct Face {
 }
 
 impl Face {
-    /// The faces of a crack on one side, one a segment.
-    pub fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
+    /// The faces of a crack on one side, one per segment.
+    pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
         let segment = move |segment| SegmentId { crack: index as u32, segment };
         (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
     }
@@ -49,8 +49,8 @@ impl Face {
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EdgeRule {
-    /// What the offsets are measured from: the singular point they are graded toward, else the
+pub(crate) struct EdgeRule {
+    /// Origin of the offsets: the singular point they are graded toward, else the
     /// centre of the cell.
     pub anchor: Vec2,
     /// Points, relative to the anchor.
@@ -59,12 +59,12 @@ pub struct EdgeRule {
     pub weights: Vec<f64>,
     /// The patches whose supports hold the points, ascending.
     pub patches: Vec<u32>,
-    /// Unit normals out of the material, one a point.
+    /// Unit normals out of the material, one per point.
     pub normals: Vec<Vec2>,
     /// The face that the points lie on, if they are on one. Rounding may put them on either side of the
     /// crack: what has sides there takes that of the face.
     pub face: Option<Face>,
-    /// What the points do not resolve.
+    /// Errors that the points leave.
     pub doubt: Doubt,
 }
 
@@ -94,7 +94,7 @@ impl Quadrature<'_> {
     /// # Panics
     /// If there is no such segment.
     #[must_use]
-    pub fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
+    pub(crate) fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
@@ -109,7 +109,7 @@ impl Quadrature<'_> {
     /// for nothing. A segment along a cell's border belongs to the cell that `normal` points out of.
     /// `coverers` are the patches whose open supports meet the cell; more of them do no harm.
     #[must_use]
-    pub fn edge(
+    pub(crate) fn edge(
         &self,
         cell: &Rect,
         coverers: &[u32],
@@ -175,7 +175,7 @@ impl Line {
         (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
     }
 
-    /// Where a part of the line lies along an axis, if that is one place but for rounding.
+    /// Coordinate of a part of the line along an axis, if that is one place but for rounding.
     fn level(&self, rect: &Rect, axis: usize, (lo, hi): (f64, f64)) -> Option<f64> {
         let slope = component(self.tangent, axis);
         let middle = component(self.foot, axis) + slope * (0.5 * (lo + hi));
@@ -267,7 +267,7 @@ impl Run<'_> {
         }
     }
 
-    /// Where the line crosses the lines of crack segments that meet the cell, and kinks.
+    /// Crossings of the line with the lines of crack segments that meet the cell, and with kinks.
     fn crossings(&self, lo: f64, hi: f64, kinks: &[&Kink]) -> Vec<f64> {
         let point = |s: f64| self.line.foot + self.line.tangent * s;
         let crossing = |[a, b]: [Vec2; 2]| {

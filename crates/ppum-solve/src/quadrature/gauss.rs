@@ -3,11 +3,11 @@
 use std::sync::OnceLock;
 
 /// Largest number of points of a [`gauss`] rule.
-pub const MAX_POINTS: usize = 40;
+pub(crate) const MAX_POINTS: usize = 40;
 
 /// The n-point Gauss–Legendre rule on \[−1, 1\], exact for polynomials of degree 2n − 1.
 #[derive(Clone, Debug)]
-pub struct GaussRule {
+pub(crate) struct GaussRule {
     /// Nodes in ascending order, zeros of the Legendre polynomial P_n.
     pub nodes: Vec<f64>,
     /// Quadrature weights w = 2 / ((1 − x²) P_n′(x)²).
@@ -30,7 +30,7 @@ impl GaussRule {
     }
 
     /// Nodes and weights of the rule moved to \[lo, hi\].
-    pub fn on(&self, lo: f64, hi: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub(crate) fn on(&self, lo: f64, hi: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
         self.nodes.iter().zip(&self.weights).map(move |(x, w)| (mid + half * x, half * w))
     }
@@ -66,13 +66,13 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 /// # Panics
 /// If n is outside that range.
 #[must_use]
-pub fn gauss(n: usize) -> &'static GaussRule {
+pub(crate) fn gauss(n: usize) -> &'static GaussRule {
     static RULES: OnceLock<Vec<GaussRule>> = OnceLock::new();
     assert!((1..=MAX_POINTS).contains(&n), "no Gauss rule with {n} points");
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(GaussRule::new).collect())[n - 1]
 }
 
-/// How far from the ends the outermost points of a closed rule lie, as a part of the interval: on
+/// Distance of the outermost points of a closed rule from the ends, as a part of the interval: on
 /// the right side of a jump at the end, whatever rounding does to coordinates.
 const INSET: f64 = 1e-6;
 

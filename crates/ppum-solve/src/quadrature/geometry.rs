@@ -1,4 +1,4 @@
-//! What decides where integrands are smooth.
+//! The geometry that decides where integrands are smooth.
 
 use super::gauss::MAX_POINTS;
 use ppum::crack::Crack;
@@ -15,10 +15,10 @@ const LEAST_EXPONENT: f64 = 0.04;
 /// More points along a ray for the exponent λ: this over √λ.
 const EXTRA_POINTS: f64 = 8.0;
 
-/// What decides where integrands are smooth. Lists of a patch are indices into the slices before
+/// The geometry that decides where integrands are smooth. Lists of a patch are indices into the slices before
 /// them, in any order; an empty `patch_…` slice means that no patch has any.
 #[derive(Clone, Copy)]
-pub struct Geometry<'a> {
+pub(crate) struct Geometry<'a> {
     /// The partition of unity.
     pub partition: &'a Partition,
     /// The cracks: across their segments functions may jump.
@@ -47,7 +47,7 @@ pub struct Geometry<'a> {
 impl<'a> Geometry<'a> {
     /// A geometry in which functions jump across cracks and are smooth everywhere else.
     #[must_use]
-    pub fn new(partition: &'a Partition, cracks: &'a [Crack]) -> Self {
+    pub(crate) fn new(partition: &'a Partition, cracks: &'a [Crack]) -> Self {
         Self {
             partition,
             cracks,
@@ -97,17 +97,17 @@ fn union(lists: &[Vec<u32>], common: &[u32], patches: &[u32]) -> Vec<u32> {
 
 /// A point at which functions are singular.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Singular {
+pub(crate) struct Singular {
     /// The point.
     pub point: Vec2,
-    /// How functions behave there.
+    /// The growth of functions there.
     pub growth: Growth,
 }
 
-/// How functions behave at a distance r of a singular point, times smooth functions of the angle
+/// Growth of functions with the distance r of a singular point, times smooth functions of the angle
 /// and of the position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Growth {
+pub(crate) enum Growth {
     /// r^{k/2}, k ≥ 1, as at the tip of a crack.
     HalfPowers,
     /// r^λ and r^λ log r with any exponents λ, of which `least` > 0 is the smallest.
@@ -130,7 +130,7 @@ pub(super) struct Grading {
 impl Singular {
     /// The tip of a crack.
     #[must_use]
-    pub const fn tip(point: Vec2) -> Self {
+    pub(crate) const fn tip(point: Vec2) -> Self {
         Self { point, growth: Growth::HalfPowers }
     }
 }
@@ -187,11 +187,11 @@ fn powers(lambda: f64, n: usize) -> Grading {
 /// It should be smooth but for single points and for kinks that are declared before it, and its size
 /// tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made where
 /// samples show that it changes its sign; values that are no numbers count as positive.
-pub type Level = dyn Fn(Vec2) -> f64 + Send + Sync;
+pub(crate) type Level = dyn Fn(Vec2) -> f64 + Send + Sync;
 
 /// A line or curve across which a function or one of its derivatives jumps.
 #[derive(Clone)]
-pub enum Kink {
+pub(crate) enum Kink {
     /// The straight line through two points.
     Line([Vec2; 2]),
     /// A segment.
@@ -211,7 +211,7 @@ impl fmt::Debug for Kink {
 }
 
 /// Functions that the quadrature may look at to see whether its pieces resolve them.
-pub trait Probes: Sync {
+pub(crate) trait Probes: Sync {
     /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`.
     fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>);
 

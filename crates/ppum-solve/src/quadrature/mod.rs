@@ -42,11 +42,11 @@ mod tests;
 
 pub(crate) use curve::may_meet;
 pub use doubt::Doubt;
-pub use edge::{EdgeRule, Face};
+pub(crate) use edge::{EdgeRule, Face};
 pub(crate) use gauss::closed;
-pub use gauss::{GaussRule, MAX_POINTS, gauss};
-pub use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
-pub use orders::Orders;
+pub(crate) use gauss::{GaussRule, gauss};
+pub(crate) use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
+pub(crate) use orders::Orders;
 pub(crate) use roots::{sign_changes, tame};
 
 use orders::Active;
@@ -69,8 +69,8 @@ const SAME_POINT: f64 = 1e-9;
 
 /// A rule on a part of a cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rule {
-    /// What the offsets are measured from: a singular point near it, else the centre of the cell.
+pub(crate) struct Rule {
+    /// Origin of the offsets: a singular point near it, else the centre of the cell.
     pub anchor: Vec2,
     /// Points, relative to the anchor; inside the part, never on its border or on a crack.
     pub offsets: Vec<Vec2>,
@@ -78,7 +78,7 @@ pub struct Rule {
     pub weights: Vec<f64>,
     /// The patches whose open supports hold the points, ascending.
     pub patches: Vec<u32>,
-    /// What the points do not resolve.
+    /// Errors that the points leave.
     pub doubt: Doubt,
 }
 
@@ -119,7 +119,7 @@ impl Rules {
 
 /// The rules of a step's cells.
 #[derive(Clone)]
-pub struct Quadrature<'a> {
+pub(crate) struct Quadrature<'a> {
     geometry: Geometry<'a>,
     orders: Orders,
     /// Segments of cracks and sides of holes.
@@ -143,7 +143,7 @@ struct Disc {
 impl<'a> Quadrature<'a> {
     /// The quadrature for a geometry.
     #[must_use]
-    pub fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
+    pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
         let of_crack = |c: &Crack| c.points.windows(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
         let of_cracks = geometry.cracks.iter().flat_map(of_crack);
         let segments = of_cracks.chain(geometry.holes.iter().flat_map(Hole::sides)).collect();
@@ -164,7 +164,7 @@ impl<'a> Quadrature<'a> {
     /// The rules on a cell. `coverers` are the patches whose open supports meet the cell; more of
     /// them do no harm.
     #[must_use]
-    pub fn cell(&self, cell: &Rect, coverers: &[u32]) -> Vec<Rule> {
+    pub(crate) fn cell(&self, cell: &Rect, coverers: &[u32]) -> Vec<Rule> {
         self.rules(cell, coverers, self.orders, None)
     }
 
@@ -175,7 +175,7 @@ impl<'a> Quadrature<'a> {
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
     /// integrated. The anchor is the centre wherever no other singular point is near.
     #[must_use]
-    pub fn disc(
+    pub(crate) fn disc(
         &self,
         cell: &Rect,
         coverers: &[u32],

@@ -17,10 +17,10 @@ const CELLS: [f64; 7] = [2.0, 2.0, 1.0, 1.0, 2.0, 2.0, 1.0];
 
 /// Numbers of Gauss points in each direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Orders {
-    /// Where several patches overlap.
+pub(crate) struct Orders {
+    /// Order where several patches overlap.
     pub overlap: usize,
-    /// Where one patch is alone, φ = 1, and the integrand a polynomial.
+    /// Order where one patch is alone, φ = 1, and the integrand a polynomial.
     pub flat: usize,
     /// Near points where a function is singular, and where functions are probed.
     pub singular: usize,
@@ -32,7 +32,7 @@ pub struct Orders {
     pub parts: usize,
 }
 
-/// What is active on a piece.
+/// The patches and functions that are active on a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Active {
     /// Number of patches.
@@ -51,14 +51,14 @@ impl Orders {
     /// quadrature's share of the energy below 1e-8. A product of two polynomials is exact where one
     /// patch is alone, cracks or not.
     #[must_use]
-    pub const fn for_degree(p: usize) -> Self {
+    pub(crate) const fn for_degree(p: usize) -> Self {
         let singular = if p + 5 > 8 { p + 5 } else { 8 };
         Self { overlap: p + 4, flat: p + 1, singular, reserve: p, parts: 1 }
     }
 
     /// The same number everywhere, half of it for polynomials that multiply a probe.
     #[must_use]
-    pub const fn uniform(n: usize) -> Self {
+    pub(crate) const fn uniform(n: usize) -> Self {
         Self { overlap: n, flat: n, singular: n, reserve: n / 2, parts: 1 }
     }
 
@@ -72,7 +72,7 @@ impl Orders {
     /// `accuracy` times the largest. The returned error is larger only if no rule is good enough,
     /// which is then the best of those tried. Takes some milliseconds.
     #[must_use]
-    pub fn for_weight(
+    pub(crate) fn for_weight(
         p: usize,
         stretch: f64,
         breakpoints: &[f64],

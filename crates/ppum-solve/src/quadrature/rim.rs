@@ -26,7 +26,7 @@ impl Quadrature<'_> {
     /// Rules on the part of a hole's rim that belongs to a cell; empty if none does. Normals point
     /// into the hole.
     #[must_use]
-    pub fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
+    pub(crate) fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
         if !closed_meet(cell, &hole.bounds()) {
             return Vec::new();
         }
@@ -72,8 +72,8 @@ impl Quadrature<'_> {
     /// Angles at which something happens in a cell, from 0 to 2π.
     fn turns(&self, cell: &Rect, coverers: &[u32], circle: &Circle) -> Vec<f64> {
         let geometry = &self.geometry;
-        let boxes = coverers.iter().map(|&i| geometry.partition.support(i as usize));
-        let boxes: Vec<Rect> = boxes.chain([*cell]).collect();
+        let supports = coverers.iter().map(|&i| geometry.partition.support(i as usize));
+        let boxes: Vec<Rect> = supports.chain([*cell]).collect();
         let mut turns = Vec::new();
         for axis in 0..2 {
             let borders = boxes.iter().flat_map(|b| [b.min, b.max].map(|p| component(p, axis)));

@@ -95,7 +95,7 @@ pub(super) fn zero(f: &dyn Fn(f64) -> f64, start: [f64; 2], end: [f64; 2]) -> f6
     one[0]
 }
 
-/// Where inverse quadratic interpolation puts the zero between the first two samples, as a part of
+/// Zero of the inverse quadratic interpolation between the first two samples, as a part of
 /// the way between them; none where the inverse may have an extremum.
 fn interpolated([x1, f1]: [f64; 2], [x2, f2]: [f64; 2], [x3, f3]: [f64; 2]) -> Option<f64> {
     let (xi, phi) = ((x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2));

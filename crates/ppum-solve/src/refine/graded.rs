@@ -6,12 +6,12 @@
 //! same part in each, and does not depend on the finest size.
 
 use crate::corner::{Corner, Nature};
-use crate::placed::{around, wider};
+use crate::geometry::{around, wider};
 use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// What cells at a singular point may miss of the energy of its surroundings.
+/// Part of the energy around a singular point that its cells may miss.
 const MISSED: f64 = 1e-4;
 
 /// Exponent, that of 42°, from which on a kink of a crack is gentle: the field along a free crack hardly sees
@@ -25,11 +25,11 @@ const ROUND: f64 = 0.22;
 /// Largest cells at a distance, in parts of it.
 const SLOPE: f64 = 1.0;
 
-/// The same where a support ends within an edge, on [`STRONG`] exponents: reactions concentrate there, and the
+/// The same where a restraint ends within an edge, on [`STRONG`] exponents: reactions concentrate there, and the
 /// energy with them.
 const STEEP: f64 = 0.35;
 
-/// Exponents of a support that are near 1/2.
+/// Exponents of a restraint that are near 1/2.
 const STRONG: f64 = 0.6;
 
 /// Smallest cells that are asked for, in parts of the base cover's: what is smaller is not resolved.
@@ -38,7 +38,7 @@ pub(super) const SMALLEST: f64 = 1.0 / 16_384.0;
 /// Cells of a ring around a point, at slope 1.
 const RING: f64 = 12.0;
 
-/// What one point or rim asks of the cells.
+/// The demand of one point or rim on the cells.
 pub(super) struct Graded {
     from: Shape,
     /// Size below which cells stay as they are.
@@ -52,7 +52,7 @@ enum Shape {
     Circle(Vec2, f64),
 }
 
-/// What the singular points and the round rims of a problem ask of a base cover with cells of the given size.
+/// The demands of the singular points and the round rims of a problem on a base cover with cells of the given size.
 pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
     let plate = problem.domain.bounds.size();
     let at_corners = corners.iter().filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
@@ -63,7 +63,7 @@ pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Gr
 }
 
 impl Graded {
-    /// What a singular point asks on a plate of the given size; none where it is gentle.
+    /// The demand of a singular point on a plate of the given size; none where it is gentle.
     fn corner(corner: &Corner, plate: f64) -> Option<Self> {
         let Corner { at, exponent, room, nature } = *corner;
         let is_gentle = matches!(nature, Nature::Kink(_)) && exponent > GENTLE;
@@ -79,7 +79,7 @@ impl Graded {
         Some(Self { from: Shape::Point(at), finest, slope })
     }
 
-    /// What the rim of a round hole asks.
+    /// The demand of the rim of a round hole.
     fn rim(hole: &Hole) -> Option<Self> {
         match *hole {
             Hole::Circle { center, radius } => {
@@ -90,7 +90,7 @@ impl Graded {
         }
     }
 
-    /// How far from a cell something can be that asks it to be smaller, in sizes of the cell.
+    /// Farthest distance from a cell of something that asks it to be smaller, in sizes of the cell.
     pub(super) const REACH: f64 = 1.0 / STEEP;
 
     /// The box of what cells are graded towards.

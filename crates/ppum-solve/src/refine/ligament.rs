@@ -24,7 +24,7 @@ pub(super) struct Ligament<'p> {
 /// Most ligaments of a hole, the narrowest ones: what is farther away lies behind others.
 const MOST: usize = 16;
 
-/// What a ligament ends at.
+/// The end of a ligament.
 #[derive(Clone, Copy)]
 enum Other<'p> {
     Edge(Edge, &'p Rect),
@@ -58,7 +58,7 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
 }
 
 impl Ligament<'_> {
-    /// How far from a cell a hole can be whose ligament asks it to be smaller, in sizes of the cell.
+    /// Farthest distance from a cell of a hole whose ligament asks it to be smaller, in sizes of the cell.
     pub(super) const REACH: f64 = 1.0 / ACROSS;
 
     /// The box of the hole.

@@ -2,7 +2,7 @@
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
-//!   half the room that its stress intensity is found in, and half the distance to the next interface of two
+//!   half its clearance, and half the distance to the next interface of two
 //!   materials.
 //! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
 //!   unless the problem has functions of its own: the field is singular there.
@@ -17,18 +17,21 @@
 mod graded;
 mod ligament;
 
-use crate::clip::{rim_crossings, runs_inside, runs_of_rim};
 use crate::corner::corners;
-use crate::intensity::{AMPLE_ROOM, Room, interface_distance};
-use crate::interfaces::Interfaces;
-use crate::placed::{Placed, around, wider};
+use crate::geometry::{
+    AMPLE_CLEARANCE, Placed, TipClearance, around, interface_distance, rim_crossings, runs_inside,
+    runs_of_rim, wider,
+};
 use crate::problem::{Cells, Enrichment, Problem};
+use crate::smoothness::Interfaces;
+use crate::watched::Stage;
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::domain::{Domain, Hole};
+use ppum::progress::Cancelled;
 use ppum::vec2::{Rect, Vec2};
 
 /// Part of a crack's length, or of a hole's size, below which cells are not divided to part its runs.
@@ -50,7 +53,7 @@ const LARGEST: f64 = 0.25;
 /// Radius around a tip, in the same measure, within which cells are that small.
 const NEAR: f64 = 0.75;
 
-/// Cells at a tip that are not refined further for little room around it, in the same measure: tips
+/// Cells at a tip that are not refined further for little clearance, in the same measure: tips
 /// nearly at the border or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
 
@@ -83,10 +86,17 @@ pub enum RefineError {
         /// Cells that the memory holds.
         most: usize,
     },
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// The cover of a problem, refined at its tips unless the problem says otherwise, of at most so many cells.
-pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError> {
+pub(crate) fn cover(
+    problem: &Problem,
+    most: usize,
+    stage: &Stage<'_>,
+) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
     if !problem.discretization.refine {
         return Ok(cover);
@@ -102,8 +112,14 @@ pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError
             return Err(RefineError::TooMany { most });
         }
         let affordable = cover.n_cells() < wishes.most_cells;
-        let asks = |cell: Rect, level: u8| must(&cell) || affordable && wishes.asks(&cell, level);
-        if cover.refine(asks)? == 0 {
+        // who is to stop asks for nothing
+        let asks = |cell: Rect, level: u8| {
+            let goes_on = stage.advance(0).is_ok();
+            goes_on && (must(&cell) || affordable && wishes.asks(&cell, level))
+        };
+        let divided = cover.refine(asks)?;
+        stage.advance(0)?;
+        if divided == 0 {
             return Ok(cover);
         }
     }
@@ -112,7 +128,7 @@ pub(crate) fn cover(problem: &Problem, most: usize) -> Result<Cover, RefineError
     resolved.then_some(cover).ok_or(RefineError::Unresolved)
 }
 
-/// What tips and the mouths of cracks need, and all tips.
+/// The needs of tips and of the mouths of cracks, and all tips.
 struct Needs {
     needs: Placed<Need>,
     tips: Placed<Vec2>,
@@ -146,7 +162,7 @@ fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
     Rect::around(cell.center(), cell.size() * (0.5 * problem.discretization.overlap))
 }
 
-/// What makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
+/// Refinement that makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
 /// ligaments, and at singular points of interfaces.
 struct Wishes<'p> {
     problem: &'p Problem,
@@ -285,7 +301,7 @@ impl<'p> Crossings<'p> {
     }
 }
 
-/// What one tip asks of the cells around it.
+/// The demand of one tip on the cells around it.
 struct Need {
     tip: Vec2,
     /// Largest cells at the tip, and near it.
@@ -303,15 +319,15 @@ impl Need {
         let share = crack.length() / crack.tips().count() as f64;
         let tip = crack.end_point(id.end);
         // what is farther away asks for nothing
-        let reach = AMPLE_ROOM * LARGEST * share;
+        let reach = AMPLE_CLEARANCE * LARGEST * share;
         let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
-        let room = Room::among(near, &problem.domain, (crack, id)).radius.min(reach);
+        let clearance = TipClearance::among(near, &problem.domain, (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
-        let interface = elastic.and_then(|body| interface_distance(body, tip, room));
-        let room = interface.unwrap_or(room);
+        let interface = elastic.and_then(|body| interface_distance(body, tip, clearance));
+        let clearance = interface.unwrap_or(clearance);
         Self {
             tip,
-            largest: (room / AMPLE_ROOM).clamp(SMALLEST * share, LARGEST * share),
+            largest: (clearance / AMPLE_CLEARANCE).clamp(SMALLEST * share, LARGEST * share),
             ample: LARGEST * share,
             near: NEAR * share,
             apart: crack.points[1..crack.points.len() - 1].to_vec(),
@@ -326,7 +342,7 @@ impl Need {
     }
 }
 
-/// What the ends of a crack at holes ask: the side of the crack, which jumps on its straight extension
+/// The demands of a crack's ends at holes: the side of the crack, which jumps on its straight extension
 /// too, must not be among the functions beyond the hole.
 fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
@@ -346,7 +362,7 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     at_hole.collect()
 }
 
-/// Where the way from the end of a crack at a hole comes out of it into the plate again.
+/// The point at which the way from the end of a crack at a hole comes out of it into the plate again.
 fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
     let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
     let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();

@@ -1,4 +1,4 @@
-//! How a function grows near a point at which it is singular.
+//! Growth of a function near a point at which it is singular.
 
 use crate::quadrature::Growth;
 use ppum::vec2::{Vec2, vec2};
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-10;
 /// Exponents of r below this leave no energy to speak of finite.
 const LEAST: f64 = 0.02;
 
-/// What is found at a point.
+/// The findings at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Behaviour {
     /// The function is constant on both sides of jumps.

@@ -1,4 +1,4 @@
-//! What quadrature has to know of one function or coefficient.
+//! The traits of one function or coefficient that quadrature has to know.
 
 use super::growth::{Behaviour, growth};
 use super::pieces::{Pieces, rays};
@@ -16,10 +16,10 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// What a function whose energy is infinite is graded for.
+/// Exponent that a function of infinite energy is graded for.
 const DIVERGENT: Growth = Growth::Powers { least: 0.04 };
 
-/// What quadrature has to know of one function or coefficient.
+/// The traits of one function or coefficient that quadrature has to know.
 #[derive(Default)]
 pub(super) struct Traits {
     pub(super) singular: Vec<Singular>,
@@ -37,11 +37,11 @@ impl Traits {
     }
 }
 
-/// What the traits of a function depend on.
+/// The surroundings that the traits of a function depend on.
 pub(super) struct Surroundings<'s> {
     pub(super) cracks: Arc<[Crack]>,
     pub(super) tables: &'s [Arc<Table>],
-    /// What the cells cover.
+    /// The box that the cells cover.
     pub(super) domain: Rect,
     /// A length longer than the domain.
     pub(super) reach: f64,

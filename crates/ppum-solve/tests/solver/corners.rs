@@ -6,6 +6,7 @@
 
 use ppum::crack::End;
 use ppum::dataset::Dataset;
+use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use std::path::Path;
@@ -36,7 +37,7 @@ fn solved_with(tables: &str, keys: &str) -> Dataset {
          state = \"plane-strain\"\n{tables}\n[discretization]\nlevel = 4\n{keys}\n"
     );
     let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
-    solve(&problem, &mut |_| {}).expect("a solution")
+    solve(&problem, unwatched()).expect("a solution")
 }
 
 fn solved(tables: &str) -> Dataset {
@@ -140,7 +141,7 @@ fn round_holes_and_ligaments_are_resolved() {
     assert_near(&solved(&format!("{PULLED}{ligaments}")), 4.33068214, &[]);
 }
 
-/// Where cells may not be refined a warning says what is missed, and where: within a factor of four.
+/// A warning tells what cells that may not be refined miss, and where: within a factor of four.
 #[test]
 fn what_coarse_cells_miss_is_told() {
     for (tables, exact, places) in [

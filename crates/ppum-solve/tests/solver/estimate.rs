@@ -1,6 +1,7 @@
-//! What a solution takes, told before it is computed.
+//! Estimates of the effort of a solution, against what it takes.
 
 use ppum::dataset::{Material, StressState};
+use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
 use ppum_solve::solve::{Plan, SolveError, solve};
@@ -20,7 +21,7 @@ fn plate(level: u32, order: usize) -> Problem {
 }
 
 fn refused(problem: &Problem, memory: u64) -> bool {
-    matches!(Plan::new(problem, Some(memory), &mut |_| {}), Err(SolveError::TooLarge { .. }))
+    matches!(Plan::new(problem, Some(memory), unwatched()), Err(SolveError::TooLarge { .. }))
 }
 
 /// The patches and unknowns are those of the solution; the memory grows with the problem.
@@ -29,9 +30,9 @@ fn an_estimate_counts_what_the_solution_has() {
     let mut memory = 0.0;
     for (level, order) in [(3, 1), (3, 3), (4, 4)] {
         let problem = plate(level, order);
-        let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
+        let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
         let estimate = *plan.estimate();
-        let step = solve(&problem, &mut |_| {}).expect("a solution").steps.remove(0);
+        let step = solve(&problem, unwatched()).expect("a solution").steps.remove(0);
         let unknowns = step.history.iter().find(|r| r.name == "unknowns").expect("a record").value;
         assert_eq!(estimate.patches, step.partition.len() as f64);
         assert_eq!(estimate.unknowns, unknowns);
@@ -46,7 +47,7 @@ fn an_estimate_counts_what_the_solution_has() {
 fn what_the_memory_does_not_hold_is_refused() {
     for (level, order) in [(1, 1), (3, 2), (4, 4)] {
         let problem = plate(level, order);
-        let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
+        let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
         let needs = plan.estimate().memory.ceil() as u64;
         assert!(!refused(&problem, needs), "{level} {order}");
         assert!(refused(&problem, needs - 1), "{level} {order}");
@@ -58,7 +59,7 @@ fn what_the_memory_does_not_hold_is_refused() {
 fn what_no_machine_holds_is_refused_without_a_cover() {
     let problem = plate(10, 8);
     assert_eq!(problem.check(), Ok(()));
-    let error = Plan::new(&problem, Some(1 << 35), &mut |_| {}).err().expect("too large");
+    let error = Plan::new(&problem, Some(1 << 35), unwatched()).err().expect("too large");
     let SolveError::TooLarge { needs, .. } = &error else { panic!("{error}") };
     assert!(needs.unknowns >= 9e7 && needs.memory > 1e12, "{needs:?}");
     let text = error.to_string();
@@ -76,7 +77,7 @@ fn many_cracks_are_refused_soon() {
         problem = problem.with_crack(&[at(x + 0.2, y + 0.5), at(x + 0.8, y + 0.6)]);
     }
     assert_eq!(problem.check(), Ok(()));
-    let plan = Plan::new(&problem, Some(1 << 28), &mut |_| {});
+    let plan = Plan::new(&problem, Some(1 << 28), unwatched());
     let error = plan.err().expect("too many").to_string();
     assert!(error.contains("memory"), "{error}");
 }
@@ -86,9 +87,9 @@ fn many_cracks_are_refused_soon() {
 fn loads_without_support_are_found_before_anything_is_solved() {
     let mut problem = plate(3, 2);
     problem.boundary.remove(0);
-    let plan = Plan::new(&problem, None, &mut |_| {}).expect("a plan");
-    assert!(matches!(plan.check(), Err(SolveError::Unbalanced(_))));
-    let early = plan.check().expect_err("unbalanced").to_string();
-    let late = solve(&problem, &mut |_| {}).expect_err("unbalanced").to_string();
+    let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+    assert!(matches!(plan.check(unwatched()), Err(SolveError::Unbalanced(_))));
+    let early = plan.check(unwatched()).expect_err("unbalanced").to_string();
+    let late = solve(&problem, unwatched()).expect_err("unbalanced").to_string();
     assert_eq!(early, late);
 }

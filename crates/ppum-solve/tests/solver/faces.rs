@@ -20,7 +20,7 @@ use ppum_testkit::random::Random;
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 const CONDUCTIVITY: f64 = 2.0;
 
-/// What the condition of the systems makes of rounding.
+/// Rounding, as far as the condition of the systems amplifies it.
 const EQUAL: f64 = 1e-9;
 
 /// Stresses at a point, in the corner of a cell or near a tip, err more than energies and factors.

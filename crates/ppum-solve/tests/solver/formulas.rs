@@ -8,6 +8,7 @@ use ppum::field::Field;
 use ppum::formula::Formula;
 use ppum::function::WESTERGAARD;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::norms::norms;
 use ppum_solve::problem::{
@@ -61,7 +62,7 @@ pub(crate) fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] +
 /// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has the
 /// same cover.
 pub(crate) fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
-    let step = discretise(fine).expect("a space");
+    let step = discretise(fine, unwatched()).expect("a space");
     let space = Space::new(&step, &fine.domain, &fine.equation, &fine.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
@@ -179,7 +180,7 @@ fn a_corner_function_restores_the_rate() {
     }
 }
 
-/// Where all patches have the corner's function, the solution is in the space.
+/// If all patches have the corner's function, the solution is in the space.
 #[test]
 fn a_corner_function_everywhere_is_exact() {
     let mut problem = corner_problem(2, 2);
@@ -384,8 +385,9 @@ fn functions_that_cannot_be_used() {
         ("theta", at(0.3, 0.2), Region::Near(0.5), "`theta at [0.3, 0.2]` has infinite energy"),
         ("abs(y)", Site::World, right(2.0), "no patch has the enrichment `abs(y)`"),
     ] {
-        let error = solve(&problem(function, site, region), &mut |_| {}).expect_err(function);
+        let error = solve(&problem(function, site, region), unwatched()).expect_err(function);
         assert!(error.to_string().contains(part), "{function}: {error}");
     }
-    discretise(&problem("sqrt(x)", Site::World, right(0.5))).expect("finite where it is needed");
+    discretise(&problem("sqrt(x)", Site::World, right(0.5)), unwatched())
+        .expect("finite where it is needed");
 }

@@ -5,11 +5,12 @@ use crate::studies::support::solved;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Elasticity, Equation, Material, Ring, StressState, TipIntensity};
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
+use ppum_solve::diagnostics::kind;
 use ppum_solve::intensity::{Loads, intensities};
 use ppum_solve::problem::{Cells, Problem};
 use ppum_solve::space::Space;
-use ppum_solve::warnings::kind;
 use ppum_testkit::exact::{Component, ExactField as _, Williams};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -127,7 +128,9 @@ fn factors(dataset: &Dataset, loads: Loads<'_>) -> TipIntensity {
     let step = &dataset.steps[0];
     let space =
         Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
-    let found = intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads);
+    let found =
+        intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads, unwatched())
+            .expect("nobody stops it");
     found[0].factors.clone().expect("room")
 }
 

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Vec2, vec2};
+use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::{Cells, Order, Problem};
-use ppum_solve::warnings::kind;
 
 use crate::studies::exact_fields::{SQUARE, discretization, expressions, held};
 use crate::studies::support::{Errors, errors, solved};

@@ -4,6 +4,7 @@ use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::solved;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::intensity::{Loads, Obstacle, Outcome, intensities};
 use ppum_solve::problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
@@ -14,7 +15,8 @@ fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
     let step = &dataset.steps[0];
     let space =
         Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
-    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads)
+    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads, unwatched())
+        .expect("nobody stops it")
 }
 
 /// The right half of two collinear cracks in the infinite plane, cut out by its exact tractions: the
@@ -51,9 +53,9 @@ fn tips_near_the_border() {
         let [inner, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
         let factors = inner.factors.expect("room enough in refined cells");
         let error = factors.k1 / exact - 1.0;
-        println!("gap {gap}: {error:.1e}, room {:?}, cell {}", inner.room, inner.cell);
+        println!("gap {gap}: {error:.1e}, clearance {:?}, cell {}", inner.clearance, inner.cell);
         assert!(error.abs() < 3e-3 && factors.k2.abs() < 3e-3 * exact, "{factors:?} {exact}");
-        assert_eq!(inner.room.end, Obstacle::Border);
+        assert_eq!(inner.clearance.end, Obstacle::Border);
         assert_eq!(dataset.steps[0].intensities.len(), 2);
     }
 }
@@ -64,8 +66,8 @@ fn too_little_room_is_no_value() {
     let dataset = solved(&problem);
     let [inner, far] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
     assert_eq!(inner.factors, None);
-    assert!((inner.room.radius - 0.02).abs() < 1e-15 && (inner.cell - 0.25).abs() < 1e-15);
-    assert!(inner.needed() > inner.room.radius && inner.needed() <= inner.cell);
+    assert!((inner.clearance.radius - 0.02).abs() < 1e-15 && (inner.cell - 0.25).abs() < 1e-15);
+    assert!(inner.needed() > inner.clearance.radius && inner.needed() <= inner.cell);
     // the solution is there, and the other tip has its value
     let factors = far.factors.expect("room enough");
     assert!((factors.k1 / outer - 1.0).abs() < 2e-2, "{factors:?} {outer}");

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use ppum::dataset::Step;
+use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_solve::problem::{Cells, Enrichment, LocalEnrichment, Order, Problem, Region, Site};
 use ppum_solve::space::discretise;
@@ -143,7 +144,7 @@ fn cracked(young: &str, poisson: &str) -> Problem {
 }
 
 fn space(problem: &Problem) -> Step {
-    discretise(problem).expect("a space")
+    discretise(problem, unwatched()).expect("a space")
 }
 
 /// E and ν that jump on the same curve, however it is written, are one interface.

@@ -6,6 +6,7 @@ use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
@@ -64,7 +65,7 @@ functions = [
 fn solved(discretization: &str) -> Dataset {
     let text = PLATE.to_owned() + discretization;
     let problem = Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem");
-    solve(&problem, &mut |_| {}).expect("a solution")
+    solve(&problem, unwatched()).expect("a solution")
 }
 
 /// Relative differences of K and of the energy, and the largest of strains, which are of size 1.

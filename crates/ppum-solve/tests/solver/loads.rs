@@ -1,6 +1,6 @@
 //! Loads that jump, are bent, have layers and spikes: resultants against closed forms, warnings about the rest.
 //!
-//! The reactions of the supports balance the loads as they were integrated, to rounding
+//! The reactions of the restraints balance the loads as they were integrated, to rounding
 //! (see [`reactions`](super::reactions)): they tell of quadrature alone, however coarse the cells.
 
 use crate::studies::support::solved;
@@ -9,8 +9,8 @@ use ppum::dataset::{Dataset, Warning};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
+use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::kind;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -182,7 +182,7 @@ fn given_values_that_jump() {
     assert!((flows[0] - expected / 2.0).abs() < ACCURACY, "{flows:?}");
 }
 
-/// What the rules of the system resolve keeps them.
+/// Loads that the rules of the system resolve keep them.
 #[test]
 fn smooth_loads_cost_nothing() {
     let plain = points(&plate(&top("1"), 3, 2));
@@ -209,7 +209,7 @@ fn singular_loads() {
     }
 }
 
-/// What cannot be integrated is reported with its place and the part of the load that is in doubt.
+/// A load that cannot be integrated is reported with its place and the part of it that is in doubt.
 #[test]
 fn loads_that_cannot_be_integrated() {
     for (load, at) in [("1/abs(x - 0.1)", Some(0.1)), ("1/x", Some(0.0)), ("1 + sin(1e9*x)", None)]

@@ -20,8 +20,10 @@ mod positions;
 mod problem_files;
 mod random;
 mod reactions;
+mod rooms;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
 mod warnings;
+mod watched;
 mod weights;

@@ -6,6 +6,7 @@ use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Edge, Problem};
 use ppum_solve::solve::{SolveError, solve};
@@ -40,9 +41,9 @@ fn record(dataset: &Dataset, name: &str) -> f64 {
     found.expect("a record of the solver").value
 }
 
-fn refused(problem: &Problem) -> ppum_solve::balance::UnbalancedError {
+fn refused(problem: &Problem) -> ppum_solve::solve::UnbalancedError {
     problem.check().expect("a problem in order");
-    match solve(problem, &mut |_| {}) {
+    match solve(problem, unwatched()) {
         Err(SolveError::Unbalanced(error)) => error,
         other => panic!("solved, or failed for another reason: {:?}", other.err()),
     }

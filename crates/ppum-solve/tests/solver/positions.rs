@@ -5,6 +5,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Cells, Problem};
 use ppum_solve::solve::spectrum;
@@ -21,7 +22,7 @@ const HALF_LENGTH: f64 = 3.0 * CELL;
 const CELLS: u32 = 12;
 const CELL: f64 = 2.0 / CELLS as f64;
 
-/// How far a patch reaches beyond its cell.
+/// Reach of a patch beyond its cell.
 const REACH: f64 = 0.15 * CELL;
 
 /// A crack by its last tip and its direction.
@@ -89,7 +90,7 @@ fn error_of_k(position: &Position) -> f64 {
 }
 
 fn condition(problem: &Problem) -> f64 {
-    spectrum(problem).expect("a system").condition()
+    spectrum(problem, unwatched()).expect("a system").condition()
 }
 
 /// K is found to 2e-4 everywhere, and the condition number is that of the same cover without a

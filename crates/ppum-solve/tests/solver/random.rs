@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use ppum::dataset::{Dataset, Step, TipIntensity, Warning};
 use ppum::segment;
 use ppum::vec2::Vec2;
+use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::Problem;
-use ppum_solve::warnings::kind;
 use serde_json::Value;
 
 use crate::studies::support::solved;
 
-/// What a user may take on trust from default settings. The reference knows K to 5e-4 and energies to 1e-4,
+/// Errors that default settings promise to stay below. The reference knows K to 5e-4 and energies to 1e-4,
 /// mostly far better.
 const K: f64 = 5e-3;
 const ENERGY: f64 = 1e-3;
@@ -110,7 +110,7 @@ fn names_a_place(problem: &Problem, warning: &Warning) -> bool {
         && (two_materials || distance_to_anything(problem, at) < NEAR * size.x.max(size.y))
 }
 
-/// What is wrong and silent about a solution, in words.
+/// The silent errors of a solution, in words.
 fn complaint(problem: &Problem, dataset: &Dataset, known: &Value) -> Option<String> {
     let step = &dataset.steps[0];
     let [k, energy] = errors(step, known);

@@ -1,4 +1,4 @@
-//! What supports exert on the plate, against statics.
+//! Reactions of restraints, against statics.
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
 use crate::studies::plates::end_shear;
@@ -26,7 +26,7 @@ fn assert_close(found: &[f64], expected: &[f64], scale: f64) {
     }
 }
 
-/// Force and moment of the supports together.
+/// Force and moment of the restraints together.
 fn total(reactions: &[Reaction]) -> Vec<f64> {
     let part =
         |k: usize| reactions.iter().map(move |r| r.force.get(k).copied().unwrap_or(r.moment)).sum();

@@ -6,10 +6,11 @@ use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::jet::Jet;
 use ppum::library::WEIGHTS;
+use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
+use ppum_solve::diagnostics::{FEW_DIGITS, kind, recompute, rounding};
 use ppum_solve::problem::{Cells, Condition, Edge, Problem};
-use ppum_solve::warnings::{FEW_DIGITS, judge, kind, rounding};
 use ppum_testkit::extended::{Extended, point};
 use ppum_testkit::random::Random;
 
@@ -123,7 +124,7 @@ fn coefficients_that_cancel_are_reported_with_their_place() {
     for (block, amplitude) in [(smooth, 1e9), (jump, -1e9)] {
         data.coefficients[0][block + 1] += amplitude;
     }
-    let (_, warnings) = judge(&dataset, 0, None).expect("a step");
+    let (_, warnings) = recompute(&dataset, 0, None, unwatched()).expect("a step");
     let digits: Vec<_> = warnings.iter().filter(|w| w.kind == kind::DIGITS).collect();
     assert_eq!(digits.len(), 1, "{warnings:?}");
     let at = digits[0].at.expect("a place");

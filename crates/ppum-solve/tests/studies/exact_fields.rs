@@ -123,7 +123,7 @@ fn study_field() -> Williams {
 pub(crate) struct StudyRow {
     /// Degree of the polynomials.
     pub(crate) order: usize,
-    /// Where tip functions are; the zone has radius 0.4.
+    /// The patches with tip functions; the zone has radius 0.4.
     pub(crate) enrichment: Enrichment,
     /// Degree of the polynomials that multiply the tip functions on the patch of the tip.
     pub(crate) tip_degree: usize,
@@ -204,7 +204,7 @@ impl TipPlate {
 
 /// A value that is known of a [`TipPlate`].
 pub(crate) struct TipValue {
-    /// What it is.
+    /// Its nature.
     pub(crate) name: String,
     /// Its value.
     pub(crate) value: f64,

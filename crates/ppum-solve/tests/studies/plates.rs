@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// A plate whose stress intensity factors are known.
 #[derive(Clone, Debug)]
 pub(crate) struct Plate {
-    /// What it is.
+    /// Its nature.
     pub(crate) name: String,
     /// The problem, on the coarsest of three covers.
     pub(crate) problem: Problem,
@@ -19,7 +19,7 @@ pub(crate) struct Plate {
     covers: Covers,
     /// K is divided by this.
     scale: f64,
-    /// What is known.
+    /// The known answers.
     pub(crate) known: Vec<Known>,
 }
 
@@ -73,7 +73,7 @@ pub(crate) struct Known {
 /// A solution of a plate.
 #[derive(Clone, Debug)]
 pub(crate) struct Solved {
-    /// What [`Plate::known`] names.
+    /// The numbers that [`Plate::known`] names.
     pub(crate) values: Vec<f64>,
     /// The solution.
     pub(crate) dataset: Dataset,

@@ -4,6 +4,7 @@ use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
+use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use ppum_solve::norms::norms;
@@ -24,7 +25,7 @@ pub(crate) struct Errors {
 /// Solves a problem that is in order.
 pub(crate) fn solved(problem: &Problem) -> Dataset {
     problem.check().expect("a problem in order");
-    solve(problem, &mut |_| {}).expect("a solution")
+    solve(problem, unwatched()).expect("a solution")
 }
 
 /// Values and gradients of two components.

@@ -12,5 +12,6 @@ mod library;
 mod partition;
 mod replace;
 mod reproduction;
+mod sample;
 mod sides;
 mod support;

@@ -11,20 +11,19 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use ppum::field::Field;
-use ppum::progress::unwatched;
+use ppum::progress::{Phase, Progress, Watcher, unwatched};
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
-use ppum_gpu::{AdapterKind, Choice, Colors, Method, Program, Renderer, Shading};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::raster::Sample;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
 use super::synthetic::{self, DOMAIN};
-use crate::backend::message;
-use crate::drivers;
+use crate::graphics::{Card, Cards, Method};
+use crate::progress::Bar;
 
 /// What `ppum bench` tells of the renderers.
 #[derive(Debug, Serialize)]
@@ -116,25 +115,13 @@ struct Subject<'d> {
     seconds: [Vec<[f64; 2]>; 4],
 }
 
-/// How values become colours, on the CPU and on the card.
-struct Look {
-    style: Style,
-    shading: Shading,
-}
-
-/// A field on the card.
-struct Card<'f> {
-    gather: Program<'f, Colors>,
-    splat: Option<Program<'f, Colors>>,
-}
-
 impl Report {
     /// Measures; `quick` takes small pictures of few patches.
     pub(super) fn new(quick: bool, frames: u32) -> anyhow::Result<Self> {
         let pixels = if quick { [256, 192] } else { [1024, 768] };
-        let (mut renderer, missing) = match drivers::opening(|| Renderer::open(Choice::Any)) {
-            Ok(renderer) => (Some(renderer), None),
-            Err(error) => (None, Some(message(&error.into()))),
+        let (mut cards, missing) = match Cards::open() {
+            Ok(cards) => (Some(cards), None),
+            Err(reason) => (None, Some(reason)),
         };
         let covers = covers(quick);
         let datasets =
@@ -142,25 +129,29 @@ impl Report {
         let datasets = datasets.collect::<anyhow::Result<Vec<_>>>()?;
         let fields = datasets.iter().map(|dataset| Field::new(dataset, 0));
         let fields = fields.collect::<Result<Vec<_>, _>>()?;
-        let look = Look::new()?;
+        let look = Style { range: RANGE, ..Style::default() };
         let named = covers.iter().map(|&(cover, _)| cover).zip(&fields);
         let subjects =
-            named.map(|(cover, field)| Subject::new(cover, field, renderer.as_mut(), &look));
+            named.map(|(cover, field)| Subject::new(cover, field, cards.as_mut(), &look));
         let mut subjects = subjects.collect::<anyhow::Result<Vec<_>>>()?;
         // the first frames are not counted: they find nothing prepared
+        let (bar, total) = (Bar::new(), (frames as usize + 1) * subjects.len());
+        let watcher: &dyn Watcher = &bar;
         for frame in 0..=frames {
             let view = view(frame, pixels)?;
-            for subject in &mut subjects {
-                subject.draw_all((&view, &look), renderer.as_mut(), frame > 0)?;
+            for (k, subject) in subjects.iter_mut().enumerate() {
+                let done = frame as usize * covers.len() + k;
+                watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+                subject.draw_all((&view, &look), cards.as_mut(), frame > 0)?;
             }
         }
-        let info = renderer.as_ref().map(|renderer| renderer.gpu().info());
-        let has_core = info.is_none_or(|info| info.kind == AdapterKind::Software);
+        let has_core = cards.as_ref().is_none_or(Cards::is_software);
         let mut rows: Vec<_> = subjects.iter().map(|subject| subject.row(has_core)).collect();
         if !quick {
             rows.iter_mut().for_each(Row::compare);
         }
-        let adapter = info.map(|info| Adapter { name: info.name.clone(), kind: info.kind.name() });
+        let adapter =
+            cards.as_ref().map(|cards| Adapter { name: cards.name(), kind: cards.kind() });
         let gather_growth = growth(&rows);
         Ok(Self { pixels, frames, adapter, missing, rows, gather_growth })
     }
@@ -186,22 +177,23 @@ impl<'d> Subject<'d> {
     fn new(
         cover: &'static str,
         field: &'d Field<'d>,
-        renderer: Option<&mut Renderer>,
-        look: &Look,
+        cards: Option<&mut Cards>,
+        look: &Style,
     ) -> anyhow::Result<Self> {
-        let card = renderer.map(|renderer| Card::new(renderer, field, look)).transpose()?;
+        let may_splat = field.step.partition.len() <= MOST_SPLATTED;
+        let card = cards.map(|cards| Card::new(cards, field, look, may_splat)).transpose()?;
         Ok(Self { cover, field, card, seconds: Default::default() })
     }
 
     fn draw_all(
         &mut self,
-        (view, look): (&View, &Look),
-        mut renderer: Option<&mut Renderer>,
+        (view, look): (&View, &Style),
+        mut cards: Option<&mut Cards>,
         counts: bool,
     ) -> anyhow::Result<()> {
         for (k, way) in WAYS.into_iter().enumerate() {
             let (wall, core) = (Instant::now(), ProcessTime::now());
-            let drawn = self.draw(way, (view, look), renderer.as_deref_mut())?;
+            let drawn = self.draw(way, (view, look), cards.as_deref_mut())?;
             if drawn && counts {
                 self.seconds[k]
                     .push([wall.elapsed(), core.elapsed()].map(|time| time.as_secs_f64()));
@@ -214,14 +206,15 @@ impl<'d> Subject<'d> {
     fn draw(
         &mut self,
         way: Way,
-        (view, look): (&View, &Look),
-        renderer: Option<&mut Renderer>,
+        (view, look): (&View, &Style),
+        cards: Option<&mut Cards>,
     ) -> anyhow::Result<bool> {
-        match (way, &mut self.card, renderer) {
+        match (way, &mut self.card, cards) {
             (Way::CpuF64, ..) => on_cpu::<f64>(self.field, view, look)?,
             (Way::CpuF32, ..) => on_cpu::<f32>(self.field, view, look)?,
-            (_, Some(card), Some(renderer)) => {
-                return card.draw(way, renderer, view);
+            (Way::Splat, Some(card), Some(cards)) => return card.draw(cards, Method::Splat, view),
+            (Way::Gather, Some(card), Some(cards)) => {
+                return card.draw(cards, Method::Gather, view);
             }
             _ => return Ok(false),
         }
@@ -245,45 +238,10 @@ impl<'d> Subject<'d> {
 }
 
 /// Draws and colours in `T`.
-fn on_cpu<T: Sample>(field: &Field<'_>, view: &View, look: &Look) -> anyhow::Result<()> {
+fn on_cpu<T: Sample>(field: &Field<'_>, view: &View, look: &Style) -> anyhow::Result<()> {
     let raster = render::<T>(field, view, &Quantity::VonMises, unwatched())?;
-    black_box(Picture::bare(&raster, view, &look.style)?);
+    black_box(Picture::bare(&raster, view, look)?);
     Ok(())
-}
-
-impl<'f> Card<'f> {
-    fn new(renderer: &mut Renderer, field: &'f Field<'f>, look: &Look) -> anyhow::Result<Self> {
-        let scene = renderer.upload(field)?;
-        let few = field.step.partition.len() <= MOST_SPLATTED;
-        let can_splat = renderer.gpu().info().blends_floats && few;
-        let output = Colors { quantity: Quantity::VonMises, shading: look.shading.clone() };
-        let mut compile = |method| renderer.compile(&scene, output.clone(), method);
-        let gather = compile(Method::Gather)?;
-        let splat = can_splat.then(|| compile(Method::Splat)).transpose()?;
-        Ok(Self { gather, splat })
-    }
-
-    /// Draws and waits, without reading back.
-    fn draw(&mut self, way: Way, renderer: &mut Renderer, view: &View) -> anyhow::Result<bool> {
-        let program = match way {
-            Way::Splat => self.splat.as_mut(),
-            _ => Some(&mut self.gather),
-        };
-        let Some(program) = program else { return Ok(false) };
-        black_box(renderer.draw(program, view)?);
-        renderer.wait()?;
-        Ok(true)
-    }
-}
-
-impl Look {
-    fn new() -> anyhow::Result<Self> {
-        let style = Style { range: RANGE, ..Style::default() };
-        let Style { colormap, scale, undefined, .. } = style.clone();
-        let nothing = Raster::<f32>::new([0, 0], Vec::new());
-        let normalization = RANGE.normalization(scale, colormap.diverging, &nothing)?;
-        Ok(Self { style, shading: Shading { normalization, colormap, undefined } })
-    }
 }
 
 impl Summary {

@@ -4,10 +4,12 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ppum::dataset::{Dataset, Record};
 use ppum_solve::problem::{Cells, Problem};
+use ppum_solve::report::SolverReport;
 use ppum_solve::solve::solve;
 use serde::Serialize;
+
+use crate::progress::Bar;
 
 const PROBLEM: &str = include_str!("../../../../../examples/centre-crack.toml");
 
@@ -34,11 +36,16 @@ impl Run {
     pub(super) fn new(level: u32) -> anyhow::Result<Self> {
         let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
         problem.discretization.cells = Cells::Level(level);
-        let dataset = solve(&problem, &mut |_| {})?;
-        let phases = phases(&dataset);
+        let dataset = solve(&problem, &Bar::new())?;
+        let report = SolverReport::of(&dataset.steps[0].history);
+        let phase = |&(phase, seconds): &(ppum::progress::Phase, f64)| Phase {
+            name: phase.name().into(),
+            seconds,
+        };
+        let phases: Vec<_> = report.seconds.iter().map(phase).collect();
         Ok(Self {
             level,
-            unknowns: record(&dataset, "unknowns").context("the solver counts unknowns")? as u64,
+            unknowns: report.unknowns.context("the solver counts unknowns")? as u64,
             seconds: phases.iter().map(|phase| phase.seconds).sum(),
             phases,
             peak_memory: peak_memory(),
@@ -59,19 +66,6 @@ impl Run {
         line("in all", self.seconds)?;
         Ok(())
     }
-}
-
-fn history(dataset: &Dataset) -> impl Iterator<Item = &Record> {
-    dataset.steps.iter().flat_map(|step| &step.history)
-}
-
-fn record(dataset: &Dataset, name: &str) -> Option<f64> {
-    history(dataset).find(|record| record.name == name).map(|record| record.value)
-}
-
-fn phases(dataset: &Dataset) -> Vec<Phase> {
-    let timed = history(dataset).filter(|record| record.unit == "s");
-    timed.map(|record| Phase { name: record.name.clone(), seconds: record.value }).collect()
 }
 
 /// Linux: the high-water mark of resident memory.

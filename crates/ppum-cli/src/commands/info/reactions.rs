@@ -3,7 +3,7 @@
 use ppum::dataset::{Dataset, Reaction, Step};
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
-use ppum_solve::reaction;
+use ppum_solve::problem::restraint_center;
 use serde::Serialize;
 
 use crate::number::Number;
@@ -33,7 +33,7 @@ pub(crate) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
         let Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);
         let turns = force.len() > 1;
-        let center = reaction::center(on, &dataset.domain).filter(|_| turns);
+        let center = restraint_center(on, &dataset.domain).filter(|_| turns);
         let moved = |center: Vec2| {
             let arm = about - center;
             Number(moment + arm.x * force[1] - arm.y * force[0])

@@ -11,6 +11,7 @@ use ppum::field::{Field, FieldError};
 use ppum::quantity::available;
 use ppum::text::{Places, trimmed};
 use ppum::vec2::Vec2;
+use ppum_solve::report::SolverReport;
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
@@ -213,7 +214,7 @@ impl StepReport {
             quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
-            energy: history.iter().find(|r| r.name == "energy").map(|r| Number(r.value)),
+            energy: SolverReport::of(history).energy.map(Number),
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
             all_tips: all_tips(index, field.step),

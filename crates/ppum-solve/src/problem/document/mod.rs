@@ -74,13 +74,13 @@ pub(super) struct Section<'a> {
     /// As users write it, e.g. `[material]`.
     name: String,
     table: &'a DeTable<'a>,
-    /// Where to say that something is missing.
+    /// Place at which something is said to be missing.
     offset: usize,
     /// Keys that were meant by those that are not known.
     meant: Vec<&'static str>,
 }
 
-/// What to do about a key that is well known, but cannot stand here.
+/// The remedy for a key that is well known, but cannot stand here.
 #[derive(Clone, Copy)]
 pub(super) enum Remedy {
     /// A later version will have it; it stands where one of these keys would.

@@ -192,7 +192,7 @@ impl<'a> Value<'a> {
         self.error(&format!("is {value}, but must be finite"))
     }
 
-    /// What was made of the value's text, or a report of what is wrong at its place inside the text.
+    /// The result of parsing the value's text, or a report of a mistake at its place inside the text.
     pub(in super::super) fn inside<T>(
         &self,
         text: &str,

@@ -9,7 +9,7 @@ use super::super::document::{Section, Value};
 use super::{Kind, Words, all, components};
 use ppum::expression::Expression;
 
-/// What conditions may use.
+/// Names that conditions may use.
 pub(super) struct Data<'e> {
     pub(super) scope: &'e Scope,
     /// The exact solution: empty if there is none, `None` if it cannot be read.

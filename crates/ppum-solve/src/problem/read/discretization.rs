@@ -27,7 +27,7 @@ const KEYS: [&str; 11] = [
     "tip_degree",
 ];
 
-/// What is optional and wrong is reported, and left at its default.
+/// Optional values that are wrong are reported, and left at their defaults.
 pub(super) fn discretization(
     root: &Section<'_>,
     files: Files<'_>,

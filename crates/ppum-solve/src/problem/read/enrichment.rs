@@ -28,7 +28,7 @@ const KEYS: [&str; 12] = [
     "singular",
 ];
 
-/// What formulas of enrichments may name beside their parameters.
+/// Names that formulas of enrichments may use beside their parameters.
 pub(super) struct Names<'n> {
     pub(super) cracks: usize,
     pub(super) tables: &'n [Arc<Table>],
@@ -65,7 +65,7 @@ fn enrichment(section: &Section<'_>, names: &Names<'_>) -> Option<LocalEnrichmen
     })
 }
 
-/// What `function`, `functions` and `parameters` say.
+/// The values of `function`, `functions` and `parameters`.
 struct Functions {
     /// The name in the library, if that is what was given.
     name: String,

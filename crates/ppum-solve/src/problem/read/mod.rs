@@ -23,8 +23,8 @@ use super::check::violations;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
+use super::stiffness::default_order;
 use super::{BorderPart, Order, Problem, Solver, SolverKind, scopes};
-use crate::locking::default_order;
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
@@ -33,7 +33,7 @@ use ppum::expression::Expression;
 use quantity::quantities;
 use table::tables;
 
-/// Where the files are that a text names.
+/// The folder of the files that a text names.
 #[derive(Clone, Copy)]
 pub(super) enum Files<'a> {
     /// In a folder.
@@ -67,7 +67,7 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
     Ok(Problem { title, text: Some(text.to_owned()), files, ..problem })
 }
 
-/// What is said where a bracket is open; every line that follows is then read as a part of the array.
+/// The message where a bracket is open; every line that follows is then read as a part of the array.
 const IN_ARRAY: &str = "missing comma between array elements";
 
 /// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it, and
@@ -111,7 +111,7 @@ struct Words {
     unknown: &'static str,
     /// Key of its Neumann data.
     neumann: &'static str,
-    /// What an array of components has to be.
+    /// The form of an array of components.
     components: usize,
 }
 
@@ -264,7 +264,7 @@ fn equation(root: &Section<'_>, kind: Kind, scope: &Scope) -> Equation {
     }
 }
 
-/// What is missing or wrong is reported, and replaced by a possible value.
+/// Values that are missing or wrong are reported, and replaced by possible ones.
 fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
     let states =
         [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
@@ -313,7 +313,7 @@ fn exact(root: &Section<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression
     expressions(&value, kind, scope)
 }
 
-/// One value a component: those of an array, or the value itself if there is but one.
+/// One value per component: those of an array, or the value itself if there is but one.
 fn components<'a>(value: &Value<'a>, kind: Kind) -> Option<Vec<Value<'a>>> {
     match kind {
         Kind::Elasticity => value.pair("an array of two, one a component").map(Vec::from),

@@ -39,13 +39,13 @@ fn the_plate_is_in_order() {
 fn every_mistake_is_told_in_full() {
     let cases = cases();
     assert!(cases.len() >= 60, "{} cases", cases.len());
-    let wrong = cases.iter().filter_map(|case| {
+    let wrong_answer = |case: &Case| {
         let text = edited(PLATE, &case.old.join("\n"), &case.new.join("\n"));
         let error = parse(&text).err();
         let found = error.iter().flat_map(ProblemError::findings);
         let found: Vec<_> = found.map(|f| f.to_string().replace("dir/plate.toml:", "")).collect();
         (found != case.expected).then(|| format!("== {}\n{}\n", case.title, found.join("\n")))
-    });
-    let wrong: Vec<_> = wrong.collect();
+    };
+    let wrong: Vec<_> = cases.iter().filter_map(wrong_answer).collect();
     assert!(wrong.is_empty(), "found instead:\n{}", wrong.join("\n"));
 }

@@ -13,7 +13,7 @@ fn plate_with(entry: impl Fn(usize) -> String) -> String {
     (0..MANY).fold(head, |text, k| text + &entry(k))
 }
 
-/// What is told of a file: lines shown, findings.
+/// The messages about a file: lines shown, findings.
 fn told(text: &str) -> (usize, usize) {
     let error = parse(text).expect_err("mistakes");
     (error.to_string().lines().count(), error.findings().len())

@@ -14,8 +14,9 @@ fn moments_are_exact_on_graded_covers_with_cracks() {
     for trial in 0..30 {
         let weight = WeightFunction::ALL[trial % 3].clone();
         let cover = graded(&mut random, weight);
-        let points: Vec<Vec2> = (0..2 + trial % 3).map(|_| random.point(0.9)).collect();
-        let cracks = vec![crack(&points), crack(&[random.point(0.9), random.point(0.9)])];
+        let points: Vec<Vec2> = (0..2 + trial % 3).map(|_| point(&mut random, 0.9)).collect();
+        let cracks =
+            vec![crack(&points), crack(&[point(&mut random, 0.9), point(&mut random, 0.9)])];
         let tips = cracks.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]);
         let singular = if trial % 2 == 0 { tips.collect() } else { Vec::new() };
         let rules = Case::new(cover, cracks, singular).rules(Orders::for_degree(2));
@@ -125,7 +126,8 @@ fn cracks_on_or_beside_the_lines_of_the_cover_keep_the_area() {
     let gaps = [0.0, 1e-17, -1e-16, 1e-15, -1e-13, 1e-12, -1e-9, 1e-6, -1e-4, 0.03];
     let mut coordinate = || {
         let pick = |u: f64, n: usize| (u * n as f64) as usize;
-        lines[pick(random.unit(), lines.len())] + gaps[pick(random.unit(), gaps.len())]
+        lines[pick(random.between(0.0, 1.0), lines.len())]
+            + gaps[pick(random.between(0.0, 1.0), gaps.len())]
     };
     for trial in 0..200 {
         let points: Vec<Vec2> = (0..3).map(|_| vec2(coordinate(), coordinate())).collect();

@@ -68,7 +68,7 @@ fn moments_of_discs_on_graded_covers() {
     for trial in 0..12 {
         let weight = WeightFunction::ALL[trial % 3].clone();
         let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
-        let (c, r) = (random.point(0.5), random.between(0.1, 0.45));
+        let (c, r) = (point(&mut random, 0.5), random.between(0.1, 0.45));
         let inside = |x: Vec2| (x - c).length() < r;
         for kink in circles(c, r) {
             let orders = Orders::for_degree(2);
@@ -154,7 +154,7 @@ fn straight_curves_are_lines() {
     let mut random = Random(5);
     for _ in 0..10 {
         let case = Case::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
-        let (a, b) = (random.point(1.0), random.point(1.0));
+        let (a, b) = (point(&mut random, 1.0), point(&mut random, 1.0));
         let side = move |p: Vec2| (b - a).cross(p - a);
         let area = |kinks: &[Kink]| {
             integral(&case, kinks, Orders::for_degree(1), |p| side(p) > 0.0, |p| p.x + 2.0 * p.y)
@@ -300,9 +300,9 @@ fn strips_are_divided_where_a_curve_bends() {
 /// once, wherever it lies.
 #[test]
 fn curves_that_coincide_are_one() {
-    let mut random = crate::random::Random::new(11);
+    let mut random = Random(11);
     for _ in 0..50 {
-        let mut between = |lo: f64, hi: f64| lo + (hi - lo) * 0.5 * (1.0 + random.signed());
+        let mut between = |lo: f64, hi: f64| random.between(lo, hi);
         let (center, radius) = (vec2(between(-1.0, 1.0), between(-1.0, 1.0)), between(0.3, 1.5));
         let squares =
             move |p: Vec2| (p.x - center.x).powi(2) + (p.y - center.y).powi(2) - radius * radius;

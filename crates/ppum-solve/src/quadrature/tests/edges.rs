@@ -216,7 +216,7 @@ fn faces_keep_their_resultants() {
         let tilt = random.between(-1.0, 1.0) * 10f64.powi(-8 - round % 9);
         let mut ends = [from, from + vec2(1.0, tilt) * random.between(0.3, 0.9)];
         if round % 3 == 0 {
-            ends = [random.point(0.9), random.point(0.9)];
+            ends = [point(&mut random, 0.9), point(&mut random, 0.9)];
         }
         if round % 5 == 0 {
             ends = ends.map(|p| vec2(p.y, p.x));

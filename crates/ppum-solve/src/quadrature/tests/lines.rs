@@ -45,7 +45,7 @@ fn lines_cut_exactly_on_graded_covers() {
         let weight = WeightFunction::ALL[trial % 3].clone();
         let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
         let line = match trial % 3 {
-            0 => [random.point(1.0), random.point(1.0)],
+            0 => [point(&mut random, 1.0), point(&mut random, 1.0)],
             1 => [vec2(-1.0, 0.325), vec2(1.0, 0.325)],
             _ => [vec2(-1.0, -1.0), vec2(1.0, 1.0)],
         };

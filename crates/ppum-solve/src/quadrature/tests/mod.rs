@@ -15,24 +15,11 @@ use super::*;
 use ppum::crack::CrackEnd;
 use ppum::dataset::Partition;
 use ppum::weight::WeightFunction;
+use ppum_testkit::random::Random;
 
-/// A small linear congruential generator (Knuth's MMIX constants).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * self.unit()
-    }
-
-    fn point(&mut self, size: f64) -> Vec2 {
-        vec2(self.between(-size, size), self.between(-size, size))
-    }
+/// A point within a square around the origin.
+fn point(random: &mut Random, size: f64) -> Vec2 {
+    random.point(&Rect::around(Vec2::ZERO, vec2(size, size)))
 }
 
 const DOMAIN: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
@@ -76,7 +63,9 @@ fn uniform(level: u32) -> Partition {
 }
 
 fn graded(random: &mut Random, weight: WeightFunction) -> Partition {
-    let cells = leaves(DOMAIN, 0, &mut |_, level| level < 2 || (level < 4 && random.unit() < 0.4));
+    let cells = leaves(DOMAIN, 0, &mut |_, level| {
+        level < 2 || (level < 4 && random.between(0.0, 1.0) < 0.4)
+    });
     partition(cells, weight)
 }
 

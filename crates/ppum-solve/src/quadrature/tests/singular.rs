@@ -90,11 +90,11 @@ pub(super) fn half_plane(polygon: &[Vec2], sign: f64) -> Vec<Vec2> {
 pub(super) fn tip_positions(random: &mut Random) -> Vec<(Rect, Vec2, f64)> {
     let mut cases = Vec::new();
     for _ in 0..12 {
-        let min = random.point(1.0);
+        let min = point(random, 1.0);
         let (w, h) = (random.between(0.1, 0.4), random.between(0.1, 0.4));
         let cell = Rect::new(min, min + vec2(w, h));
-        let (s, t) = (random.unit(), random.unit());
-        let outside = 1.0 + 0.3 * random.unit();
+        let (s, t) = (random.between(0.0, 1.0), random.between(0.0, 1.0));
+        let outside = 1.0 + 0.3 * random.between(0.0, 1.0);
         for (s, t) in [(s, t), (0.0, t), (s, 1.0), (1.0, 0.0), (outside, t), (-1e-3, t), (s, 1e-6)]
         {
             cases.push((cell, min + vec2(s * w, t * h), random.between(-PI, PI)));

@@ -9,15 +9,15 @@ fn scene(random: &mut Random, trial: usize) -> (Case, Vec<Kink>) {
         0 => graded(random, WeightFunction::ALL[trial % 3].clone()),
         _ => uniform(trial as u32 % 3),
     };
-    let (start, tip) = (random.point(0.9), random.point(0.9));
-    let corner = if trial.is_multiple_of(3) { vec2(-1.0, 1.0) } else { random.point(0.9) };
+    let (start, tip) = (point(random, 0.9), point(random, 0.9));
+    let corner = if trial.is_multiple_of(3) { vec2(-1.0, 1.0) } else { point(random, 0.9) };
     let mut case = Case::new(cover, vec![crack(&[start, tip])], vec![tip, corner]);
     case.singular[1].growth = Growth::Powers { least: random.between(0.1, 1.9) };
-    let (c, r) = (random.point(0.5), random.between(0.05, 0.6));
-    let through = if trial % 4 == 1 { tip } else { random.point(1.0) };
+    let (c, r) = (point(random, 0.5), random.between(0.05, 0.6));
+    let through = if trial % 4 == 1 { tip } else { point(random, 1.0) };
     let kinks = vec![
-        Kink::Line([random.point(1.0), through]),
-        Kink::Segment([random.point(1.0), random.point(1.0)]),
+        Kink::Line([point(random, 1.0), through]),
+        Kink::Segment([point(random, 1.0), point(random, 1.0)]),
         Kink::Curve(Arc::new(move |p: Vec2| (p - c).dot(p - c) - r * r)),
     ];
     (case, kinks)
@@ -39,7 +39,7 @@ fn all_kinds_of_geometry_keep_the_area_and_tell_sides() {
     let orders = Orders::for_degree(2);
     for trial in 0..12 {
         let (case, kinks) = scene(&mut random, trial);
-        let e = random.point(1.0).unit();
+        let e = point(&mut random, 1.0).unit();
         let probes = vec![move |a: Vec2, x: Vec2| {
             let f = (30.0 * (a + x).dot(e)).tanh();
             let slope = 30.0 * (1.0 - f * f);

@@ -1,0 +1,309 @@
+//! Conditions on the border of a cell: Nitsche's method for given values, loads for given tractions.
+//!
+//! Where component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown. Multiplying
+//! −div σ(u) = b by a test function v and integrating by parts leaves it in the equation; Nitsche adds two terms
+//! that vanish for the solution, the first for symmetry, the second so that the system is positive definite:
+//!
+//! ```text
+//! a(u, v) − ∫_Γ t_i(u) v_i − ∫_Γ t_i(v) (u_i − g_i) + β ∫_Γ (u_i − g_i) v_i = ∫ b·v + ∫_Γt t·v
+//! ```
+//!
+//! In the functions N_a e_j of a cell, unknown (a, j), that is K u = f with
+//!
+//! ```text
+//! consistency   C_(a,i)(b,j) = ∫_Γ N_a t_i(N_b e_j)                       K −= C + Cᵀ
+//! mass          M_(a,i)(b,i) = ∫_Γ N_a N_b                                K += β M
+//! given         p_(a,i) = ∫_Γ N_a g_i,    q_(b,j) = ∫_Γ t_i(N_b e_j) g_i  f += β p − q
+//! traction      B_(a,j)(b,k) = ∫_Γ t_i(N_a e_j) t_i(N_b e_k)
+//! ```
+//!
+//! summed over the components i that are held. β must be chosen so that v·K v > 0. By Cauchy's inequality
+//! 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest λ of the pencil
+//! B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do. β = 2 λ, and a cell cut
+//! into slivers so gets the larger value it needs (Griebel & Schweitzer 2003). Where β is much larger than
+//! elsewhere, the basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
+//!
+//! Where Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
+//! through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C the modulus,
+//! h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as the plate.
+
+use super::Assembly;
+use super::cell_system::CellSystem;
+use super::reaction::Restraint;
+use crate::basis::{BasisEvaluator, Shapes};
+use crate::equilibrium::RigidModes;
+use crate::linear::{EigenError, add_at, largest_eigenvalue};
+use crate::quadrature::EdgeRule;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+use ppum::vec2::{Vec2, vec2};
+
+/// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
+const FACTOR: f64 = 2.0;
+
+/// Data given on a border: position, normal out of the material → values, one per component.
+pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
+
+/// Largest ratio of cell to border that the spring of a short restraint grows with: it yields a
+/// thousandth then, and the condition number does not suffer.
+const STIFFEST: f64 = 1e3;
+
+/// The terms that a rule is for: the matrices, what is given, or both.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Both,
+    Stiffness,
+    Data,
+}
+
+/// A piece of a cell's border with what is given on it.
+pub(crate) struct BorderPiece<'a> {
+    pub(crate) rules: Vec<EdgeRule>,
+    /// Rules for what is given that take the place of those, where they do not resolve it.
+    pub(crate) own: Option<&'a [EdgeRule]>,
+    /// Components whose value is given.
+    pub(crate) held: [bool; 2],
+    /// The given values; tractions where not held (zero where free).
+    pub(crate) values: BorderData<'a>,
+    /// Number of the condition.
+    pub(crate) condition: usize,
+    /// The modes that reactions do work on.
+    pub(crate) modes: RigidModes,
+}
+
+impl BorderPiece<'_> {
+    /// The given tractions (fluxes) at a place with its normal, zero where a value is given.
+    pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        let values = (self.values)(x, normal);
+        [0, 1].map(|k| if self.held[k] { 0.0 } else { values[k] })
+    }
+}
+
+/// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
+/// unknowns.
+pub(crate) struct Border<'a> {
+    assembly: Assembly<'a>,
+    /// C = ∫ N_a t_i(N_b e_j)
+    consistency: Mat<f64>,
+    /// B = ∫ t_i(N_a e_j) t_i(N_b e_k)
+    traction: Mat<f64>,
+    /// M = ∫ N_a N_b
+    mass: Mat<f64>,
+    /// p = ∫ N_a g_i
+    value_load: Vec<f64>,
+    /// q = ∫ t_i(N_b e_j) g_i
+    traction_load: Vec<f64>,
+    /// ℓ: the length on which values are given.
+    length: f64,
+    /// C: the largest modulus there.
+    modulus: f64,
+    /// Forces of the restraints, one entry per condition that gives values.
+    restraints: Vec<Restraint>,
+}
+
+/// The functions of a cell at the points of a rule, as one held component i sees them. All carry the roots of the
+/// weights, so that products of rows are integrals.
+struct Trace<'s> {
+    component: usize,
+    /// N_a [functions × points].
+    values: MatRef<'s, f64>,
+    /// The unknowns (a, i) of these rows.
+    value_rows: Vec<usize>,
+    /// t_i(N_a e_j) [functions · components × points].
+    tractions: Mat<f64>,
+    /// The unknowns (a, j) of these rows.
+    traction_rows: Vec<usize>,
+}
+
+impl<'a> Border<'a> {
+    pub(crate) fn new(assembly: Assembly<'a>, unknowns: usize) -> Self {
+        let zero = || Mat::zeros(unknowns, unknowns);
+        Self {
+            assembly,
+            consistency: zero(),
+            traction: zero(),
+            mass: zero(),
+            value_load: vec![0.0; unknowns],
+            traction_load: vec![0.0; unknowns],
+            length: 0.0,
+            modulus: 0.0,
+            restraints: Vec::new(),
+        }
+    }
+
+    /// Adds a piece; tractions go to the system at once.
+    pub(crate) fn add(
+        &mut self,
+        piece: &BorderPiece<'_>,
+        evaluator: &mut BasisEvaluator<'_>,
+        shapes: &mut Shapes,
+        system: &mut CellSystem,
+    ) {
+        let own = piece.own.unwrap_or_default().iter().map(|rule| (rule, Part::Data));
+        let part = if piece.own.is_some() { Part::Stiffness } else { Part::Both };
+        for (rule, part) in piece.rules.iter().map(|rule| (rule, part)).chain(own) {
+            evaluator.evaluate_edge(rule, shapes);
+            let numbers = system.functions.numbers(&rule.patches);
+            if part != Part::Stiffness {
+                self.load(piece, rule, &numbers, shapes, &mut system.load);
+            }
+            shapes.scale(&rule.weights);
+            for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
+                let trace = self.trace(i, rule, &numbers, shapes);
+                if part != Part::Data {
+                    self.hold(&trace, piece, rule);
+                }
+                if part != Part::Stiffness {
+                    self.give(&trace, piece, rule);
+                }
+            }
+        }
+    }
+
+    /// Adds ∫ N·t of given tractions to the load of the cell; shapes carry no weights yet.
+    fn load(
+        &self,
+        piece: &BorderPiece<'_>,
+        rule: &EdgeRule,
+        numbers: &[usize],
+        shapes: &Shapes,
+        load: &mut [f64],
+    ) {
+        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+            let loads = piece.loads(rule.anchor + offset, rule.normals[q]);
+            let loads = &loads[..self.assembly.components()];
+            shapes.add_load(q, numbers, loads, weight, load);
+        }
+    }
+
+    /// The functions as component i sees them; shapes carry the roots of the weights.
+    fn trace<'s>(
+        &self,
+        i: usize,
+        rule: &EdgeRule,
+        numbers: &[usize],
+        shapes: &'s Shapes,
+    ) -> Trace<'s> {
+        let c = self.assembly.components();
+        Trace {
+            component: i,
+            values: shapes.rows(&shapes.value, 0..shapes.functions),
+            value_rows: numbers.iter().map(|a| a * c + i).collect(),
+            tractions: self.tractions(i, rule, shapes),
+            traction_rows: numbers.iter().flat_map(|a| (0..c).map(move |j| a * c + j)).collect(),
+        }
+    }
+
+    /// t_i(N_a e_j), rows (a, j), columns points.
+    fn tractions(&self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
+        let (c, law) = (self.assembly.components(), self.assembly.law);
+        let laws: Vec<_> = rule.offsets.iter().map(|&o| law.at(rule.anchor + o)).collect();
+        Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
+            let at = (row / c) * shapes.points + q;
+            laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q])
+        })
+    }
+
+    /// Adds the points of a component whose value is given to the matrices M, C, B, to length and modulus of Γ,
+    /// and to the integrals of the restraint's reaction.
+    fn hold(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+        self.measure(trace.component, rule);
+        let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
+        let tractions = tractions.as_ref();
+        add_at(&mut self.mass, value_rows, value_rows, &product(*values, *values));
+        add_at(&mut self.consistency, value_rows, traction_rows, &product(*values, tractions));
+        add_at(&mut self.traction, traction_rows, traction_rows, &product(tractions, tractions));
+        let restraint = self.restraint(piece.condition);
+        for k in 0..piece.modes.count() {
+            let mode = mode(piece, rule, k, trace.component);
+            restraint.add(k, &mode, (tractions, traction_rows), (*values, value_rows));
+        }
+    }
+
+    /// ℓ and the modulus C of the points where component i is given. A length counts once for all components.
+    fn measure(&mut self, i: usize, rule: &EdgeRule) {
+        let Assembly { law, .. } = self.assembly;
+        let length: f64 = rule.weights.iter().sum();
+        self.length += length / law.components as f64;
+        let modulus = |&o: &Vec2| law.at(rule.anchor + o).modulus(i);
+        self.modulus = rule.offsets.iter().map(modulus).fold(self.modulus, f64::max);
+    }
+
+    /// Adds the values that are given for a component to p and q, and to the restraint's reaction.
+    fn give(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+        let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
+        let given = given(piece, rule, trace.component);
+        for (q, g) in given.iter().enumerate() {
+            for (k, &row) in value_rows.iter().enumerate() {
+                self.value_load[row] += values[(k, q)] * g;
+            }
+            for (k, &row) in traction_rows.iter().enumerate() {
+                self.traction_load[row] += tractions[(k, q)] * g;
+            }
+        }
+        let restraint = self.restraint(piece.condition);
+        for k in 0..piece.modes.count() {
+            restraint.give(k, &mode(piece, rule, k, trace.component), &given);
+        }
+    }
+
+    /// The sums of a condition.
+    fn restraint(&mut self, condition: usize) -> &mut Restraint {
+        let known = self.restraints.iter().position(|r| r.condition == condition);
+        let place = known.unwrap_or(self.restraints.len());
+        if known.is_none() {
+            self.restraints.push(Restraint::new(condition, self.value_load.len()));
+        }
+        &mut self.restraints[place]
+    }
+
+    /// β = max(2 λ_max, C h/ℓ²) for a cell of size h with the stiffness A.
+    fn penalty(&self, stiffness: &Mat<f64>, size: f64) -> Result<f64, EigenError> {
+        let needed = FACTOR * largest_eigenvalue(stiffness.as_ref(), self.traction.as_ref())?;
+        let ratio = (size / self.length).min(STIFFEST);
+        Ok(needed.max(self.modulus * ratio / self.length))
+    }
+
+    /// Adds Nitsche's terms to a system whose stiffness is complete; `size` is that of the cell.
+    ///
+    /// # Errors
+    /// Entries that are not finite.
+    pub(crate) fn finish(self, size: f64, system: &mut CellSystem) -> Result<(), EigenError> {
+        if self.length == 0.0 {
+            return Ok(());
+        }
+        let beta = self.penalty(&system.matrix, size)?;
+        system.penalty = beta / self.modulus;
+        system.matrix -= &self.consistency;
+        system.matrix -= self.consistency.transpose();
+        system.matrix += faer::Scale(beta) * &self.mass;
+        let loads = self.value_load.iter().zip(&self.traction_load);
+        for (load, (value, traction)) in system.load.iter_mut().zip(loads) {
+            *load += beta * value - traction;
+        }
+        system.reactions = self.restraints.into_iter().map(|r| r.finish(beta)).collect();
+        Ok(())
+    }
+}
+
+/// The products of all rows: left · rightᵀ.
+fn product(left: MatRef<'_, f64>, right: MatRef<'_, f64>) -> Mat<f64> {
+    let mut out = Mat::zeros(left.nrows(), right.nrows());
+    matmul(out.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+    out
+}
+
+/// The values g_i at the points of a rule, times the roots of the weights.
+fn given(piece: &BorderPiece<'_>, rule: &EdgeRule, i: usize) -> Vec<f64> {
+    let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
+    let value = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
+        (piece.values)(rule.anchor + o, normal)[i] * w.sqrt()
+    };
+    points.map(value).collect()
+}
+
+/// Component i of the k-th rigid-body mode at the points of a rule, times the roots of the weights.
+fn mode(piece: &BorderPiece<'_>, rule: &EdgeRule, k: usize, i: usize) -> Vec<f64> {
+    let points = rule.offsets.iter().zip(&rule.weights);
+    points.map(|(&o, w)| piece.modes.at(rule.anchor + o)[k][i] * w.sqrt()).collect()
+}

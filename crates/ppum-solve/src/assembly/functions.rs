@@ -1,0 +1,82 @@
+//! The functions that live in a cell, and the places of their unknowns in the system.
+
+use super::Assembly;
+use crate::linear::BlockMatrix;
+
+/// The functions of a cell's patches, numbered patch after patch.
+#[derive(Clone, Debug)]
+pub(crate) struct CellFunctions {
+    /// The patches that meet the cell, ascending.
+    pub(crate) patches: Vec<u32>,
+    /// First function of each patch, and the number of all at the end.
+    pub(crate) first: Vec<usize>,
+}
+
+impl CellFunctions {
+    pub(crate) fn new(assembly: &Assembly<'_>, cell: usize) -> Self {
+        let patches = assembly.space.coverers[cell].clone();
+        let mut first = vec![0];
+        for &patch in &patches {
+            first.push(first[first.len() - 1] + assembly.basis.sizes[patch as usize]);
+        }
+        Self { patches, first }
+    }
+
+    /// Number of functions.
+    pub(crate) fn len(&self) -> usize {
+        self.first[self.patches.len()]
+    }
+
+    /// For functions of some of the patches, in order, their numbers in the cell.
+    pub(crate) fn numbers(&self, patches: &[u32]) -> Vec<usize> {
+        let range = |patch: &u32| {
+            let k = self.position(*patch);
+            self.first[k]..self.first[k + 1]
+        };
+        patches.iter().flat_map(range).collect()
+    }
+
+    /// The cell's unknowns of patch `k` in the order of the system: component-major.
+    pub(crate) fn unknowns(&self, k: usize, components: usize) -> Vec<usize> {
+        let functions = self.first[k]..self.first[k + 1];
+        (0..components).flat_map(|i| functions.clone().map(move |a| a * components + i)).collect()
+    }
+
+    /// Adds numbers of the cell's unknowns, component i of function a at a · components + i, to those
+    /// of all unknowns.
+    pub(crate) fn add_to(
+        &self,
+        matrix: &BlockMatrix,
+        components: usize,
+        part: &[f64],
+        sum: &mut [f64],
+    ) {
+        for (k, &patch) in self.patches.iter().enumerate() {
+            let range = matrix.unknowns(patch as usize);
+            for (sum, &from) in sum[range].iter_mut().zip(&self.unknowns(k, components)) {
+                *sum += part[from];
+            }
+        }
+    }
+
+    /// The cell's unknowns out of all: the way back of [`CellFunctions::add_to`].
+    pub(crate) fn take_from(
+        &self,
+        matrix: &BlockMatrix,
+        components: usize,
+        all: &[f64],
+    ) -> Vec<f64> {
+        let mut part = vec![0.0; self.len() * components];
+        for (k, &patch) in self.patches.iter().enumerate() {
+            let range = matrix.unknowns(patch as usize);
+            for (value, &to) in all[range].iter().zip(&self.unknowns(k, components)) {
+                part[to] = *value;
+            }
+        }
+        part
+    }
+
+    fn position(&self, patch: u32) -> usize {
+        self.patches.binary_search(&patch).expect("a rule's patches meet its cell")
+    }
+}

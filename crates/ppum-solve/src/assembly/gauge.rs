@@ -1,0 +1,212 @@
+//! Plates and pieces of plates that nothing holds: of all solutions, which differ by rigid-body modes,
+//! the one without any on average.
+//!
+//! ```text
+//! ∫ u·m_k dA = 0 over the piece, for each of its free modes m_k
+//! ```
+//!
+//! The condition couples all unknowns of a piece. So the system first gets a penalty on the unknowns of
+//! one patch, which is exact for balanced loads whatever its size. Solutions for the same functionals
+//! as loads are the rigid-body modes themselves, in whatever functions, and they are subtracted.
+
+use super::Assembly;
+use super::functions::CellFunctions;
+use crate::basis::{BasisEvaluator, Shapes};
+use crate::equilibrium::{PerMode, Pieces, Plate, RigidModes};
+use crate::linear::{BlockMatrix, LinearError, LinearSolver};
+use crate::watched::{Halt, Stage, in_batches};
+use faer::Mat;
+use faer::linalg::solvers::{DenseSolveCore, Solve};
+
+/// A free mode of a piece.
+struct Mode {
+    piece: usize,
+    modes: RigidModes,
+    mode: PerMode,
+    /// Index in [`Gauge::patches`].
+    group: usize,
+}
+
+/// The free modes of all pieces and the functionals that fix them.
+pub(crate) struct Gauge {
+    modes: Vec<Mode>,
+    /// Of each mode, ∫ N·m over its piece, in the order of the system.
+    moments: Vec<Vec<f64>>,
+    /// Of each piece that is free, the patch whose unknowns get the penalty.
+    patches: Vec<usize>,
+}
+
+impl Gauge {
+    /// The gauge of the free modes of pieces, given the unknowns of the matrix.
+    ///
+    /// Cost: where there are free modes, one more pass over the cells.
+    pub(crate) fn new(
+        assembly: Assembly<'_>,
+        plate: &Plate,
+        matrix: &BlockMatrix,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
+        let mut modes = Vec::new();
+        let mut groups = 0;
+        for (piece, (balance, free)) in plate.balances.iter().zip(&plate.free).enumerate() {
+            let of_piece =
+                |&mode: &PerMode| Mode { piece, modes: balance.modes, mode, group: groups };
+            modes.extend(free.iter().map(of_piece));
+            groups += usize::from(!free.is_empty());
+        }
+        let mut gauge = Self { moments: Vec::new(), modes, patches: Vec::new() };
+        if groups > 0 {
+            gauge.moments = gauge.integrate(assembly, &plate.pieces, matrix, stage)?;
+            gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
+        }
+        Ok(gauge)
+    }
+
+    /// Number of free modes.
+    pub(crate) fn len(&self) -> usize {
+        self.modes.len()
+    }
+
+    /// Adds γ Σ_k r_k r_kᵀ, r_k the part of a functional on the unknowns of one patch.
+    pub(crate) fn add_penalty(&self, matrix: &mut BlockMatrix) {
+        for (group, &patch) in self.patches.iter().enumerate() {
+            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
+            let length = rows.iter().copied().flatten().fold(0.0f64, |m, v| m.max(v * v));
+            let stiffness = matrix.block(patch, patch).expect("a patch is coupled to itself");
+            let n = stiffness.nrows();
+            let gamma = (0..n).map(|k| stiffness[(k, k)]).fold(0.0, f64::max) / length;
+            let entry = |a, b| gamma * rows.iter().map(|r| r[a] * r[b]).sum::<f64>();
+            let block = Mat::from_fn(n, n, entry);
+            matrix.add_block(patch, patch, block.as_ref());
+        }
+    }
+
+    /// Subtracts the rigid-body modes that the penalty has left in a solution.
+    ///
+    /// # Errors
+    /// Those of the linear solver.
+    pub(crate) fn center(
+        &self,
+        solver: &dyn LinearSolver,
+        matrix: &BlockMatrix,
+        solution: &mut [f64],
+    ) -> Result<(), LinearError> {
+        if self.modes.is_empty() {
+            return Ok(());
+        }
+        let loads = self.loads(matrix);
+        let rough = solve_all(solver, &loads)?;
+        // Loads of modes that have one mean each: those of one patch look much alike, and the
+        // rounding of their differences would be seen in strains.
+        let loads = combined(&loads, &self.means(&rough).partial_piv_lu().inverse());
+        let rigid = solve_all(solver, &loads)?;
+        let parts = self.means(&rigid).partial_piv_lu().solve(self.means(&[&*solution]));
+        for (k, rigid) in rigid.iter().enumerate() {
+            solution.iter_mut().zip(rigid).for_each(|(u, r)| *u -= parts[(k, 0)] * r);
+        }
+        Ok(())
+    }
+
+    /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
+    fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+        let load = |(mode, moments): (&Mode, &Vec<f64>)| {
+            let mut load = vec![0.0; moments.len()];
+            let range = matrix.unknowns(self.patches[mode.group]);
+            load[range.clone()].copy_from_slice(&moments[range]);
+            load
+        };
+        self.modes.iter().zip(&self.moments).map(load).collect()
+    }
+
+    /// ∫ u·m_l of some u: a row for each mode, a column for each u.
+    fn means<U: AsRef<[f64]>>(&self, all: &[U]) -> Mat<f64> {
+        let (rows, columns) = (self.moments.len(), all.len());
+        Mat::from_fn(rows, columns, |l, k| dot(&self.moments[l], all[k].as_ref()))
+    }
+
+    /// The functionals of one group on the unknowns of a patch.
+    fn parts<'g>(
+        &'g self,
+        group: usize,
+        patch: usize,
+        matrix: &BlockMatrix,
+    ) -> impl Iterator<Item = &'g [f64]> {
+        let range = matrix.unknowns(patch);
+        let all = self.modes.iter().zip(&self.moments);
+        all.filter(move |(mode, _)| mode.group == group)
+            .map(move |(_, moments)| &moments[range.clone()])
+    }
+
+    /// The patch on which the modes of a group are largest and least alike.
+    fn firmest(&self, group: usize, matrix: &BlockMatrix) -> usize {
+        let volume = |patch: usize| {
+            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
+            Mat::from_fn(rows.len(), rows.len(), |k, l| dot(rows[k], rows[l])).determinant()
+        };
+        let all = (0..matrix.n_blocks()).map(|patch| (patch, volume(patch)));
+        all.fold((0, 0.0), |best, new| if new.1 > best.1 { new } else { best }).0
+    }
+
+    /// ∫ N·m over the pieces of the modes, cell by cell.
+    fn integrate(
+        &self,
+        assembly: Assembly<'_>,
+        pieces: &Pieces,
+        matrix: &BlockMatrix,
+        stage: &Stage<'_>,
+    ) -> Result<Vec<Vec<f64>>, Halt> {
+        let Assembly { space, basis, .. } = assembly;
+        let quadrature = space.quadrature(0);
+        let components = assembly.components();
+        let mut moments = vec![vec![0.0; matrix.n_unknowns()]; self.modes.len()];
+        in_batches(
+            stage,
+            space.partition().len(),
+            || (BasisEvaluator::new(space, basis), Shapes::default()),
+            |(evaluator, shapes), cell| {
+                let functions = CellFunctions::new(&assembly, cell);
+                let mut parts = vec![vec![0.0; functions.len() * components]; self.modes.len()];
+                for rule in space.rules(&quadrature, cell).iter() {
+                    evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+                    let numbers = functions.numbers(&rule.patches);
+                    for (q, (&offset, &weight)) in
+                        rule.offsets.iter().zip(&rule.weights).enumerate()
+                    {
+                        let x = rule.anchor + offset;
+                        let piece = pieces.of(x);
+                        for (part, mode) in parts.iter_mut().zip(&self.modes) {
+                            if mode.piece == piece {
+                                let m = mode.modes.combined(&mode.mode, x);
+                                shapes.add_load(q, &numbers, &m[..components], weight, part);
+                            }
+                        }
+                    }
+                }
+                Ok((functions, parts))
+            },
+            |_, (functions, parts)| {
+                for (sum, part) in moments.iter_mut().zip(&parts) {
+                    functions.add_to(matrix, components, part, sum);
+                }
+            },
+        )?;
+        Ok(moments)
+    }
+}
+
+fn solve_all(solver: &dyn LinearSolver, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
+    loads.iter().map(|load| Ok(solver.solve(load)?.unknowns)).collect()
+}
+
+/// Combinations of vectors, with the factors of each in a column.
+fn combined(vectors: &[Vec<f64>], factors: &Mat<f64>) -> Vec<Vec<f64>> {
+    let entry = |k: usize, row: usize| {
+        vectors.iter().enumerate().map(|(j, vector)| factors[(j, k)] * vector[row]).sum()
+    };
+    let rows = vectors.first().map_or(0, Vec::len);
+    (0..vectors.len()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,206 @@
+//! The data of a problem, its source and its boundary conditions, cell by cell: with rules of their own where those
+//! of the system do not resolve it.
+
+use super::border::BorderPiece;
+use super::cell::Source;
+use super::loads::{LoadRules, border_rules, of_condition, of_source};
+use super::reaction::modes;
+use crate::equilibrium::{Balance, Pieces};
+use crate::problem::{BoundaryCondition, Problem};
+use crate::quadrature::{EdgeRule, Quadrature, Rule};
+use crate::report::Unresolved;
+use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
+use ppum::vec2::Vec2;
+
+/// A source as a function of position.
+type Values<'p> = Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>;
+
+/// The source and the boundary conditions of a problem.
+pub(crate) struct Given<'p> {
+    problem: &'p Problem,
+    /// The source; none where it is zero.
+    source: Option<Values<'p>>,
+    source_rules: LoadRules<Rule>,
+    conditions: Vec<GivenCondition<'p>>,
+}
+
+/// A boundary condition with its data as a function of position and normal.
+struct GivenCondition<'p> {
+    number: usize,
+    condition: &'p BoundaryCondition,
+    values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
+    /// Rules for the data where those of the system do not resolve them.
+    own: LoadRules<EdgeRule>,
+}
+
+impl<'p> Given<'p> {
+    /// All that is given, and rules that resolve it.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(crate) fn new(
+        problem: &'p Problem,
+        space: &Space<'_>,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
+        let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
+        let source = move |x: Vec2| problem.source_at(x);
+        let conditions = problem.boundary.iter().enumerate();
+        let given = |(number, condition)| {
+            let own = of_condition(problem, space, condition, stage)?;
+            Ok(GivenCondition::new(number, condition, own))
+        };
+        Ok(Self {
+            problem,
+            source: has_source.then(|| Box::new(source) as Values<'p>),
+            source_rules: of_source(problem, space, stage)?,
+            conditions: conditions.map(given).collect::<Result<_, Halt>>()?,
+        })
+    }
+
+    /// The conditions that give values, with the rules of the system.
+    pub(crate) fn restraints(problem: &'p Problem) -> Self {
+        let conditions = problem.boundary.iter().enumerate();
+        let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
+        Self {
+            problem,
+            source: None,
+            source_rules: LoadRules::default(),
+            conditions: holding
+                .map(|(k, c)| GivenCondition::new(k, c, LoadRules::default()))
+                .collect(),
+        }
+    }
+
+    /// True if nothing is given.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.source.is_none() && self.conditions.is_empty()
+    }
+
+    /// The source, with the rules that it has in a cell for its own.
+    pub(crate) fn source(&self, cell: usize) -> Option<Source<'_>> {
+        let values = self.source.as_deref()?;
+        Some(Source { values, rules: self.source_rules.of(cell) })
+    }
+
+    /// The pieces of a cell's border on which something is given.
+    pub(crate) fn border(
+        &self,
+        space: &Space<'_>,
+        quadrature: &Quadrature<'_>,
+        cell: usize,
+    ) -> Vec<BorderPiece<'_>> {
+        let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
+        let piece = |given: &'_ GivenCondition<'p>| {
+            border_rules(self.problem, given.condition.on, quadrature, rect, coverers)
+        };
+        let all = self.conditions.iter().map(|given| (given, piece(given)));
+        let some = all.filter(|(_, rules)| !rules.is_empty());
+        some.map(|(given, rules)| given.piece(self.problem, cell, rules)).collect()
+    }
+
+    /// Restraints and loads of the pieces of the plate.
+    ///
+    /// # Errors
+    /// Data that are not finite, with their place; cancelled.
+    pub(crate) fn balance(
+        &self,
+        space: &Space<'_>,
+        pieces: &Pieces,
+        stage: &Stage<'_>,
+    ) -> Result<Vec<Balance>, Halt> {
+        let components = self.problem.components();
+        let quadrature = space.quadrature(0);
+        let mut sum = Balance::of(pieces, components);
+        in_batches(
+            stage,
+            if self.is_empty() { 0 } else { space.partition().len() },
+            || (),
+            |(), cell| {
+                let mut part = Balance::of(pieces, components);
+                if let Some(source) = self.source(cell) {
+                    let shared = || space.rules(&quadrature, cell);
+                    match source.rules {
+                        Some(rules) => add_source(&mut part, &source, rules, pieces, components),
+                        None => add_source(&mut part, &source, &shared(), pieces, components),
+                    }
+                }
+                let border = self.border(space, &quadrature, cell);
+                border.iter().for_each(|piece| add_border(&mut part, piece, pieces, components));
+                let is_finite = border.iter().all(is_finite) && part.iter().all(Balance::is_finite);
+                is_finite.then_some(part).ok_or(Halt::at(space.partition().cell[cell]))
+            },
+            |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
+        )?;
+        Ok(sum)
+    }
+
+    /// The loads and data that their own rules do not resolve.
+    pub(crate) fn unresolved(&self) -> Vec<Unresolved> {
+        let unresolved = |what: String, (error, at)| Unresolved { load: Some(what), error, at };
+        let name = if self.problem.components() == 1 { "the source" } else { "the body force" };
+        let inside = self.source_rules.doubt().map(|doubt| unresolved(name.into(), doubt));
+        let of_given = |given: &GivenCondition<'p>| {
+            let what = format!("what is given on {}", given.condition.on);
+            given.own.doubt().map(|doubt| unresolved(what, doubt))
+        };
+        inside.into_iter().chain(self.conditions.iter().filter_map(of_given)).collect()
+    }
+}
+
+impl<'p> GivenCondition<'p> {
+    fn new(number: usize, condition: &'p BoundaryCondition, own: LoadRules<EdgeRule>) -> Self {
+        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)), own }
+    }
+
+    fn piece(&self, problem: &Problem, cell: usize, rules: Vec<EdgeRule>) -> BorderPiece<'_> {
+        BorderPiece {
+            rules,
+            own: self.own.of(cell),
+            held: self.condition.held(),
+            values: &*self.values,
+            condition: self.number,
+            modes: modes(problem),
+        }
+    }
+}
+
+fn add_source(
+    sum: &mut [Balance],
+    source: &Source<'_>,
+    rules: &[Rule],
+    pieces: &Pieces,
+    components: usize,
+) {
+    for rule in rules {
+        for (&offset, &weight) in rule.offsets.iter().zip(&rule.weights) {
+            let x = rule.anchor + offset;
+            sum[pieces.of(x)].add_load(x, &(source.values)(x)[..components], weight);
+        }
+    }
+}
+
+fn add_border(sum: &mut [Balance], piece: &BorderPiece<'_>, pieces: &Pieces, components: usize) {
+    let points = |rules: &[EdgeRule], visit: &mut dyn FnMut(usize, Vec2, Vec2, f64)| {
+        for rule in rules {
+            for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+                visit(pieces.of_border(rule, q), rule.anchor + offset, rule.normals[q], weight);
+            }
+        }
+    };
+    points(&piece.rules, &mut |at, x, _, weight| sum[at].add_held(x, piece.held, weight));
+    points(piece.own.unwrap_or(&piece.rules), &mut |at, x, normal, weight| {
+        sum[at].add_load(x, &piece.loads(x, normal)[..components], weight);
+    });
+}
+
+/// True if all that is given on a piece of the border is finite, values that hold it among them.
+fn is_finite(piece: &BorderPiece<'_>) -> bool {
+    piece.own.unwrap_or(&piece.rules).iter().all(|rule| {
+        let points = rule.offsets.iter().zip(&rule.normals);
+        points.into_iter().all(|(&offset, &normal)| {
+            (piece.values)(rule.anchor + offset, normal).iter().all(|value| value.is_finite())
+        })
+    })
+}

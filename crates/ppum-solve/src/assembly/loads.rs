@@ -1,0 +1,293 @@
+//! Rules for loads and given values that the rules of the system do not resolve.
+//!
+//! A formula may jump, be bent, have layers and spikes where the functions of the space know nothing of it.
+//! Only integrals with the formula itself pay for that: cell by cell its moments by the rule of the system are
+//! compared with those by a rule that goes up to its kinks and is divided until it resolves the formula. Where
+//! they agree the rule of the system stays, else the other one takes its place for this load.
+
+use crate::problem::{BorderPart, BoundaryCondition, Condition, Expression, Problem};
+use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
+use crate::smoothness::{Smoothness, box_of};
+use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
+use ppum::crack::Side;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Difference of moments up to which the rule of the system stays, as a part of the mean load: of formulas
+/// with kinks, layers or spikes somewhere, and of smooth ones, which the polynomials of the space resolve no
+/// better.
+const SAME: f64 = 1e-9;
+const SAME_OF_SMOOTH: f64 = 1e-6;
+
+/// Gauss points more of the rule that smooth loads are compared with.
+const EXTRA: usize = 2;
+
+/// The mean load found must lie between these parts of the mean that was allowed for, or rules are made
+/// again: where points hit or miss a spike, the first mean is a guess.
+const MEAN_FOUND: [f64; 2] = [0.5, 10.0];
+
+/// Most times rules are made.
+const ROUNDS: usize = 4;
+
+/// Divisions that one load may cost in all cells together, and in each at least: a load that oscillates without
+/// end is not to take minutes.
+const DIVISIONS: usize = 50_000;
+const LEAST_DIVISIONS: usize = 100;
+
+/// Polynomials of a cell whose products with a load are compared.
+const MOMENTS: usize = 6;
+
+/// A rule with its points.
+pub(crate) trait Points: Clone + Send + Sync {
+    /// Calls `visit` with places, normals (zero inside the plate) and weights.
+    fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64));
+
+    fn doubt(&self) -> &Doubt;
+}
+
+impl Points for Rule {
+    fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
+        let points = self.offsets.iter().zip(&self.weights);
+        points.for_each(|(&x, &w)| visit(self.anchor + x, Vec2::ZERO, w));
+    }
+
+    fn doubt(&self) -> &Doubt {
+        &self.doubt
+    }
+}
+
+impl Points for EdgeRule {
+    fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
+        let points = self.offsets.iter().zip(&self.weights).zip(&self.normals);
+        points.for_each(|((&x, &w), &normal)| visit(self.anchor + x, normal, w));
+    }
+
+    fn doubt(&self) -> &Doubt {
+        &self.doubt
+    }
+}
+
+/// The rules of one load that take the place of the system's, and what they do not resolve.
+#[derive(Clone, Debug)]
+pub(crate) struct LoadRules<R> {
+    /// Of each cell.
+    own: Vec<Option<Vec<R>>>,
+    /// Estimated error of ∫|f|, and where.
+    doubt: Doubt,
+    /// ∫|f|
+    magnitude: f64,
+}
+
+/// A load that the rules of the system resolve.
+impl<R> Default for LoadRules<R> {
+    fn default() -> Self {
+        Self { own: Vec::new(), doubt: Doubt::default(), magnitude: 0.0 }
+    }
+}
+
+impl<R: Points> LoadRules<R> {
+    /// The rules of a cell, if they are not those of the system.
+    pub(crate) fn of(&self, cell: usize) -> Option<&[R]> {
+        self.own.get(cell)?.as_deref()
+    }
+
+    /// Estimated error of the load's resultant as a part of its magnitude, and the place of its largest
+    /// part; none if the load is resolved.
+    pub(crate) fn doubt(&self) -> Option<(f64, Vec2)> {
+        let error = self.doubt.load;
+        (error > 0.0).then(|| (error / self.magnitude.max(f64::MIN_POSITIVE), self.doubt.at))
+    }
+}
+
+/// Divisions that a load may cost in a cell.
+fn divisions(space: &Space<'_>) -> usize {
+    (DIVISIONS / space.partition().len()).max(LEAST_DIVISIONS)
+}
+
+/// A load: its formulas, its values at places with their normals, and the rules that a quadrature has for the
+/// part of a cell that it acts on.
+struct Load<'l, R> {
+    formulas: Vec<&'l Expression>,
+    values: &'l (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync),
+    rules: &'l (dyn Fn(&Quadrature<'_>, usize) -> Vec<R> + Sync),
+}
+
+/// The rules of the source.
+pub(super) fn of_source(
+    problem: &Problem,
+    space: &Space<'_>,
+    stage: &Stage<'_>,
+) -> Result<LoadRules<Rule>, Halt> {
+    let load = Load {
+        formulas: problem.source.iter().collect(),
+        values: &|x, _| problem.source_at(x),
+        rules: &|quadrature, cell| {
+            quadrature.cell(&space.partition().cell[cell], &space.coverers[cell])
+        },
+    };
+    load.rules_on(space, stage)
+}
+
+/// The rules of the data of a condition.
+pub(super) fn of_condition(
+    problem: &Problem,
+    space: &Space<'_>,
+    condition: &BoundaryCondition,
+    stage: &Stage<'_>,
+) -> Result<LoadRules<EdgeRule>, Halt> {
+    let components = condition.components.iter().filter_map(|c| match c {
+        Condition::Free => None,
+        Condition::Dirichlet(g) | Condition::Neumann(g) => Some(g),
+    });
+    let load = Load {
+        formulas: components.chain(&condition.pressure).collect(),
+        values: &|x, normal| condition.values(x, normal),
+        rules: &|quadrature, cell| {
+            let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
+            border_rules(problem, condition.on, quadrature, rect, coverers)
+        },
+    };
+    load.rules_on(space, stage)
+}
+
+/// The findings of a round.
+struct Round<R> {
+    rules: LoadRules<R>,
+    measure: f64,
+}
+
+impl<R: Points> Load<'_, R> {
+    fn rules_on(&self, space: &Space<'_>, stage: &Stage<'_>) -> Result<LoadRules<R>, Halt> {
+        let mut mean = 0.0;
+        if self.extended(space, mean).is_none() {
+            return Ok(LoadRules::default());
+        }
+        for round in 1..=ROUNDS {
+            let Some((smoothness, places)) = self.extended(space, mean) else {
+                return Ok(LoadRules::default());
+            };
+            let found = self.round(space, (&smoothness, &places), mean, stage)?;
+            let found_mean = found.rules.magnitude / found.measure.max(f64::MIN_POSITIVE);
+            let [least, most] = MEAN_FOUND.map(|part| part * mean);
+            // the first round has no mean to go by
+            let is_right = mean > 0.0 && (least..=most).contains(&found_mean);
+            if is_right || round == ROUNDS || !found_mean.is_finite() || found.measure == 0.0 {
+                return Ok(found.rules);
+            }
+            mean = found_mean.max(f64::MIN_POSITIVE);
+        }
+        Ok(LoadRules::default())
+    }
+
+    fn extended(&self, space: &Space<'_>, mean: f64) -> Option<(Smoothness, Vec<Kink>)> {
+        let data: Vec<_> = self.formulas.iter().map(|&formula| (formula, mean)).collect();
+        space.smoothness().with_data(&box_of(space.partition()), &data)
+    }
+
+    /// The rules that resolve the load up to parts of a mean; with a mean of zero those of the system, to
+    /// find one.
+    fn round(
+        &self,
+        space: &Space<'_>,
+        (smoothness, places): (&Smoothness, &[Kink]),
+        mean: f64,
+        stage: &Stage<'_>,
+    ) -> Result<Round<R>, Halt> {
+        let [plain, finer] = [0, EXTRA].map(|extra| space.quadrature(extra));
+        let own = space.quadrature_of(smoothness, 0).with_divisions(divisions(space));
+        let same = mean * if places.is_empty() { SAME_OF_SMOOTH } else { SAME };
+        let mut round = Round { rules: LoadRules::default(), measure: 0.0 };
+        in_batches(
+            stage,
+            space.partition().len(),
+            || (),
+            |(), cell| {
+                let rect = &space.partition().cell[cell];
+                let moments = |rules: &[R]| self.moments(rect, rules);
+                let plain = (self.rules)(&plain, cell);
+                let known = moments(&plain);
+                let meets = places.iter().any(|place| place.may_meet(rect));
+                if plain.is_empty() || mean == 0.0 {
+                    return Ok((known, None));
+                }
+                if !meets && known.is_near(&moments(&(self.rules)(&finer, cell)), same) {
+                    return Ok((known, None));
+                }
+                let own = (self.rules)(&own, cell);
+                let better = moments(&own);
+                let is_same = known.is_near(&better, same);
+                Ok((better, (!is_same).then_some(own)))
+            },
+            |_, (moments, own)| {
+                let doubts = own.iter().flatten().map(Points::doubt);
+                doubts.for_each(|doubt| round.rules.doubt.add(doubt));
+                round.measure += moments.measure;
+                round.rules.magnitude += moments.magnitude;
+                round.rules.own.push(own);
+            },
+        )?;
+        Ok(round)
+    }
+
+    fn moments(&self, cell: &Rect, rules: &[R]) -> Moments {
+        let (center, half) = (cell.center(), cell.size() * 0.5);
+        let mut moments = Moments::default();
+        for rule in rules {
+            rule.visit(&mut |x, normal, weight| {
+                let way = x - center;
+                let values = (self.values)(x, normal);
+                moments.add(vec2(way.x / half.x, way.y / half.y), values, weight);
+            });
+        }
+        moments
+    }
+}
+
+/// Integrals of a load times polynomials of a cell.
+#[derive(Default)]
+struct Moments {
+    sums: [[f64; MOMENTS]; 2],
+    magnitude: f64,
+    measure: f64,
+}
+
+impl Moments {
+    fn add(&mut self, Vec2 { x, y }: Vec2, values: [f64; 2], weight: f64) {
+        let polynomials = [1.0, x, y, x * x, x * y, y * y];
+        for (sums, value) in self.sums.iter_mut().zip(values) {
+            sums.iter_mut().zip(polynomials).for_each(|(sum, p)| *sum += weight * value * p);
+        }
+        self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
+        self.measure += weight;
+    }
+
+    /// True if the integrals differ by no more than a load of this size.
+    fn is_near(&self, other: &Self, load: f64) -> bool {
+        let allowed = load * self.measure;
+        let pairs = self.sums.iter().flatten().zip(other.sums.iter().flatten());
+        pairs.into_iter().all(|(a, b)| (a - b).abs() <= allowed)
+    }
+}
+
+/// The rules on a part of the border in one cell.
+pub(super) fn border_rules(
+    problem: &Problem,
+    on: BorderPart,
+    quadrature: &Quadrature<'_>,
+    rect: &Rect,
+    coverers: &[u32],
+) -> Vec<EdgeRule> {
+    match on {
+        BorderPart::Edge { edge, from, to } => {
+            let ends = [from, to].map(|s| edge.point(&problem.domain.bounds, s));
+            quadrature.edge(rect, coverers, ends, edge.normal())
+        }
+        BorderPart::Hole(hole) => quadrature.rim(rect, coverers, &problem.domain.holes[hole]),
+        BorderPart::Crack { crack, face } => {
+            let both = [Side::Above, Side::Below];
+            let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
+            let faces = sides.flat_map(|side| Face::of(&problem.cracks[crack], crack, side));
+            faces.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Reactions: the resultant force and moment that restraints exert on the plate.
+//!
+//! ```text
+//! R_k = ∫ m_k,i t_i     t_i = (σ(u) n)_i − β (u_i − g_i)     over the components i that are held
+//! ```
+//!
+//! m_k are the rigid-body modes. With Nitsche's own β the system, tested with a rigid-body mode, says just
+//! that the reactions balance the loads: what differs is rounding, however coarse the cells.
+
+use super::cell_system::CellSystem;
+use super::functions::CellFunctions;
+use crate::equilibrium::{MODES, PerMode, RigidModes};
+use crate::linear::BlockMatrix;
+use crate::problem::{BoundaryCondition, Problem, restraint_words};
+use ppum::dataset::Reaction;
+
+/// The modes that reactions do work on: the moment is about the centre of the box.
+pub(crate) fn modes(problem: &Problem) -> RigidModes {
+    RigidModes::new(problem.domain.bounds.center(), 1.0, problem.components())
+}
+
+/// Integrals over the border of a cell where one condition gives values, for every rigid-body mode m.
+#[derive(Clone, Debug)]
+pub(crate) struct Restraint {
+    /// Number of the condition.
+    pub(crate) condition: usize,
+    /// ∫ m_i (σ(N) n)_i, one number per unknown of the cell.
+    traction: [Vec<f64>; MODES],
+    /// ∫ m_i N_i
+    value: [Vec<f64>; MODES],
+    /// ∫ m_i g_i
+    given: PerMode,
+}
+
+impl Restraint {
+    pub(crate) fn new(condition: usize, unknowns: usize) -> Self {
+        let zero = || std::array::from_fn(|_| vec![0.0; unknowns]);
+        Self { condition, traction: zero(), value: zero(), given: [0.0; MODES] }
+    }
+
+    /// Adds the values that mode `k` takes at points, times the roots of their weights: rows of
+    /// tractions and values are functions at these points, times the roots.
+    pub(crate) fn add(
+        &mut self,
+        k: usize,
+        mode: &[f64],
+        (tractions, traction_rows): Rows<'_>,
+        (values, value_rows): Rows<'_>,
+    ) {
+        for (q, m) in mode.iter().enumerate() {
+            for (a, &row) in traction_rows.iter().enumerate() {
+                self.traction[k][row] += m * tractions[(a, q)];
+            }
+            for (a, &row) in value_rows.iter().enumerate() {
+                self.value[k][row] += m * values[(a, q)];
+            }
+        }
+    }
+
+    /// Adds the data that are given at points where mode `k` has these values, all times the roots.
+    pub(crate) fn give(&mut self, k: usize, mode: &[f64], given: &[f64]) {
+        self.given[k] += mode.iter().zip(given).map(|(m, g)| m * g).sum::<f64>();
+    }
+
+    /// The reaction as a function of the cell's unknowns, now that β is known.
+    pub(crate) fn finish(self, beta: f64) -> CellReaction {
+        let (mut work, value) = (self.traction, self.value);
+        for (work, value) in work.iter_mut().zip(&value) {
+            work.iter_mut().zip(value).for_each(|(work, value)| *work -= beta * value);
+        }
+        CellReaction { condition: self.condition, work, given: self.given.map(|g| beta * g) }
+    }
+}
+
+/// Functions at points, and the cell's unknown of each row.
+type Rows<'a> = (faer::MatRef<'a, f64>, &'a [usize]);
+
+/// R_k = work_k · u + given_k, u the cell's unknowns.
+#[derive(Clone, Debug)]
+pub(crate) struct CellReaction {
+    condition: usize,
+    work: [Vec<f64>; MODES],
+    given: PerMode,
+}
+
+/// The reactions of all cells, in the order of the cells.
+#[derive(Default)]
+pub(crate) struct Reactions(Vec<(CellFunctions, Vec<CellReaction>)>);
+
+impl Reactions {
+    /// Adds those of the next cell.
+    pub(crate) fn push(&mut self, part: CellSystem) {
+        if !part.reactions.is_empty() {
+            self.0.push((part.functions, part.reactions));
+        }
+    }
+
+    /// The reactions of a solution in the order of the matrix, one entry per condition that gives values.
+    pub(crate) fn of(
+        &self,
+        problem: &Problem,
+        matrix: &BlockMatrix,
+        solution: &[f64],
+    ) -> Vec<Reaction> {
+        let components = problem.components();
+        let mut sums = vec![[0.0; MODES]; problem.boundary.len()];
+        for (functions, parts) in &self.0 {
+            let unknowns = functions.take_from(matrix, components, solution);
+            for part in parts {
+                for (k, sum) in sums[part.condition].iter_mut().enumerate() {
+                    let terms = part.work[k].iter().zip(&unknowns).map(|(w, u)| w * u);
+                    *sum += terms.sum::<f64>() + part.given[k];
+                }
+            }
+        }
+        let holding = problem.boundary.iter().zip(sums).filter(|(c, _)| c.held().contains(&true));
+        let reaction = |(condition, sum): (&BoundaryCondition, PerMode)| Reaction {
+            on: restraint_words(condition.on, &problem.domain),
+            held: condition.held()[..components].to_vec(),
+            force: sum[..components].to_vec(),
+            moment: sum[2],
+        };
+        holding.map(reaction).collect()
+    }
+}

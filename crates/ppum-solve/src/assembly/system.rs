@@ -1,0 +1,185 @@
+//! The whole system in the stable basis, summed over the cells.
+
+use super::Assembly;
+use super::border::BorderPiece;
+use super::cell::CellAssembler;
+use super::cell_system::CellSystem;
+use super::given::Given;
+use super::reaction::Reactions;
+use crate::basis::Penalty;
+use crate::linear::{BlockMatrix, BlockPattern};
+use crate::quadrature::{Doubt, EdgeRule, Rule};
+use crate::report::Unresolved;
+use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
+use ppum::vec2::Rect;
+
+/// The assembled system.
+pub(crate) struct System {
+    pub(crate) matrix: BlockMatrix,
+    /// Right-hand side, in the order of the matrix.
+    pub(crate) load: Vec<f64>,
+    /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
+    pub(crate) nitsche: f64,
+    /// Forces of the restraints on the plate.
+    pub(crate) reactions: Reactions,
+    /// Number of quadrature points, those of loads that have their own among them.
+    pub(crate) points: usize,
+    /// Loads and data, functions and coefficients that are not resolved.
+    pub(crate) unresolved: Vec<Unresolved>,
+}
+
+/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
+/// have 3 to 36.
+const SLIVER: f64 = 50.0;
+
+/// The penalties of the cells where β is so large that the basis should see it. Advances the stage by the number of
+/// cells.
+///
+/// # Errors
+/// Data that are not finite, with their place; cancelled.
+pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
+    let Assembly { problem, space, .. } = assembly;
+    let quadrature = space.quadrature(0);
+    let given = Given::restraints(problem);
+    let mut found = Vec::new();
+    in_batches(
+        stage,
+        if given.is_empty() { 0 } else { assembly.n_cells() },
+        || CellAssembler::new(assembly),
+        |assembler, cell| {
+            let on_border = given.border(space, &quadrature, cell);
+            if on_border.is_empty() {
+                return Ok(None);
+            }
+            let rect = space.partition().cell[cell];
+            let rules = space.rules(&quadrature, cell);
+            let part = assembler.assemble(cell, &rules, None, &on_border);
+            let weight = part.map_err(|_| Halt::at(rect))?.penalty;
+            let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
+            Ok((weight * width(&rect) > SLIVER).then_some(Penalty { rules, weight }))
+        },
+        |_, penalty| found.extend(penalty),
+    )?;
+    Ok(found)
+}
+
+fn width(cell: &Rect) -> f64 {
+    cell.size().x.max(cell.size().y)
+}
+
+fn n_cell_points(rules: &[Rule]) -> usize {
+    rules.iter().map(|rule| rule.weights.len()).sum()
+}
+
+fn n_points(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> usize {
+    let own = |piece: &BorderPiece<'_>| piece.own.map_or(0, n_edge_points);
+    let border = pieces.iter().map(|piece| n_edge_points(&piece.rules) + own(piece));
+    n_cell_points(rules) + border.sum::<usize>()
+}
+
+fn n_edge_points(rules: &[EdgeRule]) -> usize {
+    rules.iter().map(|rule| rule.weights.len()).sum()
+}
+
+/// Errors that the rules of a cell and of its border leave.
+fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
+    let border = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
+    let mut sum = Doubt::default();
+    rules.iter().map(|rule| &rule.doubt).chain(border).for_each(|doubt| sum.add(doubt));
+    sum
+}
+
+impl System {
+    /// Assembles the system of what is given. Advances the stage by the number of cells.
+    ///
+    /// # Errors
+    /// Data that are not finite, with their place; cancelled.
+    pub(crate) fn new(
+        assembly: Assembly<'_>,
+        given: &Given<'_>,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
+        let Assembly { space, .. } = assembly;
+        let quadrature = space.quadrature(0);
+        let (mut system, mut doubt) = (Self::zero(&assembly), Doubt::default());
+        in_batches(
+            stage,
+            assembly.n_cells(),
+            || CellAssembler::new(assembly),
+            |assembler, cell| {
+                let rules = space.rules(&quadrature, cell);
+                let pieces = given.border(space, &quadrature, cell);
+                let source = given.source(cell);
+                let own = source.and_then(|source| source.rules);
+                let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
+                let part = assembler.assemble(cell, &rules, source, &pieces);
+                let part = part.map_err(|_| Halt::at(space.partition().cell[cell]))?;
+                Ok((part, points, doubt_of(&rules, &pieces)))
+            },
+            |cell, (part, points, left)| {
+                system.points += points;
+                doubt.add(&left);
+                let penalty = part.penalty * width(&space.partition().cell[cell]);
+                system.nitsche = system.nitsche.max(penalty);
+                system.add(part, assembly.components());
+            },
+        )?;
+        system.unresolved = given.unresolved();
+        if doubt.functions > 0.0 {
+            let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
+            system.unresolved.push(functions);
+        }
+        Ok(system)
+    }
+
+    fn zero(assembly: &Assembly<'_>) -> Self {
+        let sizes = assembly.basis.sizes.iter().map(|n| n * assembly.components());
+        let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
+        Self {
+            load: vec![0.0; matrix.n_unknowns()],
+            matrix,
+            nitsche: 0.0,
+            reactions: Reactions::default(),
+            points: 0,
+            unresolved: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, part: CellSystem, components: usize) {
+        part.functions.add_to(&self.matrix, components, &part.load, &mut self.load);
+        let patches = &part.functions.patches;
+        for (k, &p) in patches.iter().enumerate() {
+            let p = p as usize;
+            for (l, &q) in patches.iter().enumerate().skip(k) {
+                // both meet the cell, but not each other
+                if !self.matrix.couples(p, q as usize) {
+                    continue;
+                }
+                let block = part.block(k, l, components);
+                self.matrix.add_block(p, q as usize, block.as_ref());
+            }
+        }
+        self.reactions.push(part);
+    }
+}
+
+/// Two patches are coupled when their open supports meet.
+pub(crate) fn pattern(space: &Space<'_>) -> BlockPattern {
+    let support = |p: u32| space.partition().support(p as usize);
+    let mut rows = vec![Vec::new(); space.partition().len()];
+    for patches in &space.coverers {
+        for (k, &p) in patches.iter().enumerate() {
+            let meets = |q: &&u32| support(p).overlaps(&support(**q));
+            rows[p as usize].extend(patches[k..].iter().filter(meets));
+        }
+    }
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for row in &mut rows {
+        row.sort_unstable();
+        row.dedup();
+        columns.extend_from_slice(row);
+        starts.push(columns.len());
+    }
+    BlockPattern::new(starts, columns)
+}

@@ -1,0 +1,90 @@
+//! Warnings about interfaces of materials that the local spaces do not resolve.
+
+use super::{kind, short, warning};
+use crate::smoothness::{Cause, Interfaces, Trouble};
+use ppum::crack::Side;
+use ppum::dataset::{Dataset, Warning};
+use ppum::field::Field;
+use ppum::function::{FunctionKind, WESTERGAARD};
+use ppum::jet::Jet;
+use ppum::text::Places;
+use ppum::vec2::{Vec2, vec2};
+
+use crate::law::Law;
+
+/// Points in each direction of a cell at which its energy is looked at.
+const LOOKS: usize = 4;
+
+/// Error of a cell's energy, relative to it, where the contrast is one: an order of magnitude, not calibrated.
+const SHARE: f64 = 0.1;
+
+/// Estimated relative error of the energy from which on it is told.
+const LARGE: f64 = 1e-3;
+
+/// The warnings about interfaces: for each cause one, at the worst place, its value the estimated relative error
+/// of the energy.
+pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Places) -> Vec<Warning> {
+    let interfaces = Interfaces::new(&dataset.equation, &dataset.domain);
+    if interfaces.all.is_empty() {
+        return Vec::new();
+    }
+    let partition = &field.step.partition;
+    let energies: Vec<f64> = (0..partition.len()).map(|cell| energy(field, cell)).collect();
+    let total: f64 = energies.iter().sum();
+    let of_patch = |patch: usize| {
+        let part = partition.support(patch).intersection(&dataset.domain.bounds);
+        let found = interfaces.trouble(&part, &field.step.cracks)?;
+        let share = SHARE * found.contrast.powi(2) * energies[patch] / total;
+        (!has_own(field, patch)).then_some((found, share))
+    };
+    let all: Vec<_> = (0..partition.len()).filter_map(of_patch).collect();
+    let causes = [Cause::Many, Cause::Turn, Cause::Corner, Cause::Border, Cause::Crack];
+    causes.into_iter().filter_map(|cause| of_cause(cause, &all, places)).collect()
+}
+
+fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<Warning> {
+    let such = || all.iter().filter(|(found, _)| found.cause == cause);
+    let worst = such().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let value: f64 = such().map(|(_, share)| share).sum();
+    (value > LARGE).then(|| {
+        let message = format!(
+            "{} at {}: the energy is off by about {} of itself, stresses near there by more; use smaller cells \
+             there, or an [[enrichment]] with the exponent of the singular field",
+            cause.name(),
+            places.show(worst.at),
+            short(value)
+        );
+        warning(kind::INTERFACE, Some(worst.at), [value, LARGE], message)
+    })
+}
+
+/// True if a patch has functions of the problem's own: they are taken for what is needed there.
+fn has_own(field: &Field<'_>, patch: usize) -> bool {
+    let data = &field.step.fields[0];
+    let mut kinds = data.blocks(patch).map(|b| {
+        let function = &field.step.functions[data.block_function[b] as usize];
+        (&function.kind, function.name.starts_with(crate::space::KINK))
+    });
+    kinds.any(|(kind, is_kink)| match kind {
+        FunctionKind::Formula { text, .. } => !is_kink && !WESTERGAARD.contains(&text.as_str()),
+        _ => false,
+    })
+}
+
+/// About the energy of a cell, what of it lies in the plate.
+fn energy(field: &Field<'_>, cell: usize) -> f64 {
+    let (rect, law) = (field.step.partition.cell[cell], Law::new(field.equation));
+    let (min, step) = (rect.min, rect.size() * (1.0 / LOOKS as f64));
+    let at = |k: usize| {
+        min + vec2(step.x * ((k % LOOKS) as f64 + 0.5), step.y * ((k / LOOKS) as f64 + 0.5))
+    };
+    let density = |p: Vec2| {
+        let mut u = [Jet::constant(0.0); 2];
+        let inside = field.at(p).evaluate::<1>(Vec2::ZERO, Side::Above, &mut u);
+        let g = u.map(|jet| vec2(jet.x, jet.y));
+        let s = law.at(p).flux(&g);
+        let sum: f64 = (0..law.components).map(|i| s[i][0] * g[i].x + s[i][1] * g[i].y).sum();
+        if inside && sum.is_finite() { 0.5 * sum } else { 0.0 }
+    };
+    (0..LOOKS * LOOKS).map(|k| density(at(k))).sum::<f64>() * step.x * step.y
+}

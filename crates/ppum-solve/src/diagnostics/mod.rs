@@ -1,0 +1,239 @@
+//! Diagnostics: findings about a solution that do not make it wrong to have, but wrong to trust unread.
+//!
+//! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the bound
+//! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset; [`recompute`] finds them
+//! again from a dataset, with the stress intensity factors.
+
+mod corners;
+mod digits;
+pub mod effort;
+mod faces;
+mod interfaces;
+mod locking;
+mod report;
+mod tips;
+
+pub use digits::{FEW_DIGITS, rounding};
+pub use tips::relative_spread;
+
+use crate::intensity::{Outcome, intensities_under};
+use crate::problem::Problem;
+use crate::report::{SolverReport, Unresolved};
+use crate::space::Space;
+use crate::watched::Stage;
+use corners::of_corners;
+use digits::of_digits;
+use faces::of_faces;
+use interfaces::of_interfaces;
+use locking::locking;
+use ppum::dataset::{Dataset, Warning};
+use ppum::field::{Field, FieldError};
+use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::text::{Places, trimmed_to};
+use ppum::vec2::Vec2;
+use report::{Cutters, of_report};
+use tips::of_tips;
+
+/// Relative residual of the linear system above which it is not solved as well as it should be:
+/// 1e-12 and less is usual.
+pub const LARGE_RESIDUAL: f64 = 1e-8;
+
+/// Part of the loads that may remain unbalanced on a piece of the plate that nothing holds; more is
+/// seen in the solution's digits.
+pub const LARGE_IMBALANCE: f64 = 1e-8;
+
+/// Part of the unknowns that the stable basis may cut off.
+pub const LARGE_CUT_OFF: f64 = 0.25;
+
+/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held border holds far more tightly than the
+/// rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held edge 710, one along
+/// such an edge 8e4 at 1e-4 of a cell.
+pub const LARGE_NITSCHE: f64 = 1e4;
+
+/// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and coefficients
+/// over a piece of a cell: quadrature aims at 1e-10.
+pub const LARGE_ERROR: f64 = 1e-6;
+/// Part of the energy that may be lost to locking.
+pub const LARGE_LOCKING: f64 = 2e-3;
+
+/// Words of the kinds of warnings.
+pub mod kind {
+    /// The faces of a crack overlap.
+    pub const FACES_OVERLAP: &str = "faces-overlap";
+    /// K_I of a tip is negative.
+    pub const NEGATIVE_K1: &str = "negative-k1";
+    /// A tip has no factors, because it has too little room.
+    pub const NO_ROOM: &str = "no-room";
+    /// A tip has little room, so its factors are less accurate.
+    pub const LITTLE_ROOM: &str = "little-room";
+    /// A tip is close to an interface of two materials, measured by its cells.
+    pub const NEAR_INTERFACE: &str = "near-interface";
+    /// The factors at the radii of a tip differ.
+    pub const SPREAD: &str = "spread";
+    /// A tip is close to the border, measured by the length of its crack.
+    pub const TIP_NEAR_BORDER: &str = "tip-near-border";
+    /// A crack is as long as a few cells only.
+    pub const COARSE: &str = "coarse";
+    /// Loads do not balance to the last digits.
+    pub const IMBALANCE: &str = "imbalance";
+    /// The linear system has a large residual.
+    pub const RESIDUAL: &str = "residual";
+    /// Many functions were cut off as dependent.
+    pub const CUT_OFF: &str = "cut-off";
+    /// A crack cuts a cell at a held edge into a sliver.
+    pub const NITSCHE: &str = "nitsche";
+    /// Interfaces of materials are not resolved somewhere.
+    pub const INTERFACE: &str = "interface";
+    /// Coefficients cancel, and few digits of the stresses remain.
+    pub const DIGITS: &str = "digits";
+    /// The order is too low for a plate that is nearly incompressible.
+    pub const LOCKING: &str = "locking";
+    /// Patches remain that a crack, or the rim of a hole, crosses twice.
+    pub const CROSSED_TWICE: &str = "crossed-twice";
+    /// The cells at a singular point of the border are too large for its field.
+    pub const SINGULAR_POINT: &str = "singular-point";
+    /// A load or what is given on the border varies too fast to be integrated.
+    pub const LOAD: &str = "load";
+    /// A function or a coefficient varies too fast to be integrated.
+    pub const QUADRATURE: &str = "quadrature";
+}
+
+/// A solution that is to be diagnosed.
+pub(crate) struct Case<'a> {
+    pub(crate) dataset: &'a Dataset,
+    /// Number of the step.
+    pub(crate) step: usize,
+    /// The first field of the step.
+    pub(crate) field: &'a Field<'a>,
+    pub(crate) space: &'a Space<'a>,
+    /// The problem that it solves, if that is known.
+    pub(crate) problem: Option<&'a Problem>,
+    pub(crate) report: &'a SolverReport,
+    /// Integrands of the system that were not resolved.
+    pub(crate) unresolved: &'a [Unresolved],
+}
+
+/// The findings about a solution.
+pub(crate) struct Diagnosis {
+    pub(crate) warnings: Vec<Warning>,
+    /// The relative rounding error of stresses, see [`rounding`].
+    pub(crate) rounding: f64,
+}
+
+/// A dataset whose factors and warnings cannot be found again.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecomputeError {
+    /// Its functions do not compile, or there is no such step.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
+/// it solves, on the cracks of the step: its loads act near the tips. Without one none do.
+///
+/// [`check_effort`](effort::check_effort) tells before whether it takes too much.
+///
+/// # Errors
+/// A step that is not there, functions that do not compile; cancelled, within the time of one cell.
+pub fn recompute(
+    dataset: &Dataset,
+    step: usize,
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<(Vec<Outcome>, Vec<Warning>), RecomputeError> {
+    let field = Field::new(dataset, step)?;
+    let Dataset { domain, equation, tables, .. } = dataset;
+    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
+    let report = &SolverReport::of(&field.step.history);
+    let (field, space) = (&field, &space);
+    let case = Case { dataset, step, field, space, problem, report, unresolved: &[] };
+    let Diagnosis { warnings, .. } = case.diagnose(&tips, watcher)?;
+    Ok((tips, warnings))
+}
+
+impl Case<'_> {
+    /// The findings about the solution and its tips.
+    ///
+    /// # Errors
+    /// Functions that do not compile; cancelled.
+    pub(crate) fn diagnose(
+        &self,
+        tips: &[Outcome],
+        watcher: &dyn Watcher,
+    ) -> Result<Diagnosis, RecomputeError> {
+        let Self { dataset, field, space, .. } = *self;
+        let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+        let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
+        let cutters = Cutters::new(field.step, &dataset.domain);
+        let mut warnings = of_tips(tips, &field.step.cracks, &places);
+        warnings.extend(of_faces(field, &places));
+        stage.advance(0)?;
+        if let Some((problem, energy)) = self.problem.zip(self.report.energy) {
+            warnings.extend(of_corners(problem, field, space, (energy, &places)));
+        }
+        stage.advance(0)?;
+        warnings.extend(of_interfaces(field, dataset, &places));
+        warnings.extend(of_report(self.report, cutters));
+        stage.advance(0)?;
+        let rounding = rounding(dataset, self.step)?;
+        warnings.extend(of_digits(rounding, cutters, &places));
+        stage.advance(0)?;
+        warnings.extend(of_locking(field, space));
+        warnings.extend(of_quadrature(self.unresolved, &places));
+        Ok(Diagnosis { warnings, rounding: rounding.0 })
+    }
+}
+
+/// The warning about an order too low for a plate that hardly changes its volume.
+fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
+    let lost = locking(field, space);
+    let message = format!(
+        "the plate is nearly incompressible, and polynomials of this order make it too stiff: about {} % of the \
+         energy is error; use order = 4 or more (4 is taken if `order` is left out), or smaller cells",
+        short((1e4 * lost).round() / 1e2)
+    );
+    (lost > LARGE_LOCKING).then(|| warning(kind::LOCKING, None, [lost, LARGE_LOCKING], message))
+}
+
+/// The warnings about what quadrature does not resolve.
+fn of_quadrature(unresolved: &[Unresolved], places: &Places) -> Vec<Warning> {
+    let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
+    let warning = |found: &Unresolved| {
+        let Unresolved { load, error, at } = found;
+        let kind = if load.is_some() { kind::LOAD } else { kind::QUADRATURE };
+        warning(
+            kind,
+            Some(*at),
+            [*error, LARGE_ERROR],
+            unresolved_text(load.as_deref(), *error, &places.show(*at)),
+        )
+    };
+    large.map(warning).collect()
+}
+
+fn unresolved_text(load: Option<&str>, error: f64, at: &str) -> String {
+    match load {
+        Some(load) => format!(
+            "{load} varies too fast, or grows without bound, around {at}: its resultant is off by about {error:.1e} \
+             of its magnitude; use a formula that can be integrated there, or smaller cells"
+        ),
+        None => format!(
+            "a function or a coefficient varies too fast around {at}: integrals over a piece of a cell there are \
+             off by about {error:.1e}; use smaller cells there, or a smoother formula"
+        ),
+    }
+}
+
+fn warning(kind: &str, at: Option<Vec2>, [value, limit]: [f64; 2], message: String) -> Warning {
+    Warning { kind: kind.into(), at, value, limit, message }
+}
+
+/// Five digits, without zeros at the end.
+fn short(value: f64) -> String {
+    trimmed_to(value, 5)
+}

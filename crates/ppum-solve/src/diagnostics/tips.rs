@@ -1,0 +1,196 @@
+//! Warnings about tips and their stress intensity factors.
+
+use super::{LARGE_ERROR, kind, short, warning};
+use crate::geometry::AMPLE_CLEARANCE;
+use crate::intensity::{Obstacle, Outcome};
+use ppum::crack::Crack;
+use ppum::dataset::{Ring, TipIntensity, Warning};
+use ppum::text::{Places, trimmed_to};
+
+/// Difference of the factors at three radii, in parts of their size, above which they are not to be
+/// trusted. Below it they may be wrong as well, see [`relative_spread`].
+pub(super) const LARGE_SPREAD: f64 = 0.01;
+
+/// Part of |K| that K_I may be negative by where it should be zero.
+const NOISE: f64 = 1e-3;
+
+/// Part of the [strength](Outcome::strength) below which factors are rounding and discretisation: a crack
+/// along the load has none.
+const NOTHING: f64 = 0.01;
+
+/// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly
+/// broken through.
+const NEAR_BORDER: f64 = 0.05;
+
+/// Least number of cells along a crack.
+const LEAST_CELLS: f64 = 4.0;
+
+/// The warnings about the tips of a step, whose cracks these are.
+pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
+    let of_tip = |outcome: &Outcome| {
+        let length = cracks[outcome.tip.crack as usize].length();
+        let at = &places.show(outcome.at);
+        let about_factors = match &outcome.factors {
+            Some(factors) => [
+                negative(outcome, factors, at),
+                spread(outcome, factors, at),
+                unresolved(outcome, at, &places.show(outcome.doubt.at)),
+            ],
+            None => [Some(no_room(outcome, at)), None, None],
+        };
+        let about_place = [
+            little_room(outcome, at),
+            near_interface(outcome, at),
+            near_border(outcome, length, at),
+            coarse(outcome, length, at),
+        ];
+        about_factors.into_iter().chain(about_place).flatten()
+    };
+    outcomes.iter().flat_map(of_tip).collect()
+}
+
+/// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
+/// the denominator; NaN where that is zero, or without rings.
+///
+/// A check that the integrals agree, and no estimate of the error of K: all radii see the same field, and
+/// most of its error enters them alike. Errors a hundred times as large are common.
+#[must_use]
+pub fn relative_spread(intensity: &TipIntensity) -> f64 {
+    largest_difference(intensity) / intensity.k1.hypot(intensity.k2)
+}
+
+fn largest_difference(intensity: &TipIntensity) -> f64 {
+    let rings = &intensity.rings;
+    let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);
+    let pairs = rings.iter().flat_map(|a| rings.iter().map(move |b| difference(a, b)));
+    pairs.fold(f64::NAN, f64::max)
+}
+
+/// |K|, or more where that is nothing but noise.
+fn size(outcome: &Outcome, factors: &TipIntensity) -> f64 {
+    factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
+}
+
+fn negative(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+    let k1 = factors.k1;
+    let limit = -NOISE * size(outcome, factors);
+    let message = format!(
+        "tip {at}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
+         meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
+        short(k1)
+    );
+    (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
+}
+
+fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+    let spread = largest_difference(factors) / size(outcome, factors);
+    let message = format!(
+        "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
+         which may be larger); use smaller cells there",
+        short((1e3 * spread).round() / 10.0)
+    );
+    (spread > LARGE_SPREAD)
+        .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
+}
+
+fn unresolved(outcome: &Outcome, tip: &str, place: &str) -> Option<Warning> {
+    let error = outcome.doubt.functions;
+    let message = format!(
+        "tip {tip}: a function or a coefficient varies too fast around {place}: integrals over a piece of a cell in its disc \
+         are off by about {error:.1e}; use smaller cells there, or a smoother formula"
+    );
+    let place = Some(outcome.doubt.at);
+    (error > LARGE_ERROR).then(|| warning(kind::QUADRATURE, place, [error, LARGE_ERROR], message))
+}
+
+fn no_room(outcome: &Outcome, at: &str) -> Warning {
+    let (radius, needed) = (outcome.clearance.radius, outcome.needed());
+    let message = if radius <= f64::EPSILON * needed {
+        format!(
+            "tip {at}: no stress intensity factors, because it lies on {}; move it away",
+            outcome.clearance.end.name()
+        )
+    } else {
+        format!(
+            "tip {at}: no stress intensity factors: the disc up to {} has a radius of {}, but {} is \
+             needed with cells {} wide; use cells of at most {} there, or move the tip away",
+            outcome.clearance.end.name(),
+            short(radius),
+            short(needed),
+            short(outcome.cell),
+            short(radius * outcome.cell / needed)
+        )
+    };
+    warning(kind::NO_ROOM, Some(outcome.at), [radius, needed], message)
+}
+
+fn little_room(outcome: &Outcome, at: &str) -> Option<Warning> {
+    let (radius, ample) = (outcome.clearance.radius, AMPLE_CLEARANCE * outcome.cell);
+    let little = outcome.factors.is_some() && radius < ample;
+    little.then(|| {
+        let message = format!(
+            "tip {at}: the disc up to {} has a radius of {} cells only, and the factors may be off by \
+             1 %; use cells of at most {} there",
+            outcome.clearance.end.name(),
+            short((100.0 * radius / outcome.cell).round() / 100.0),
+            short(radius / AMPLE_CLEARANCE)
+        );
+        warning(kind::LITTLE_ROOM, Some(outcome.at), [radius, ample], message)
+    })
+}
+
+fn near_interface(outcome: &Outcome, at: &str) -> Option<Warning> {
+    let (distance, ample) = (outcome.interface?, AMPLE_CLEARANCE * outcome.cell);
+    outcome.factors.as_ref()?;
+    let message = format!(
+        "tip {at}: an interface of two materials passes at a distance of {} cells, and the factors may be \
+         off by {}; use cells of at most {} there, and a `kink` along the interface",
+        short((100.0 * distance / outcome.cell).round() / 100.0),
+        if distance < 0.5 * outcome.cell { "several %" } else { "1 %" },
+        short(distance / AMPLE_CLEARANCE)
+    );
+    Some(warning(kind::NEAR_INTERFACE, Some(outcome.at), [distance, ample], message))
+}
+
+fn near_border(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
+    let (radius, limit) = (outcome.clearance.radius, NEAR_BORDER * length);
+    let free = matches!(outcome.clearance.end, Obstacle::Border | Obstacle::Hole(_));
+    (free && radius < limit).then(|| {
+        let message = format!(
+            "tip {at}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
+             the root of that distance; see that the position is meant, or let the crack end there",
+            short(radius),
+            outcome.clearance.end.name(),
+            trimmed_to(100.0 * radius / length, 2)
+        );
+        warning(kind::TIP_NEAR_BORDER, Some(outcome.at), [radius, limit], message)
+    })
+}
+
+fn coarse(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
+    let cells = length / outcome.cell;
+    (cells < LEAST_CELLS).then(|| {
+        let message = format!(
+            "tip {at}: its crack is only {} cells long; use cells of at most {} there, or `refine = true`",
+            short((100.0 * cells).round() / 100.0),
+            short(length / LEAST_CELLS)
+        );
+        warning(kind::COARSE, Some(outcome.at), [cells, LEAST_CELLS], message)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::{End, TipId};
+
+    #[test]
+    fn the_spread_is_that_of_both_factors() {
+        let ring = |k1, k2| Ring { r1: 0.0, r2: 1.0, k1, k2 };
+        let tip = TipId { crack: 0, end: End::Start };
+        let rings = vec![ring(3.0, 4.03), ring(3.04, 4.0), ring(3.0, 4.0)];
+        let intensity = TipIntensity { tip, k1: 3.0, k2: 4.0, rings };
+        assert!((relative_spread(&intensity) - 0.01).abs() < 1e-15);
+        assert!(relative_spread(&TipIntensity { rings: Vec::new(), ..intensity }).is_nan());
+    }
+}

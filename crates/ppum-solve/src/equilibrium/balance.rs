@@ -1,0 +1,179 @@
+//! Restraints and loads of a piece of the plate: the rigid-body modes that nothing holds, and
+//! whether the loads are in equilibrium there.
+
+use super::pieces::{Piece, Pieces};
+use super::rigid::{MODES, PerMode, RigidModes};
+use crate::linear::{EigenError, SymmetricEigen};
+use faer::Mat;
+use ppum::text::{beside, trimmed};
+use ppum::vec2::{Vec2, vec2};
+use std::fmt;
+
+/// Part of the largest eigenvalue below which a mode counts as free.
+const FREE: f64 = 1e-10;
+
+/// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.
+const BALANCE: f64 = 1e-6;
+
+/// Loads that move a piece of the plate which nothing holds against them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnbalancedError {
+    /// A point of the piece, if cracks and holes cut the plate into several.
+    pub piece: Option<Vec2>,
+    /// Force that remains, only components that nothing holds; of a potential the flow.
+    pub force: Vec2,
+    /// Moment that remains, zero if the rotation is held; `None` for a potential.
+    pub moment: Option<f64>,
+    /// Point the moment is about.
+    pub about: Vec2,
+    /// ∫ of the magnitude of all loads on the piece.
+    pub magnitude: f64,
+}
+
+impl std::error::Error for UnbalancedError {}
+
+impl fmt::Display for UnbalancedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.piece {
+            Some(p) => {
+                let [x, y] = [p.x, p.y].map(trimmed);
+                write!(
+                    f,
+                    "the plate falls into pieces, and the loads on the piece around ({x}, {y})"
+                )?;
+            }
+            None => write!(f, "the loads")?,
+        }
+        write!(f, " do not balance and nothing holds the plate against them: ")?;
+        let [fx, fy, x, y] = [self.force.x, self.force.y, self.about.x, self.about.y].map(trimmed);
+        match self.moment.map(trimmed) {
+            Some(moment) => {
+                write!(
+                    f,
+                    "a force of ({fx}, {fy}) and a moment of {moment} about ({x}, {y}) remain"
+                )?;
+            }
+            None => write!(f, "a flow of {fx} remains")?,
+        }
+        let remedy = match self.moment {
+            Some(_) => {
+                "hold a component of the displacement on an edge of it, or balance the tractions"
+            }
+            None => "give values on an edge of it, or balance the fluxes",
+        };
+        write!(f, " of loads of {} in all; {remedy}", trimmed(self.magnitude))
+    }
+}
+
+/// Supports and loads of one piece, as far as they have been added.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Balance {
+    pub(crate) modes: RigidModes,
+    /// ∫ m_k·m_l of the rigid-body modes over the border where values are given, held components only.
+    held: [PerMode; MODES],
+    /// Work of body forces and tractions on the rigid-body modes.
+    resultant: PerMode,
+    /// ∫ of the loads' magnitude on the border and inside.
+    magnitude: f64,
+}
+
+impl Balance {
+    /// One balance per piece, all empty.
+    pub(crate) fn of(pieces: &Pieces, components: usize) -> Vec<Self> {
+        let empty = |piece: &Piece| Self {
+            modes: RigidModes::new(piece.centroid, piece.area.sqrt(), components),
+            held: [[0.0; MODES]; MODES],
+            resultant: [0.0; MODES],
+            magnitude: 0.0,
+        };
+        pieces.all().iter().map(empty).collect()
+    }
+
+    /// Adds a point where loads act.
+    pub(crate) fn add_load(&mut self, x: Vec2, values: &[f64], weight: f64) {
+        for (sum, mode) in self.resultant.iter_mut().zip(self.modes.at(x)) {
+            *sum += weight * mode.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
+        }
+        self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
+    }
+
+    /// Adds a point where values of some components are given.
+    pub(crate) fn add_held(&mut self, x: Vec2, held: [bool; 2], weight: f64) {
+        let modes = self.modes.at(x);
+        for (row, a) in self.held.iter_mut().zip(&modes) {
+            for (entry, b) in row.iter_mut().zip(&modes) {
+                let products = (0..2).filter(|&i| held[i]).map(|i| a[i] * b[i]);
+                *entry += weight * products.sum::<f64>();
+            }
+        }
+    }
+
+    /// True if all loads are.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.magnitude.is_finite() && self.resultant.iter().all(|work| work.is_finite())
+    }
+
+    /// Adds what another part of the plate has of the same piece.
+    pub(crate) fn add(&mut self, part: &Self) {
+        for (row, part) in self.held.iter_mut().zip(&part.held) {
+            row.iter_mut().zip(part).for_each(|(sum, v)| *sum += v);
+        }
+        self.resultant.iter_mut().zip(part.resultant).for_each(|(sum, v)| *sum += v);
+        self.magnitude += part.magnitude;
+    }
+
+    /// The rigid-body modes that no boundary value holds, as combinations of the basic ones.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub(crate) fn free(&self) -> Result<Vec<PerMode>, EigenError> {
+        let n = self.modes.count();
+        let held = Mat::from_fn(n, n, |a, b| self.held[a][b]);
+        let eigen = SymmetricEigen::new(held.as_ref())?;
+        let largest = eigen.values.first().copied().unwrap_or(0.0);
+        let free = (0..n).filter(|&k| eigen.values[k] <= FREE * largest);
+        let mode = |k| std::array::from_fn(|m| if m < n { eigen.vectors[(m, k)] } else { 0.0 });
+        Ok(free.map(mode).collect())
+    }
+
+    /// The loads' remaining work on free modes, as a part of their magnitude.
+    pub(crate) fn imbalance(&self, free: &[PerMode]) -> f64 {
+        let remaining = self.remaining(free).iter().fold(0.0f64, |m, r| m.max(r.abs()));
+        if remaining > 0.0 { remaining / self.magnitude } else { 0.0 }
+    }
+
+    /// Checks that the loads do no work on the free modes.
+    ///
+    /// # Errors
+    /// Loads that do; `piece` is a point of the piece, if there are several.
+    pub(crate) fn check(
+        &self,
+        free: &[PerMode],
+        piece: Option<Vec2>,
+    ) -> Result<(), UnbalancedError> {
+        if self.imbalance(free) <= BALANCE {
+            return Ok(());
+        }
+        // what is balanced but for rounding is zero
+        let [x, y, turn] = self.remaining(free).map(|part| beside(part, self.magnitude));
+        let RigidModes { center, size, .. } = self.modes;
+        let shown = |p: Vec2| vec2(beside(p.x, size), beside(p.y, size));
+        Err(UnbalancedError {
+            piece: piece.map(shown),
+            force: vec2(x, y),
+            moment: (self.modes.count() > 1).then_some(turn * size),
+            about: shown(center),
+            magnitude: self.magnitude,
+        })
+    }
+
+    /// The part of the resultant that free modes see.
+    fn remaining(&self, free: &[PerMode]) -> PerMode {
+        let mut sum = [0.0; MODES];
+        for mode in free {
+            let work: f64 = mode.iter().zip(&self.resultant).map(|(m, r)| m * r).sum();
+            sum.iter_mut().zip(mode).for_each(|(sum, m)| *sum += work * m);
+        }
+        sum
+    }
+}

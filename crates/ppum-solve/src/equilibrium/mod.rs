@@ -1,0 +1,13 @@
+//! Equilibrium of the pieces that cracks and holes cut a plate into: their rigid-body modes, what holds
+//! them and what loads them.
+
+mod balance;
+mod pieces;
+mod plate;
+mod rigid;
+
+pub(crate) use balance::Balance;
+pub use balance::UnbalancedError;
+pub(crate) use pieces::Pieces;
+pub(crate) use plate::{Plate, PlateError};
+pub(crate) use rigid::{MODES, PerMode, RigidModes};

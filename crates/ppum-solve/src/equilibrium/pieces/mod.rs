@@ -1,0 +1,282 @@
+//! The pieces of the plate: connected components of the domain without its cracks.
+//!
+//! A crack from border to border, or between two holes, cuts the plate. What holds one part says
+//! nothing of the other, so restraints, loads and free rigid-body modes are counted piece by piece.
+//!
+//! The border, the rims of holes and the cracks are edges of a constrained Delaunay triangulation;
+//! triangles that meet across an edge that is none of these belong to one piece. Predicates are
+//! exact, so a crack that ends on the border cuts it, however the cells lie. A point on a face of a
+//! crack belongs to the triangle on that side of the edge that it lies on.
+
+use crate::quadrature::{EdgeRule, Face};
+use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
+use ppum::domain::{Domain, Hole};
+use ppum::segment;
+use ppum::vec2::{Rect, Vec2, vec2};
+use spade::handles::{FaceHandle, FixedVertexHandle, InnerTag};
+use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
+use spade::{Triangulation as _, mitigate_underflow};
+
+/// Parts of the box of less than this area are rounding.
+const LEAST_AREA: f64 = 1e-12;
+
+/// Distance by which points of the border are moved to be inside, in sizes of the box.
+const INWARD: f64 = 1e-9;
+
+type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
+type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+
+/// The connected components of the domain without its cracks.
+#[derive(Debug)]
+pub(crate) struct Pieces {
+    bounds: Rect,
+    /// Of each piece, what is known of it.
+    all: Vec<Piece>,
+    map: Option<Map>,
+}
+
+/// The places of the pieces.
+#[derive(Debug)]
+struct Map {
+    mesh: Mesh,
+    /// Of each triangle, its piece; none in a hole.
+    piece_of: Vec<Option<usize>>,
+    /// Of each segment of each crack, the ends of the edges along it, in the direction of the crack.
+    along: Along,
+}
+
+/// Of each segment of each crack, ends of edges.
+type Along = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
+
+/// One connected component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Piece {
+    /// Area, rims of round holes replaced by polygons.
+    pub(crate) area: f64,
+    /// Centroid; it need not lie in the piece.
+    pub(crate) centroid: Vec2,
+    /// A point inside.
+    pub(crate) inside: Vec2,
+}
+
+impl Pieces {
+    /// The pieces of a domain without cracks.
+    ///
+    /// In a box cracks of which at most one end lies on the border do not cut anything.
+    pub(crate) fn new(domain: &Domain, cracks: &[Crack]) -> Self {
+        let bounds = domain.bounds;
+        let cuts = |crack: &Crack| !crack.ends.contains(&CrackEnd::Tip);
+        let all_of_it = || Self { bounds, all: vec![Piece::of_box(&bounds)], map: None };
+        if domain.holes.is_empty() && !cracks.iter().any(cuts) {
+            return all_of_it();
+        }
+        let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, &bounds)).collect();
+        let domain = rims::with_polygons(domain, &cracks);
+        // A triangulation fails on coordinates that are not finite only, which no problem has.
+        triangulate(&domain, &cracks)
+            .map_or_else(|_| all_of_it(), |(mesh, along)| Self::of_mesh(&domain, mesh, along))
+    }
+
+    fn of_mesh(domain: &Domain, mesh: Mesh, along: Along) -> Self {
+        let bounds = domain.bounds;
+        let inside = |face: Triangle<'_>| domain.contains(from_unit(&bounds, face.center()));
+        let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
+        let mut piece_of = vec![None; material.len()];
+        let mut all = Vec::new();
+        for face in mesh.inner_faces() {
+            if material[index(&face)] && piece_of[index(&face)].is_none() {
+                let found = flood(&mesh, face, &material);
+                let piece = Piece::of_faces(&bounds, &mesh, &found);
+                if piece.area > LEAST_AREA * bounds.size().x * bounds.size().y {
+                    found.iter().for_each(|&face| piece_of[face] = Some(all.len()));
+                    all.push(piece);
+                }
+            }
+        }
+        Self { bounds, all, map: Some(Map { mesh, piece_of, along }) }
+    }
+
+    /// The pieces; at least one if anything is left of the box.
+    pub(crate) fn all(&self) -> &[Piece] {
+        &self.all
+    }
+
+    /// The number of the piece that holds a point of the plate, which must not lie on a crack. A point
+    /// that rounding has put outside belongs to the piece next to it.
+    pub(crate) fn of(&self, p: Vec2) -> usize {
+        let Some(Map { mesh, piece_of, .. }) = self.map() else { return 0 };
+        let face = match mesh.locate(to_unit(&self.bounds, p)) {
+            PositionInTriangulation::OnFace(face) => Some(mesh.face(face)),
+            PositionInTriangulation::OnEdge(edge)
+            | PositionInTriangulation::OutsideOfConvexHull(edge) => {
+                let edge = mesh.directed_edge(edge);
+                edge.face().as_inner().or_else(|| edge.rev().face().as_inner())
+            }
+            PositionInTriangulation::OnVertex(vertex) => {
+                mesh.vertex(vertex).out_edges().find_map(|edge| edge.face().as_inner())
+            }
+            PositionInTriangulation::NoTriangulation => None,
+        };
+        face.and_then(|face| nearest(mesh, face, piece_of)).unwrap_or(0)
+    }
+
+    /// The map, if there are several pieces.
+    fn map(&self) -> Option<&Map> {
+        self.map.as_ref().filter(|_| self.all.len() > 1)
+    }
+
+    /// The piece that a point of a rule along an edge belongs to.
+    pub(crate) fn of_border(&self, rule: &EdgeRule, point: usize) -> usize {
+        let p = rule.anchor + rule.offsets[point];
+        match rule.face {
+            Some(face) => self.beside(face, p),
+            None => self.behind(p, rule.normals[point]),
+        }
+    }
+
+    /// The piece that a point of the border belongs to, with the normal out of the material.
+    fn behind(&self, p: Vec2, normal: Vec2) -> usize {
+        self.of(p - normal * (INWARD * self.bounds.size().length()))
+    }
+
+    /// The piece that a face of a crack belongs to at a point of it.
+    fn beside(&self, face: Face, p: Vec2) -> usize {
+        let Some(Map { mesh, piece_of, along }) = self.map() else { return 0 };
+        let SegmentId { crack, segment } = face.segment;
+        let p = to_unit(&self.bounds, p);
+        let way =
+            |ends: &&[FixedVertexHandle; 2]| distance(ends.map(|v| mesh.vertex(v).position()), p);
+        let edges = along[crack as usize][segment as usize].iter();
+        let nearest_edge = edges.min_by(|a, b| way(a).total_cmp(&way(b)));
+        let edge = nearest_edge.and_then(|&[from, to]| mesh.get_edge_from_neighbors(from, to));
+        let edge = edge.map(|edge| if face.side == Side::Above { edge } else { edge.rev() });
+        let triangle = edge.and_then(|edge| edge.face().as_inner());
+        triangle.and_then(|triangle| nearest(mesh, triangle, piece_of)).unwrap_or(0)
+    }
+}
+
+impl Piece {
+    fn of_box(bounds: &Rect) -> Self {
+        let center = bounds.center();
+        Self { area: bounds.size().x * bounds.size().y, centroid: center, inside: center }
+    }
+
+    fn of_faces(bounds: &Rect, mesh: &Mesh, faces: &[usize]) -> Self {
+        let (mut area, mut moment) = (0.0, Vec2::ZERO);
+        let mut largest = (0.0, Vec2::ZERO);
+        for face in mesh.inner_faces().filter(|face| faces.binary_search(&index(face)).is_ok()) {
+            let part =
+                (face.area() * bounds.size().x * bounds.size().y, from_unit(bounds, face.center()));
+            area += part.0;
+            moment = moment + part.1 * part.0;
+            largest = if part.0 > largest.0 { part } else { largest };
+        }
+        Self { area, centroid: moment / area, inside: largest.1 }
+    }
+}
+
+/// The points of a crack, its mouths on rims moved into their holes by more than rounding.
+fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
+    let on_border = |p: Vec2| {
+        p.x == bounds.min.x || p.x == bounds.max.x || p.y == bounds.min.y || p.y == bounds.max.y
+    };
+    let mut points = crack.points.clone();
+    let last = points.len() - 1;
+    for (end, at, kind) in [(End::Start, 0, crack.ends[0]), (End::Last, last, crack.ends[1])] {
+        if kind == CrackEnd::Mouth && !on_border(points[at]) {
+            let farther = crack.growth_direction(end) * (INWARD * bounds.size().length());
+            points[at] = points[at] + farther;
+        }
+    }
+    points
+}
+
+/// The triangulation of the box in units of its sides, so that its border stays straight. Holes are
+/// polygons. The cracks come last: nothing divides their edges any more.
+fn triangulate(domain: &Domain, cracks: &[Vec<Vec2>]) -> Result<(Mesh, Along), InsertionError> {
+    let (mut mesh, bounds) = (Mesh::new(), &domain.bounds);
+    let rims = domain.holes.iter().flat_map(Hole::sides);
+    for segment in rims::border(bounds).into_iter().chain(rims) {
+        add_edges(&mut mesh, bounds, segment)?;
+    }
+    let mut along = Vec::new();
+    for crack in cracks {
+        let segments = crack.windows(2).map(|s| add_edges(&mut mesh, bounds, [s[0], s[1]]));
+        along.push(segments.collect::<Result<_, _>>()?);
+    }
+    Ok((mesh, along))
+}
+
+/// Adds a segment; the ends of the edges along it, in its direction.
+fn add_edges(
+    mesh: &mut Mesh,
+    bounds: &Rect,
+    ends: [Vec2; 2],
+) -> Result<Vec<[FixedVertexHandle; 2]>, InsertionError> {
+    let [from, to] = ends.map(|p| mesh.insert(to_unit(bounds, p)));
+    let (from, to) = (from?, to?);
+    let edges =
+        if from == to { Vec::new() } else { mesh.add_constraint_and_split(from, to, |p| p) };
+    let ends = edges.into_iter().map(|edge| mesh.directed_edge(edge).vertices().map(|v| v.fix()));
+    Ok(ends.collect())
+}
+
+fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
+    let [a, b, p] = [a, b, p].map(|p| vec2(p.x, p.y));
+    segment::distance([a, b], p)
+}
+
+/// The faces that are connected with one, ascending.
+fn flood(mesh: &Mesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
+    let mut seen = vec![false; material.len()];
+    let mut waiting = vec![start.fix()];
+    seen[index(&start)] = true;
+    while let Some(face) = waiting.pop() {
+        for edge in mesh.face(face).adjacent_edges() {
+            let next = edge.rev().face().as_inner().filter(|_| !edge.is_constraint_edge());
+            if let Some(next) = next.filter(|next| material[index(next)] && !seen[index(next)]) {
+                seen[index(&next)] = true;
+                waiting.push(next.fix());
+            }
+        }
+    }
+    (0..seen.len()).filter(|&face| seen[face]).collect()
+}
+
+/// The piece of a face, or of the one nearest to it across edges.
+fn nearest(mesh: &Mesh, start: Triangle<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
+    let mut seen = vec![start.fix()];
+    let mut next = 0;
+    while let Some(&face) = seen.get(next) {
+        let face = mesh.face(face);
+        if let Some(piece) = piece_of[index(&face)] {
+            return Some(piece);
+        }
+        let around = face.adjacent_edges().into_iter().filter_map(|e| e.rev().face().as_inner());
+        for other in around {
+            if !seen.contains(&other.fix()) {
+                seen.push(other.fix());
+            }
+        }
+        next += 1;
+    }
+    None
+}
+
+/// Inner faces count from 0.
+fn index(face: &Triangle<'_>) -> usize {
+    face.index() - 1
+}
+
+fn to_unit(bounds: &Rect, p: Vec2) -> Point2<f64> {
+    let (d, size) = (p - bounds.min, bounds.size());
+    mitigate_underflow(Point2::new(d.x / size.x, d.y / size.y))
+}
+
+fn from_unit(bounds: &Rect, p: Point2<f64>) -> Vec2 {
+    bounds.min + vec2(p.x * bounds.size().x, p.y * bounds.size().y)
+}
+
+mod rims;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,66 @@
+//! Rims of holes as polygons that cut the plate as the holes do.
+
+use ppum::domain::{Domain, Hole};
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::TAU;
+
+/// Corners of a polygon in a circle that nothing crosses.
+const CORNERS: u32 = 16;
+
+/// The domain with polygons for holes. Those of circles lie inside, with corners wherever another curve
+/// crosses the circle: so what touches the circle touches the polygon.
+pub(super) fn with_polygons(domain: &Domain, cracks: &[Vec<Vec2>]) -> Domain {
+    let mut segments = border(&domain.bounds).to_vec();
+    segments.extend(cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]));
+    segments.extend(domain.holes.iter().flat_map(Hole::sides));
+    let polygon = |hole: &Hole| match hole {
+        Hole::Polygon { .. } => hole.clone(),
+        Hole::Circle { center, radius } => {
+            Hole::Polygon { points: in_circle(*center, *radius, &segments, &domain.holes) }
+        }
+    };
+    Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }
+}
+
+/// The sides of a box.
+pub(super) fn border(rect: &Rect) -> [[Vec2; 2]; 4] {
+    let (lo, hi) = (rect.min, rect.max);
+    let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
+    [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]])
+}
+
+fn in_circle(center: Vec2, radius: f64, segments: &[[Vec2; 2]], holes: &[Hole]) -> Vec<Vec2> {
+    let mut angles: Vec<f64> =
+        (0..CORNERS).map(|k| TAU * f64::from(k) / f64::from(CORNERS)).collect();
+    let mut add = |d: Vec2| angles.push(d.y.atan2(d.x).rem_euclid(TAU));
+    for &[a, b] in segments {
+        crossings([a - center, b - center], radius).into_iter().for_each(&mut add);
+    }
+    for hole in holes {
+        if let Hole::Circle { center: other, radius: reach } = hole {
+            common(*other - center, radius, *reach).into_iter().for_each(&mut add);
+        }
+    }
+    angles.sort_by(f64::total_cmp);
+    angles.dedup();
+    angles.into_iter().map(|angle| center + vec2(angle.cos(), angle.sin()) * radius).collect()
+}
+
+/// Crossings of a segment and the circle around the origin.
+fn crossings([a, b]: [Vec2; 2], radius: f64) -> Vec<Vec2> {
+    let along = b - a;
+    let (square, half) = (along.dot(along), a.dot(along));
+    let root = (half * half - square * (a.dot(a) - radius * radius)).sqrt();
+    let places = [(-half - root) / square, (-half + root) / square];
+    places.into_iter().filter(|s| (0.0..=1.0).contains(s)).map(|s| a + along * s).collect()
+}
+
+/// Crossings of the circle around the origin and one around another point; none if they do not meet.
+fn common(other: Vec2, radius: f64, reach: f64) -> Vec<Vec2> {
+    let distance = other.length();
+    let along = 0.5 * (distance + (radius - reach) * (radius + reach) / distance);
+    let across = (radius * radius - along * along).sqrt();
+    let axis = other / distance;
+    let points = [across, -across].map(|side| axis * along + axis.left() * side);
+    points.into_iter().filter(|p| p.is_finite()).collect()
+}

@@ -1,0 +1,140 @@
+use super::*;
+use crate::problem::crack;
+use ppum::domain::Hole;
+
+fn bounds() -> Rect {
+    Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
+}
+
+fn domain(holes: &[Vec<Vec2>]) -> Domain {
+    let holes = holes.iter().map(|points| Hole::Polygon { points: points.clone() }).collect();
+    Domain { bounds: bounds(), holes }
+}
+
+fn mouths(domain: &Domain, cracks: &[&[[f64; 2]]]) -> Pieces {
+    let along = |points: &&[[f64; 2]]| Crack {
+        points: points.iter().copied().map(Vec2::from).collect(),
+        ends: [CrackEnd::Mouth; 2],
+    };
+    Pieces::new(domain, &cracks.iter().map(along).collect::<Vec<_>>())
+}
+
+fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> Pieces {
+    let along = |points: &&[[f64; 2]]| {
+        crack(points.iter().copied().map(Vec2::from).collect(), &bounds().into())
+    };
+    Pieces::new(&domain(holes), &cracks.iter().map(along).collect::<Vec<_>>())
+}
+
+fn square(center: Vec2, half: f64) -> Vec<Vec2> {
+    let at = |x: f64, y: f64| center + vec2(x, y) * half;
+    vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
+}
+
+#[test]
+fn tips_cut_nothing() {
+    let found = pieces(&[], &[&[[-1.0, 0.0], [0.5, 0.0]], &[[0.0, 0.5], [0.3, 0.7]]]);
+    assert_eq!(found.all(), [Piece { area: 4.0, centroid: Vec2::ZERO, inside: Vec2::ZERO }]);
+    assert_eq!(found.of(vec2(0.3, 0.3)), 0);
+}
+
+/// Three strips between kinked cracks from border to border; their areas and centroids are known.
+#[test]
+fn cracks_from_border_to_border() {
+    let found =
+        pieces(&[], &[&[[-1.0, 0.25], [0.0, 0.75], [1.0, 0.25]], &[[-1.0, -0.5], [1.0, -0.5]]]);
+    let above = found.of(vec2(0.0, 0.9));
+    let middle = found.of(vec2(0.0, 0.6));
+    let below = found.of(vec2(0.9, -0.9));
+    let mut all = [above, middle, below];
+    let area = |k: usize| found.all()[k].area;
+    assert!((area(above) - 1.0).abs() < 1e-14 && (area(below) - 1.0).abs() < 1e-14);
+    assert!((area(middle) - 2.0).abs() < 1e-14);
+    assert!((found.all()[below].centroid - vec2(0.0, -0.75)).length() < 1e-14);
+    all.sort_unstable();
+    assert_eq!(all, [0, 1, 2]);
+    // the border of each, seen from outside, down to the corner between crack and border
+    assert_eq!(found.behind(vec2(-1.0, 0.25 + 1e-7), vec2(-1.0, 0.0)), above);
+    assert_eq!(found.behind(vec2(-1.0, 0.25 - 1e-7), vec2(-1.0, 0.0)), middle);
+    // the faces of a crack
+    assert_eq!(found.behind(vec2(0.3, -0.5), vec2(0.0, -1.0)), middle);
+    assert_eq!(found.behind(vec2(0.3, -0.5), vec2(0.0, 1.0)), below);
+}
+
+/// Cracks at many slopes and places: one that ends on the border cuts it whatever its numbers are.
+#[test]
+fn any_slope_cuts() {
+    let mut random = ppum_testkit::random::Random(3);
+    for _ in 0..300 {
+        let [from, kink_x, kink_y, to] = std::array::from_fn(|_| random.between(-1.0, 1.0) * 0.999);
+        let found = pieces(&[], &[&[[-1.0, from], [kink_x, kink_y], [1.0, to]]]);
+        assert_eq!(found.all().len(), 2, "{from} {kink_x} {kink_y} {to}");
+        let total: f64 = found.all().iter().map(|piece| piece.area).sum();
+        assert!((total - 4.0).abs() < 1e-12);
+        assert_ne!(found.of(vec2(kink_x, kink_y + 1e-6)), found.of(vec2(kink_x, kink_y - 1e-6)));
+    }
+}
+
+/// A hole and cracks from it to the borders cut; one crack alone does not.
+#[test]
+fn holes_and_cracks() {
+    let hole = square(vec2(0.1, 0.0), 0.25);
+    let left: &[[f64; 2]] = &[[-1.0, 0.1], [-0.1, 0.1]];
+    let right: &[[f64; 2]] = &[[0.3, -0.2], [1.0, 0.7]];
+    let mouths = |cracks: &[&[[f64; 2]]]| mouths(&domain(std::slice::from_ref(&hole)), cracks);
+    assert_eq!(mouths(&[left]).all().len(), 1);
+    let found = mouths(&[left, right]);
+    let total: f64 = found.all().iter().map(|piece| piece.area).sum();
+    assert_eq!(found.all().len(), 2);
+    assert!((total - 3.75).abs() < 1e-12, "{total}");
+    assert_ne!(found.of(vec2(-0.5, 0.5)), found.of(vec2(-0.5, -0.5)));
+    assert_eq!(found.of(vec2(-0.5, 0.5)), found.of(vec2(0.1, 0.3)));
+}
+
+/// A bar of holes from border to border cuts without any crack; holes that reach over the border are
+/// notches.
+#[test]
+fn holes_alone() {
+    let bar = vec![vec2(-2.0, -0.1), vec2(2.0, -0.1), vec2(2.0, 0.1), vec2(-2.0, 0.1)];
+    let found = pieces(std::slice::from_ref(&bar), &[]);
+    let areas: Vec<_> = found.all().iter().map(|piece| piece.area).collect();
+    assert!(areas.len() == 2 && areas.iter().all(|a| (a - 1.8).abs() < 1e-12), "{areas:?}");
+    let notch = pieces(&[square(vec2(-1.0, 0.0), 0.5)], &[]);
+    assert_eq!(notch.all().len(), 1);
+    assert!((notch.all()[0].area - 3.5).abs() < 1e-12);
+}
+
+/// A chain of round holes cuts if they overlap, by however little. The first one reaches the border.
+#[test]
+fn chains_of_holes() {
+    let hole = |x: f64, radius| Hole::Circle { center: vec2(x, 0.1), radius };
+    let chain = |radius| Domain {
+        bounds: bounds(),
+        holes: vec![hole(-0.8, radius), hole(-0.4, radius), hole(0.0, radius), hole(0.4, radius)],
+    };
+    let right: &[[f64; 2]] = &[[0.55, 0.1], [1.0, 0.3]];
+    assert_eq!(mouths(&chain(0.2 + 1e-9), &[right]).all().len(), 2);
+    assert_eq!(mouths(&chain(0.2 - 1e-9), &[right]).all().len(), 1);
+}
+
+/// Two cracks from a round hole to opposite sides, at any angle and place.
+#[test]
+fn cracks_from_a_round_hole() {
+    let mut random = ppum_testkit::random::Random(11);
+    for _ in 0..300 {
+        let center = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * 0.3;
+        let radius = 0.1 + 0.2 * random.between(0.0, 1.0);
+        let around = Domain { bounds: bounds(), holes: vec![Hole::Circle { center, radius }] };
+        let rim = |to: Vec2| center + (to - center).unit() * radius;
+        let [left, right] =
+            [vec2(-1.0, random.between(-1.0, 1.0)), vec2(1.0, random.between(-1.0, 1.0))];
+        let cracks = [[left.into(), rim(left).into()], [rim(right).into(), right.into()]];
+        let found = mouths(&around, &[&cracks[0], &cracks[1]]);
+        assert_eq!(found.all().len(), 2, "{center:?} {radius} {left:?} {right:?}");
+        assert_eq!(mouths(&around, &[&cracks[0]]).all().len(), 1);
+        // in the middle of the crack, on both sides of it
+        let middle = (left + rim(left)) * 0.5;
+        let normal = (left - center).unit().left();
+        assert_ne!(found.behind(middle, normal), found.behind(middle, -normal));
+    }
+}

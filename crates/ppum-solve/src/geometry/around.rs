@@ -1,0 +1,30 @@
+//! The place on the plate that an error is about.
+
+use ppum::text::{beside, trimmed};
+use ppum::vec2::{Rect, Vec2};
+use std::fmt;
+
+/// The neighbourhood of a cell or a patch: users know places, not numbers of patches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Around {
+    /// Its middle.
+    pub center: Vec2,
+    /// Its extent from the middle along x and y.
+    pub reach: Vec2,
+}
+
+impl From<Rect> for Around {
+    fn from(rect: Rect) -> Self {
+        Self { center: rect.center(), reach: rect.size() * 0.5 }
+    }
+}
+
+impl fmt::Display for Around {
+    /// `around (0.5, 0.25), up to 0.125 away`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { center, reach } = *self;
+        let far = reach.x.max(reach.y);
+        let [x, y] = [center.x, center.y].map(|v| trimmed(beside(v, far)));
+        write!(f, "around ({x}, {y}), up to {} away", trimmed(far))
+    }
+}

@@ -1,0 +1,16 @@
+//! Plane geometry of plates: what lies in a box, near a point, around a tip.
+
+mod around;
+mod clearance;
+mod clip;
+mod material;
+mod placed;
+
+pub use around::Around;
+pub(crate) use clearance::AMPLE_CLEARANCE;
+pub use clearance::{Obstacle, TipClearance};
+pub(crate) use clip::{
+    distance, inside, length_inside, meets, rim_crossings, runs_inside, runs_of_rim, segment_inside,
+};
+pub(crate) use material::interface_distance;
+pub(crate) use placed::{Placed, around, wider};

@@ -1,0 +1,21 @@
+//! Linear algebra: block matrices, solvers of linear systems, eigenvalues of small dense matrices.
+//!
+//! Nothing here knows fields or patches: a block is what belongs to one index.
+
+mod block_matrix;
+mod cholesky;
+mod dense;
+mod eigen;
+mod pencil;
+mod solver;
+mod spectrum;
+
+pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
+pub(crate) use cholesky::{Cholesky, fill};
+pub(crate) use dense::add_at;
+pub use eigen::EigenError;
+pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
+pub(crate) use pencil::largest_eigenvalue;
+pub use solver::LinearError;
+pub(crate) use solver::LinearSolver;
+pub use spectrum::Spectrum;

@@ -1,0 +1,71 @@
+//! Restraints: parts of the border where values are given, in the words that reactions are stored with.
+
+use super::{BorderPart, Edge};
+use ppum::domain::Domain;
+use ppum::vec2::Vec2;
+
+/// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a circle, of the box
+/// around a polygon. None for words of other programs.
+#[must_use]
+pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
+    let bounds = &domain.bounds;
+    let on_edge = |name: &str, range: Option<[f64; 2]>| {
+        let edge = Edge::from_name(name)?;
+        let [from, to] = range.unwrap_or(edge.range(bounds));
+        Some(edge.point(bounds, 0.5 * from + 0.5 * to))
+    };
+    match on.split(' ').collect::<Vec<_>>()[..] {
+        [edge] => on_edge(edge, None),
+        [edge, "from", from, "to", to] => {
+            on_edge(edge, Some([from.parse().ok()?, to.parse().ok()?]))
+        }
+        ["hole", hole] => Some(domain.holes.get(hole.parse::<usize>().ok()?)?.bounds().center()),
+        _ => None,
+    }
+}
+
+/// A part of the border as problem files name it.
+pub(crate) fn restraint_words(on: BorderPart, domain: &Domain) -> String {
+    match on {
+        BorderPart::Edge { edge, .. } if on == BorderPart::edge(edge, &domain.bounds) => {
+            edge.name().into()
+        }
+        BorderPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
+        BorderPart::Hole(hole) => format!("hole {hole}"),
+        BorderPart::Crack { .. } => on.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::domain::Hole;
+    use ppum::vec2::{Rect, vec2};
+
+    /// The words that reactions are stored with lead back to the place.
+    #[test]
+    fn centres_follow_from_the_words() {
+        let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.1 };
+        let corners = [vec2(2.0, 0.0), vec2(3.0, 0.0), vec2(3.0, 1.0)];
+        let polygon = Hole::Polygon { points: corners.to_vec() };
+        let bounds = Rect::new(vec2(0.0, -1.0), vec2(4.0, 2.0));
+        let domain = Domain { bounds, holes: vec![circle, polygon] };
+        let piece = BorderPart::Edge { edge: Edge::Left, from: -0.1 - 0.2, to: 1e-7 };
+        for (part, center) in [
+            (BorderPart::edge(Edge::Top, &bounds), vec2(2.0, 2.0)),
+            (BorderPart::edge(Edge::Left, &bounds), vec2(0.0, 0.5)),
+            (piece, vec2(0.0, 0.5 * (-0.1 - 0.2) + 0.5e-7)),
+            (BorderPart::Hole(0), vec2(0.5, 0.25)),
+            (BorderPart::Hole(1), vec2(2.5, 0.5)),
+        ] {
+            assert_eq!(
+                restraint_center(&restraint_words(part, &domain), &domain),
+                Some(center),
+                "{part}"
+            );
+        }
+        for other in ["", "hole 2", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
+            assert_eq!(restraint_center(other, &domain), None, "{other}");
+        }
+    }
+}

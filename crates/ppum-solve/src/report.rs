@@ -1,0 +1,149 @@
+//! The solver's report: numbers about a solution, told to users and judged by the diagnostics.
+//!
+//! It is kept in a dataset as the named records of a step's history. Names and order are in one
+//! table here; nothing else knows them.
+
+use ppum::dataset::Record;
+use ppum::progress::Phase;
+use ppum::vec2::Vec2;
+
+/// The numbers of a solution. Those of a dataset that another program made, or a step that nobody has
+/// solved, may be missing.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SolverReport {
+    /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the plate
+    /// together: smaller cells are needed there.
+    pub crossed_twice: Option<f64>,
+    /// Unknowns before the cut-off.
+    pub unknowns: Option<f64>,
+    /// Unknowns that the stable basis has cut off.
+    pub cut_off: Option<f64>,
+    /// Relative residual ‖f − K u‖ / ‖f‖ in the stable basis.
+    pub residual: Option<f64>,
+    /// Unknowns left out because they depend on those of other patches.
+    pub dependent: Option<f64>,
+    /// Largest penalty β of Nitsche's method in a cell, in units of stiffness over cell width: 3 to 36 in
+    /// whole cells and more in slivers.
+    pub nitsche: Option<f64>,
+    /// Pieces that cracks and holes cut the plate into.
+    pub pieces: Option<f64>,
+    /// Rigid-body modes of the pieces that nothing holds.
+    pub free_modes: Option<f64>,
+    /// Largest part of the loads on a piece that does not balance.
+    pub imbalance: Option<f64>,
+    /// Quadrature points of the system's integrals.
+    pub quadrature_points: Option<f64>,
+    /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|².
+    pub energy: Option<f64>,
+    /// Relative error of stresses evaluated in double precision.
+    pub rounding: Option<f64>,
+    /// Seconds of each phase, in the order of the work.
+    pub seconds: Vec<(Phase, f64)>,
+}
+
+/// A number of the report by its name in files.
+type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
+
+/// All numbers but the seconds, in the order of files.
+const ENTRIES: [Entry; 12] = [
+    ("crossed twice", |r| &mut r.crossed_twice),
+    ("unknowns", |r| &mut r.unknowns),
+    ("cut-off", |r| &mut r.cut_off),
+    ("residual", |r| &mut r.residual),
+    ("dependent", |r| &mut r.dependent),
+    ("nitsche", |r| &mut r.nitsche),
+    ("pieces", |r| &mut r.pieces),
+    ("free motions", |r| &mut r.free_modes),
+    ("imbalance", |r| &mut r.imbalance),
+    ("quadrature points", |r| &mut r.quadrature_points),
+    ("energy", |r| &mut r.energy),
+    ("rounding", |r| &mut r.rounding),
+];
+
+/// Phases of a solution; their times are records with the unit `s`.
+const PHASES: [Phase; 5] =
+    [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution, Phase::Intensity];
+
+impl SolverReport {
+    /// The report in a step's history. Of several records of one name the first counts; those of other
+    /// names are left out.
+    #[must_use]
+    pub fn of(history: &[Record]) -> Self {
+        let mut report = Self::default();
+        for record in history {
+            let is_of = |phase: &&Phase| record.unit == "s" && phase.name() == record.name;
+            if let Some(phase) = PHASES.iter().find(is_of) {
+                report.seconds.push((*phase, record.value));
+            } else if let Some((_, entry)) = ENTRIES.iter().find(|(name, _)| *name == record.name) {
+                entry(&mut report).get_or_insert(record.value);
+            }
+        }
+        report
+    }
+
+    /// The records of a step's history: the way back of [`SolverReport::of`].
+    #[must_use]
+    pub fn records(&self) -> Vec<Record> {
+        let mut report = self.clone();
+        let record =
+            |name: &str, value, unit: &str| Record { name: name.into(), value, unit: unit.into() };
+        let numbers = ENTRIES
+            .iter()
+            .filter_map(|(name, entry)| Some(record(name, (*entry(&mut report))?, "")));
+        let mut records: Vec<_> = numbers.collect();
+        records.extend(self.seconds.iter().map(|(phase, value)| record(phase.name(), *value, "s")));
+        records
+    }
+
+    /// Part of the unknowns that was cut off.
+    #[must_use]
+    pub fn cut_off_part(&self) -> Option<f64> {
+        Some(self.cut_off? / self.unknowns?)
+    }
+}
+
+/// An integrand that quadrature does not resolve.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Unresolved {
+    /// The load that it is, in words; none for functions of the space and coefficients.
+    pub(crate) load: Option<String>,
+    /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions that of
+    /// their integrals over a piece of a cell.
+    pub(crate) error: f64,
+    /// The place of most of it.
+    pub(crate) at: Vec2,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_come_back_from_records() {
+        let mut report = SolverReport::default();
+        for (k, (_, entry)) in ENTRIES.iter().enumerate() {
+            *entry(&mut report) = Some(k as f64);
+        }
+        report.seconds = PHASES.iter().map(|&phase| (phase, 0.5)).collect();
+        let mut records = report.records();
+        assert_eq!(records.len(), ENTRIES.len() + PHASES.len());
+        assert_eq!(records[7].name, "free motions");
+        assert_eq!(SolverReport::of(&records), report);
+        // a second record of a name, and names of other programs
+        for (name, unit) in [("energy", ""), ("mood", ""), ("cover", "")] {
+            records.push(Record { name: name.into(), value: -1.0, unit: unit.into() });
+        }
+        assert_eq!(SolverReport::of(&records), report);
+    }
+
+    #[test]
+    fn what_is_missing_stays_missing() {
+        assert_eq!(SolverReport::of(&[]), SolverReport::default());
+        assert_eq!(SolverReport::default().records(), []);
+        assert_eq!(
+            SolverReport { cut_off: Some(1.0), ..SolverReport::default() }.cut_off_part(),
+            None
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! The course of an interface through a box.
+
+use super::{Interface, Interfaces};
+use crate::geometry::inside;
+use crate::quadrature::may_meet;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Steps of the grid on which an interface is looked for. What is missed between them is a corner of a
+/// patch in which its weight vanishes.
+const STEPS: usize = 16;
+
+/// Bisections of a step, to rounding.
+const BISECTIONS: usize = 48;
+
+/// Distance beside an interface at which its two sides are looked at, in parts of a box: beyond rounding, and less
+/// than a material that varies smoothly changes over.
+pub(crate) const BESIDE: f64 = 1e-6;
+
+/// Contrast below which the material counts as continuous: the kink of the solution is of this size.
+const LEAST_CONTRAST: f64 = 1e-4;
+
+/// A point of an interface at which the material jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// The point.
+    pub(crate) at: Vec2,
+    /// Unit normal, toward growing ψ.
+    pub(crate) normal: Vec2,
+    /// Sum of the jumps of λ and 2μ (of κ) over the sum of both sides' moduli, between 0 and 1.
+    pub(crate) contrast: f64,
+}
+
+impl Interfaces<'_> {
+    /// Points of an interface inside an open box and the domain at which the material jumps, on the lines
+    /// of a grid; none if it does not run there.
+    pub(crate) fn places(&self, interface: &Interface, rect: &Rect) -> Vec<Place> {
+        let level = interface.level.as_ref();
+        let size = rect.size();
+        if !(size.x > 0.0 && size.y > 0.0 && may_meet(level, rect)) {
+            return Vec::new();
+        }
+        let beside = BESIDE * size.x.min(size.y);
+        let zeros = zeros(level, rect).into_iter();
+        let inner = zeros.filter(|&at| inside(rect, at) && self.domain.contains(at));
+        inner.filter_map(|at| self.place(interface, at, beside)).collect()
+    }
+
+    fn place(&self, interface: &Interface, at: Vec2, beside: f64) -> Option<Place> {
+        let normal = interface.gradient(at).unit();
+        let sides = [-1.0, 1.0].map(|sign| self.law.coefficients(at + normal * (sign * beside)));
+        let [below, above] = sides;
+        let (mut jump, mut sum) = (0.0, 0.0);
+        for (k, weight) in [(0, 1.0), (1, 2.0)] {
+            jump += weight * (above[k] - below[k]).abs();
+            sum += weight * (above[k].abs() + below[k].abs());
+        }
+        let contrast = jump / sum;
+        (contrast > LEAST_CONTRAST).then_some(Place { at, normal, contrast })
+    }
+}
+
+/// Zeros with a change of sign on the lines of a grid over a box.
+fn zeros(level: &dyn Fn(Vec2) -> f64, rect: &Rect) -> Vec<Vec2> {
+    let step = rect.size() * (1.0 / STEPS as f64);
+    let node = |i: usize, j: usize| rect.min + vec2(step.x * i as f64, step.y * j as f64);
+    let row = |j| (0..=STEPS).map(move |i| level(node(i, j)) > 0.0).collect::<Vec<_>>();
+    let above: Vec<Vec<bool>> = (0..=STEPS).map(row).collect();
+    let mut zeros = Vec::new();
+    for j in 0..=STEPS {
+        for i in 0..=STEPS {
+            for (k, l) in [(i + 1, j), (i, j + 1)] {
+                if k <= STEPS && l <= STEPS && above[j][i] != above[l][k] {
+                    zeros.push(zero(level, node(i, j), node(k, l)));
+                }
+            }
+        }
+    }
+    zeros
+}
+
+/// A change of sign between two points, by bisection.
+fn zero(level: &dyn Fn(Vec2) -> f64, mut a: Vec2, mut b: Vec2) -> Vec2 {
+    let above = level(a) > 0.0;
+    for _ in 0..BISECTIONS {
+        let middle = (a + b) * 0.5;
+        if (level(middle) > 0.0) == above { a = middle } else { b = middle }
+    }
+    (a + b) * 0.5
+}

@@ -1,0 +1,140 @@
+//! Places at which interfaces ask for more than a kink across a patch.
+
+use super::{Interfaces, Place};
+use crate::geometry::inside;
+use ppum::crack::{Crack, End};
+use ppum::segment;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Most interfaces that a patch resolves.
+const MOST: usize = 4;
+
+/// Least cosine of the angle by which an interface may turn within a patch.
+const TURN: f64 = 0.5;
+
+/// Least sine of the angle between two lines that meet.
+const ASLANT: f64 = 0.1;
+
+/// Distance that counts as touching, in parts of a patch: more than a step between places.
+const TOUCH: f64 = 0.1;
+
+/// Contrast below which singular points of interfaces are not seen in the solution.
+const LEAST_CONTRAST: f64 = 0.2;
+
+/// The reason why a kink does not resolve an interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// More interfaces than a patch takes.
+    Many,
+    /// A corner of an interface, or a curve that is too round.
+    Turn,
+    /// Two interfaces that meet.
+    Corner,
+    /// The border, or a rim.
+    Border,
+    /// A crack that crosses or touches, or a tip nearby.
+    Crack,
+}
+
+/// A place that a kink does not resolve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Trouble {
+    pub(crate) cause: Cause,
+    pub(crate) at: Vec2,
+    /// The largest contrast nearby.
+    pub(crate) contrast: f64,
+}
+
+impl Cause {
+    /// In words.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Many => "too many interfaces lie in one cell",
+            Self::Turn => {
+                "an interface of two materials has a corner, or turns too much in one cell"
+            }
+            Self::Corner => "interfaces of materials meet",
+            Self::Border => "an interface of two materials meets the border",
+            Self::Crack => "a crack meets an interface of two materials, or ends close to one",
+        }
+    }
+}
+
+/// The places of one interface.
+type Run = (usize, Vec<Place>);
+
+impl Interfaces<'_> {
+    /// The trouble with the interfaces in an open box inside the domain, if kinks do not resolve them.
+    pub(crate) fn trouble(&self, rect: &Rect, cracks: &[Crack]) -> Option<Trouble> {
+        let runs: Vec<Run> = (0..self.all.len())
+            .map(|index| (index, self.places(&self.all[index], rect)))
+            .filter(|(_, places)| !places.is_empty())
+            .collect();
+        let all = || runs.iter().flat_map(|(_, places)| places);
+        let contrast = all().fold(0.0f64, |most, place| most.max(place.contrast));
+        if contrast < LEAST_CONTRAST {
+            return None;
+        }
+        let touch = TOUCH * rect.size().length();
+        let many = (runs.len() > MOST).then(|| (Cause::Many, rect.center()));
+        let at_border = || all().find(|place| self.at_border(place, touch)).map(|p| p.at);
+        let at_crack = || cracks.iter().find_map(|crack| at_crack(crack, all(), rect, touch));
+        let (cause, at) = many
+            .or_else(|| runs.iter().find_map(turn).map(|at| (Cause::Turn, at)))
+            .or_else(|| self.corner(&runs, touch).map(|at| (Cause::Corner, at)))
+            .or_else(|| at_crack().map(|at| (Cause::Crack, at)))
+            .or_else(|| at_border().map(|at| (Cause::Border, at)))?;
+        Some(Trouble { cause, at, contrast })
+    }
+
+    /// The place at which two interfaces meet.
+    fn corner(&self, runs: &[Run], touch: f64) -> Option<Vec2> {
+        let near = |index: usize, place: &Place| {
+            let interface = &self.all[index];
+            let slope = interface.gradient(place.at);
+            interface.value(place.at).abs() <= touch * slope.length()
+                && slope.unit().cross(place.normal).abs() > ASLANT
+        };
+        runs.iter().enumerate().find_map(|(k, (i, own))| {
+            runs[k + 1..].iter().find_map(|(j, others)| {
+                let place = own.iter().find(|place| near(*j, place))?;
+                others.iter().any(|other| near(*i, other)).then_some(place.at)
+            })
+        })
+    }
+
+    /// True if the interface runs into the border or a rim at a place.
+    fn at_border(&self, place: &Place, touch: f64) -> bool {
+        let (near, far) = (place.at - self.domain.bounds.min, self.domain.bounds.max - place.at);
+        let aslant = |normal: Vec2| normal.cross(place.normal).abs() > ASLANT;
+        (near.x.min(far.x) < touch && aslant(vec2(1.0, 0.0)))
+            || (near.y.min(far.y) < touch && aslant(vec2(0.0, 1.0)))
+            || self.domain.holes.iter().any(|hole| hole.rim_distance(place.at) < touch)
+    }
+}
+
+/// A place at which an interface is turned away from where it was.
+fn turn((_, places): &Run) -> Option<Vec2> {
+    let away = |place: &&Place| places.iter().any(|other| other.normal.dot(place.normal) < TURN);
+    places.iter().find(away).map(|place| place.at)
+}
+
+/// The place at which a crack runs into an interface, or a tip of it in the box.
+fn at_crack<'p>(
+    crack: &Crack,
+    mut places: impl Iterator<Item = &'p Place>,
+    rect: &Rect,
+    touch: f64,
+) -> Option<Vec2> {
+    let ends: Vec<End> = crack.tips().collect();
+    if let Some(end) = ends.into_iter().find(|&end| inside(rect, crack.end_point(end))) {
+        return Some(crack.end_point(end));
+    }
+    let meets = |place: &&Place| {
+        crack.points.windows(2).any(|s| {
+            segment::distance([s[0], s[1]], place.at) < touch
+                && (s[1] - s[0]).unit().dot(place.normal).abs() > ASLANT
+        })
+    };
+    places.find(meets).map(|place| place.at)
+}

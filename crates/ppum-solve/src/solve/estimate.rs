@@ -1,0 +1,235 @@
+//! The effort of a solution, known before it is computed: unknowns, non-zeros, memory and time.
+//!
+//! The patches that overlap are known once there is a cover, and with them the non-zeros of the system. What the
+//! elimination adds is counted on the graph of the patches, in the order of the elimination, each patch with the number
+//! of its unknowns. Before there is a cover a bound from below is known, which sorts out what would take too long to
+//! be counted.
+
+use crate::assembly::pattern;
+use crate::linear::{BlockPattern, fill};
+use crate::problem::{Cells, Order, Problem};
+use crate::space::Space;
+use ppum::crack::tips;
+use ppum::dataset::monomials;
+use ppum::domain::Hole;
+use ppum::vec2::Rect;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Bytes of a value of the system: in blocks, and by columns with its row.
+const SYSTEM_BYTES: f64 = 24.0;
+
+/// Bytes of a value of the factor.
+const FACTOR_BYTES: f64 = 8.0;
+
+/// Memory beside the values of system and factor, as a part of them: stable basis, row numbers, work space.
+const BESIDE: f64 = 0.4;
+
+/// Memory of any solution: the program, the work on cells.
+const FIXED_BYTES: f64 = 3e7;
+
+/// Values of a patch beside its blocks.
+const PATCH_BYTES: f64 = 1_500.0;
+
+/// Patches that a patch of a uniform cover overlaps with, itself and of each pair only one counted.
+const NEIGHBOURS: f64 = 5.0;
+
+/// Seconds of an operation of the factorisation, and of a product of functions at a quadrature point, on one core
+/// of a machine of 2023.
+const FACTOR_SECONDS: f64 = 2.0e-10;
+const ASSEMBLY_SECONDS: f64 = 1.1e-9;
+
+/// Seconds that a cell takes in any case.
+const CELL_SECONDS: f64 = 1.5e-4;
+
+/// Seconds that the stress intensity of a tip takes on one core.
+const TIP_SECONDS: f64 = 0.2;
+
+/// The effort of solving a problem.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Patches of the cover.
+    pub patches: f64,
+    /// Unknowns, before functions that depend on others are cut off.
+    pub unknowns: f64,
+    /// Values of the system's matrix, of which one half is stored.
+    pub nonzeros: f64,
+    /// Values of its factor.
+    pub factor: f64,
+    /// Memory \[bytes\], right within a third.
+    pub memory: f64,
+    /// Time on this number of cores \[s\], right within a factor of about three on a machine of today; what the
+    /// formulas of a problem take is not in it.
+    pub seconds: f64,
+}
+
+/// The work of a solution, counted in operations.
+#[derive(Clone, Copy, Debug, Default)]
+struct Work {
+    assembly: f64,
+    factor: f64,
+    tips: f64,
+}
+
+impl Estimate {
+    /// The estimate for the space of a problem.
+    pub(crate) fn of_space(problem: &Problem, space: &Space<'_>) -> Self {
+        let components = problem.components();
+        let sizes: Vec<_> = space.sizes.iter().map(|size| size * components).collect();
+        let pattern = pattern(space);
+        let fill = fill(&pattern, &sizes);
+        let tips = if problem.equation.elastic().is_some() { n_tips(problem) } else { 0.0 };
+        let work = Work { assembly: assembly(space), factor: fill.operations, tips };
+        Self::new(sizes.len() as f64, &sizes, nonzeros(&pattern, &sizes), fill.values, work)
+    }
+
+    /// A bound from below, without a cover.
+    pub(crate) fn least(problem: &Problem) -> Self {
+        let patches = least_patches(problem);
+        let size = (least_size(problem) * problem.components()) as f64;
+        let unknowns = patches * size;
+        let nonzeros = patches * NEIGHBOURS.min(patches) * size * size;
+        let points = points(least_order(problem));
+        let functions = (NEIGHBOURS + 4.0).min(patches) * least_size(problem) as f64;
+        let assembly = patches * points * functions * functions;
+        let work = Work { assembly, ..Work::default() };
+        Self { unknowns, ..Self::new(patches, &[], nonzeros, nonzeros, work) }
+    }
+
+    /// The number of cells of a cover from which on a problem does not fit into a memory.
+    pub(crate) fn most_cells(problem: &Problem, memory: u64) -> usize {
+        let size = (least_size(problem) * problem.components()) as f64;
+        let values = NEIGHBOURS * size * size * (SYSTEM_BYTES + FACTOR_BYTES);
+        (memory as f64 / (values + PATCH_BYTES)) as usize
+    }
+
+    fn new(patches: f64, sizes: &[usize], nonzeros: f64, factor: f64, work: Work) -> Self {
+        let cores = rayon::current_num_threads() as f64;
+        let values = SYSTEM_BYTES * nonzeros + FACTOR_BYTES * factor;
+        let cells = CELL_SECONDS * patches + ASSEMBLY_SECONDS * work.assembly;
+        Self {
+            patches,
+            unknowns: sizes.iter().map(|&size| size as f64).sum(),
+            nonzeros,
+            factor,
+            memory: values * (1.0 + BESIDE) + PATCH_BYTES * patches + FIXED_BYTES,
+            seconds: (cells + TIP_SECONDS * work.tips) / cores + FACTOR_SECONDS * work.factor,
+        }
+    }
+}
+
+/// `4,096 patches, 73,728 unknowns, 5.8 million non-zeros, 31 million in the factor: about 0.5 GiB and 20 s`
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} patches, {} unknowns, {} non-zeros, {} in the factor: about {} and {}",
+            count(self.patches),
+            count(self.unknowns),
+            count(self.nonzeros),
+            count(self.factor),
+            gibibytes(self.memory),
+            duration(self.seconds)
+        )
+    }
+}
+
+/// A memory in words, with two digits.
+pub(crate) fn gibibytes(bytes: f64) -> String {
+    let (mebi, gibi) = (bytes / (1u64 << 20) as f64, bytes / (1u64 << 30) as f64);
+    match gibi {
+        1_000.0.. => format!("{} TiB", two_digits(gibi / 1_024.0)),
+        1.0.. => format!("{} GiB", two_digits(gibi)),
+        _ => format!("{} MiB", two_digits(mebi)),
+    }
+}
+
+fn two_digits(value: f64) -> String {
+    if value < 10.0 { format!("{value:.1}") } else { format!("{value:.0}") }
+}
+
+/// A count in words: digits in groups of three, millions and more with two digits.
+fn count(value: f64) -> String {
+    let words = [(1e12, "trillion"), (1e9, "billion"), (1e6, "million")];
+    match words.into_iter().find(|(unit, _)| value >= *unit) {
+        Some((unit, word)) => format!("{} {word}", two_digits(value / unit)),
+        None if value >= 1e3 => format!("{},{:03}", value as u64 / 1000, value as u64 % 1000),
+        None => format!("{value:.0}"),
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    let (minutes, hours) = (seconds / 60.0, seconds / 3600.0);
+    match seconds {
+        172_800.0.. => format!("{:.0} days", hours / 24.0),
+        7_200.0.. => format!("{hours:.0} hours"),
+        120.0.. => format!("{minutes:.0} minutes"),
+        1.0.. => format!("{seconds:.0} s"),
+        _ => "less than a second".to_owned(),
+    }
+}
+
+/// Values of the stored half of a system.
+fn nonzeros(pattern: &BlockPattern, sizes: &[usize]) -> f64 {
+    let row = |i: usize| {
+        let columns = pattern.row(i).iter().map(|&j| sizes[j as usize]);
+        (sizes[i] * columns.sum::<usize>()) as f64
+    };
+    (0..pattern.len()).map(row).sum()
+}
+
+/// Products of functions at the quadrature points of all cells.
+fn assembly(space: &Space<'_>) -> f64 {
+    let points = points(space.degree());
+    let of_cell = |patches: &Vec<u32>| {
+        let functions: usize = patches.iter().map(|&patch| space.sizes[patch as usize]).sum();
+        points * (functions * functions) as f64
+    };
+    space.coverers.iter().map(of_cell).sum()
+}
+
+/// Quadrature points of a cell that nothing cuts: nine parts with different patches.
+fn points(degree: usize) -> f64 {
+    9.0 * ((degree + 2) * (degree + 2)) as f64
+}
+
+/// Patches that a cover has at least: the solid part of the base cover, and one per tip.
+fn least_patches(problem: &Problem) -> f64 {
+    let base = match &problem.discretization.cells {
+        Cells::Level(level) => 4f64.powi(*level as i32),
+        Cells::Grid([x, y]) => f64::from(*x) * f64::from(*y),
+        Cells::Points(_) => 1.0,
+    };
+    let bounds = &problem.domain.bounds;
+    let holes: f64 = problem.domain.holes.iter().map(|hole| area(hole, bounds)).sum();
+    let solid = (1.0 - holes / (bounds.size().x * bounds.size().y)).max(0.0);
+    let refined = problem.discretization.refine;
+    let tips = if refined { n_tips(problem) } else { 0.0 };
+    (base * solid).max(tips).max(1.0)
+}
+
+fn n_tips(problem: &Problem) -> f64 {
+    tips(&problem.cracks).count() as f64
+}
+
+/// A bound of the area that a hole takes of a box.
+fn area(hole: &Hole, bounds: &Rect) -> f64 {
+    let part = hole.bounds().intersection(bounds).size();
+    let inside = part.x.max(0.0) * part.y.max(0.0);
+    match hole {
+        Hole::Circle { radius, .. } => inside.min(PI * radius * radius),
+        Hole::Polygon { .. } => inside,
+    }
+}
+
+fn least_order(problem: &Problem) -> usize {
+    match &problem.discretization.order {
+        Order::Uniform(order) => *order,
+        Order::Formula(_) => 0,
+    }
+}
+
+/// Functions that a patch has at least.
+fn least_size(problem: &Problem) -> usize {
+    monomials(least_order(problem))
+}

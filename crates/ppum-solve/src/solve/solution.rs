@@ -1,0 +1,178 @@
+//! From a plan to the coefficients: basis, system, linear solver.
+
+use super::SolveError;
+use super::clock::Clock;
+use crate::assembly::{Assembly, Gauge, Given, System, slivers};
+use crate::basis::StableBasis;
+use crate::equilibrium::{Pieces, Plate};
+use crate::law::Law;
+use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver};
+use crate::problem::Problem;
+use crate::report::{SolverReport, Unresolved};
+use crate::space::{Space, SpaceError};
+use crate::watched::Stage;
+use ppum::dataset::{Attribute, FieldData, Reaction, Step};
+use ppum::progress::{Phase, Watcher};
+
+/// The solution of a problem on a space.
+pub(super) struct Solution {
+    /// Plain coefficients in the order of the system.
+    coefficients: Vec<f64>,
+    /// Unknowns cut off, patch by patch.
+    cut_off: Vec<f64>,
+    reactions: Vec<Reaction>,
+    /// Integrands that quadrature did not resolve.
+    pub(super) unresolved: Vec<Unresolved>,
+    /// The numbers of the report that are known with the solution.
+    pub(super) report: SolverReport,
+}
+
+/// A problem on a space, with its watcher: what every step of the solution needs.
+#[derive(Clone, Copy)]
+pub(super) struct Solving<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) space: &'a Space<'a>,
+    pub(super) watcher: &'a dyn Watcher,
+}
+
+/// The system in the stable basis, with the penalty of the gauge.
+pub(super) struct Assembled {
+    basis: StableBasis,
+    pub(super) system: System,
+    gauge: Gauge,
+}
+
+impl Solving<'_> {
+    /// The data of the problem, and the plate that they act on.
+    ///
+    /// # Errors
+    /// Loads without restraint, data that are not finite; cancelled.
+    pub(super) fn loaded(&self) -> Result<(Given<'_>, Plate), SolveError> {
+        let Self { problem, space, watcher } = *self;
+        let pieces = Pieces::new(&problem.domain, &problem.cracks);
+        if pieces.all().is_empty() {
+            return Err(SpaceError::Nothing.into());
+        }
+        let stage = Stage::uncounted(watcher, Phase::Basis)?;
+        let given = Given::new(problem, space, &stage).map_err(SolveError::of_data)?;
+        let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
+        Ok((given, Plate::new(pieces, balances)?))
+    }
+
+    /// The stable basis, damped where the border cuts slivers.
+    fn basis(&self, law: &Law<'_>) -> Result<StableBasis, SolveError> {
+        let Self { problem, space, watcher } = *self;
+        let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
+        let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
+        let assembly = Assembly { problem, space, basis: &basis, law };
+        let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
+        basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
+        Ok(basis)
+    }
+
+    /// The system of what is given on the plate.
+    ///
+    /// # Errors
+    /// Data and functions that are not finite; cancelled.
+    pub(super) fn assemble(
+        &self,
+        given: &Given<'_>,
+        plate: &Plate,
+        clock: &mut Clock,
+    ) -> Result<Assembled, SolveError> {
+        let Self { problem, space, watcher } = *self;
+        let law = &Law::new(&problem.equation);
+        let basis = self.basis(law)?;
+        clock.lap(Phase::Basis);
+        let assembly = Assembly { problem, space, basis: &basis, law };
+        let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
+        let mut system = System::new(assembly, given, &stage).map_err(SolveError::of_data)?;
+        let gauge =
+            Gauge::new(assembly, plate, &system.matrix, &stage).map_err(SolveError::of_data)?;
+        gauge.add_penalty(&mut system.matrix);
+        clock.lap(Phase::Assembly);
+        Ok(Assembled { basis, system, gauge })
+    }
+
+    /// The solution of the problem.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub(super) fn solution(&self, clock: &mut Clock) -> Result<Solution, SolveError> {
+        let (given, plate) = self.loaded()?;
+        let Assembled { basis, system, gauge } = self.assemble(&given, &plate, clock)?;
+        let located = |error| self.located(error);
+        let stage = Stage::new(self.watcher, Phase::Solution, 3)?;
+        let solver = linear_solver(&system.matrix).map_err(located)?;
+        stage.advance(1)?;
+        let mut solution = solver.solve(&system.load).map_err(located)?;
+        stage.advance(1)?;
+        gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
+        stage.advance(1)?;
+        clock.lap(Phase::Solution);
+        let components = self.problem.components();
+        let cut_off: Vec<_> = basis.dropped().map(|n| (n * components) as f64).collect();
+        let report = SolverReport {
+            unknowns: Some((self.space.sizes.iter().sum::<usize>() * components) as f64),
+            cut_off: Some(cut_off.iter().sum()),
+            residual: Some(solution.relative_residual),
+            dependent: Some(solver.n_dependent() as f64),
+            nitsche: Some(system.nitsche),
+            pieces: Some(plate.pieces.all().len() as f64),
+            free_modes: Some(gauge.len() as f64),
+            imbalance: Some(plate.imbalance()),
+            quadrature_points: Some(system.points as f64),
+            ..SolverReport::default()
+        };
+        Ok(Solution {
+            coefficients: basis.plain(self.space, &solution.unknowns, components),
+            cut_off,
+            reactions: system.reactions.of(self.problem, &system.matrix, &solution.unknowns),
+            unresolved: system.unresolved,
+            report,
+        })
+    }
+
+    /// The error at the place of its patch.
+    pub(super) fn located(&self, error: LinearError) -> SolveError {
+        match error.patch() {
+            Some(patch) => {
+                let around = self.space.partition().support(patch).into();
+                SolveError::Singular { around, error }
+            }
+            None => SolveError::Factor(error),
+        }
+    }
+}
+
+/// The solver of a linear system: the place where one is chosen.
+pub(super) fn linear_solver(matrix: &BlockMatrix) -> Result<impl LinearSolver, LinearError> {
+    Cholesky::new(matrix)
+}
+
+impl Solution {
+    /// Writes the solution into its step.
+    pub(super) fn store(&mut self, step: &mut Step) {
+        step.reactions = std::mem::take(&mut self.reactions);
+        write_coefficients(&mut step.fields[0], &self.coefficients);
+        let values = std::mem::take(&mut self.cut_off);
+        step.attributes.push(Attribute { name: "cut-off".into(), values });
+    }
+}
+
+/// Writes coefficients that stand patch by patch and in each patch component by component.
+fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
+    let mut rest = coefficients;
+    let mut starts = data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
+    let mut first = starts.next().flatten().unwrap_or(0) as usize;
+    let all = data.coefficients[0].len();
+    for next in starts {
+        let next = next.map_or(all, |offset| offset as usize);
+        for component in &mut data.coefficients {
+            let (part, tail) = rest.split_at(next - first);
+            component[first..next].copy_from_slice(part);
+            rest = tail;
+        }
+        first = next;
+    }
+}

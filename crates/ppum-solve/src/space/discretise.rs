@@ -1,0 +1,187 @@
+//! From a problem to a step with all coefficients zero: cover, enrichment, inspection.
+
+use super::enrichment::{Block, Enrichments};
+use super::inspect::{InspectError, inspect};
+use crate::geometry::Placed;
+use crate::problem::quantities::field_names;
+use crate::problem::{OrderError, Problem};
+use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
+use crate::refine::{RefineError, cover};
+use crate::watched::Stage;
+use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
+use ppum::domain::Hole;
+use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::vec2::{Rect, vec2};
+
+/// The space of a problem cannot be built.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpaceError {
+    /// The cover.
+    #[error(transparent)]
+    Refine(RefineError),
+    /// Holes that leave nothing.
+    #[error("the holes swallow the whole domain; make them smaller")]
+    Nothing,
+    /// The order formula.
+    #[error(transparent)]
+    Order(#[from] OrderError),
+    /// A function that cannot be used.
+    #[error(transparent)]
+    Function(#[from] InspectError),
+    /// The watcher wanted the work to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<RefineError> for SpaceError {
+    fn from(error: RefineError) -> Self {
+        match error {
+            RefineError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Refine(error),
+        }
+    }
+}
+
+/// The step of a problem with all coefficients zero.
+///
+/// # Errors
+/// A cover that cannot be built or refined, an order formula that gives no order, a function that is
+/// not finite on its patches; cancelled.
+pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, SpaceError> {
+    discretise_within(problem, usize::MAX, &Stage::uncounted(watcher, Phase::Cover)?)
+}
+
+/// The same on a cover of at most so many cells, before those in holes are left out.
+///
+/// # Errors
+/// See [`discretise`]; a cover with more cells.
+pub(crate) fn discretise_within(
+    problem: &Problem,
+    most: usize,
+    stage: &Stage<'_>,
+) -> Result<Step, SpaceError> {
+    let set = &problem.discretization;
+    let partition = cover(problem, most, stage)?
+        .partition(set.overlap, set.weight.clone())
+        .map_err(RefineError::from)?;
+    let partition = solid_part(partition, &problem.domain.holes)?;
+    let mut enrichments = Enrichments::new(problem);
+    enrichments.add_interfaces(&partition, stage)?;
+    let mut blocks = Vec::with_capacity(partition.len());
+    for patch in 0..partition.len() {
+        stage.advance(0)?;
+        let degree = set.order.at(partition.center[patch])? as u8;
+        blocks.push(enrichments.blocks(&partition, patch, degree));
+    }
+    let step = Step {
+        load: 1.0,
+        cracks: problem.cracks.clone(),
+        attributes: attributes(&blocks),
+        fields: vec![field(problem, &blocks)],
+        functions: enrichments.table,
+        partition,
+        intensities: Vec::new(),
+        history: Vec::new(),
+        warnings: Vec::new(),
+        reactions: Vec::new(),
+    };
+    inspect(&step, &problem.domain, &problem.tables)?;
+    Ok(step)
+}
+
+/// Cells of which holes leave no more than this part are dropped: it is rounding.
+const LEAST_PART: f64 = 1e-12;
+
+/// A partition without the cells in holes and their patches.
+fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceError> {
+    if holes.is_empty() {
+        return Ok(partition);
+    }
+    let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
+    let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
+    let placed = Placed::new(holes.iter().map(|hole| (hole.bounds(), hole)));
+    let is_solid = |(index, cell): (u32, &Rect)| {
+        let size = cell.size();
+        let near: Vec<_> = placed.near(cell).copied().collect();
+        let area = |rules: Vec<Rule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
+        near.is_empty()
+            || has_room(cell, &near)
+            || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
+    };
+    let solid: Vec<bool> = (0..).zip(&partition.cell).map(is_solid).collect();
+    if !solid.contains(&true) {
+        return Err(SpaceError::Nothing);
+    }
+    Ok(Partition {
+        center: kept(&partition.center, &solid),
+        half: kept(&partition.half, &solid),
+        origin: kept(&partition.origin, &solid),
+        scale: kept(&partition.scale, &solid),
+        cell: kept(&partition.cell, &solid),
+        level: kept(&partition.level, &solid),
+        point: kept(&partition.point, &solid),
+        ..partition
+    })
+}
+
+/// Places of a cell in each direction that are looked at before its area is integrated.
+const LOOKS: u32 = 5;
+
+/// Distance from the rims, in sizes of a cell, of a place that shows enough of the material.
+const ROOM: f64 = 1e-5;
+
+/// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be solid so.
+fn has_room(cell: &Rect, holes: &[&Hole]) -> bool {
+    let size = cell.size();
+    let along = |k: u32| (f64::from(k) + 0.5) / f64::from(LOOKS);
+    let all = (0..LOOKS * LOOKS).map(|k| vec2(along(k % LOOKS), along(k / LOOKS)));
+    let mut places = all.map(|at| cell.min + vec2(at.x * size.x, at.y * size.y));
+    let room = ROOM * size.x.min(size.y);
+    places.any(|p| holes.iter().all(|hole| !hole.contains(p) && hole.rim_distance(p) > room))
+}
+
+/// The entries that are kept.
+fn kept<T: Clone>(all: &[T], keep: &[bool]) -> Vec<T> {
+    all.iter().zip(keep).filter(|(_, keep)| **keep).map(|(entry, _)| entry.clone()).collect()
+}
+
+/// Order of the polynomials, number of blocks and number of functions of each patch.
+fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
+    let attribute = |name: &str, value: &dyn Fn(&Vec<Block>) -> usize| Attribute {
+        name: name.into(),
+        values: blocks.iter().map(|b| value(b) as f64).collect(),
+    };
+    vec![
+        attribute("order", &|b| b[0].1 as usize),
+        attribute("blocks", &|b| b.len()),
+        attribute("functions", &|b| b.iter().map(|&(_, d)| monomials(d as usize)).sum()),
+    ]
+}
+
+fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
+    let (name, components) = field_names(&problem.equation);
+    let mut data = FieldData {
+        name: name.into(),
+        unit: String::new(),
+        components: components.iter().map(|&c| c.to_owned()).collect(),
+        patch_blocks: vec![0],
+        block_function: Vec::new(),
+        block_degree: Vec::new(),
+        block_offset: Vec::new(),
+        coefficients: Vec::new(),
+        exact: problem.exact.iter().map(|e| e.text().to_owned()).collect(),
+    };
+    let mut offset = 0;
+    for patch in blocks {
+        for &(function, degree) in patch {
+            data.block_function.push(function);
+            data.block_degree.push(degree);
+            data.block_offset.push(offset);
+            offset += monomials(degree as usize) as u64;
+        }
+        data.patch_blocks.push(data.block_function.len() as u32);
+    }
+    data.coefficients = vec![vec![0.0; offset as usize]; components.len()];
+    data
+}

@@ -1,0 +1,347 @@
+//! Which functions each patch's local space holds beside its polynomials.
+//!
+//! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
+//! them, the degree of the polynomials that multiply them.
+//!
+//! A crack cuts a patch *through* when it meets the open box of the patch outside of holes and has no
+//! tip inside it;
+//! then the patch gets the side of the crack times its polynomials (a jump). A patch with a tip
+//! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
+//! part of such a patch is cut but holds no jump, and without them the r^{3/2} term of the solution
+//! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
+//! functions, beside jumps where they are cut.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use crate::geometry::{Placed, around, distance, inside, length_inside, segment_inside, wider};
+use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
+use ppum::crack::{Crack, End, TipId, tips};
+use ppum::dataset::Partition;
+use ppum::domain::Hole;
+use ppum::expression::Expression;
+use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
+/// cut.
+const LEAST_CUT: f64 = 1e-9;
+
+/// A block to be: function index and polynomial degree.
+pub(crate) type Block = (u32, u8);
+
+/// The function table of a problem, and which patches have which functions.
+pub(crate) struct Enrichments<'p> {
+    pub(crate) table: Vec<Function>,
+    problem: &'p Problem,
+    instances: Vec<Instance<'p>>,
+    /// The numbers of the instances, by the places of their patches, once all are there.
+    placed: OnceLock<Placed<usize>>,
+    /// Those of the problem's own among the instances.
+    own: Range<usize>,
+}
+
+/// Functions that go together.
+struct Instance<'p> {
+    functions: Range<u32>,
+    patches: Patches<'p>,
+    degree: Degree,
+}
+
+/// The patches that have an instance.
+enum Patches<'p> {
+    All,
+    /// Those that a crack cuts through.
+    Cut(&'p Crack),
+    /// Those that hold the shape or are cut by it, and those nearer to it than a length.
+    Near(Shape, f64),
+    /// Of those that the tip's crack meets and that are not within the length of the tip, the ones
+    /// that have no other tip of the crack nearer.
+    Behind(TipId, f64),
+    /// Those where the expression is positive.
+    Where(Expression),
+    /// These, ascending.
+    Listed(Vec<u32>),
+}
+
+/// A shape that patches can be near to.
+#[derive(Clone, Copy)]
+enum Shape {
+    Point(Vec2),
+    Segment([Vec2; 2]),
+}
+
+/// Degree of the polynomials of an instance.
+#[derive(Clone, Copy)]
+enum Degree {
+    /// That of the patch's smooth polynomials.
+    OfPatch,
+    /// One less: the functions vanish like a distance.
+    BelowPatch,
+    Fixed(u8),
+    /// This degree on patches that hold the point, else 0.
+    Holding(Vec2, u8),
+}
+
+/// The place of the functions of an enrichment, of which there may be several.
+struct Place {
+    frame: Frame,
+    /// The shape that patches are near to; none in the world's frame.
+    shape: Option<Shape>,
+    /// Their distance from it by default.
+    radius: f64,
+    degree: Degree,
+    /// Added to the functions' names.
+    name: String,
+}
+
+impl<'p> Enrichments<'p> {
+    pub(crate) fn new(problem: &'p Problem) -> Self {
+        let one = Function { name: "one".into(), kind: FunctionKind::One };
+        let mut all = Self {
+            table: vec![one],
+            problem,
+            instances: Vec::new(),
+            placed: OnceLock::new(),
+            own: 0..0,
+        };
+        let mode = problem.discretization.enrichment;
+        if mode.has_jumps() {
+            problem.cracks.iter().enumerate().for_each(|(k, crack)| all.add_jump(k, crack));
+        }
+        if let Some(at_tips) = westergaard(mode) {
+            all.add(&at_tips);
+        }
+        if mode == Enrichment::AdditiveOnly {
+            all.extend_along_cracks();
+        }
+        let first = all.instances.len();
+        problem.enrichments.iter().for_each(|own| all.add(own));
+        all.own = first..all.instances.len();
+        all
+    }
+
+    fn add_jump(&mut self, index: usize, crack: &'p Crack) {
+        let kind = FunctionKind::Side { crack: index as u32 };
+        let side = Function { name: format!("side of crack {index}"), kind };
+        self.push(vec![side], Patches::Cut(crack), Degree::OfPatch);
+    }
+
+    fn add(&mut self, new: &LocalEnrichment) {
+        for place in places(self.problem, new.site) {
+            let patches = match (&new.region, place.shape) {
+                (Region::Where(condition), _) => Patches::Where(condition.clone()),
+                (Region::Near(radius), Some(shape)) => Patches::Near(shape, *radius),
+                (_, Some(shape)) => Patches::Near(shape, place.radius),
+                (_, None) => Patches::All,
+            };
+            let degree = new.degree.map_or(place.degree, |degree| Degree::Fixed(degree as u8));
+            self.push(functions(new, &place), patches, degree);
+        }
+    }
+
+    fn push(&mut self, functions: Vec<Function>, patches: Patches<'p>, degree: Degree) {
+        let first = self.table.len() as u32;
+        self.table.extend(functions);
+        let functions = first..self.table.len() as u32;
+        self.placed.take();
+        self.instances.push(Instance { functions, patches, degree });
+    }
+
+    /// Gives the functions of each tip, so far the only instances, to the patches along its part of
+    /// the crack too.
+    fn extend_along_cracks(&mut self) {
+        let at_tips = self.instances.iter().zip(tips(&self.problem.cracks));
+        let behind = |(instance, tip): (&Instance<'p>, TipId)| Instance {
+            functions: instance.functions.clone(),
+            patches: Patches::Behind(tip, self.problem.enrichment_radius(tip)),
+            degree: instance.degree,
+        };
+        let behind: Vec<_> = at_tips.map(behind).collect();
+        self.instances.extend(behind);
+    }
+
+    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then the
+    /// enrichments.
+    pub(crate) fn blocks(&self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
+        let patch = Patch::new(partition, patch, self.problem);
+        let mut blocks = vec![(0, degree)];
+        let near = self.placed().near(&patch.support).map(|&k| &self.instances[k]);
+        for instance in near.filter(|new| patch.is_of(&new.patches)) {
+            let degree = match instance.degree {
+                Degree::OfPatch => degree,
+                Degree::BelowPatch => degree.saturating_sub(1),
+                Degree::Fixed(degree) => degree,
+                Degree::Holding(p, inside) => {
+                    if patch.holds(p) {
+                        inside
+                    } else {
+                        0
+                    }
+                }
+            };
+            blocks.extend(instance.functions.clone().map(|function| (function, degree)));
+        }
+        blocks
+    }
+}
+
+impl Enrichments<'_> {
+    fn placed(&self) -> &Placed<usize> {
+        let instances = self.instances.iter().enumerate();
+        let place = |(k, new): (usize, &Instance<'_>)| (new.patches.place(self.problem), k);
+        self.placed.get_or_init(|| Placed::new(instances.map(place)))
+    }
+}
+
+impl Patches<'_> {
+    /// A box that all of the patches meet.
+    fn place(&self, problem: &Problem) -> Rect {
+        let everywhere = wider(&problem.domain.bounds, problem.domain.bounds.size().length());
+        match self {
+            Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
+            Patches::Cut(crack) => around(&crack.points),
+            Patches::Near(Shape::Point(p), radius) => wider(&around(&[*p]), *radius),
+            Patches::Near(Shape::Segment(ends), radius) => wider(&around(ends), *radius),
+            Patches::Behind(tip, _) => around(&problem.cracks[tip.crack as usize].points),
+        }
+    }
+}
+
+/// The built-in enrichment of tips.
+fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
+    let new = LocalEnrichment::new(&WESTERGAARD, Site::Tips);
+    let new = LocalEnrichment { name: "westergaard".into(), ..new };
+    match mode {
+        Enrichment::None | Enrichment::Jumps => None,
+        Enrichment::TipPatch => Some(LocalEnrichment { region: Region::Near(0.0), ..new }),
+        Enrichment::Zone => Some(new),
+        Enrichment::AdditiveOnly => Some(LocalEnrichment { degree: Some(0), ..new }),
+    }
+}
+
+fn places(problem: &Problem, site: Site) -> Vec<Place> {
+    let place =
+        |frame, shape, name| Place { frame, shape, radius: 0.0, degree: Degree::Fixed(0), name };
+    match site {
+        Site::World => vec![place(Frame::World, None, String::new())],
+        Site::Point { at, angle } => {
+            let name = format!(" at [{}, {}]", at.x, at.y);
+            let frame = Frame::Fixed { origin: at, angle };
+            vec![place(frame, Some(Shape::Point(at)), name)]
+        }
+        Site::Along([a, b]) => {
+            let name = format!(" along [{}, {}] to [{}, {}]", a.x, a.y, b.x, b.y);
+            let frame = Frame::Fixed { origin: a, angle: (b.y - a.y).atan2(b.x - a.x) };
+            vec![place(frame, Some(Shape::Segment([a, b])), name)]
+        }
+        Site::Tips => tips(&problem.cracks).map(|tip| at_tip(problem, tip)).collect(),
+    }
+}
+
+fn at_tip(problem: &Problem, tip: TipId) -> Place {
+    let point = problem.cracks[tip.crack as usize].end_point(tip.end);
+    Place {
+        frame: Frame::Tip(tip),
+        shape: Some(Shape::Point(point)),
+        radius: problem.enrichment_radius(tip),
+        degree: Degree::Holding(point, problem.discretization.tip_degree as u8),
+        name: format!(" of crack {} {}", tip.crack, tip.end.name()),
+    }
+}
+
+fn functions(new: &LocalEnrichment, place: &Place) -> Vec<Function> {
+    let name = |k: usize, text: &str| match (new.name.as_str(), new.functions.len()) {
+        ("", _) => format!("{text}{}", place.name),
+        (name, 1) => format!("{name}{}", place.name),
+        (name, _) => format!("{name} {}{}", k + 1, place.name),
+    };
+    let function = |(k, text): (usize, &String)| Function {
+        name: name(k, text),
+        kind: FunctionKind::Formula {
+            text: text.clone(),
+            frame: place.frame,
+            parameters: new.parameters.clone(),
+            declared: new.declared.clone(),
+        },
+    };
+    new.functions.iter().enumerate().map(function).collect()
+}
+
+/// A patch as the rules see it.
+struct Patch<'p> {
+    index: u32,
+    cracks: &'p [Crack],
+    holes: &'p [Hole],
+    support: Rect,
+    /// The support inside the domain, as an open box.
+    open: Rect,
+    /// The shortest cut that counts.
+    shortest: f64,
+}
+
+impl<'p> Patch<'p> {
+    fn new(partition: &Partition, patch: usize, problem: &'p Problem) -> Self {
+        let (support, half) = (partition.support(patch), partition.half[patch]);
+        Self {
+            index: patch as u32,
+            cracks: &problem.cracks,
+            holes: &problem.domain.holes,
+            support,
+            open: support.intersection(&problem.domain.bounds),
+            shortest: LEAST_CUT * half.x.min(half.y),
+        }
+    }
+
+    fn is_of(&self, patches: &Patches<'_>) -> bool {
+        match patches {
+            Patches::All => true,
+            Patches::Cut(crack) => {
+                self.is_cut(crack) && !crack.tips().any(|end| self.holds(crack.end_point(end)))
+            }
+            Patches::Near(Shape::Point(p), radius) => self.holds(*p) || self.is_near(*p, *radius),
+            Patches::Near(Shape::Segment([a, b]), radius) => {
+                segment_inside(*a, *b, &self.support) > self.shortest
+                    || distance([*a, *b], &self.support) < *radius
+            }
+            Patches::Behind(tip, radius) => {
+                let crack = &self.cracks[tip.crack as usize];
+                !self.is_near(crack.end_point(tip.end), *radius)
+                    && self.is_cut(crack)
+                    && self.nearest_tip(crack) == Some(tip.end)
+            }
+            Patches::Listed(all) => all.binary_search(&self.index).is_ok(),
+            Patches::Where(expression) => self.looks().any(|p| expression.value(p) > 0.0),
+        }
+    }
+
+    /// True if the point, also one on the border of the domain, lies in the open support.
+    fn holds(&self, p: Vec2) -> bool {
+        inside(&self.support, p)
+    }
+
+    fn is_near(&self, p: Vec2, radius: f64) -> bool {
+        self.support.distance(p) < radius
+    }
+
+    fn is_cut(&self, crack: &Crack) -> bool {
+        length_inside(crack, &self.open, self.holes) > self.shortest
+    }
+
+    fn nearest_tip(&self, crack: &Crack) -> Option<End> {
+        let distance = |&end: &End| (crack.end_point(end) - self.support.center()).length();
+        crack.tips().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Centre, corners and middles of the edges, as far as the domain reaches.
+    fn looks(&self) -> impl Iterator<Item = Vec2> {
+        let (min, half) = (self.open.min, self.open.size() * 0.5);
+        let at = move |k: u8| min + vec2(half.x * f64::from(k % 3), half.y * f64::from(k / 3));
+        (0..9).map(at)
+    }
+}
+
+mod interfaces;
+pub(crate) use interfaces::KINK;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,221 @@
+//! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
+//! to walk over it.
+
+mod discretise;
+mod enrichment;
+mod inspect;
+
+use crate::problem::Problem;
+use crate::quadrature::{Orders, Quadrature, Rule};
+pub use crate::refine::RefineError;
+use crate::smoothness::Smoothness;
+pub(crate) use discretise::discretise_within;
+pub use discretise::{SpaceError, discretise};
+pub(crate) use enrichment::KINK;
+pub use inspect::InspectError;
+use ppum::box_tree::BoxTree;
+use ppum::crack::{LocalCrack, Side};
+use ppum::dataset::{Equation, FieldData, Partition, Step, monomials};
+use ppum::domain::{Domain, Hole};
+use ppum::formula::Table;
+use ppum::function::{FunctionError, FunctionKind, FunctionTable};
+use ppum::weight::WeightFunction;
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
+
+/// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
+/// linear weights.
+const WEIGHT_ACCURACY: f64 = 1e-5;
+
+/// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated over
+/// the same cells as the system, so one space serves from the first estimate to the last warning: what it
+/// looks at of its step is everything but the coefficients.
+#[derive(Debug)]
+pub struct Space<'d> {
+    step: Cow<'d, Step>,
+    /// The holes that are cut out of the cells.
+    pub(crate) holes: &'d [Hole],
+    /// The step's functions, compiled.
+    pub(crate) functions: FunctionTable,
+    /// The patches whose open supports meet a cell, cell by cell.
+    pub(crate) coverers: Vec<Vec<u32>>,
+    /// The number of functions of a patch's local space, patch by patch.
+    pub(crate) sizes: Vec<usize>,
+    /// The constant σ that a block's function f is replaced by f − σ with while solving, block by block.
+    ///
+    /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
+    /// larger part of the patch: the jump across a sliver is a function of its own, not a small
+    /// difference of large ones. Zero for all other functions.
+    pub(crate) shifts: Vec<f64>,
+    smoothness: Smoothness,
+    orders: Orders,
+    /// Of each cell where formulas are probed, its rules once they are made.
+    probed: Vec<OnceLock<Vec<Rule>>>,
+}
+
+impl<'d> Space<'d> {
+    /// The walks over the first field of a step on a domain.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    ///
+    /// # Panics
+    /// If the step has no field.
+    pub fn new(
+        step: &'d Step,
+        domain: &'d Domain,
+        equation: &Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        Self::on(Cow::Borrowed(step), domain, equation, tables)
+    }
+
+    /// The walks over a step of a problem, with formulas in place of kernels where the problem wants that.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
+        let Problem { domain, equation, tables, .. } = problem;
+        let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
+        if !problem.solver.kernels {
+            let Step { functions, cracks, .. } = &*space.step;
+            space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
+        }
+        Ok(space)
+    }
+
+    fn on(
+        step: Cow<'d, Step>,
+        domain: &'d Domain,
+        equation: &Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        let (partition, data) = (&step.partition, &step.fields[0]);
+        let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
+        let smoothness = Smoothness::new(&step, data, equation, tables)?;
+        Ok(Self {
+            holes: &domain.holes,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
+            coverers: coverers(partition),
+            sizes: (0..partition.len()).map(size).collect(),
+            shifts: shifts(&step, data),
+            orders: orders(partition, smoothness.degree()),
+            probed: vec![OnceLock::new(); partition.len()],
+            smoothness,
+            step,
+        })
+    }
+
+    /// The step, whose coefficients play no part.
+    pub(crate) fn step(&self) -> &Step {
+        &self.step
+    }
+
+    /// The partition of unity.
+    pub(crate) fn partition(&self) -> &Partition {
+        &self.step.partition
+    }
+
+    /// The field, whose coefficients play no part.
+    pub(crate) fn data(&self) -> &FieldData {
+        &self.step.fields[0]
+    }
+
+    /// The quadrature over the cells. `extra` Gauss points in each direction come on top of the
+    /// default, for errors.
+    pub(crate) fn quadrature(&self, extra: usize) -> Quadrature<'_> {
+        self.quadrature_of(&self.smoothness, extra)
+    }
+
+    /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to seconds, and
+    /// are made once.
+    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
+        let coverers = &self.coverers[cell];
+        let rules = || quadrature.cell(&self.partition().cell[cell], coverers);
+        if self.smoothness.has_probes(coverers) {
+            Cow::Borrowed(self.probed[cell].get_or_init(rules))
+        } else {
+            Cow::Owned(rules())
+        }
+    }
+
+    /// Operations of all formulas that quadrature looks at.
+    pub(crate) fn probe_operations(&self) -> usize {
+        self.smoothness.probe_operations()
+    }
+
+    /// The places at which the functions of the space and the coefficients are not smooth.
+    pub(crate) fn smoothness(&self) -> &Smoothness {
+        &self.smoothness
+    }
+
+    /// The quadrature of integrands that are smooth elsewhere.
+    pub(crate) fn quadrature_of<'q>(
+        &'q self,
+        smoothness: &'q Smoothness,
+        extra: usize,
+    ) -> Quadrature<'q> {
+        let geometry = smoothness.geometry(self.partition(), &self.step.cracks, self.holes);
+        let orders = match extra {
+            0 => self.orders,
+            _ => orders(self.partition(), self.degree() + extra),
+        };
+        Quadrature::new(geometry, orders)
+    }
+
+    /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
+    pub(crate) fn degree(&self) -> usize {
+        self.smoothness.degree()
+    }
+
+    /// Number of polynomials of a patch: the functions of its first block.
+    pub(crate) fn n_polynomials(&self, patch: usize) -> usize {
+        block_size(self.data(), self.data().blocks(patch).start)
+    }
+}
+
+/// Of each cell, the patches whose open supports meet it.
+fn coverers(partition: &Partition) -> Vec<Vec<u32>> {
+    let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
+    let tree = BoxTree::new(&supports);
+    let of_cell = |cell| {
+        let mut found = Vec::new();
+        tree.query_box(cell, &mut found);
+        found
+    };
+    partition.cell.iter().map(of_cell).collect()
+}
+
+/// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
+fn orders(partition: &Partition, degree: usize) -> Orders {
+    let weight = &partition.weight;
+    if *weight == WeightFunction::Linear {
+        return Orders::for_degree(degree);
+    }
+    let (half, cell) = (partition.half[0], &partition.cell[0]);
+    let value = |xi: f64| {
+        let [value, slope, _] = weight.spline(xi);
+        [value, slope]
+    };
+    let stretch = 2.0 * half.x / cell.size().x;
+    Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
+}
+
+fn block_size(data: &FieldData, block: usize) -> usize {
+    monomials(data.block_degree[block] as usize)
+}
+
+fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
+    let shift = |patch: usize, block: usize| match &step.functions
+        [data.block_function[block] as usize]
+        .kind
+    {
+        FunctionKind::Side { crack } => {
+            let seen = LocalCrack::new(&step.cracks[*crack as usize], step.partition.center[patch]);
+            seen.side([0.0, 0.0], Side::Above)
+        }
+        _ => 0.0,
+    };
+    let patches = 0..step.partition.len();
+    patches.flat_map(|patch| data.blocks(patch).map(move |b| shift(patch, b))).collect()
+}

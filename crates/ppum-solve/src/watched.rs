@@ -1,0 +1,173 @@
+//! Work on all cores, watched, with results that do not depend on their number.
+//!
+//! It runs on the pool of threads that it is called from. Sums are formed in the order of the items,
+//! and a [`Watcher`] hears of every one of them, so that it can stop the work within the time of one.
+
+use crate::geometry::Around;
+use ppum::progress::{Cancelled, Phase, Progress, Watcher};
+use ppum::vec2::Rect;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+
+/// Items worked on between additions: enough for the cores, little enough for the memory.
+const BATCH: usize = 128;
+
+/// Work in one phase, as a watcher sees it.
+pub(crate) struct Stage<'w> {
+    watcher: &'w dyn Watcher,
+    phase: Phase,
+    /// Parts of the phase, where they are known.
+    total: Option<usize>,
+    done: AtomicUsize,
+    /// A watcher need not say twice that it wants the work to stop.
+    is_stopped: AtomicBool,
+}
+
+impl<'w> Stage<'w> {
+    /// The beginning of a phase of so many parts.
+    ///
+    /// # Errors
+    /// The watcher wants the work to stop.
+    pub(crate) fn new(
+        watcher: &'w dyn Watcher,
+        phase: Phase,
+        total: usize,
+    ) -> Result<Self, Cancelled> {
+        Self::start(watcher, phase, Some(total.max(1)))
+    }
+
+    /// The same of a phase whose parts nobody has counted: it stays at none of one.
+    ///
+    /// # Errors
+    /// The watcher wants the work to stop.
+    pub(crate) fn uncounted(watcher: &'w dyn Watcher, phase: Phase) -> Result<Self, Cancelled> {
+        Self::start(watcher, phase, None)
+    }
+
+    fn start(
+        watcher: &'w dyn Watcher,
+        phase: Phase,
+        total: Option<usize>,
+    ) -> Result<Self, Cancelled> {
+        let (done, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let stage = Self { watcher, phase, total, done, is_stopped };
+        stage.advance(0).map(|()| stage)
+    }
+
+    /// Tells that further parts are done.
+    ///
+    /// # Errors
+    /// The watcher wants the work to stop, or has wanted it before.
+    pub(crate) fn advance(&self, parts: usize) -> Result<(), Cancelled> {
+        let done = self.done.fetch_add(parts, Relaxed) + parts;
+        let progress = match self.total {
+            Some(total) => Progress { phase: self.phase, done: done.min(total), total },
+            None => Progress::start(self.phase, 1),
+        };
+        if self.is_stopped.load(Relaxed) {
+            return Err(Cancelled);
+        }
+        self.watcher.report(progress).inspect_err(|_| self.is_stopped.store(true, Relaxed))
+    }
+}
+
+/// The end of work over the plate before it is done.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum Halt {
+    /// The watcher wants it.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// Something there is not finite.
+    #[error("something is not finite {0}")]
+    NotFinite(Around),
+}
+
+impl Halt {
+    /// Something in a cell or patch is not finite.
+    pub(crate) fn at(rect: Rect) -> Self {
+        Self::NotFinite(rect.into())
+    }
+}
+
+/// Calls `work` for 0 … n − 1 on all cores, a batch at a time, then `add` in order. Sums formed in
+/// `add` so have the same bits whatever the number of threads. `state` makes what a core keeps.
+///
+/// # Errors
+/// The first one in the order of the items; the watcher of `stage` wants the work to stop.
+pub(crate) fn in_batches<S, T: Send>(
+    stage: &Stage<'_>,
+    n: usize,
+    state: impl Fn() -> S + Sync,
+    work: impl Fn(&mut S, usize) -> Result<T, Halt> + Sync,
+    mut add: impl FnMut(usize, T),
+) -> Result<(), Halt> {
+    let watched = |state: &mut S, item: usize| {
+        let part = work(state, item);
+        stage.advance(1)?;
+        part
+    };
+    for first in (0..n).step_by(BATCH) {
+        let batch = first..n.min(first + BATCH);
+        let parts: Vec<_> = batch.clone().into_par_iter().map_init(&state, watched).collect();
+        for (item, part) in batch.zip(parts) {
+            add(item, part?);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::progress::{Verdict, unwatched};
+    use std::sync::Mutex;
+
+    fn sum(watcher: &dyn Watcher, n: usize) -> Result<f64, Halt> {
+        let (stage, mut sum) = (Stage::new(watcher, Phase::Assembly, n)?, 0.0);
+        in_batches(
+            &stage,
+            n,
+            || (),
+            |(), item| Ok(1.0 / (item + 1) as f64),
+            |_, part| sum += part,
+        )?;
+        Ok(sum)
+    }
+
+    #[test]
+    fn sums_do_not_depend_on_the_number_of_threads() {
+        let on = |threads: usize| {
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| sum(unwatched(), 1000)).expect("a sum").to_bits()
+        };
+        assert_eq!(on(1), on(3));
+    }
+
+    /// Of several errors it is the first in order, however the threads run.
+    #[test]
+    fn the_first_error_counts() {
+        let at = |item: usize| {
+            let p = ppum::vec2::vec2(item as f64, 0.0);
+            Halt::at(Rect::new(p, p))
+        };
+        let stage = Stage::new(unwatched(), Phase::Basis, 300).expect("nobody stops it");
+        let work = |(): &mut (), item: usize| if item % 50 == 49 { Err(at(item)) } else { Ok(()) };
+        let mut added = 0;
+        let found = in_batches(&stage, 300, || (), work, |_, ()| added += 1);
+        assert_eq!((found, added), (Err(at(49)), 49));
+    }
+
+    /// The work stops within a few items of each thread, also where the watcher says so once only.
+    #[test]
+    fn a_watcher_that_has_spoken_once_is_heard() {
+        let heard = Mutex::new(0);
+        let once = |_: Progress| {
+            let mut heard = heard.lock().expect("no panic");
+            *heard += 1;
+            Verdict::go_on_unless(*heard == 20)
+        };
+        assert_eq!(sum(&once, 10_000), Err(Halt::Cancelled(Cancelled)));
+        assert!(*heard.lock().expect("no panic") < 40);
+    }
+}
