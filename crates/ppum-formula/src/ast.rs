@@ -27,9 +27,9 @@ impl ExprId {
 /// A node and its place in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Expr {
-    /// What it is.
+    /// Its kind.
     pub(crate) kind: ExprKind,
-    /// Where it is.
+    /// Its place.
     pub(crate) span: Span,
 }
 
@@ -83,7 +83,7 @@ impl Infix {
     }
 }
 
-/// How tightly operators bind; shared by the parser and the printer.
+/// Precedence of the operators; shared by the parser and the printer.
 pub(crate) mod precedence {
     use super::Infix;
 

@@ -17,7 +17,7 @@ use crate::{MAX_DEPTH, MAX_LENGTH};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {}\n{excerpt}", .problem.message(.found))]
 pub struct FormulaError {
-    /// What is wrong.
+    /// The mistake.
     pub problem: Problem,
     /// Line of the offending text, from 1.
     pub line: usize,
@@ -35,7 +35,7 @@ pub struct FormulaError {
 pub enum Problem {
     /// The grammar wants something else here.
     Unexpected {
-        /// What would fit.
+        /// The expectation.
         expected: &'static str,
     },
     /// No variable, parameter, constant or `let` has this name.
@@ -54,9 +54,9 @@ pub enum Problem {
     MissingArguments,
     /// A function has too few or too many arguments.
     ArgumentCount {
-        /// How many it takes.
+        /// Number of arguments it takes.
         expected: usize,
-        /// How many there are.
+        /// Number of arguments it was given.
         given: usize,
         /// The function of a similar name that takes so many.
         suggestion: Option<&'static str>,
@@ -94,7 +94,7 @@ pub enum Problem {
     TableArguments {
         /// The right form.
         form: Box<str>,
-        /// How many arguments there are, the table's name included.
+        /// Number of arguments, the table's name included.
         given: usize,
     },
     /// `side(…)` where there are no cracks.

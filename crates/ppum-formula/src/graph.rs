@@ -370,7 +370,7 @@ impl Graph {
         needed
     }
 
-    /// What the roots need, numbered anew without gaps, and the roots in it.
+    /// The part of the graph that the roots need, numbered anew without gaps, and the roots in it.
     pub(crate) fn extract(&self, roots: &[NodeId]) -> (Vec<Op>, Vec<NodeId>) {
         let mut number = vec![NodeId(0); self.len()];
         let mut ops = Vec::new();

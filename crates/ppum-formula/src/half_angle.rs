@@ -19,7 +19,7 @@ use crate::scope::Scope;
 /// Largest multiple of θ/2 that becomes products; their error grows with it.
 const MAX_MULTIPLE: f64 = 64.0;
 
-/// What is known of an expression as a multiple of θ.
+/// Knowledge of an expression as a multiple of θ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Multiple {
     /// A number, constant after folding.
@@ -30,7 +30,7 @@ pub(crate) enum Multiple {
     Unknown,
 }
 
-/// What an expression is, from what its operands are.
+/// An expression as a multiple of θ, from its operands.
 pub(crate) fn multiple(
     kind: &ExprKind,
     theta: Option<u32>,

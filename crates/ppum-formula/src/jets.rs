@@ -106,7 +106,7 @@ impl FormulaJets {
     /// their order.
     ///
     /// # Errors
-    /// When a table has more than 2047 knots or cubics (one a cell, four with two arguments), or WGSL does not
+    /// When a table has more than 2047 knots or cubics (one per cell, four with two arguments), or WGSL does not
     /// promise to hold the number of inputs.
     pub fn wgsl_of_used(&self, name: &str) -> Result<String, WgslError> {
         wgsl::check(&self.program, self.used().count())?;
@@ -129,13 +129,13 @@ impl FormulaJets {
     }
 
     #[cfg(test)]
-    /// What every back end starts from.
+    /// The program that every back end starts from.
     #[cfg(test)]
     pub(crate) fn program(&self) -> &Program {
         &self.program
     }
 
-    /// What lanes run.
+    /// The tape that lanes run.
     pub(crate) fn tape(&self) -> &Tape {
         &self.tape
     }
@@ -180,8 +180,8 @@ fn jets(
         last.clear();
         for (jet, partials) in jets.iter_mut().zip(partials.chunks(partials.len() / roots.len())) {
             // Each derivative by its own and later variables only: xy, but not yx.
-            let new = partials.iter().enumerate().flat_map(|(v, of)| &of[v..]);
-            let new: Vec<NodeId> = new.copied().collect();
+            let new: Vec<NodeId> =
+                partials.iter().enumerate().flat_map(|(v, of)| &of[v..]).copied().collect();
             last.extend(&new);
             jet.extend(new);
         }

@@ -1,4 +1,4 @@
-//! Where a formula is not smooth.
+//! Kinks, jumps and singularities of a formula.
 //!
 //! The places follow from the operations of the value: |u| has a kink where u = 0, `if(a < b, …)`
 //! may jump where a = b, `floor(u)` where u is whole, a table is bent at the ends of its range.
@@ -42,7 +42,7 @@ impl Kink {
         Some([affine[x?], affine[y?], affine[affine.len() - 1]])
     }
 
-    /// Where in \[lo, hi\] a formula of one variable meets the set.
+    /// The places in \[lo, hi\] at which a formula of one variable meets the set.
     fn places(&self, lo: f64, hi: f64) -> Vec<f64> {
         let formula = self.steps.as_ref().unwrap_or(&self.value);
         let scan = Scan { formula, range: [lo, hi], steps: self.steps.is_some() };
@@ -175,7 +175,7 @@ impl Formula {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Set {
     Zero(NodeId),
-    /// Where it is a whole number.
+    /// The set on which it is a whole number.
     Whole(NodeId),
 }
 

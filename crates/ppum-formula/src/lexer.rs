@@ -5,9 +5,9 @@ use crate::error::{FormulaError, Problem, Span};
 /// A piece of the text that the grammar knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Token {
-    /// What it is.
+    /// Its kind.
     pub(crate) kind: TokenKind,
-    /// Where it is.
+    /// Its place.
     pub(crate) span: Span,
 }
 

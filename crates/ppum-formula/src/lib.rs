@@ -46,7 +46,7 @@
 //! comments    # to the end of the line
 //! ```
 //!
-//! What names there are besides is the matter of a [`Scope`]: x and y, polar coordinates r and theta,
+//! Further names are the matter of a [`Scope`]: x and y, polar coordinates r and theta,
 //! parameters, tables, the sides of cracks.
 //!
 //! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
@@ -69,7 +69,7 @@
 //! A table is flat outside its range; on the ends of the range its derivatives are those of the inside.
 //! `side` has derivative 0.
 //!
-//! Where a formula may not be smooth is known without evaluating it: [`Formula::kinks`] are the zero
+//! The places where a formula may not be smooth are known without evaluating it: [`Formula::kinks`] are the zero
 //! sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch on, with
 //! their equations where they are lines; [`Formula::singularities`] those of what stands under
 //! roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval. Angles jump on

@@ -90,7 +90,7 @@ const FOREIGN: [(&str, &str); 14] = [
     ("interp", "table"),
 ];
 
-/// What stands for a function of another language.
+/// The name that stands for a function of another language.
 pub(crate) fn foreign(name: &str) -> Option<&'static str> {
     FOREIGN.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|&(_, here)| here)
 }

@@ -55,7 +55,7 @@ struct Lowering<'a> {
     theta: Option<u32>,
     /// The graph's node of each node of the tree so far.
     nodes: Vec<NodeId>,
-    /// What each is as a multiple of θ.
+    /// Each expression as a multiple of θ.
     multiples: Vec<Multiple>,
 }
 

@@ -360,7 +360,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// How a table of `n` arguments is written.
+/// The form of a table of `n` arguments.
 fn table_form(name: &str, n: usize, derivative: bool) -> String {
     let arguments = if n == 1 { "x" } else { "x, y" };
     match (derivative, n) {

@@ -37,7 +37,7 @@ pub(crate) fn print(program: &Program, scope: &Scope) -> String {
 #[derive(Clone)]
 struct Piece {
     text: String,
-    /// How tightly its outermost operator binds.
+    /// Precedence of its outermost operator.
     strength: u8,
     depth: usize,
 }
@@ -46,11 +46,11 @@ struct Printer<'a> {
     inputs: Vec<&'a str>,
     tables: Vec<&'a str>,
     taken: HashSet<&'a str>,
-    /// How the scope writes each operation, if it is a function that the scope defines.
+    /// The scope's text of each operation, if it is a function that the scope defines.
     defined: Vec<Option<&'static str>>,
     /// Which operations are numbers.
     numbers: Vec<bool>,
-    /// How often the text of each operation is part of another.
+    /// Number of texts that the text of each operation is part of.
     uses: Vec<u32>,
     pieces: Vec<Piece>,
     bindings: String,
@@ -202,7 +202,7 @@ fn defined(program: &Program, scope: &Scope) -> Vec<Option<&'static str>> {
     names
 }
 
-/// How often each operation is an operand of one whose text is needed and shows its operands.
+/// Number of needed texts that show each operation as an operand.
 fn uses(program: &Program, defined: &[Option<&str>]) -> Vec<u32> {
     let mut uses = vec![0; program.ops().len()];
     let root = program.outputs()[0].index();

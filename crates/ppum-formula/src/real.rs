@@ -106,7 +106,7 @@ pub trait Real:
 
 /// Work that is compiled for every instruction set and run with the widest the processor has.
 pub trait Job<T: Scalar> {
-    /// What the work returns.
+    /// The result of the work.
     type Output;
     /// Runs with numbers of type `R`; `zero` is a zero to take constants from. Must be
     /// `#[inline(always)]`.

@@ -18,7 +18,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// A search for the places where a formula of one variable is zero, or, with `steps`, a whole number.
 pub(crate) struct Scan<'f> {
     pub(crate) formula: &'f Formula,
-    /// Where to search.
+    /// The interval to search.
     pub(crate) range: [f64; 2],
     pub(crate) steps: bool,
 }
@@ -96,7 +96,7 @@ impl Scan<'_> {
     }
 }
 
-/// Where `f` changes its sign between `a` and `b`, to the last bit: a zero if one is met, else the end
+/// The change of sign of `f` between `a` and `b`, to the last bit: a zero if one is met, else the end
 /// of the last interval where |f| is smaller.
 fn bisect(mut f: impl FnMut(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let (mut fa, mut fb) = (f(a), f(b));

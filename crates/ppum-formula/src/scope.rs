@@ -117,13 +117,13 @@ pub enum ScopeError {
     Rule {
         /// The dependent variable.
         name: String,
-        /// What is wrong.
+        /// The mistake.
         #[source]
         error: FormulaError,
     },
 }
 
-/// What a name of the scope stands for.
+/// The meaning of a name of the scope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Meaning {
     /// A variable: its index among the inputs.
@@ -386,7 +386,7 @@ impl Scope {
         self.tables.iter().map(|table| table.name())
     }
 
-    /// What a name stands for.
+    /// The meaning of a name.
     pub(crate) fn meaning(&self, name: &str) -> Option<Meaning> {
         if let Some(index) = self.input(name) {
             return Some(Meaning::Input(index));

@@ -234,7 +234,7 @@ impl Table {
     }
 }
 
-/// Where an argument lies among the knots.
+/// The place of an argument among the knots.
 struct Place {
     cell: usize,
     /// From the cell's first knot; of the nearest end of the range if the argument is outside.

@@ -16,10 +16,10 @@ use std::sync::Arc;
 use crate::crack::{Crack, TipId};
 use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
-use crate::formula::Table;
 use crate::function::{Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
+use ppum_formula::Table;
 
 /// A solved problem, or a field from elsewhere in the same representation.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Dataset {
     pub problem: Option<String>,
     /// The box minus holes Ω. Outside it nothing is defined.
     pub domain: Domain,
-    /// What was solved; decides which quantities have a meaning.
+    /// The equation that was solved; decides which quantities have a meaning.
     pub equation: Equation,
     /// Quantities the dataset names, beside the built-in ones.
     pub quantities: Vec<NamedQuantity>,
@@ -79,15 +79,15 @@ pub struct Step {
     pub functions: Vec<Function>,
     /// The fields; a solver's dataset has one, `displacement` or `potential`.
     pub fields: Vec<FieldData>,
-    /// Named values, one a patch.
+    /// Named values, one per patch.
     pub attributes: Vec<Attribute>,
     /// Stress intensity factors found by the solver.
     pub intensities: Vec<TipIntensity>,
-    /// What the solver reports: residual, unknowns, functions cut off, seconds per phase.
+    /// The report of the solver: residual, unknowns, functions cut off, seconds per phase.
     pub history: Vec<Record>,
-    /// What a specialist would remark on.
+    /// Findings of the diagnostics.
     pub warnings: Vec<Warning>,
-    /// What the supports exert on the plate, one a boundary condition that gives values.
+    /// Resultants of the forces the supports exert on the plate, one per boundary condition that gives values.
     pub reactions: Vec<Reaction>,
 }
 
@@ -134,7 +134,7 @@ impl Step {
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
 /// W_i(x) = w(|x − center_i,x| / half_i,x) · w(|y − center_i,y| / half_i,y).
 ///
-/// Structure of arrays; all vectors have one entry a patch. The polynomial frame (`origin`,
+/// Structure of arrays; all vectors have one entry per patch. The polynomial frame (`origin`,
 /// `scale`) is kept apart from the support (`center`, `half`); the solver makes them equal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partition {
@@ -201,9 +201,9 @@ pub struct FieldData {
     pub block_degree: Vec<u8>,
     /// First coefficient of each block.
     pub block_offset: Vec<u64>,
-    /// Coefficients, one array a component.
+    /// Coefficients, one array per component.
     pub coefficients: Vec<Vec<f64>>,
-    /// Formulas of x and y of the exact solution, one a component; empty if unknown.
+    /// Formulas of x and y of the exact solution, one per component; empty if unknown.
     pub exact: Vec<String>,
 }
 
@@ -296,12 +296,12 @@ pub struct NamedQuantity {
     pub unit: String,
 }
 
-/// Named values, one a patch: order, enrichment, functions cut off, …
+/// Named values, one per patch: order, enrichment, functions cut off, …
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
     /// Name, e.g. `unknowns`.
     pub name: String,
-    /// One value a patch.
+    /// One value per patch.
     pub values: Vec<f64>,
 }
 
@@ -321,13 +321,13 @@ pub struct Record {
 pub struct Warning {
     /// A word for its kind, e.g. `faces-overlap`.
     pub kind: String,
-    /// Where, if it is about a place.
+    /// The place, if it is about one.
     pub at: Option<Vec2>,
     /// The number that gave rise to it.
     pub value: f64,
     /// The bound that the number passes.
     pub limit: f64,
-    /// What is wrong and what to do, on one line, with the place.
+    /// The mistake and its remedy, on one line, with the place.
     pub message: String,
 }
 
@@ -339,11 +339,11 @@ pub struct Warning {
 /// the reactions and the loads on a plate add up to zero, to rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
-    /// Where, in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
+    /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
     pub on: String,
     /// Of each component of the first field, whether the support holds it.
     pub held: Vec<bool>,
-    /// Force per thickness \[stress·length\], one a component, zero where not held; of a potential the
+    /// Force per thickness \[stress·length\], one per component, zero where not held; of a potential the
     /// flow into the plate.
     pub force: Vec<f64>,
     /// Moment per thickness about the centre of the domain's box, counter-clockwise

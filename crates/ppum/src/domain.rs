@@ -15,7 +15,7 @@ use crate::vec2::{Rect, Vec2, vec2};
 pub struct Domain {
     /// The closed box.
     pub bounds: Rect,
-    /// What is cut out of it.
+    /// The holes cut out of it.
     pub holes: Vec<Hole>,
 }
 
@@ -180,9 +180,9 @@ impl LocalHole {
 /// A side of a polygon from `a` to `b`, relative to the anchor.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalSide {
-    /// Where it begins.
+    /// Its beginning.
     pub a: Vec2,
-    /// Where it ends.
+    /// Its end.
     pub b: Vec2,
     /// From the begin to the end.
     pub direction: Vec2,

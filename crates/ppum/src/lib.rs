@@ -145,7 +145,6 @@ pub mod field;
 pub mod function;
 pub mod jet;
 pub mod library;
-mod morton;
 pub mod polynomial;
 pub mod prelude;
 pub mod progress;

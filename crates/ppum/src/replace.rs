@@ -9,12 +9,12 @@ use std::sync::Arc;
 
 use crate::dataset::{Dataset, Step};
 use crate::decompose::{Part, PartError};
-use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
+use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
-/// What cannot take a function's or the weight's place.
+/// A text that cannot take the place of a function or of the weight.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReplaceError {
@@ -23,7 +23,7 @@ pub enum ReplaceError {
     Unknown {
         /// The name or number asked for.
         which: String,
-        /// What was meant, if it is like one that is known, see [`hint`].
+        /// A suggestion, if a known name is similar, see [`hint`].
         hint: String,
         /// Names of all functions.
         known: String,
@@ -178,7 +178,7 @@ impl Step {
     }
 }
 
-/// What in a function's name introduces its place.
+/// The mark in a function's name before its place.
 const PLACES: [&str; 3] = [" of crack ", " at [", " along ["];
 
 impl Function {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 use crate::jet::Jet;
 use crate::library;
-use crate::real::{Real, WIDEST};
+use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
 /// does not see it. The B-splines have w(0) = 1.
@@ -87,7 +87,7 @@ impl WeightFunction {
 
     /// w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
     ///
-    /// Where a derivative jumps, the one from the right is taken, so that a border belongs to the
+    /// At a jump of a derivative the one from the right is taken, so that a border belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
     pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
@@ -174,7 +174,7 @@ pub enum WeightError {
     Sign {
         /// The formula.
         text: String,
-        /// Where.
+        /// The place.
         t: f64,
         /// The value there.
         value: f64,

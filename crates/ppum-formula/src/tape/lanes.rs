@@ -116,7 +116,7 @@ macro_rules! function {
 /// Actions on lanes: name, function of the machine for as many operands, meaning.
 macro_rules! actions {
     ($($name:ident = $run:ident [$($a:ident),+] $value:expr;)+) => {
-        /// What a step does. Conditions are the numbers 1 and 0.
+        /// The action of a step. Conditions are the numbers 1 and 0.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub(crate) enum Action {
             $($name,)+

@@ -66,7 +66,7 @@ impl Tape {
     }
 }
 
-/// What computes an operation, and from which others.
+/// The action that computes an operation, and its operands.
 #[derive(Clone, Debug)]
 struct Form {
     action: Action,
@@ -89,7 +89,7 @@ fn forms(program: &Program) -> Vec<Option<Form>> {
 /// The products that can be computed by their only user.
 struct Products<'a> {
     ops: &'a [Op],
-    /// How often each operation is an operand; outputs count as many.
+    /// Number of times each operation is an operand; outputs count as many.
     uses: Vec<u32>,
     is_absorbed: Vec<bool>,
 }
@@ -165,7 +165,7 @@ fn form(op: Op, products: &mut Products<'_>) -> Option<Form> {
     })
 }
 
-/// What is done for an operation by itself; nothing for constants and inputs.
+/// The action of an operation by itself; none for constants and inputs.
 fn action(op: Op) -> Option<Action> {
     Some(match op {
         Op::Constant(_) | Op::Input(_) | Op::Truth(_) => return None,
@@ -208,7 +208,7 @@ fn binary(op: Binary) -> Action {
     }
 }
 
-/// Where the result of an operation is.
+/// The place of an operation's result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Place {
     Register(u32),

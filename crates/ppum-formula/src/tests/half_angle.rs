@@ -224,7 +224,7 @@ fn values_at_the_origin() {
     assert!(parse("cos(2*theta)").evaluate(&nan).is_nan());
 }
 
-/// What is written as products shares them.
+/// Half angles written as products share them.
 #[test]
 fn products_are_shared() {
     let all: Vec<String> = (1..=64).map(|k| format!("sin({k}*theta/2)*cos({k}*theta/2)")).collect();

@@ -1,4 +1,4 @@
-//! Where formulas are not smooth.
+//! Kinks and singularities.
 
 use std::sync::Arc;
 

@@ -76,8 +76,12 @@ pub(crate) fn function(
 ) -> String {
     let inputs: Vec<String> = scope.inputs().map(parameter).collect();
     let mut text = tables(name, program);
-    let parameters = inputs.iter().enumerate().filter(|(index, _)| kept(*index));
-    let parameters: Vec<String> = parameters.map(|(_, input)| format!("{input}: f32")).collect();
+    let parameters: Vec<String> = inputs
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| kept(*index))
+        .map(|(_, input)| format!("{input}: f32"))
+        .collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
     let mut results =
@@ -117,7 +121,7 @@ pub(crate) fn number(value: f64) -> String {
 struct Results<'a> {
     function: &'a str,
     inputs: &'a [String],
-    /// What stands for each operation where it is used: a name, or a constant.
+    /// The text of each operation where it is used: a name, or a constant.
     atoms: Vec<String>,
     /// Number of `let`s.
     lets: usize,
@@ -126,7 +130,7 @@ struct Results<'a> {
 }
 
 impl Results<'_> {
-    /// What stands for an earlier operation.
+    /// The text of an earlier operation.
     fn at(&self, id: NodeId) -> &str {
         &self.atoms[id.index()]
     }

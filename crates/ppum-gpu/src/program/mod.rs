@@ -23,6 +23,17 @@ use pipelines::Pipelines;
 ///
 /// When functions of the dataset are replaced, compile another program for the scene
 /// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
+///
+/// A picture is read as what its program yields and as nothing else:
+///
+/// ```compile_fail
+/// use ppum_gpu::{Colors, Drawn};
+/// use ppum_render::raster::Raster;
+///
+/// fn values(drawn: &Drawn<Colors>) -> Raster<f32> {
+///     drawn.read().unwrap() // an image
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Program<'f, O> {
     scene: Scene<'f>,

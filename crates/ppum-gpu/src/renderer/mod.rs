@@ -201,14 +201,14 @@ impl Renderer {
             Method::Gather => areas(view, &on_card.enriched),
             Method::Splat => vec![Area::whole(view, layout.shape.others)],
         };
-        let seen = view_data(&scene, &on_card, program, view)?;
+        let frame = view_data(&scene, &on_card, program, view)?;
         let palette = program.output().shading().map(Shading::texels);
         let gpu = &self.card.gpu;
         let pipelines = program.pipelines(gpu, layout, areas.iter().map(|area| area.others))?;
         let targets = &mut self.targets;
         gpu.checked("draw", || {
             targets.prepare(gpu, view.pixels, pipelines, palette);
-            targets.write(gpu, &seen);
+            targets.write(gpu, &frame);
             let data = targets.data(gpu, &on_card, pipelines)?;
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
             if let Some(passes) = &pipelines.splat {
@@ -237,13 +237,13 @@ fn view_data<O: Output>(
     let frames = scene.groups().frames(&field.step.functions);
     let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
     let region = on_card.region()?;
-    let mut seen = ViewData::new(field, view, geometry, region, on_card.lattice.as_ref());
-    seen.record.component = program.output().component().into();
+    let mut data = ViewData::new(field, view, geometry, region, on_card.lattice.as_ref());
+    data.record.component = program.output().component().into();
     if let Some(shading) = program.output().shading() {
-        shading.note(&mut seen.record);
+        shading.note(&mut data.record);
     }
     if let Some(patch) = program.chosen() {
-        seen.record.chosen = on_card.bodies[patch as usize];
+        data.record.chosen = on_card.bodies[patch as usize];
     }
-    Ok(seen)
+    Ok(data)
 }

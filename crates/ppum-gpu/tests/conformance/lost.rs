@@ -47,3 +47,19 @@ fn a_picture_is_lost_with_its_device() {
     let drawn = good(renderer.draw(&mut program, &view));
     assert!(good(drawn.read()).statistics().finite > 0);
 }
+
+/// A program moves with its scene to the renderer that draws it, and back.
+#[test]
+fn another_renderer_draws_the_same() {
+    let (Some(mut first), Some(mut second)) = (renderer_or_skip(), renderer_or_skip()) else {
+        return;
+    };
+    let dataset = Recipe { level: 1, ..Recipe::default() }.dataset();
+    let field = good(Field::new(&dataset, 0));
+    let scene = good(first.upload(&field));
+    let stress = Values(quantity("von-mises", &field));
+    let mut program = good(first.compile(&scene, stress, Method::Gather));
+    let here = bits(&draw(&mut first, &mut program, &window()));
+    assert!(here == bits(&draw(&mut second, &mut program, &window())));
+    assert!(here == bits(&draw(&mut first, &mut program, &window())));
+}

@@ -13,6 +13,7 @@ mod parts;
 mod replaced;
 mod series;
 mod texts;
+mod watched;
 
 use std::fmt::Display;
 

@@ -20,7 +20,7 @@ const ARROWS: [(&str, &[&str]); 9] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 14] = [
+const DOORS: [(&str, &str); 15] = [
     ("ab_glyph", "ppum-render"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
@@ -31,6 +31,7 @@ const DOORS: [(&str, &str); 14] = [
     ("png", "ppum-render"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
+    ("static_aabb2d_index", "ppum"),
     ("strsim", "ppum-formula"),
     ("sysinfo", "ppum-cli"),
     ("toml", "ppum-solve"),

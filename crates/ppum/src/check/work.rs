@@ -1,4 +1,4 @@
-//! What an evaluation at a point may take.
+//! Bounds of the work of an evaluation at a point.
 //!
 //! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
 //! a point takes is bounded here, once, and all others rely on it.
@@ -18,7 +18,7 @@ use crate::weight::WeightFunction;
 /// patches over a point. A crack of 100,000 vertices may cut through.
 const MOST_WORK: u64 = 1 << 18;
 
-/// What a patch takes beside its blocks: finding it, its weight.
+/// Cost of a patch beside its blocks: finding it, its weight.
 const PATCH: usize = 16;
 
 /// Checks every field of every step.
@@ -41,7 +41,7 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
     Ok(())
 }
 
-/// What each patch takes where it is, and each group of functions where a patch has it.
+/// Cost of each patch where it is, and of each group of functions where a patch has it.
 fn works(step: &Step, field: &FieldData, table: &FunctionTable) -> Vec<(Rect, u64)> {
     let (partition, mut all) = (&step.partition, Vec::new());
     let mut groups: BTreeMap<u32, Rect> = BTreeMap::new();

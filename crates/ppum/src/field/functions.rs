@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::crack::Side;
 use crate::function::{GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// Groups that have a place of their own, more than meet in the patches of one point in practice.
 const PLACES: usize = 6;
@@ -18,7 +18,7 @@ pub(super) struct FunctionJets<'a, 'f, R> {
     groups: [u32; PLACES],
     jets: [[Jet<R>; GROUP]; PLACES],
     next: usize,
-    /// Where there are more, those that have lost their places.
+    /// Groups that have lost their places to others.
     others: BTreeMap<u32, [Jet<R>; GROUP]>,
 }
 

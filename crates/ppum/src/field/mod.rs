@@ -18,10 +18,10 @@ use crate::box_tree::BoxTree;
 use crate::crack::SegmentId;
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
 use crate::domain::Domain;
-use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable};
 use crate::vec2::Vec2;
 pub use local::{Covering, LocalField};
+use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
 /// A field of a dataset at one step, ready to be evaluated.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ pub enum FieldError {
     Name {
         /// The field asked for.
         name: String,
-        /// What there is.
+        /// The names there are.
         known: String,
     },
     /// A function of the step is wrong.
@@ -82,7 +82,7 @@ pub enum FieldError {
     Exact {
         /// The field.
         name: String,
-        /// What is wrong.
+        /// The mistake.
         source: Box<FormulaError>,
     },
 }

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::Frame;
 use super::seen::Seen;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
-use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
-use crate::real::{Real, WIDEST};
 use crate::vec2::{Vec2, vec2};
+use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 
 use super::table::GROUP;
 
@@ -142,11 +142,11 @@ pub(super) struct LocalFormulas<'t> {
 }
 
 thread_local! {
-    /// What evaluation at a point writes into: allocating it each time would cost as much as the formulas.
+    /// Memory for an evaluation at a point: allocating it each time would cost as much as the formulas.
     static WORKSPACE: RefCell<Workspace> = RefCell::default();
 }
 
-/// Numbers of one evaluation, in rows of one a lane, and of one lane of it.
+/// Numbers of one evaluation, in rows of one per lane, and of one lane of it.
 #[derive(Clone, Debug, Default)]
 struct Workspace {
     rows: Vec<[f64; WIDEST]>,

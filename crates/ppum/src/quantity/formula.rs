@@ -5,11 +5,11 @@ use std::sync::Arc;
 use crate::dataset::NamedQuantity;
 use crate::equation::Equation;
 use crate::field::Field;
-use crate::formula::{
+use crate::library::{Definition, ELASTICITY, POISSON};
+use ppum_formula::real::Real;
+use ppum_formula::{
     DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
 };
-use crate::library::{Definition, ELASTICITY, POISSON};
-use crate::real::Real;
 
 use super::{Sample, Source};
 
@@ -69,7 +69,7 @@ pub enum QuantityFormulaError {
     Derivative(#[from] DerivativeError),
 }
 
-/// Where an input of a quantity's formula comes from.
+/// The origin of an input of a quantity's formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Input {
     /// The position's first coordinate.
@@ -129,7 +129,7 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
-    /// What an input of a formula of this vocabulary is, by its name; `None` for other names.
+    /// The input of a formula by its name; `None` for names that are no inputs.
     #[must_use]
     pub fn input(&self, name: &str) -> Option<Input> {
         self.inputs().into_iter().find(|(known, _)| known == name).map(|(_, input)| input)
@@ -162,15 +162,20 @@ impl QuantityFormula {
     /// The text is no formula of the vocabulary; the error points at the place.
     pub fn new(text: &str, vocabulary: &Vocabulary<'_>) -> Result<Self, QuantityFormulaError> {
         let inputs = vocabulary.inputs();
-        let definitions: Vec<_> = vocabulary.definitions().collect();
-        let names = inputs.iter().map(|(name, _)| name).chain(definitions.iter().map(|(n, _)| n));
-        let names: Vec<_> = names.map(String::as_str).collect();
+        let texts: Vec<_> = vocabulary.definitions().collect();
+        let names: Vec<_> = inputs
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .chain(texts.iter().map(|(name, _)| name.as_str()))
+            .collect();
         let scope = Scope::new(&names)?.with_tables(vocabulary.tables)?;
-        let parse =
-            |(name, text): &(String, &str)| Ok((name.clone(), Formula::parse(text, &scope)?));
-        let definitions: Result<Vec<_>, FormulaError> = definitions.iter().map(parse).collect();
-        let definitions = definitions?;
-        let definitions: Vec<_> = definitions.iter().map(|(n, f)| (n.as_str(), f)).collect();
+        let parse = |(_, text): &(String, &str)| Formula::parse(text, &scope);
+        let parsed = texts.iter().map(parse).collect::<Result<Vec<_>, FormulaError>>()?;
+        let definitions: Vec<_> = texts
+            .iter()
+            .zip(&parsed)
+            .map(|((name, _), formula)| (name.as_str(), formula))
+            .collect();
         let formula = Formula::parse(text, &scope)?.substitute(&definitions)?;
         let used = |(index, (name, input)): (usize, &(String, Input))| {
             formula.uses(name).then_some((index, *input))
