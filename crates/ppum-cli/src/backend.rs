@@ -1,4 +1,4 @@
-//! What draws: the processor, or a graphics device.
+//! The choice between the processor and a graphics device.
 //!
 //! The choice is made here and nowhere else. Whatever draws gives a raster of values; ranges, colours, overlays
 //! and figures are made of it by the same code.
@@ -18,7 +18,7 @@ use crate::output::tell;
 use crate::progress::Bar;
 use crate::{graphics, threads, undefined};
 
-/// What draws, as it was asked for.
+/// The options that choose who draws.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Engine {
     /// What computes the values
@@ -50,7 +50,7 @@ enum Precision {
     F32,
 }
 
-/// What is drawn.
+/// The subject of a picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) field: &'a Field<'a>,
@@ -63,7 +63,7 @@ pub(crate) struct Job<'a> {
 pub(crate) struct Drawn {
     pub(crate) picture: Picture,
     pub(crate) by: String,
-    /// How many pixels of the plate have no value, and how many there are.
+    /// The number of pixels of the plate without a value, and of all of them.
     pub(crate) undefined: [usize; 2],
     /// True if some value is finite.
     pub(crate) is_finite: bool,
@@ -83,7 +83,7 @@ impl Drawn {
 }
 
 impl Engine {
-    /// What clap cannot see.
+    /// Refuses combinations that clap cannot see.
     pub(crate) fn check(&self) -> anyhow::Result<()> {
         let on_gpu = matches!(self.backend, Backend::Gpu | Backend::Splat);
         anyhow::ensure!(

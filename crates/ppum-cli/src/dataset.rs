@@ -47,8 +47,14 @@ pub(crate) fn quantities(
     field: &Field<'_>,
     given: &[String],
 ) -> anyhow::Result<Vec<(String, Quantity)>> {
-    let stresses = field.equation.elastic().is_some().then_some(STRESSES);
-    let stresses = stresses.into_iter().flatten().map(str::to_owned);
+    let stresses = field
+        .equation
+        .elastic()
+        .is_some()
+        .then_some(STRESSES)
+        .into_iter()
+        .flatten()
+        .map(str::to_owned);
     let names: Vec<_> = match given {
         [] => field.data.components.iter().cloned().chain(stresses).collect(),
         given => given.iter().flat_map(|list| parts(list)).map(str::to_owned).collect(),

@@ -16,7 +16,7 @@ pub(crate) struct Family {
     pub(crate) numbers: Vec<usize>,
     /// Name without the place, e.g. `westergaard 1–4`.
     pub(crate) name: String,
-    /// Where they are, e.g. `at 6 tips`; empty if everywhere.
+    /// Their places, e.g. `at 6 tips`; empty if everywhere.
     pub(crate) place: String,
     /// Formulas with their parameters, those that are no names already.
     pub(crate) formulas: Vec<String>,
@@ -24,7 +24,7 @@ pub(crate) struct Family {
     pub(crate) blocks: usize,
 }
 
-/// How many blocks of a field use each function.
+/// The number of blocks of a field that use each function.
 pub(crate) fn blocks(functions: &[Function], field: &FieldData) -> Vec<usize> {
     let mut blocks = vec![0; functions.len()];
     field.block_function.iter().for_each(|&function| blocks[function as usize] += 1);
@@ -51,8 +51,7 @@ impl Family {
 
     /// The numbers as ranges, `2–25`; of many the first.
     pub(crate) fn numbers(&self) -> String {
-        let runs = self.numbers.chunk_by(|a, b| a + 1 == *b);
-        let mut runs: Vec<_> = runs.map(range).collect();
+        let mut runs: Vec<_> = self.numbers.chunk_by(|a, b| a + 1 == *b).map(range).collect();
         if runs.len() > MAX_RUNS {
             runs.truncate(MAX_RUNS - 1);
             runs.push("…".into());
@@ -135,8 +134,10 @@ fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
     };
     let points = declared.kinks.as_flattened().iter().chain(&declared.singular);
     let values = parameters.iter().map(|(_, value)| *value);
-    let numbers = [parameters.len(), declared.kinks.len()].map(|n| n as u64).into_iter();
-    let numbers = numbers.chain(values.chain(points.flat_map(|p| [p.x, p.y])).map(f64::to_bits));
+    let numbers = [parameters.len(), declared.kinks.len()]
+        .map(|n| n as u64)
+        .into_iter()
+        .chain(values.chain(points.flat_map(|p| [p.x, p.y])).map(f64::to_bits));
     let names = parameters.iter().map(|(name, _)| name.as_str()).collect();
     (stem, frame, text, names, numbers.collect())
 }
@@ -171,7 +172,7 @@ impl Group<'_> {
         is_next && last.kinds.iter().map(place).eq(self.kinds.iter().map(place))
     }
 
-    /// Where the functions are; of a single one its name tells.
+    /// The places of the functions; of a single one its name tells.
     fn place(&self) -> String {
         let n = self.names.len();
         match self.kinds[0] {
@@ -238,7 +239,7 @@ mod tests {
         assert_eq!(families(&all, &[0; 15])[2].formulas, WESTERGAARD);
     }
 
-    /// What differs in more than its place is told apart.
+    /// Functions that differ in more than their place are told apart.
     #[test]
     fn a_replaced_function_stands_alone() {
         let mut all = cracked();

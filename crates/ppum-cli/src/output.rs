@@ -1,4 +1,4 @@
-//! What goes to standard output and error: nothing that a terminal would obey.
+//! Standard output and error: nothing that a terminal would obey.
 //!
 //! Titles, names and units come from files, and may hold whatever their writers like.
 

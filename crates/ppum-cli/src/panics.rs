@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::bail;
 
-/// Where the first panic was, and what it said.
+/// Place and message of the first panic.
 static TOLD: Mutex<Option<String>> = Mutex::new(None);
 
 /// Does the work; a panic is an error that asks for a report.
@@ -34,8 +34,10 @@ pub(crate) fn guarded(work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Resu
 /// Keeps the first panic: others follow from it.
 fn keep(info: &PanicHookInfo<'_>) {
     let payload = info.payload();
-    let text = payload.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let text = payload
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     let message = text.unwrap_or("no message");
     let place = info.location().map_or(String::new(), |place| format!(" ({place})"));
     TOLD.lock()

@@ -64,7 +64,7 @@ impl Replacements {
         }
     }
 
-    /// What was chosen and replaced, as notes in a picture.
+    /// The choices and replacements, as notes in a picture.
     pub(crate) fn notes(&self) -> impl Iterator<Item = (String, String)> {
         let functions = self.function.iter().map(|(which, text)| format!("{which} = {text}"));
         let weight = self.weight.iter().map(|text| format!("weight = {text}"));

@@ -12,7 +12,7 @@ pub(crate) const DATASET: u64 = 1 << 30;
 /// Longest text on standard input, in bytes.
 const TEXT: u64 = 1 << 26;
 
-/// What standard input has been read as: it ends but once.
+/// The reader of standard input: it ends but once.
 static READ: Mutex<Option<&str>> = Mutex::new(None);
 
 /// True for `-`.
@@ -20,7 +20,7 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// What messages call an input.
+/// The name of an input in messages.
 pub(crate) fn name(path: &Path) -> String {
     if is_standard(path) { "standard input".into() } else { path.display().to_string() }
 }

@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail, ensure};
 
 use crate::standard::{self, is_standard};
 
-/// What is written to a file.
+/// The content of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     Dataset,
@@ -16,7 +16,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// What it is called, and the extensions of its files.
+    /// Its name in messages, and the extensions of its files.
     fn words(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),

@@ -5,7 +5,7 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
-/// How many pixels of the plate have no value, and how many there are.
+/// The number of pixels of the plate without a value, and of all of them.
 pub(crate) fn pixels<T: Sample>(raster: &Raster<T>, field: &Field<'_>, view: &View) -> [usize; 2] {
     let local = field.domain.at(view.center);
     let is_undefined = |row: u32, column: u32| {

@@ -35,7 +35,7 @@ pub(crate) fn warn(warnings: &[WarningRow]) {
 }
 
 impl WarningRow {
-    /// What is wrong and what to do.
+    /// The finding and its remedy.
     pub(crate) fn message(&self) -> &str {
         &self.message
     }

@@ -103,8 +103,9 @@ mod tests {
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).expect("a folder");
-        let names = entries.map(|e| e.expect("an entry").file_name().into_string().expect("text"));
-        let mut names: Vec<_> = names.collect();
+        let mut names: Vec<_> = entries
+            .map(|e| e.expect("an entry").file_name().into_string().expect("text"))
+            .collect();
         names.sort();
         names
     }

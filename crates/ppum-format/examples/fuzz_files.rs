@@ -98,7 +98,7 @@ fn watch(files: &[PathBuf], time: Duration, seed: u64) -> Result<()> {
     if found > 0 { Err(format!("{found} files found").into()) } else { Ok(()) }
 }
 
-/// How the worker ended; `None` if it had to be stopped because one file took too long.
+/// The end of the worker; `None` if it had to be stopped because one file took too long.
 fn wait(worker: &mut Child, current: &Path) -> Result<Option<ExitStatus>> {
     let start = Instant::now();
     loop {

@@ -30,7 +30,7 @@ impl DerefMut for Content {
     }
 }
 
-/// What an object of a file can be.
+/// The forms of an object of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     Attribute,

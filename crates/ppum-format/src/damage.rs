@@ -27,7 +27,7 @@ pub fn unchecked(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
 pub struct Damaged {
     /// Its bytes.
     pub bytes: Vec<u8>,
-    /// What was done, e.g. `truncated`.
+    /// The kind of damage, e.g. `truncated`.
     pub what: String,
     /// True if the checksum was made right again, or is not there: only the meaning can tell.
     pub is_sealed: bool,

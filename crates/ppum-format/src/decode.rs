@@ -157,8 +157,11 @@ fn partition(group: &mut Group, scopes: &Scopes) -> Read<Partition> {
     expect_kind(group, "shepard-box")?;
     let weight = weight(group, scopes)?;
     let center = group.points("center")?;
-    let point = group.column::<i64>("point", center.len())?;
-    let point = point.into_iter().map(|p| point_index(group, p)).collect::<Read<_>>()?;
+    let point = group
+        .column::<i64>("point", center.len())?
+        .into_iter()
+        .map(|p| point_index(group, p))
+        .collect::<Read<_>>()?;
     Ok(Partition {
         weight,
         half: group.points("half")?,

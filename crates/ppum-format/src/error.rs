@@ -1,10 +1,10 @@
-//! What can go wrong with a file.
+//! Errors of reading and writing.
 
 use std::path::{Path, PathBuf};
 
 use ppum::check::CheckError;
 
-/// Why a dataset could not be read.
+/// The reason why a dataset could not be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -19,7 +19,7 @@ pub enum ReadError {
     /// Not an HDF5 file, or a damaged one.
     #[error("not a readable HDF5 file: {message}")]
     Hdf5 {
-        /// What is wrong with it.
+        /// The mistake.
         message: String,
     },
     /// HDF5, but not a dataset of this format.
@@ -46,7 +46,7 @@ pub enum ReadError {
     Newer {
         /// Minor version of the file.
         minor: u32,
-        /// What was not understood.
+        /// The part that was not understood.
         source: Box<ReadError>,
     },
     /// An object of the file is missing or not what it should be.
@@ -54,7 +54,7 @@ pub enum ReadError {
     Object {
         /// Path in the file; attributes are written `group@attribute`.
         object: String,
-        /// What is wrong with it.
+        /// The mistake.
         mistake: String,
     },
     /// The content is not what was written.
@@ -113,7 +113,7 @@ fn shorten(text: &mut String) {
     }
 }
 
-/// Why a dataset could not be written. What stood at the path before still stands there.
+/// The reason why a dataset could not be written. The file that was at the path before is unchanged.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -142,13 +142,13 @@ pub enum WriteError {
     Object {
         /// Path it would have in the file.
         object: String,
-        /// What is wrong with it.
+        /// The mistake.
         mistake: String,
     },
     /// The HDF5 library refused.
     #[error("cannot make an HDF5 file of it: {message}")]
     Hdf5 {
-        /// What the HDF5 library says.
+        /// The message of the HDF5 library.
         message: String,
     },
 }

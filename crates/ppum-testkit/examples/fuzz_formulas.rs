@@ -67,7 +67,7 @@ fn watch(time: Duration, seed: u64) -> Result<()> {
     if found > 0 { Err(format!("{found} texts found").into()) } else { Ok(()) }
 }
 
-/// How the worker ended; `None` if it had to be stopped because one text took too long.
+/// The end of the worker; `None` if it had to be stopped because one text took too long.
 fn wait(worker: &mut Child, current: &PathBuf) -> Result<Option<ExitStatus>> {
     let start = Instant::now();
     loop {

@@ -9,7 +9,7 @@ use crate::studies::plates::{
 use crate::studies::support::{solved, squares, unknowns};
 use ppum::vec2::{Rect, vec2};
 
-/// What the references of finite plates are.
+/// The references of finite plates.
 const PLATES: &str = "complex potentials, least squares on the border, two independent programs; they agree with \
     the handbook of Tada, Paris & Irwin (2000) where that has the plate";
 

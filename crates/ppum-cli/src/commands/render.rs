@@ -158,7 +158,7 @@ impl Args {
         files.into_iter().chain(formula).chain(self.replacements.files())
     }
 
-    /// What the picture calls the dataset.
+    /// The name of the dataset in the picture.
     fn file_name(&self) -> String {
         match self.file.file_name() {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
@@ -201,7 +201,7 @@ impl Args {
     }
 }
 
-/// What the colours stand for.
+/// The meaning of the colours.
 fn colours(picture: &Picture, is_finite: bool) -> String {
     let norm = &picture.normalization;
     match picture.one_value {
@@ -234,7 +234,7 @@ fn style(name: &str) -> anyhow::Result<Style> {
     Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
 }
 
-/// What messages and the picture's description call the quantity.
+/// The name of the quantity in messages and in the picture's description.
 fn name(quantity: &Quantity, given: &str) -> String {
     match quantity {
         Quantity::Formula(formula) => formula.label(),

@@ -77,7 +77,7 @@ impl Args {
 /// The tips of all steps, and the warnings.
 type Found = (Vec<Tip>, Vec<WarningRow>);
 
-/// What the solver stored.
+/// The factors that the solver stored.
 fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
@@ -93,7 +93,7 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     Ok((all, warnings))
 }
 
-/// What the field says; what the solver stored where the loads near the tips are not known, or it takes too much.
+/// The factors of the field; those that the solver stored where the loads near the tips are not known, or it takes too much.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     let problem = Problem::of_dataset(dataset);
     let (mut tips, mut warnings) = (Vec::new(), Vec::new());
@@ -135,7 +135,7 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
-/// Why factors cannot be found again: a word for the kind of the warning, and what to say.
+/// The reason why factors cannot be found again: a word for the kind of the warning, and the message.
 type Reason<'a> = (&'a str, &'a str);
 
 const UNKNOWN: Reason<'static> = (
@@ -143,7 +143,7 @@ const UNKNOWN: Reason<'static> = (
     "the stored problem cannot be read, so the loads near the tips are not known",
 );
 
-/// What the solver stored in a step, whose factors cannot be found again.
+/// The factors that the solver stored in a step, whose factors cannot be found again.
 fn known(
     file: &str,
     index: usize,

@@ -102,7 +102,7 @@ impl Args {
         Ok(Problem::parse(&text, "standard input", Path::new(""))?)
     }
 
-    /// Where the dataset is written to; nowhere if nobody says so.
+    /// The place of the dataset; none if nobody gives one.
     fn target(&self) -> Option<PathBuf> {
         let beside = || self.problem.with_extension("h5");
         self.output.clone().or_else(|| (!is_standard(&self.problem)).then(beside))
@@ -139,7 +139,7 @@ impl Args {
     }
 }
 
-/// What is told of a solution; more of it is in `ppum info`.
+/// The report of a solution; more of it is in `ppum info`.
 #[derive(Debug, Serialize)]
 struct Report {
     file: String,

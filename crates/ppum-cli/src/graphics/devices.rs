@@ -78,7 +78,7 @@ pub(super) fn message(error: &RenderError) -> String {
     format!("{error}{remedy}")
 }
 
-/// What `ppum info --gpu` tells where there is none.
+/// The answer of `ppum info --gpu` where there is none.
 pub(crate) const MISSING: &str = "\
 no graphics adapter: this machine has no Vulkan, Metal or Direct3D 12 driver that this program can use.
 Pictures are drawn on the CPU, which is exact and quick. For drawing on a graphics card install its driver;

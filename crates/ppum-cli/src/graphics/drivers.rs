@@ -1,4 +1,4 @@
-//! What graphics drivers write to standard error while they are opened.
+//! Words of graphics drivers on standard error while they are opened.
 //!
 //! Drivers of Mesa complain of what does no harm: a missing display, say, although nothing is shown on one. Such
 //! lines are dropped; others become a note, as the program's own. Where that cannot be done, and on systems
@@ -17,7 +17,7 @@ pub(crate) fn opening<T>(open: impl FnOnce() -> T) -> T {
     open()
 }
 
-/// What is told of the words of drivers: one line, or nothing.
+/// The note made of the words of drivers: one line, or nothing.
 #[cfg_attr(not(target_os = "linux"), allow(dead_code, reason = "drivers are heard on Linux only"))]
 fn note(words: &str) -> Option<String> {
     let matters = |line: &&str| !line.is_empty() && !HARMLESS.iter().any(|h| line.contains(h));

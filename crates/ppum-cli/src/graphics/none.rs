@@ -9,7 +9,7 @@ use ppum_render::view::View;
 use super::{Adapter, Device, Failure, Method};
 use crate::backend::{Drawn, Job};
 
-/// What `ppum info --gpu` tells.
+/// The answer of `ppum info --gpu`.
 pub(crate) const MISSING: &str = "\
 no graphics adapter: this program was built without graphics devices (feature `gpu`).
 Pictures are drawn on the CPU, which is exact and quick.";

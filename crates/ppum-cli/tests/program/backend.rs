@@ -1,4 +1,4 @@
-//! What draws: the CPU, or a graphics device by gathering or splatting.
+//! Drawing by the CPU, or by a graphics device that gathers or splats.
 
 use ppum_testkit::skipped::skipped;
 
@@ -28,7 +28,7 @@ impl Lab {
         Png::read(&self.path("a.png"))
     }
 
-    /// Where a command ends and what it says on standard error, with no driver to be found.
+    /// The end of a command, its output and its complaint, with no driver to be found.
     pub(crate) fn without_driver(&self, arguments: &str) -> (Option<i32>, String, String) {
         let output = self.command(arguments).envs(HIDDEN).output().unwrap();
         let [text, complaint] =

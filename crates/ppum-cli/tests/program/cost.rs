@@ -1,4 +1,4 @@
-//! What commands may cost: small files that ask for much are read within the bounds that docs/cli.md states, or
+//! The cost of commands: small files that ask for much are read within the bounds that docs/cli.md states, or
 //! refused with their reason.
 //!
 //! The system holds the bounds: a command that passes one is killed, or has no memory.
@@ -55,7 +55,7 @@ fn small_costly_files_stay_within_the_bounds() {
     assert!(failures.is_empty(), "{} failures: {failures:#?}", failures.len());
 }
 
-/// What is wrong with the commands on a file.
+/// The failures of the commands on a file.
 fn failures_of(lab: &Lab, file: &Costly) -> Vec<String> {
     let bytes = unchecked(&file.dataset).unwrap();
     assert!(bytes.len() < SMALL, "{}: {} bytes are not small", file.name, bytes.len());

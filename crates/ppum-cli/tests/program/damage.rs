@@ -21,7 +21,7 @@ fn memory(length: usize) -> usize {
     16 * length / 1024 + (512 + 64) * 1024
 }
 
-/// What came of a damage.
+/// The outcome of a damage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outcome {
     /// A clear error.
@@ -99,7 +99,7 @@ fn with_holes() -> String {
     CRACKED.replace("[[crack]]", &format!("{holes}[[crack]]"))
 }
 
-/// What comes of a damage, or the promise that is broken.
+/// The outcome of a damage, or the promise that is broken.
 fn survive(lab: &Lab, original: &Original, seed: u64) -> Result<Outcome, String> {
     let mut random = Random(seed);
     let Damaged { bytes, what, is_sealed } =
@@ -126,7 +126,7 @@ fn is_clear(complaint: &str, file: &str) -> bool {
     complaint.starts_with(&start) && (start.len() + 10..2000).contains(&length)
 }
 
-/// Why a command fails.
+/// The reason why a command fails.
 #[derive(Debug)]
 enum Failure {
     /// Its error.
@@ -135,7 +135,7 @@ enum Failure {
     Crash(String),
 }
 
-/// What `ppum info` and `ppum probe` say of a file within the bounds.
+/// The words of `ppum info` and `ppum probe` on a file within the bounds.
 fn told(lab: &Lab, file: &str, length: usize) -> Result<String, Failure> {
     let info = run(lab, &["info", file, "--json"], length)?;
     let points = ["--at", "0.25,0.125", "--at", "0,0", "--at", "0.5,0.25", "--at", "-0.3,0.7"];

@@ -1,4 +1,4 @@
-//! What goes wrong is told in one line, on standard error, with an exit status.
+//! Errors are told in one line, on standard error, with an exit status.
 
 use std::process::Stdio;
 

@@ -3,7 +3,7 @@ use serde_json::{Value, json};
 
 use crate::{CRACKED, LINEAR, Lab, keys, with_formulas};
 
-/// What is told of a formula that is the only one.
+/// The report of a formula that is the only one.
 fn told(lab: &Lab, formula: &str, more: &str) -> Value {
     let report = lab.json_with(&format!("formula {more}"), &[formula]);
     assert_eq!(keys(&report), ["formulas"]);

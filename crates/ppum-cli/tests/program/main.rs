@@ -65,7 +65,7 @@ impl Lab {
         command
     }
 
-    /// What a successful command prints; nothing may appear on standard error.
+    /// The output of a successful command; nothing may appear on standard error.
     fn run(&self, arguments: &str) -> String {
         self.run_with(arguments, &[])
     }
@@ -79,7 +79,7 @@ impl Lab {
         String::from_utf8(stdout).unwrap()
     }
 
-    /// What a successful command prints, and the warnings on standard error.
+    /// The output of a successful command, and the warnings on standard error.
     fn warned(&self, arguments: &str) -> (String, String) {
         let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
         let [text, warnings] = [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap());
@@ -95,7 +95,7 @@ impl Lab {
         serde_json::from_str(&self.run_with(&format!("{arguments} --json"), more)).unwrap()
     }
 
-    /// What a command complains about that must fail, print no result and not panic.
+    /// The complaint of a command that must fail, print no result and not panic.
     fn fail(&self, arguments: &str) -> String {
         self.fail_with(arguments, &[])
     }
@@ -114,8 +114,8 @@ impl Lab {
     /// The names of all files.
     fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.folder.path()).unwrap();
-        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<_> = names.collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -143,8 +143,8 @@ impl Png {
         let frame = reader.next_frame(&mut data).unwrap();
         reader.finish().unwrap();
         let info = reader.info();
-        let latin = info.uncompressed_latin1_text.iter();
-        let latin = latin.map(|t| (t.keyword.clone(), t.text.clone()));
+        let latin =
+            info.uncompressed_latin1_text.iter().map(|t| (t.keyword.clone(), t.text.clone()));
         let utf8 = info.utf8_text.iter().map(|t| (t.keyword.clone(), t.get_text().unwrap()));
         let rgba = match frame.color_type {
             png::ColorType::Rgba => data,

@@ -1,4 +1,4 @@
-//! What is told is what the user's plate has: its words, its digits, nothing that is not there.
+//! Messages tell of the user's plate: its words, its digits, nothing that is not there.
 
 use crate::{CRACKED, LINEAR, Lab, sound};
 

@@ -10,7 +10,7 @@ use crate::{CRACKED, Lab, Png};
 /// Sets a terminal's title, colours it, turns its text around, and moves about.
 const HOSTILE: &str = "a\u{1b}]0;b\u{7}\u{9b}31m\u{202e}c\u{7f}\u{8}\rd\u{2028}e\u{200b}f";
 
-/// What is shown of it.
+/// The text shown of it.
 const SHOWN: &str = r"a\u001b]0;b\u0007\u009b31m\u202ec\u007f\u0008\u000dd\u2028e\u200bf";
 
 /// A dataset all of whose texts for people are hostile.

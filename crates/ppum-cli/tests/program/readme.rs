@@ -7,8 +7,8 @@ const PAGE: &str = include_str!("../../../../README.md");
 /// The texts of the blocks of a language.
 fn blocks<const N: usize>(language: &str) -> [&'static str; N] {
     let start = format!("```{language}\n");
-    let texts = PAGE.split(&start).skip(1).map(|part| part.split("```").next().unwrap());
-    let texts: Vec<_> = texts.collect();
+    let texts: Vec<_> =
+        PAGE.split(&start).skip(1).map(|part| part.split("```").next().unwrap()).collect();
     texts.try_into().unwrap_or_else(|all: Vec<_>| panic!("{} blocks of {language}", all.len()))
 }
 

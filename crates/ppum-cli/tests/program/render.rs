@@ -114,8 +114,8 @@ fn overlays_are_drawn() {
         lab.run(&format!("render plate.h5 -o a.png -q uy --size 90x90 {options}"));
         Png::read(&lab.path("a.png")).rgba
     };
-    let pictures = ["", "--overlay cracks", "--overlay patches", "--overlay cracks,patches"];
-    let pictures = pictures.map(draw);
+    let pictures =
+        ["", "--overlay cracks", "--overlay patches", "--overlay cracks,patches"].map(draw);
     for (k, a) in pictures.iter().enumerate() {
         assert!(pictures[..k].iter().all(|b| a != b), "{k}");
     }

@@ -21,8 +21,16 @@ fn npy(bytes: &[u8]) -> (Vec<String>, Vec<usize>, Vec<f64>) {
     let data = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
     let header = std::str::from_utf8(&bytes[10..data]).unwrap();
     let names = header.split("('").skip(1).map(|part| part.split('\'').next().unwrap().to_owned());
-    let shape = header.split("'shape': (").nth(1).unwrap().split(')').next().unwrap();
-    let shape = shape.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+    let shape = header
+        .split("'shape': (")
+        .nth(1)
+        .unwrap()
+        .split(')')
+        .next()
+        .unwrap()
+        .split(',')
+        .filter_map(|n| n.trim().parse().ok())
+        .collect();
     let values = bytes[data..].as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b));
     (names.collect(), shape, values.collect())
 }

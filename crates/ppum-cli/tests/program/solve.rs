@@ -72,7 +72,7 @@ fn check_writes_nothing_and_reports_every_mistake() {
     assert_eq!(lab.files(), ["plate.toml", "wrong.toml"]);
 }
 
-/// What `solve` would refuse `--check` refuses, with the same words, before anything is solved.
+/// `--check` refuses all that `solve` would refuse, with the same words, before anything is solved.
 #[test]
 fn check_finds_what_solve_would_refuse() {
     let lab = Lab::new();
@@ -109,7 +109,7 @@ fn check_finds_what_solve_would_refuse() {
     assert!(!lab.files().iter().any(|file| file.ends_with(".h5")));
 }
 
-/// What is left of a plate may be too little for a piece; and the smallest of datasets can be read again.
+/// The rest of a plate may be too little for a piece; and the smallest of datasets can be read again.
 #[test]
 fn next_to_nothing_is_told_or_solved() {
     let lab = Lab::new();

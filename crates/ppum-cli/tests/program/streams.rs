@@ -16,7 +16,7 @@ impl Lab {
         child.wait_with_output().unwrap()
     }
 
-    /// What a successful command makes of its input, and what it says.
+    /// The output of a successful command on its input, and its messages.
     fn made(&self, arguments: &str, input: &[u8]) -> (Vec<u8>, String) {
         let Output { status, stdout, stderr } = self.fed(arguments, input);
         let told = String::from_utf8(stderr).unwrap();

@@ -146,7 +146,7 @@ impl Group<'_> {
     }
 }
 
-/// What is allowed of one dimension of an array.
+/// The lengths allowed of one dimension of an array.
 pub(super) enum Extent {
     Any,
     Is(u64),
@@ -197,7 +197,7 @@ pub(super) fn numbered<T>(
     Ok(items)
 }
 
-/// What a group holds, nothing if it is not there.
+/// The content of a group, nothing if it is not there.
 pub(super) fn optional<T>(
     parent: &mut Group,
     name: &str,

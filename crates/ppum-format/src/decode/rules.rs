@@ -19,7 +19,7 @@ fn content(seed: u64) -> Content {
     encode::content(&data).expect("valid")
 }
 
-/// What the reader says about a content, in a file with the right checksum.
+/// The complaint of the reader about a content, in a file with the right checksum.
 fn complaint(mut content: Content) -> Option<String> {
     let mut counted = content.clone();
     remove(&mut counted, "user");

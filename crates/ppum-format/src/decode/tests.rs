@@ -96,7 +96,7 @@ fn lists_that_do_not_divide_are_named() {
     }
 }
 
-/// What decoding or the check of the dataset says after one change.
+/// The complaint of decoding, or of the check of the dataset, after one change.
 fn complaint_after(change: impl FnOnce(&mut Content)) -> String {
     let mut damaged = content();
     change(&mut damaged);
@@ -235,7 +235,7 @@ fn plain_datasets_have_no_objects_of_version_1_1() {
     }
 }
 
-/// What a program of version 1.0 wrote is written again, but for the version.
+/// A file of version 1.0 is written again as it was, but for the version.
 #[test]
 fn plain_files_differ_from_version_1_0_in_the_version_alone() {
     let bytes = include_bytes!("../../tests/data/version-1.0.h5").to_vec();

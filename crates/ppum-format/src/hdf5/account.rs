@@ -1,4 +1,4 @@
-//! What reading a file may cost: bytes read of it, bytes that they expand to, and memory for what is in it.
+//! The cost of reading a file: bytes read of it, bytes that they expand to, and memory for what is in it.
 
 use std::cell::Cell;
 
@@ -40,7 +40,7 @@ const FREE_OBJECTS: u64 = 256;
 /// Arrays that take less than this together are always within the account: none has to be stored plain.
 pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 
-/// What a file of some length may still cost.
+/// The budget that is left of a file of some length.
 pub(super) struct Account {
     memory: Cell<u64>,
     readings: Cell<u64>,
@@ -77,7 +77,7 @@ impl Account {
         pay(&self.readings, bytes.max(READING))
     }
 
-    /// What a filter gives.
+    /// The bytes that a filter gives.
     #[must_use]
     pub(super) fn pay_expanded(&self, bytes: u64) -> bool {
         pay(&self.expanded, bytes)

@@ -52,7 +52,7 @@ struct Walk<'f> {
     texts: Texts<'f>,
 }
 
-/// What an object of a file is.
+/// The kinds of objects of a file.
 enum Form {
     Group,
     Array,

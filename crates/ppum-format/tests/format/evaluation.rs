@@ -1,4 +1,4 @@
-//! What FORMAT.md says about evaluation where several readings are possible: its examples.
+//! Evaluation as FORMAT.md describes it where several readings are possible: its examples.
 
 use std::f64::consts::PI;
 
@@ -162,7 +162,7 @@ fn points_on_a_crack_up_to_rounding() {
     }
 }
 
-/// Where the argument of a decision is nearer to the place of the decision than its rounding, both are right.
+/// If the argument of a decision is nearer to the place of the decision than its rounding, both are right.
 #[test]
 fn decisions_within_rounding() {
     let text = "if(1 + x > 1, 1, 2)";

@@ -124,7 +124,7 @@ fn files_of_h5py() -> Vec<(String, Vec<u8>)> {
     paths.iter().map(|path| (path.display().to_string(), content(path))).collect()
 }
 
-/// What compresses far better than fields do is stored plain: a reader bounds what a file expands to.
+/// Arrays that compress far better than fields do are stored plain: a reader bounds what a file expands to.
 #[test]
 fn what_is_written_can_be_read() {
     let mut data = dataset(4);
@@ -396,7 +396,7 @@ fn position(bytes: &[u8], pattern: &[u8]) -> usize {
     bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
 }
 
-/// What `examples/fuzz_files.rs` has found: an error, or a dataset.
+/// Files that `examples/fuzz_files.rs` has found: an error, or a dataset.
 #[test]
 fn files_that_were_found_are_survived() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/hostile");
@@ -427,7 +427,7 @@ mod on_disk {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
     }
 
-    /// How files are replaced is the matter of `ppum-file`.
+    /// Replacing files is the matter of `ppum-file`.
     #[test]
     fn what_is_no_file_is_neither_read_nor_replaced() {
         let folder = tempfile::tempdir().unwrap();

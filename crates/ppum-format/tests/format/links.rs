@@ -7,7 +7,7 @@ fn message(name: &str) -> Option<String> {
     ppum_format::read(&folder.join(name)).err().map(|error| error.to_string())
 }
 
-/// What stands behind a link must not be missing from a dataset that seems whole.
+/// The object behind a link must not be missing from a dataset that seems whole.
 #[test]
 fn links_are_refused() {
     for (name, parts) in [
@@ -39,7 +39,7 @@ fn attributes_of_other_types_are_seen() {
     }
 }
 
-/// What lies in `user` is never looked at, and numbers may be in any order of bytes.
+/// The content of `user` is never looked at, and numbers may be in any order of bytes.
 #[test]
 fn these_files_are_fine() {
     for name in ["user.h5", "big_endian.h5"] {

@@ -5,7 +5,7 @@ use ppum::real::Scalar as Number;
 
 use super::Case;
 
-/// What an evaluator made of a case.
+/// The result of an evaluator on a case.
 #[derive(Clone, Debug)]
 pub enum Outcome {
     /// Value, gradient, Hessian, as in [`Case::expected`]; orders may be missing at the end.
@@ -82,7 +82,7 @@ pub struct Lanes<T> {
     scratch: Scratch<T>,
 }
 
-/// Where the case's point stands: first, last, and between, in different lanes of vectors of up to 16.
+/// The places of the case's point: first, last, and between, in different lanes of vectors of up to 16.
 const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
 
 impl<T: Number> Lanes<T> {

@@ -41,7 +41,7 @@ pub struct Case {
     pub place: String,
     /// The text.
     pub formula: String,
-    /// Where it is parsed.
+    /// The scope in which it is parsed.
     pub scope: Scope,
     /// The independent variables.
     pub variables: Vec<String>,
@@ -52,7 +52,7 @@ pub struct Case {
     pub expected: Vec<Vec<f64>>,
     /// Bounds of the errors of value, gradient and Hessian.
     pub bounds: [Bound; 3],
-    /// Why single precision cannot be asked, if so.
+    /// The reason why single precision cannot be asked, if so.
     pub not_single: Option<String>,
 }
 
@@ -117,8 +117,10 @@ impl Case {
             let found = at.iter().find(|(known, _)| known == name);
             found.unwrap_or_else(|| record.fail(&format!("no input `{name}`"))).1
         };
-        let expected = ["value", "gradient", "hessian"].into_iter();
-        let expected = expected.map_while(|key| record.find(key)).map(|text| record.numbers(text));
+        let expected = ["value", "gradient", "hessian"]
+            .into_iter()
+            .map_while(|key| record.find(key))
+            .map(|text| record.numbers(text));
         Self {
             place: record.place.clone(),
             formula: unescaped(record.text("formula")),

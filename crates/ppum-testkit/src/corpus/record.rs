@@ -11,8 +11,8 @@ pub(super) struct Record {
 
 /// The records of a file.
 pub(super) fn records(path: &Path) -> Vec<Record> {
-    let text = std::fs::read_to_string(path);
-    let text = text.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let text =
+        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let name = path.file_name().map_or("?".into(), |name| name.to_string_lossy());
     let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).collect();
     let blocks = lines.split(|(_, line)| line.is_empty()).filter(|block| !block.is_empty());

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::{Backend, Case, Outcome, Tolerance};
 
-/// What came out of a run over cases.
+/// The results of a run over cases.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Name of the back end.
@@ -16,7 +16,7 @@ pub struct Report {
     pub numbers: usize,
     /// Cases left out, by reason.
     pub skipped: BTreeMap<String, usize>,
-    /// What is wrong, one message a case.
+    /// The failures, one message for each case.
     pub failures: Vec<String>,
     /// The largest difference in units of its tolerance, of those that pass, and where it is.
     pub worst: (f64, String),

@@ -1,8 +1,8 @@
-//! How far back ends may be from the corpus: the one place where that is decided.
+//! The distance that back ends may have from the corpus, decided in this place alone.
 
 use super::Bound;
 
-/// What an evaluator may do to a result: with the unit roundoff u
+/// The errors that an evaluator may make: with the unit roundoff u
 ///
 /// ```text
 /// |found − exact| ≤ u (c · arithmetic + f · functions + inputs)

@@ -18,7 +18,7 @@ use ppum::weight::WeightFunction;
 /// A dataset that is costly to somebody who reads it carelessly.
 #[derive(Clone, Debug)]
 pub struct Costly {
-    /// What there is much of, as the name of a file.
+    /// The thing there is much of, as the name of a file.
     pub name: &'static str,
     /// The dataset.
     pub dataset: Dataset,

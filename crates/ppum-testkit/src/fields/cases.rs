@@ -18,11 +18,11 @@ use crate::synthetic::{Coefficients, Recipe, crack, kinked};
 /// A dataset to be drawn.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// What it is about.
+    /// Its subject.
     pub name: String,
     /// The dataset; its first step is drawn.
     pub dataset: Dataset,
-    /// What is looked at.
+    /// The window.
     pub windows: Vec<Window>,
     /// Texts of the quantities that are drawn, the one that shows most first.
     pub quantities: Vec<String>,
@@ -104,8 +104,9 @@ pub fn functions() -> Vec<Case> {
         ("exp(-x)*cos(y^2) - r^3/(1 + x^2)", fixed),
         ("side(0)*(1 + x*y)", Frame::World),
         ("max(x, y)*tanh(3*x)", fixed),
-    ];
-    let extra = extra.map(|(text, frame)| FunctionKind::formula(text, frame)).to_vec();
+    ]
+    .map(|(text, frame)| FunctionKind::formula(text, frame))
+    .to_vec();
     let sides = Recipe { extra, degrees: vec![1, 2], ..default() };
     let cracks = Recipe { cracks: several(), zone: 0.1, ..default() };
     let mut all = vec![

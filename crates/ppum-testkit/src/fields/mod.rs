@@ -19,7 +19,7 @@ pub use truth::{BAND, Differences, Expected, Truth};
 
 use ppum::vec2::{Vec2, vec2};
 
-/// What is looked at: a window of the plane on square pixels, row 0 at the top.
+/// A window of the plane on square pixels, row 0 at the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Its middle.

@@ -1,4 +1,4 @@
-//! What is expected of a picture.
+//! The truth that a picture is held to.
 
 use ppum::crack::{LocalCrack, Side};
 use ppum::field::Field;
@@ -34,12 +34,12 @@ pub struct Expected<'t> {
     anisotropy: Option<Vec<f64>>,
 }
 
-/// How far a picture is off.
+/// The largest error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Differences {
     /// Largest difference in units of the local scale.
     pub worst: f64,
-    /// Where: index of the pixel.
+    /// Index of the pixel.
     pub at: usize,
     /// 99th percentile of the differences in these units.
     pub most: f64,
@@ -89,8 +89,11 @@ impl<'f> Truth<'f> {
             (_, Source::Partition) => 1.0,
             _ => self.values[k],
         };
-        let scale = around(&values, self.window.pixels);
-        let scale = scale.iter().enumerate().map(|(k, s)| s.max(made_of(k))).collect();
+        let scale = around(&values, self.window.pixels)
+            .iter()
+            .enumerate()
+            .map(|(k, s)| s.max(made_of(k)))
+            .collect();
         let anisotropy = (*quantity == Quantity::PrincipalDirection).then(|| {
             let [s1, s2] = [Quantity::Principal1, Quantity::Principal2].map(|q| evaluate(&q));
             s1.iter().zip(s2).map(|(a, b)| a - b).collect()
@@ -167,7 +170,7 @@ impl Expected<'_> {
     }
 }
 
-/// What kind of number: an order of NaN, −∞, finite, +∞.
+/// The kind of a number: an order of NaN, −∞, finite, +∞.
 fn class(value: f64) -> u8 {
     match value {
         v if v.is_nan() => 0,

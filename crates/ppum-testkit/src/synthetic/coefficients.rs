@@ -9,7 +9,7 @@ use ppum::jet::Jet;
 use ppum::polynomial::exponents;
 use ppum::vec2::{Rect, Vec2};
 
-/// How the coefficients are chosen.
+/// The choice of the coefficients.
 #[derive(Clone, Debug)]
 pub enum Coefficients {
     /// Uniform in \[−1, 1): patches have nothing to do with each other.
@@ -50,8 +50,8 @@ pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
     let (x, y, second) = (2.0 * d.x * scale, 2.0 * d.y * scale, 2.0 * scale);
     let q = Jet { v: q, x, y, xx: second, xy: 0.0, yy: second };
     let square = q.times::<2>(q);
-    let factor = square.scaled::<2>(6.0).minus::<2>(q.scaled::<2>(15.0));
-    let factor = factor.plus::<2>(Jet::constant(10.0));
+    let factor =
+        square.scaled::<2>(6.0).minus::<2>(q.scaled::<2>(15.0)).plus::<2>(Jet::constant(10.0));
     Jet::constant(1.0).minus::<2>(square.times::<2>(q).times::<2>(factor))
 }
 

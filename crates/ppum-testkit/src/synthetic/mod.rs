@@ -19,7 +19,7 @@ use ppum::weight::WeightFunction;
 
 pub use coefficients::{Coefficients, amplitude, cut_off, smooth};
 
-/// What a synthetic dataset looks like.
+/// The features of a synthetic dataset.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     /// Domain.
@@ -232,7 +232,7 @@ impl Recipe {
         tips(&self.cracks)
     }
 
-    /// Where a tip is.
+    /// The position of a tip.
     #[must_use]
     pub fn position(&self, tip: TipId) -> Vec2 {
         self.cracks[tip.crack as usize].end_point(tip.end)

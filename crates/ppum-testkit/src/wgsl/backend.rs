@@ -11,7 +11,7 @@ use crate::corpus::{Backend, Case, Outcome, SHADER, jets, orders, parse};
 #[derive(Debug)]
 pub struct Shader {
     module: Module,
-    /// What the function `formula_0`, `formula_1`, … is of.
+    /// The formulas of the functions `formula_0`, `formula_1`, ….
     formulas: Vec<(String, Scope, usize)>,
 }
 
@@ -49,7 +49,7 @@ impl Shader {
     }
 }
 
-/// What tells the functions of cases apart.
+/// The name that tells the functions of cases apart.
 fn key(case: &Case) -> (String, Scope, usize) {
     (case.formula.clone(), case.scope.clone(), case.expected.len())
 }

@@ -16,7 +16,7 @@ pub(super) struct Frame<'m> {
     results: Vec<Option<Value>>,
 }
 
-/// Where execution goes after a statement.
+/// The next step of execution after a statement.
 enum Flow {
     On,
     Break,
@@ -127,7 +127,7 @@ impl<'m> Frame<'m> {
         }
     }
 
-    /// What an expression has given, or gives whenever it is asked.
+    /// The value that an expression has given, or gives whenever it is asked.
     fn value(&self, handle: Handle<Expression>) -> Result<Value, String> {
         match &self.results[handle.index()] {
             Some(value) => Ok(value.clone()),
@@ -142,8 +142,9 @@ impl<'m> Frame<'m> {
             Expression::LocalVariable(variable) => Ok(Value::Pointer(*variable, vec![])),
             Expression::Load { pointer } => match at(*pointer)? {
                 Value::Pointer(variable, path) => {
-                    let whole = self.variables[variable.index()].as_ref();
-                    let whole = whole.ok_or("a variable is read before it is written")?;
+                    let whole = self.variables[variable.index()]
+                        .as_ref()
+                        .ok_or("a variable is read before it is written")?;
                     path.iter().try_fold(whole.clone(), |value, &index| value.element(index))
                 }
                 other => unknown(other),

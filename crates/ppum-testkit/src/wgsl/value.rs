@@ -6,7 +6,7 @@ use naga::{
     BinaryOperator, Handle, Literal, LocalVariable, MathFunction, ScalarKind, UnaryOperator,
 };
 
-/// What an expression gives.
+/// The value of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     F32(f32),
@@ -82,7 +82,7 @@ impl Value {
         }
     }
 
-    /// What is reached by some indices.
+    /// The part that some indices reach.
     pub(super) fn part(&mut self, path: &[usize]) -> Result<&mut Self, String> {
         let Some((&index, rest)) = path.split_first() else { return Ok(self) };
         let List(values) = self else { return unknown(("a part of", self)) };

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// What each crate may depend on, and does.
+/// The crates that each crate may depend on, and does.
 const ARROWS: [(&str, &[&str]); 9] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
@@ -38,7 +38,7 @@ const DOORS: [(&str, &str); 15] = [
     ("wgpu", "ppum-gpu"),
 ];
 
-/// What formulas and the field must do without: threads, files of any kind, messages, graphics.
+/// Things that formulas and the field do without: threads, files of any kind, messages, graphics.
 const NOT_IN_PPUM: [&str; 4] = ["rayon", "serde", "anyhow", "wgpu"];
 
 type Arrows = BTreeMap<String, BTreeSet<String>>;

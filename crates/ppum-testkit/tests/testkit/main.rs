@@ -1,4 +1,4 @@
-//! What holds for the project as a whole: its crates, its pages, and all back ends of formulas.
+//! The project as a whole: its crates, its pages, and all back ends of formulas.
 
 mod architecture;
 mod formulas;

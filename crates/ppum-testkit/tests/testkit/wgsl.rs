@@ -24,7 +24,7 @@ fn module(functions: &[String]) -> Module {
     Module::new(&source).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What one formula gives in a module of its own.
+/// The values of one formula in a module of its own.
 #[track_caller]
 fn run(text: &str, scope: &Scope, order: usize, inputs: &[f32]) -> Vec<f32> {
     let module = module(&[jets(&[text], scope, order).wgsl("f")]);
@@ -47,8 +47,8 @@ fn corpus_conforms() {
 fn wrong_derivatives_fail() {
     let mut cases = corpus::cases();
     cases.retain(tells_wrong_derivative);
-    let shader = Shader::with_edited(&cases, with_wrong_derivative);
-    let mut shader = shader.unwrap_or_else(|error| panic!("{error}"));
+    let mut shader = Shader::with_edited(&cases, with_wrong_derivative)
+        .unwrap_or_else(|error| panic!("{error}"));
     let report = corpus::check(&mut shader, &SHADER, &cases);
     assert!(cases.len() >= 700, "{} cases", cases.len());
     assert_eq!(report.failures.len(), cases.len());
@@ -80,7 +80,7 @@ const EDGES: [f32; 22] = [
     f32::NAN,
 ];
 
-/// What double precision gives, rounded, up to 4 roundoffs: cube root and common logarithm are made of
+/// The values of double precision, rounded, up to 4 roundoffs: cube root and common logarithm are made of
 /// up to four rounded operations. The smallest numbers are sparse.
 #[track_caller]
 fn agrees(found: f32, exact: f64, place: &str) {
@@ -155,8 +155,8 @@ fn tables_at_edges() {
     let values = (0..12).map(|i| f64::from(i * i % 7)).collect();
     let surface = Table::surface("s", vec![0.0, 1.0, 3.0], vec![-2.0, -1.0, 0.0, 0.5], values);
     let tables = [curve.map(Arc::new), surface.map(Arc::new)].map(|t| t.expect("a table"));
-    let scope = Scope::new(&["a", "b"]).and_then(|scope| scope.with_tables(&tables));
-    let scope = scope.expect("names");
+    let scope =
+        Scope::new(&["a", "b"]).and_then(|scope| scope.with_tables(&tables)).expect("names");
     let texts: Vec<String> = (0..4)
         .flat_map(|m| (0..4).map(move |n| format!("dtable(s, {m}, {n}, a, b)")))
         .chain((0..4).map(|m| format!("dtable(k, {m}, a)")))
@@ -402,8 +402,10 @@ fn random_condition(random: &mut Random, depth: usize) -> String {
 #[test]
 fn random_formulas_are_valid() {
     let table = Table::curve("curve_of_test", vec![-1.0, 0.0, 1.0, 2.0], vec![1.0, 0.0, 1.0, 8.0]);
-    let scope = Scope::polar().with_table(Arc::new(table.expect("a table"))).expect("a new name");
-    let scope = scope.with_sides(1);
+    let scope = Scope::polar()
+        .with_table(Arc::new(table.expect("a table")))
+        .expect("a new name")
+        .with_sides(1);
     let mut random = Random(7);
     let texts: Vec<String> = (0..400).map(|i| random_number(&mut random, 2 + i % 3)).collect();
     let compiled = (0..).zip(&texts).map(|(i, text)| (format!("f_{i}"), jets(&[text], &scope, 2)));
@@ -413,8 +415,9 @@ fn random_formulas_are_valid() {
         let (x, y) = (random.between(-2.0, 2.0), random.between(-2.0, 2.0));
         let (r, theta) = (f64::hypot(x, y), f64::atan2(y, x));
         let inputs = [x, y, r, theta, (theta / 2.0).cos(), (theta / 2.0).sin(), 1.0];
-        let found = module.call(name, &inputs.map(|input| input as f32));
-        let found = found.unwrap_or_else(|error| panic!("{text}: {error}"));
+        let found = module
+            .call(name, &inputs.map(|input| input as f32))
+            .unwrap_or_else(|error| panic!("{text}: {error}"));
         assert_eq!(found.len(), jets.n_outputs());
     }
 }

@@ -81,8 +81,8 @@ impl Args {
         }
         let measure = || renderer::Report::new(self.quick, self.frames);
         let wanted = self.what != Some(What::Solver);
-        let renderer = wanted.then(|| threads::with(self.threads, measure)).transpose()?;
-        let renderer = renderer.transpose()?;
+        let renderer =
+            wanted.then(|| threads::with(self.threads, measure)).transpose()?.transpose()?;
         if self.json {
             json(out, &Report { threads, solver, renderer })?;
         } else if let Some(renderer) = renderer {

@@ -25,14 +25,14 @@ use super::synthetic::{self, DOMAIN};
 use crate::graphics::{Card, Cards, Method};
 use crate::progress::Bar;
 
-/// What `ppum bench` tells of the renderers.
+/// The report of `ppum bench` on the renderers.
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     pixels: [u32; 2],
     frames: u32,
     /// The graphics adapter.
     adapter: Option<Adapter>,
-    /// Why there is none.
+    /// The reason why there is none.
     missing: Option<String>,
     rows: Vec<Row>,
     /// Time of gathering the most patches over that of 16, uniform covers.
@@ -50,7 +50,7 @@ struct Adapter {
 struct Row {
     cover: &'static str,
     patches: usize,
-    /// What the paper gives, milliseconds on a GeForce GTX 470.
+    /// The paper's time, milliseconds on a GeForce GTX 470.
     paper_ms: Option<f64>,
     methods: Vec<Timed>,
     splat_over_gather: Option<f64>,
@@ -127,8 +127,8 @@ impl Report {
         let datasets =
             covers.iter().map(|&(_, [level, tip_level])| synthetic::dataset(level, tip_level));
         let datasets = datasets.collect::<anyhow::Result<Vec<_>>>()?;
-        let fields = datasets.iter().map(|dataset| Field::new(dataset, 0));
-        let fields = fields.collect::<Result<Vec<_>, _>>()?;
+        let fields =
+            datasets.iter().map(|dataset| Field::new(dataset, 0)).collect::<Result<Vec<_>, _>>()?;
         let look = Style { range: RANGE, ..Style::default() };
         let named = covers.iter().map(|&(cover, _)| cover).zip(&fields);
         let subjects =
@@ -254,7 +254,7 @@ impl Summary {
     }
 }
 
-/// What ratios are made of: processor time where there is one, else wall time.
+/// The time that ratios are made of: processor time where there is one, else wall time.
 fn cost(methods: &[Timed], way: Way) -> Option<f64> {
     let timed = methods.iter().find(|timed| timed.method == way.name())?;
     Some(timed.core_ms.unwrap_or(timed.wall_ms).median)

@@ -158,7 +158,7 @@ impl Maker {
         }
     }
 
-    /// What the tip functions leave.
+    /// The field without the tip functions.
     fn add_rest(&mut self, patch: usize, tip: Option<usize>) {
         let (center, support) = (self.partition.center[patch], self.partition.support(patch));
         if TIPS.iter().any(|&tip| support.contains(tip)) {

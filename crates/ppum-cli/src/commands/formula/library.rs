@@ -69,8 +69,11 @@ fn write(out: &mut dyn Write) -> io::Result<()> {
         for row in rows {
             let parameters =
                 row.parameters.iter().map(|p| format!("{} = {}", p.name, trimmed(p.value.0)));
-            let about = [row.about.to_owned()].into_iter().filter(|text| !text.is_empty());
-            let about: Vec<_> = about.chain(parameters).collect();
+            let about: Vec<_> = [row.about.to_owned()]
+                .into_iter()
+                .filter(|text| !text.is_empty())
+                .chain(parameters)
+                .collect();
             let about = (!about.is_empty()).then(|| about.join("; "));
             let texts = row.formulas.iter().map(|text| (*text).to_owned());
             for (line, text) in about.into_iter().chain(texts).enumerate() {

@@ -1,4 +1,4 @@
-//! Where a formula is evaluated.
+//! The point at which a formula is evaluated.
 
 use anyhow::{bail, ensure};
 use ppum::crack::TipPoint;

@@ -1,4 +1,4 @@
-//! What `ppum formula` tells, in the shape of its JSON.
+//! The report of `ppum formula`, in the shape of its JSON.
 
 use ppum::formula::{DerivativeError, Formula, FormulaJets, Kink, wgsl_prelude};
 use ppum::weight::WeightFunction;
@@ -12,7 +12,7 @@ use crate::number::Number;
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     pub(super) formulas: Vec<Row>,
-    /// What the functions of WGSL call.
+    /// The functions that those of WGSL call.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) wgsl_prelude: Option<&'static str>,
 }

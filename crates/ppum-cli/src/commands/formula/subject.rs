@@ -15,7 +15,7 @@ use ppum::text::hint;
 use crate::dataset::{field, open};
 use crate::given::Given;
 
-/// What a formula is a formula of.
+/// The kinds of formulas.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Of {
     /// x, y, r, theta.
@@ -66,7 +66,7 @@ impl Of {
 /// A formula to be shown.
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// What it is a formula of.
+    /// The kind of formula.
     pub(super) of: Of,
     /// Its name, if it has one.
     pub(super) name: Option<String>,
@@ -95,7 +95,7 @@ impl Subject {
     }
 }
 
-/// What was asked for.
+/// The question.
 pub(super) struct Question<'a> {
     pub(super) given: Given,
     pub(super) parameters: &'a [(String, f64)],
@@ -122,7 +122,7 @@ impl Question<'_> {
         }
     }
 
-    /// What a formula is of if nobody says so: a name of the library is what it is, other formulas
+    /// The kind of a formula if nobody says so: a name of the library is what it is, other formulas
     /// are of the first kind that has their names.
     fn kind(&self) -> Of {
         let name = self.given.name().unwrap_or_default();
@@ -149,8 +149,10 @@ impl Question<'_> {
     ) -> anyhow::Result<Vec<Subject>> {
         let Some(entry) = self.given.name().and_then(known) else {
             let scope = self.scope(of, self.parameters)?;
-            let formula = self.given.explain(Formula::parse(&self.given.text, &scope));
-            let formula = formula.map_err(|error| self.or_entry(error))?;
+            let formula = self
+                .given
+                .explain(Formula::parse(&self.given.text, &scope))
+                .map_err(|error| self.or_entry(error))?;
             return Ok(vec![Subject::new(of, None, formula, self.parameters)]);
         };
         let parameters = self.parameters_of(entry)?;
@@ -235,7 +237,7 @@ impl Question<'_> {
     }
 }
 
-/// What a weight may name.
+/// The names that a weight may use.
 fn weight_scope(parameters: &[(String, f64)], tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
     let scope = Scope::new(&["t"])?.with_tables(tables)?;
     let mut parameters = parameters.iter();

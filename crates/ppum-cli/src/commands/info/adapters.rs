@@ -1,4 +1,4 @@
-//! What `ppum info --gpu` tells.
+//! The report of `ppum info --gpu`.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! What supports exert on the plate, for people and as JSON.
+//! Reactions of supports, for people and as JSON.
 
 use ppum::dataset::{Dataset, Reaction, Step};
 use ppum::text::{Places, beside, short};
@@ -56,16 +56,23 @@ impl ReactionRow {
     /// a force and a moment of these sizes.
     pub(super) fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
         let place = format!("{} ({})", self.on, self.held.join(", "));
-        let force = self.force.iter().map(|f| short(beside(f.0, force_size)));
-        let force = force.collect::<Vec<_>>().join(", ");
+        let force = self
+            .force
+            .iter()
+            .map(|f| short(beside(f.0, force_size)))
+            .collect::<Vec<_>>()
+            .join(", ");
         let turning = |moment: Number, about: [f64; 2]| {
             let moment = short(beside(moment.0, moment_size));
             format!("{moment} about {}", places.show(about.into()))
         };
         match (self.moment, self.about) {
             (Some(moment), Some(about)) => {
-                let own = self.moment_about_center.zip(self.center).filter(|(_, c)| *c != about);
-                let own = own.map(|(m, c)| turning(m, c).replacen("about", "about its middle", 1));
+                let own = self
+                    .moment_about_center
+                    .zip(self.center)
+                    .filter(|(_, c)| *c != about)
+                    .map(|(m, c)| turning(m, c).replacen("about", "about its middle", 1));
                 let own = own.map_or(String::new(), |own| format!(", {own}"));
                 format!("{place}: force ({force}), moment {}{own}", turning(moment, about))
             }

@@ -1,4 +1,4 @@
-//! What `ppum info` tells, in the shape of its JSON.
+//! The report of `ppum info`, in the shape of its JSON.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -31,7 +31,7 @@ pub(super) struct Report {
     pub(super) quantities: Vec<QuantityRow>,
     pub(super) tables: Vec<TableRow>,
     pub(super) steps: Vec<StepReport>,
-    /// How places are shown to people.
+    /// The writer of places for people.
     #[serde(skip)]
     pub(super) places: Places,
 }
@@ -248,7 +248,7 @@ fn equation(equation: &Equation) -> EquationRow {
     }
 }
 
-/// How often each value occurs, in rising order.
+/// The number of times each value occurs, in rising order.
 fn tally(values: impl Iterator<Item = u8>) -> BTreeMap<u8, usize> {
     let mut counts = BTreeMap::new();
     values.for_each(|value| *counts.entry(value).or_default() += 1);

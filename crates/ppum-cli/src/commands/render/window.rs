@@ -31,7 +31,7 @@ pub(super) struct Window {
     zoom: Option<f64>,
 }
 
-/// How much room there is.
+/// The room there is.
 pub(super) struct Frame {
     pub(super) pixels: [u32; 2],
     /// A picture of the whole domain takes no more pixels than that has.

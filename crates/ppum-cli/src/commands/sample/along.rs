@@ -20,19 +20,25 @@ pub(super) fn table(
 ) -> anyhow::Result<Table> {
     let cracks = &field.step.cracks;
     ensure!(!cracks.is_empty(), "--crack {index}: the dataset has no cracks");
-    let stations = u32::try_from(index).ok().and_then(|k| Stations::along(cracks, k, count));
-    let stations = stations.with_context(|| {
-        let number = counted(cracks.len(), "crack", "cracks");
-        format!("--crack {index}: the dataset has {number}, numbered from 0")
-    })?;
+    let stations = u32::try_from(index)
+        .ok()
+        .and_then(|k| Stations::along(cracks, k, count))
+        .with_context(|| {
+            let number = counted(cracks.len(), "crack", "cracks");
+            format!("--crack {index}: the dataset has {number}, numbered from 0")
+        })?;
     let components = (0..).map(Quantity::Component).take(field.data.components.len());
     let asked = quantities.iter().map(|(_, quantity)| quantity.clone());
     let wanted: Vec<_> = asked.chain(components).collect();
     let values = evaluate(field, &wanted, &stations.places())?;
     let (above, below) = values.split_at(values.len() / 2);
     let sides = above.chunks(wanted.len()).zip(below.chunks(wanted.len()));
-    let rows = stations.all().iter().zip(sides);
-    let rows = rows.flat_map(|(station, sides)| row(station, sides, quantities.len())).collect();
+    let rows = stations
+        .all()
+        .iter()
+        .zip(sides)
+        .flat_map(|(station, sides)| row(station, sides, quantities.len()))
+        .collect();
     Ok(Table::new(columns(field, quantities), rows))
 }
 

@@ -132,7 +132,7 @@ pub(super) struct Extensible<'f> {
     width: u64,
 }
 
-/// Where an entry of a data block is.
+/// The place of an entry of a data block.
 struct Place {
     /// Data blocks of a growing size come in groups; the data block in its group; the entry in that.
     group: u64,

@@ -6,7 +6,7 @@ use super::storage::step;
 use super::trees::{self, CHUNKS};
 use super::types::Space;
 
-/// How an array is divided.
+/// The division of an array.
 pub(super) struct Grid<'a> {
     pub(super) space: &'a Space,
     /// Elements of a chunk in each direction.
@@ -16,7 +16,7 @@ pub(super) struct Grid<'a> {
     pub(super) is_filtered: bool,
 }
 
-/// Where a chunk stands.
+/// The place of a chunk.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stored {
     pub(super) address: u64,

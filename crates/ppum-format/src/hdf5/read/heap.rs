@@ -150,8 +150,10 @@ impl<'f> Heap<'f> {
         let address = self.source.offset_size();
         let before = 5 + address + self.offset_width;
         self.source.at(block, 5)?.signature(b"FHIB")?;
-        let place = index.checked_mul(address as u64).and_then(|n| n.checked_add(before as u64));
-        let place = place.and_then(|n| n.checked_add(block));
+        let place = index
+            .checked_mul(address as u64)
+            .and_then(|n| n.checked_add(before as u64))
+            .and_then(|n| n.checked_add(block));
         let Some(place) = place else { return fail("a heap is too large") };
         self.source.at(place, address as u64)?.address()
     }

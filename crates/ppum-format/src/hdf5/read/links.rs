@@ -5,7 +5,7 @@ use super::heap::dense;
 use super::source::{Cursor, Parsed, Source, fail};
 use super::trees::{GROUPS, entries};
 
-/// Where a link leads: to an object of this file, or nowhere that is read.
+/// The end of a link: an object of this file, or nothing that is read.
 pub(super) enum Target {
     Object(u64),
     Elsewhere,
@@ -69,8 +69,12 @@ fn old(mut table: Cursor, found: &mut Vec<(String, Target)>) -> Parsed<()> {
             let start = rest.size(source.offset_size())?;
             let (address, kind) = (rest.offset()?, rest.u32()?);
             rest.skip(20)?;
-            let raw = names.get(start..).unwrap_or_default();
-            let raw = raw.split(|&byte| byte == 0).next().unwrap_or_default();
+            let raw = names
+                .get(start..)
+                .unwrap_or_default()
+                .split(|&byte| byte == 0)
+                .next()
+                .unwrap_or_default();
             let target = match address {
                 Some(address) if kind != SOFT => Target::Object(address),
                 _ => Target::Elsewhere,

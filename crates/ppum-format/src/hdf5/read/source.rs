@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::super::account::Account;
 use super::super::lookup3::lookup3;
 
-/// Why a part of a file cannot be read.
+/// The reason why a part of a file cannot be read.
 #[derive(Debug)]
 pub(super) struct Mistake(pub(super) Cow<'static, str>);
 

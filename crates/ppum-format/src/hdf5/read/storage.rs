@@ -1,4 +1,4 @@
-//! Where the values of an array stand: in its header, in one piece, or in chunks.
+//! Places of the values of an array: in its header, in one piece, or in chunks.
 
 use std::borrow::Cow;
 
@@ -186,8 +186,8 @@ impl<'a> Part<'a> {
     /// None for a chunk outside the array.
     fn new(grid: &'a Grid<'a>, start: &'a [u64]) -> Option<Self> {
         let shape = grid.space.shape.iter().zip(grid.chunk).zip(start);
-        let extent = shape.map(|((n, chunk), start)| n.saturating_sub(*start).min(*chunk));
-        let extent: Vec<u64> = extent.collect();
+        let extent: Vec<u64> =
+            shape.map(|((n, chunk), start)| n.saturating_sub(*start).min(*chunk)).collect();
         (!extent.contains(&0)).then_some(Self { grid, start, extent })
     }
 

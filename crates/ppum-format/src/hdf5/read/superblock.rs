@@ -5,7 +5,7 @@ use super::source::{Parsed, Source, fail};
 
 const SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
-/// Where the signature can stand: bytes of the user's before it are 0, 512, 1024 or 2048.
+/// Places of the signature: bytes of the user's before it are 0, 512, 1024 or 2048.
 const PLACES: [usize; 4] = [0, 512, 1024, 2048];
 
 /// The file without the user's bytes, and the address of the root group.

@@ -16,7 +16,7 @@ use crate::damage::{seal, sealed_parts};
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
 const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
 
-/// What a structure in a file of these bytes is refused for.
+/// The reason why a structure in a file of these bytes is refused.
 fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()>) -> String {
     let account = Account::for_file(bytes.len() as u64);
     let Ok(source) = Source::new(bytes, (8, 8), &account) else { panic!("the widths are known") };

@@ -2,7 +2,7 @@
 
 use super::source::{Cursor, Parsed, Source, fail};
 
-/// What the first version of B-trees is used for: the links of groups, and chunks.
+/// The uses of B-trees of the first version: the links of groups, and chunks.
 pub(super) const GROUPS: u8 = 0;
 pub(super) const CHUNKS: u8 = 1;
 

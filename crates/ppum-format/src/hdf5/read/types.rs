@@ -31,7 +31,7 @@ pub(super) enum Kind {
     Other(String),
 }
 
-/// What follows the characters of a text of fixed length.
+/// The padding of a text of fixed length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Padding {
     /// A NUL, and then anything.
@@ -162,7 +162,7 @@ impl Padding {
     }
 }
 
-/// Where the text ends if what it is padded with is left out.
+/// The end of the text without its padding.
 pub(super) fn end_without(raw: &[u8], pad: u8) -> usize {
     raw.iter().rposition(|&byte| byte != pad).map_or(0, |last| last + 1)
 }
@@ -171,7 +171,7 @@ pub(super) fn end_without(raw: &[u8], pad: u8) -> usize {
 #[derive(Clone, Debug)]
 pub(super) struct Space {
     pub(super) shape: Vec<u64>,
-    /// What it can grow to; [`u64::MAX`] without bound.
+    /// The length that it can grow to; [`u64::MAX`] without bound.
     pub(super) most: Vec<u64>,
 }
 

@@ -20,7 +20,7 @@ pub const STACK: usize = 1 << 20;
 /// A kept text.
 #[derive(Clone, Debug)]
 pub struct Seed {
-    /// Where it comes from.
+    /// Its origin.
     pub name: String,
     /// The text.
     pub text: String,

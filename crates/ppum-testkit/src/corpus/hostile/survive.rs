@@ -17,7 +17,7 @@ pub struct Arena {
     scopes: Vec<Scope>,
 }
 
-/// What became of a text.
+/// The fate of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// An error with a place.
@@ -195,7 +195,7 @@ fn in_a_shader(jets: &FormulaJets, points: &[Vec<f64>]) -> Result<(), String> {
     Ok(())
 }
 
-/// What is asked of formulas besides their values: any answer will do.
+/// Questions to formulas besides their values: any answer will do.
 fn analyse(formula: &Formula) {
     let _ = (formula.constant(), formula.singular_at_origin());
     let kinks = formula.kinks();
