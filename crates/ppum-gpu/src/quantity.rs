@@ -33,7 +33,7 @@ pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<St
         Quantity::Overlap => returning("", "at.overlap"),
         Quantity::PartitionFunction(_) => returning("", "at.part"),
         Quantity::Error => return Err(no_error()),
-        Quantity::Formula(formula) => of_formula(formula, field, &field.vocabulary())?,
+        Quantity::Formula(formula) => of_formula(formula, field, &Vocabulary::of(field))?,
         Quantity::Derivative(c, Axis::X) => {
             returning(&apart(components), &lane(usize::from(*c), "x"))
         }

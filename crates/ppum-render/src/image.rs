@@ -5,6 +5,7 @@
 //! and crossing lines are no darker than its segments. Positions are continuous pixel coordinates:
 //! the origin is the upper left corner, the centre of pixel (i, j) is (i + 1/2, j + 1/2).
 
+use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 
 /// Red, green, blue (sRGB) and opacity, each 0 to 255; opacity is not multiplied in.
@@ -130,7 +131,8 @@ impl Mask {
                 (left, right) = (left.max(middle - half), right.min(middle + half));
             }
             for column in self.columns(left, right) {
-                let distance = distance_to_segment(vec2(column as f64 + 0.5, y) - a, along);
+                let distance =
+                    segment::distance([Vec2::ZERO, along], vec2(column as f64 + 0.5, y) - a);
                 self.cover(column, row, (reach - distance) as f32);
             }
         }
@@ -210,13 +212,6 @@ fn within(from: f64, to: f64, count: u32) -> std::ops::Range<i64> {
 /// Length of the part of an interval in pixel `index`.
 fn overlap(from: f64, to: f64, index: i64) -> f64 {
     (to.min(index as f64 + 1.0) - from.max(index as f64)).max(0.0)
-}
-
-/// Distance of `p` to the segment from the origin to `end`.
-fn distance_to_segment(p: Vec2, end: Vec2) -> f64 {
-    let square = end.dot(end);
-    let t = if square > 0.0 { (p.dot(end) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (p - end * t).length()
 }
 
 #[cfg(test)]

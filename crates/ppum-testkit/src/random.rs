@@ -26,6 +26,16 @@ impl Random {
         (self.bits() % n as u64) as usize
     }
 
+    /// One of some values; not none.
+    pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())]
+    }
+
+    /// Uniform in \[0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.between(0.0, 1.0)
+    }
+
     /// Uniform in a box.
     pub fn point(&mut self, b: &Rect) -> Vec2 {
         vec2(self.between(b.min.x, b.max.x), self.between(b.min.y, b.max.y))

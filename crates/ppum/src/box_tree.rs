@@ -1,34 +1,21 @@
 //! A static search tree over axis-parallel boxes: which of them contain a point or meet a box?
 //!
-//! The boxes are sorted along the Morton curve through their centres and cut into short runs; the
-//! runs are the leaves of a complete binary tree of bounding boxes, stored as a heap (node `n` has
-//! children `2n` and `2n + 1`). This serves patches of any cover, graded or not, without looking at
-//! the quadtree that made it.
+//! A packed R-tree over the boxes in the order of a Hilbert curve, of the crate `static_aabb2d_index`. It
+//! serves patches of any cover, graded or not, without looking at the quadtree that made it. The tree finds
+//! closed boxes that touch; which borders count is decided here.
 
-use crate::morton::morton;
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
 use crate::vec2::{Rect, Vec2};
 
-/// Boxes a leaf. Four `Rect`s are two cache lines; longer runs test more boxes in vain.
-const RUN: usize = 4;
-
-/// The bounding box of nothing: neutral for `union`, meets nothing.
-const NOTHING: Rect = Rect::new(
-    Vec2 { x: f64::INFINITY, y: f64::INFINITY },
-    Vec2 { x: f64::NEG_INFINITY, y: f64::NEG_INFINITY },
-);
-
-/// Boxes in Morton order below a heap of bounding boxes.
+/// Boxes that are found by their places.
 ///
 /// Built in O(N log N); a query costs O(log N + k) for k boxes found when the boxes overlap a bounded
 /// number of others, as the patches of a cover do.
 #[derive(Clone, Debug)]
 pub struct BoxTree {
-    /// The boxes in Morton order of their centres.
     boxes: Vec<Rect>,
-    /// Index of each of them in the caller's slice.
-    index: Vec<u32>,
-    /// Bounding boxes; the root is `nodes[1]`, the leaves are the last half.
-    nodes: Vec<Rect>,
+    tree: StaticAABB2DIndex<f64>,
 }
 
 impl BoxTree {
@@ -38,91 +25,54 @@ impl BoxTree {
     /// If there are more than `u32::MAX` boxes.
     #[must_use]
     pub fn new(boxes: &[Rect]) -> Self {
-        let index = morton_order(boxes);
-        let boxes: Vec<_> = index.iter().map(|&i| boxes[i as usize]).collect();
-        let n_leaves = boxes.len().div_ceil(RUN).next_power_of_two();
-        let mut nodes = vec![NOTHING; 2 * n_leaves];
-        for (leaf, run) in boxes.chunks(RUN).enumerate() {
-            nodes[n_leaves + leaf] = run.iter().fold(NOTHING, |bound, b| bound.union(b));
+        assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
+        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
+        for Rect { min, max } in boxes {
+            builder.add(min.x, min.y, max.x, max.y);
         }
-        for n in (1..n_leaves).rev() {
-            nodes[n] = nodes[2 * n].union(&nodes[2 * n + 1]);
-        }
-        Self { boxes, index, nodes }
+        let tree = builder.build().expect("as many boxes as were announced");
+        Self { boxes: boxes.to_vec(), tree }
     }
 
     /// Appends, in ascending order, the indices of the boxes that contain `p`; a box is taken closed
     /// on the left and below, open on the right and above.
     pub fn query_point(&self, p: Vec2, out: &mut Vec<u32>) {
         let holds = |b: &Rect| p.x >= b.min.x && p.x < b.max.x && p.y >= b.min.y && p.y < b.max.y;
-        self.collect(holds, out);
+        self.collect(&Rect::new(p, p), holds, out);
     }
 
     /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps) `query`:
     /// touching along a border is not enough.
     pub fn query_box(&self, query: &Rect, out: &mut Vec<u32>) {
-        self.collect(|b| b.overlaps(query), out);
+        self.collect(query, |b| b.overlaps(query), out);
     }
 
-    /// Appends the boxes that pass a `test` which every larger box passes as well.
-    fn collect(&self, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
+    /// Appends those of the boxes touching `query` that pass a `test`.
+    fn collect(&self, query: &Rect, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
         let start = out.len();
-        let n_leaves = self.nodes.len() / 2;
-        // Each level leaves at most one node waiting, and there are fewer than 32 levels.
-        let mut waiting = [0; 32];
-        let mut n_waiting = 1;
-        waiting[0] = 1;
-        while n_waiting > 0 {
-            n_waiting -= 1;
-            let n = waiting[n_waiting];
-            if !test(&self.nodes[n]) {
-                continue;
+        let Rect { min, max } = *query;
+        self.tree.visit_query(min.x, min.y, max.x, max.y, &mut |index: usize| {
+            if test(&self.boxes[index]) {
+                out.push(index as u32);
             }
-            if n < n_leaves {
-                waiting[n_waiting] = 2 * n + 1;
-                waiting[n_waiting + 1] = 2 * n;
-                n_waiting += 2;
-            } else {
-                let first = RUN * (n - n_leaves);
-                let run = first..self.boxes.len().min(first + RUN);
-                out.extend(run.filter(|&k| test(&self.boxes[k])).map(|k| self.index[k]));
-            }
-        }
+        });
         out[start..].sort_unstable();
     }
-}
-
-/// The indices of the boxes, sorted by the Morton codes of their centres.
-fn morton_order(boxes: &[Rect]) -> Vec<u32> {
-    assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
-    let all = boxes.iter().fold(NOTHING, |bound, b| bound.union(b));
-    let size = all.size();
-    let code = |b: &Rect| {
-        let offset = b.center() - all.min;
-        morton(quantize(offset.x / size.x), quantize(offset.y / size.y))
-    };
-    let mut order: Vec<_> = boxes.iter().map(code).zip(0u32..).collect();
-    order.sort_unstable();
-    order.into_iter().map(|(_, i)| i).collect()
-}
-
-/// A fraction in \[0, 1\] as a 32 bit integer; NaN (no extent at all) becomes 0.
-fn quantize(fraction: f64) -> u32 {
-    (fraction * f64::from(u32::MAX)) as u32
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
     use crate::vec2::vec2;
+    use ppum_testkit::random::Random;
 
     /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
     fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {
         let lattice = |v: Vec2| vec2((v.x * 8.0).floor() / 8.0, (v.y * 8.0).floor() / 8.0);
         (0..n)
             .map(|k| {
-                let (p, size) = (random.point(), random.point());
+                let (p, size) =
+                    (vec2(random.unit(), random.unit()), vec2(random.unit(), random.unit()));
                 match k % 4 {
                     0 => Rect::new(lattice(p), lattice(p) + vec2(0.125, 0.25)),
                     1 => Rect::around(p, size * 0.3),
@@ -149,15 +99,35 @@ mod tests {
             let tree = BoxTree::new(&boxes);
             for _ in 0..200 {
                 let mut found = Vec::new();
-                let p = random.point();
+                let p = vec2(random.unit(), random.unit());
                 tree.query_point(p, &mut found);
                 assert_eq!(found, containing(&boxes, p));
-                let q = Rect::around(p, random.point() * 0.1);
+                let q = Rect::around(p, vec2(random.unit(), random.unit()) * 0.1);
                 found.clear();
                 tree.query_box(&q, &mut found);
                 assert_eq!(found, overlapping(&boxes, &q));
             }
         }
+    }
+
+    /// Whatever the unit, and boxes that shrink towards a point until they are a 10⁻¹⁵th of all.
+    #[test]
+    fn sizes_do_not_matter() {
+        for unit in [1e-280, 1.0, 1e280] {
+            let at = |k: i32| 0.5f64.powi(k) * unit;
+            let shrinking = (0..50).map(|k| Rect::new(vec2(0.0, 0.0), vec2(at(k), at(k))));
+            let boxes: Vec<_> = shrinking.collect();
+            let tree = BoxTree::new(&boxes);
+            for k in 0..50 {
+                let (p, mut found) = (vec2(at(k) * 0.75, 0.0), Vec::new());
+                tree.query_point(p, &mut found);
+                assert_eq!(found, containing(&boxes, p));
+                assert_eq!(found.len() as i32, k + 1);
+            }
+        }
+        let mut found = Vec::new();
+        BoxTree::new(&[]).query_point(vec2(0.0, 0.0), &mut found);
+        assert_eq!(found, []);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a [`Dataset`] must hold before anything may evaluate it.
+//! The rules a [`Dataset`] must obey before anything may evaluate it.
 //!
 //! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
@@ -24,9 +24,9 @@ use crate::vec2::{Rect, Vec2};
 #[error("{place}: {problem}")]
 #[non_exhaustive]
 pub struct CheckError {
-    /// Where, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
+    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
     pub place: String,
-    /// What is wrong with it and what was expected.
+    /// The mistake, and what was expected.
     pub problem: String,
 }
 
@@ -164,7 +164,7 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     check_names("attributes", step.attributes.iter().map(|a| &a.name))?;
     for attribute in &step.attributes {
         let place = format!("attributes `{}`", attribute.name);
-        check_length(&place, attribute.values.len(), step.partition.len(), "one a patch")?;
+        check_length(&place, attribute.values.len(), step.partition.len(), "one per patch")?;
     }
     check_intensities(step)?;
     for (k, warning) in step.warnings.iter().enumerate() {
@@ -194,7 +194,7 @@ fn check_partition(partition: &Partition) -> Checked {
         ("level", partition.level.len()),
         ("point", partition.point.len()),
     ] {
-        check_length(name, length, n, "one a patch")?;
+        check_length(name, length, n, "one per patch")?;
     }
     check_points("center", &partition.center)?;
     check_extents("half", &partition.half)?;
@@ -229,7 +229,7 @@ fn check_partition(partition: &Partition) -> Checked {
     )
 }
 
-/// How far a support reaches beyond its cell, in units of the cell's size, where that is a strip too thin.
+/// Farthest a support reaches beyond its cell, in units of the cell's size, where that is a strip too thin.
 /// Rounding is no strip.
 fn thin_strip(support: &Rect, cell: &Rect) -> Option<f64> {
     let along = |inner: [f64; 2], outer: [f64; 2]| {
@@ -297,7 +297,7 @@ fn check_field(field: &FieldData, step: &Step, equation: &Equation) -> Checked {
         check_length("components", components, equation.components(), "those of the equation")?;
     }
     if !field.exact.is_empty() {
-        check_length("exact", field.exact.len(), components, "one a component, or none")?;
+        check_length("exact", field.exact.len(), components, "one per component, or none")?;
     }
     check_rows(field, step.partition.len())?;
     check_coefficients(field)?;
@@ -319,8 +319,8 @@ fn check_rows(field: &FieldData, patches: usize) -> Checked {
     require(rows[patches] as usize == blocks, &format!("patch_blocks[{patches}]"), || {
         format!("is {}, but there are {blocks} blocks", rows[patches])
     })?;
-    check_length("block_degree", field.block_degree.len(), blocks, "one a block")?;
-    check_length("block_offset", field.block_offset.len(), blocks, "one a block")
+    check_length("block_degree", field.block_degree.len(), blocks, "one per block")?;
+    check_length("block_offset", field.block_offset.len(), blocks, "one per block")
 }
 
 fn check_coefficients(field: &FieldData) -> Checked {
@@ -410,7 +410,7 @@ fn check_warning(warning: &Warning) -> Checked {
 
 fn check_reaction(reaction: &Reaction, components: usize, equation: &Equation) -> Checked {
     require(!reaction.on.trim().is_empty(), "on", || "is empty".into())?;
-    let of = "one a component of the first field";
+    let of = "one per component of the first field";
     check_length("held", reaction.held.len(), components, of)?;
     check_length("force", reaction.force.len(), components, of)?;
     check_numbers("force", &reaction.force)?;
@@ -448,54 +448,29 @@ mod tests {
     }
 
     fn field() -> FieldData {
-        FieldData {
-            name: "displacement".into(),
-            unit: String::new(),
-            components: vec!["ux".into(), "uy".into()],
-            patch_blocks: vec![0, 2],
-            block_function: vec![0, 1],
-            block_degree: vec![1, 0],
-            block_offset: vec![0, 3],
-            coefficients: vec![vec![0.0; 4], vec![1.0; 4]],
-            exact: vec![],
-        }
+        let mut field = FieldData::new("displacement", &["ux", "uy"]);
+        field.push_patch(&[(0, 1), (1, 0)]);
+        field.coefficients[1].fill(1.0);
+        field
     }
 
     pub(super) fn dataset() -> Dataset {
         let tip = TipId { crack: 0, end: End::Last };
         let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
-        let step = Step {
-            load: 1.0,
-            partition: partition(),
-            cracks: vec![Crack {
-                points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
-                ends: [CrackEnd::Mouth, CrackEnd::Tip],
-            }],
-            functions: vec![
-                Function { name: "one".into(), kind: FunctionKind::One },
-                Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } },
-            ],
-            fields: vec![field()],
-            attributes: vec![Attribute { name: "order".into(), values: vec![f64::NAN] }],
-            intensities: vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }],
-            history: vec![],
-            warnings: vec![],
-            reactions: vec![],
+        let crack = Crack {
+            points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
         };
-        Dataset {
-            title: "one patch".into(),
-            program: "test".into(),
-            problem: None,
-            domain: Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)).into(),
-            equation: Equation::elasticity(Material {
-                young: 1.0,
-                poisson: 0.3,
-                state: StressState::PlaneStrain,
-            }),
-            quantities: Vec::new(),
-            tables: Vec::new(),
-            steps: vec![step],
-        }
+        let mut step = Step::new(partition())
+            .with_crack(crack)
+            .with_function("one", FunctionKind::One)
+            .with_function("side", FunctionKind::Side { crack: 0 })
+            .with_field(field());
+        step.attributes = vec![Attribute { name: "order".into(), values: vec![f64::NAN] }];
+        step.intensities = vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }];
+        let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+        let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+        Dataset::new(domain, Equation::elasticity(material)).with_step(step)
     }
 
     /// The place of the error after one change of a good dataset.

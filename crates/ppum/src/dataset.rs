@@ -17,8 +17,7 @@ use crate::crack::{Crack, TipId};
 use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::formula::Table;
-use crate::function::Function;
-pub use crate::quantity::NamedQuantity;
+use crate::function::{Function, FunctionKind};
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 
@@ -33,7 +32,7 @@ pub struct Dataset {
     pub problem: Option<String>,
     /// The box minus holes Ω. Outside it nothing is defined.
     pub domain: Domain,
-    /// What was solved; decides which quantities have a meaning.
+    /// The equation that was solved; decides which quantities have a meaning.
     pub equation: Equation,
     /// Quantities the dataset names, beside the built-in ones.
     pub quantities: Vec<NamedQuantity>,
@@ -41,6 +40,30 @@ pub struct Dataset {
     pub tables: Vec<Arc<Table>>,
     /// Quasi-static series, at least one.
     pub steps: Vec<Step>,
+}
+
+impl Dataset {
+    /// A dataset without steps, titles and names.
+    #[must_use]
+    pub fn new(domain: impl Into<Domain>, equation: Equation) -> Self {
+        Self {
+            title: String::new(),
+            program: String::new(),
+            problem: None,
+            domain: domain.into(),
+            equation,
+            quantities: Vec::new(),
+            tables: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+
+    /// The dataset with one more step at its end.
+    #[must_use]
+    pub fn with_step(mut self, step: Step) -> Self {
+        self.steps.push(step);
+        self
+    }
 }
 
 /// One state of a quasi-static series.
@@ -56,22 +79,62 @@ pub struct Step {
     pub functions: Vec<Function>,
     /// The fields; a solver's dataset has one, `displacement` or `potential`.
     pub fields: Vec<FieldData>,
-    /// Named values, one a patch.
+    /// Named values, one per patch.
     pub attributes: Vec<Attribute>,
     /// Stress intensity factors found by the solver.
     pub intensities: Vec<TipIntensity>,
-    /// What the solver reports: residual, unknowns, functions cut off, seconds per phase.
+    /// The report of the solver: residual, unknowns, functions cut off, seconds per phase.
     pub history: Vec<Record>,
-    /// What a specialist would remark on.
+    /// Findings of the diagnostics.
     pub warnings: Vec<Warning>,
-    /// What the supports exert on the plate, one a boundary condition that gives values.
+    /// Resultants of the forces the supports exert on the plate, one per boundary condition that gives values.
     pub reactions: Vec<Reaction>,
+}
+
+impl Step {
+    /// A step of load factor 1 with a partition and nothing else.
+    #[must_use]
+    pub fn new(partition: Partition) -> Self {
+        Self {
+            load: 1.0,
+            partition,
+            cracks: Vec::new(),
+            functions: Vec::new(),
+            fields: Vec::new(),
+            attributes: Vec::new(),
+            intensities: Vec::new(),
+            history: Vec::new(),
+            warnings: Vec::new(),
+            reactions: Vec::new(),
+        }
+    }
+
+    /// The step with one more crack.
+    #[must_use]
+    pub fn with_crack(mut self, crack: Crack) -> Self {
+        self.cracks.push(crack);
+        self
+    }
+
+    /// The step with one more function, which blocks name by its place in the list.
+    #[must_use]
+    pub fn with_function(mut self, name: &str, kind: FunctionKind) -> Self {
+        self.functions.push(Function { name: name.into(), kind });
+        self
+    }
+
+    /// The step with one more field.
+    #[must_use]
+    pub fn with_field(mut self, field: FieldData) -> Self {
+        self.fields.push(field);
+        self
+    }
 }
 
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
 /// W_i(x) = w(|x − center_i,x| / half_i,x) · w(|y − center_i,y| / half_i,y).
 ///
-/// Structure of arrays; all vectors have one entry a patch. The polynomial frame (`origin`,
+/// Structure of arrays; all vectors have one entry per patch. The polynomial frame (`origin`,
 /// `scale`) is kept apart from the support (`center`, `half`); the solver makes them equal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partition {
@@ -138,9 +201,9 @@ pub struct FieldData {
     pub block_degree: Vec<u8>,
     /// First coefficient of each block.
     pub block_offset: Vec<u64>,
-    /// Coefficients, one array a component.
+    /// Coefficients, one array per component.
     pub coefficients: Vec<Vec<f64>>,
-    /// Formulas of x and y of the exact solution, one a component; empty if unknown.
+    /// Formulas of x and y of the exact solution, one per component; empty if unknown.
     pub exact: Vec<String>,
 }
 
@@ -163,6 +226,50 @@ pub const fn monomials(degree: usize) -> usize {
 }
 
 impl FieldData {
+    /// A field without patches.
+    #[must_use]
+    pub fn new(name: &str, components: &[&str]) -> Self {
+        Self {
+            name: name.into(),
+            unit: String::new(),
+            components: components.iter().map(|&component| component.into()).collect(),
+            patch_blocks: vec![0],
+            block_function: Vec::new(),
+            block_degree: Vec::new(),
+            block_offset: Vec::new(),
+            coefficients: vec![Vec::new(); components.len()],
+            exact: Vec::new(),
+        }
+    }
+
+    /// Adds a patch with blocks of these functions and degrees. Its coefficients are zero, and lie behind
+    /// all others.
+    pub fn push_patch(&mut self, blocks: &[(u32, u8)]) {
+        for &(function, degree) in blocks {
+            let start = self.coefficients.first().map_or(0, Vec::len);
+            self.block_function.push(function);
+            self.block_degree.push(degree);
+            self.block_offset.push(start as u64);
+            for component in &mut self.coefficients {
+                component.resize(start + monomials(degree.into()), 0.0);
+            }
+        }
+        self.patch_blocks.push(self.block_function.len() as u32);
+    }
+
+    /// The coefficients of a patch, one slice per component, block after block, where these follow each
+    /// other as [`push_patch`](Self::push_patch) lays them.
+    pub fn coefficients_mut(&mut self, patch: usize) -> impl Iterator<Item = &mut [f64]> {
+        let blocks = self.blocks(patch);
+        let end =
+            |b: usize| self.block_offset[b] as usize + monomials(self.block_degree[b] as usize);
+        let range = match blocks.clone().last() {
+            Some(last) => self.block_offset[blocks.start] as usize..end(last),
+            None => 0..0,
+        };
+        self.coefficients.iter_mut().map(move |component| &mut component[range.clone()])
+    }
+
     /// The blocks of a patch as a range of block indices.
     #[must_use]
     pub fn blocks(&self, patch: usize) -> std::ops::Range<usize> {
@@ -178,12 +285,23 @@ impl FieldData {
     }
 }
 
-/// Named values, one a patch: order, enrichment, functions cut off, …
+/// A quantity that a dataset names: the text of a [`QuantityFormula`](crate::quantity::QuantityFormula).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedQuantity {
+    /// Its name, a word that no built-in quantity has.
+    pub name: String,
+    /// The formula.
+    pub text: String,
+    /// Unit for labels; may be empty.
+    pub unit: String,
+}
+
+/// Named values, one per patch: order, enrichment, functions cut off, …
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
     /// Name, e.g. `unknowns`.
     pub name: String,
-    /// One value a patch.
+    /// One value per patch.
     pub values: Vec<f64>,
 }
 
@@ -203,13 +321,13 @@ pub struct Record {
 pub struct Warning {
     /// A word for its kind, e.g. `faces-overlap`.
     pub kind: String,
-    /// Where, if it is about a place.
+    /// The place, if it is about one.
     pub at: Option<Vec2>,
     /// The number that gave rise to it.
     pub value: f64,
     /// The bound that the number passes.
     pub limit: f64,
-    /// What is wrong and what to do, on one line, with the place.
+    /// The mistake and its remedy, on one line, with the place.
     pub message: String,
 }
 
@@ -221,11 +339,11 @@ pub struct Warning {
 /// the reactions and the loads on a plate add up to zero, to rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
-    /// Where, in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
+    /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
     pub on: String,
     /// Of each component of the first field, whether the support holds it.
     pub held: Vec<bool>,
-    /// Force per thickness \[stress·length\], one a component, zero where not held; of a potential the
+    /// Force per thickness \[stress·length\], one per component, zero where not held; of a potential the
     /// flow into the plate.
     pub force: Vec<f64>,
     /// Moment per thickness about the centre of the domain's box, counter-clockwise

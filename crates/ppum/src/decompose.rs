@@ -16,7 +16,7 @@ use crate::dataset::FieldData;
 use crate::function::{Frame, Function, FunctionKind};
 use crate::text::hint;
 
-/// What part of a field.
+/// A part of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Blocks of the function 1.
@@ -34,7 +34,7 @@ pub enum Part {
 /// The kinds of blocks; every block is of exactly one.
 pub const KINDS: [Part; 4] = [Part::Smooth, Part::Jump, Part::Tip, Part::Other];
 
-/// Why a field has no such part.
+/// A part that a field does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartError {

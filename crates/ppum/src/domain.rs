@@ -7,6 +7,7 @@
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
 
 use crate::compensated::{circle, cross};
+use crate::segment;
 use crate::vec2::{Rect, Vec2, vec2};
 
 /// A box minus holes; outside nothing is defined.
@@ -14,7 +15,7 @@ use crate::vec2::{Rect, Vec2, vec2};
 pub struct Domain {
     /// The closed box.
     pub bounds: Rect,
-    /// What is cut out of it.
+    /// The holes cut out of it.
     pub holes: Vec<Hole>,
 }
 
@@ -115,19 +116,12 @@ impl Hole {
     pub fn rim_distance(&self, p: Vec2) -> f64 {
         match self {
             Self::Circle { center, radius } => ((p - *center).length() - radius).abs(),
-            Self::Polygon { .. } => {
-                self.sides().map(|[a, b]| segment_distance(a, b, p)).fold(f64::INFINITY, f64::min)
-            }
+            Self::Polygon { .. } => self
+                .sides()
+                .map(|[a, b]| segment::distance([a, b], p))
+                .fold(f64::INFINITY, f64::min),
         }
     }
-}
-
-/// Distance of `p` to the segment from `a` to `b`.
-#[must_use]
-pub fn segment_distance(a: Vec2, b: Vec2, p: Vec2) -> f64 {
-    let (d, q) = (b - a, p - a);
-    let s = (q.dot(d) / d.dot(d)).clamp(0.0, 1.0);
-    (q - d * s).length()
 }
 
 /// A domain seen from an anchor.
@@ -186,9 +180,9 @@ impl LocalHole {
 /// A side of a polygon from `a` to `b`, relative to the anchor.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalSide {
-    /// Where it begins.
+    /// Its beginning.
     pub a: Vec2,
-    /// Where it ends.
+    /// Its end.
     pub b: Vec2,
     /// From the begin to the end.
     pub direction: Vec2,

@@ -94,7 +94,7 @@ impl Equation {
         list.into_iter().flatten()
     }
 
-    /// What is wrong with the constants, if anything is: the name of the first that is impossible and
+    /// The mistake in the constants, if there is one: the name of the first that is impossible and
     /// why. Constants are looked at once, formulas at the points of a grid
     /// that lie in the domain.
     #[must_use]
@@ -213,7 +213,7 @@ pub struct Material {
     pub state: StressState,
 }
 
-/// What is assumed of the third direction.
+/// The assumption about the third direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StressState {
     /// ε_zz = 0.

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::formula::{Formula, FormulaError, Scope};
-use crate::real::{Real, Scalar};
+use crate::real::Real;
 use crate::vec2::{Vec2, vec2};
 
 /// A scalar given by a number or a formula of x and y.
@@ -83,15 +83,8 @@ impl Expression {
     }
 
     fn formula_values<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> R {
-        // 16 lanes are the widest vector there is.
-        let [mut xs, mut ys, mut out] = [[R::Scalar::default(); 16]; 3];
-        offset[0].store(&mut xs);
-        offset[1].store(&mut ys);
-        for (lane, out) in out.iter_mut().enumerate().take(R::LANES) {
-            let point = anchor + vec2(xs[lane].to_f64(), ys[lane].to_f64());
-            *out = R::Scalar::from_f64(self.value(point));
-        }
-        offset[0].load(&out)
+        let [xs, ys] = offset.map(Real::lanes);
+        offset[0].with_lanes(|lane| self.value(anchor + vec2(xs[lane], ys[lane])))
     }
 
     /// The formula, for derivatives.

@@ -21,57 +21,22 @@
 //! No files, no threads, no graphics.
 //!
 //! ```
-//! use ppum::cover::Cover;
-//! use ppum::crack::Side;
-//! use ppum::dataset::{Dataset, Equation, FieldData, Step};
-//! use ppum::field::Field;
-//! use ppum::function::{Function, FunctionKind};
-//! use ppum::quantity::Quantity;
-//! use ppum::vec2::{Rect, Vec2, vec2};
-//! use ppum::weight::WeightFunction;
+//! use ppum::prelude::*;
 //!
 //! // one patch, u = 1 + 2ξ
 //! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
-//! let potential = FieldData {
-//!     name: "potential".into(),
-//!     unit: String::new(),
-//!     components: vec!["u".into()],
-//!     patch_blocks: vec![0, 1],
-//!     block_function: vec![0],
-//!     block_degree: vec![1],
-//!     block_offset: vec![0],
-//!     coefficients: vec![vec![1.0, 2.0, 0.0]],
-//!     exact: Vec::new(),
-//! };
-//! let step = Step {
-//!     load: 1.0,
-//!     partition: Cover::uniform(domain, 0)?.partition(1.25, WeightFunction::Linear)?,
-//!     cracks: Vec::new(),
-//!     functions: vec![Function { name: "one".into(), kind: FunctionKind::One }],
-//!     fields: vec![potential],
-//!     attributes: Vec::new(),
-//!     intensities: Vec::new(),
-//!     history: Vec::new(),
-//!     warnings: Vec::new(),
-//!     reactions: Vec::new(),
-//! };
-//! let dataset = Dataset {
-//!     title: "A slope".into(),
-//!     program: "by hand".into(),
-//!     problem: None,
-//!     domain: domain.into(),
-//!     equation: Equation::poisson(1.0),
-//!     quantities: Vec::new(),
-//!     tables: Vec::new(),
-//!     steps: vec![step],
-//! };
-//! dataset.check()?;
+//! let partition = Cover::uniform(domain, 0)?.partition(1.25, WeightFunction::Linear)?;
+//! let mut potential = FieldData::new("potential", &["u"]);
+//! potential.push_patch(&[(0, 1)]); // function 0 times a polynomial of degree 1
+//! potential.coefficients_mut(0).for_each(|c| c.copy_from_slice(&[1.0, 2.0, 0.0]));
+//! let step = Step::new(partition).with_function("one", FunctionKind::One).with_field(potential);
+//! let dataset = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
 //! let field = Field::new(&dataset, 0)?;
 //! let slope = Quantity::parse("du_dx", &field)?;
-//! let mut local = field.at(vec2(0.5, 0.0));
-//! assert_eq!(slope.at(&mut local, Vec2::ZERO, Side::Above), 2.0 / 1.25);
+//! assert_eq!(slope.at(&mut field.at(vec2(0.5, 0.0)), Vec2::ZERO, Side::Above), 2.0 / 1.25);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
 //! # Definitions
 //!
 //! A **cover** of the domain consists of **patches** ω_i: boxes that overlap, one around each leaf cell
@@ -94,66 +59,33 @@
 //! opening of the crack, and u_x = 0.
 //!
 //! ```
-//! use ppum::cover::Cover;
-//! use ppum::crack::{Crack, CrackEnd, End, TipId};
-//! use ppum::dataset::{Dataset, Equation, FieldData, Material, Step, StressState};
-//! use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
-//! use ppum::vec2::{Rect, vec2};
-//! use ppum::weight::WeightFunction;
+//! use ppum::prelude::*;
+//! use ppum::crack::{CrackEnd, End, TipId};
+//! use ppum::function::{Frame, WESTERGAARD};
+//! use ppum::jet::Jet;
 //!
 //! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 //! let partition = Cover::uniform(domain, 3)?.partition(1.3, WeightFunction::Linear)?;
-//! let n = partition.len();
-//! assert_eq!(n, 64);
+//! assert_eq!(partition.len(), 64);
 //!
 //! let crack = Crack {
 //!     points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0)],
 //!     ends: [CrackEnd::Mouth, CrackEnd::Tip],
 //! };
-//! let tip = TipId { crack: 0, end: End::Last };
-//! let opening = Function {
-//!     name: "opening".into(),
-//!     kind: FunctionKind::formula(WESTERGAARD[1], Frame::Tip(tip)), // sqrt(r)*sin(theta/2)
-//! };
-//! // One block a patch: function 0 times a polynomial of degree 0, that is one coefficient.
-//! let displacement = FieldData {
-//!     name: "displacement".into(),
-//!     unit: "".into(),
-//!     components: vec!["ux".into(), "uy".into()],
-//!     patch_blocks: (0..=n as u32).collect(),
-//!     block_function: vec![0; n],
-//!     block_degree: vec![0; n],
-//!     block_offset: (0..n as u64).collect(),
-//!     coefficients: vec![vec![0.0; n], vec![1.0; n]],
-//!     exact: vec![],
-//! };
+//! let tip = Frame::Tip(TipId { crack: 0, end: End::Last });
+//! let opening = FunctionKind::formula(WESTERGAARD[1], tip); // sqrt(r)*sin(theta/2)
+//! // One block per patch: function 0 times a polynomial of degree 0, that is one coefficient.
+//! let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
+//! (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
+//! displacement.coefficients[1].fill(1.0);
 //! let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-//! let dataset = Dataset {
-//!     title: "Opening of an edge crack".into(),
-//!     program: "tour".into(),
-//!     problem: None,
-//!     domain: domain.into(),
-//!     equation: Equation::elasticity(material),
-//!     quantities: Vec::new(),
-//!     tables: Vec::new(),
-//!     steps: vec![Step {
-//!         load: 1.0,
-//!         partition,
-//!         cracks: vec![crack],
-//!         functions: vec![opening],
-//!         fields: vec![displacement],
-//!         attributes: vec![],
-//!         intensities: vec![],
-//!         history: vec![],
-//!         warnings: vec![],
-//!         reactions: vec![],
-//!     }],
-//! };
+//! let step = Step::new(partition).with_crack(crack).with_function("opening", opening);
+//! let mut dataset = Dataset::new(domain, Equation::elasticity(material));
+//! dataset.title = "Opening of an edge crack".into();
+//! dataset.steps = vec![step.with_field(displacement)];
+//! dataset.check()?;
 //!
 //! // A field is compiled once, then seen from an anchor; points are anchor + offset.
-//! use ppum::crack::Side;
-//! use ppum::field::Field;
-//! use ppum::jet::Jet;
 //! let field = Field::new(&dataset, 0)?;
 //! let mut local = field.at(vec2(0.0, 0.0));
 //!
@@ -169,7 +101,6 @@
 //! assert!(!local.evaluate::<0>(vec2(2.0, 0.0), Side::Above, &mut u));
 //!
 //! // Ahead of the tip ε_yy = 1/(2√r) is the only strain, and von Mises' stress is 2μ ε_yy.
-//! use ppum::quantity::Quantity;
 //! let mises = Quantity::parse("von-mises", &field)?;
 //! let value = mises.at(&mut local, vec2(0.25, 0.0), Side::Above);
 //! assert!((value - 1.0 / 1.3).abs() < 1e-14);
@@ -210,19 +141,18 @@ pub mod domain;
 pub mod equation;
 pub mod expression;
 pub mod field;
-pub mod formula;
 pub mod function;
 pub mod jet;
 pub mod library;
-mod morton;
 pub mod polynomial;
-pub mod printable;
+pub mod prelude;
 pub mod progress;
 pub mod quantity;
-#[cfg(test)]
-mod random;
-pub mod real;
 pub mod replace;
+pub mod segment;
 pub mod text;
 pub mod vec2;
 pub mod weight;
+
+pub use ppum_formula as formula;
+pub use ppum_formula::{printable, real};

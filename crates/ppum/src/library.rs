@@ -9,7 +9,7 @@
 pub struct Entry {
     /// Name in problem files.
     pub name: &'static str,
-    /// What it is.
+    /// Its kind.
     pub about: &'static str,
     /// Its parameters with their defaults.
     pub parameters: &'static [(&'static str, f64)],

@@ -23,7 +23,7 @@
 //! # Ok::<(), Cancelled>(())
 //! ```
 
-/// How far a long call has come.
+/// The state of a long call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// The phase.

@@ -12,7 +12,7 @@ use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
 
-/// What cannot take a function's or the weight's place.
+/// A text that cannot take the place of a function or of the weight.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReplaceError {
@@ -21,7 +21,7 @@ pub enum ReplaceError {
     Unknown {
         /// The name or number asked for.
         which: String,
-        /// What was meant, if it is like one that is known, see [`hint`].
+        /// A suggestion, if a known name is similar, see [`hint`].
         hint: String,
         /// Names of all functions.
         known: String,
@@ -106,7 +106,7 @@ impl Step {
     }
 }
 
-/// What in a function's name introduces its place.
+/// The mark in a function's name before its place.
 const PLACES: [&str; 3] = [" of crack ", " at [", " along ["];
 
 impl Function {

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeSet;
 
+pub use ppum_formula::spelling::{hint, nearest};
+
 use crate::crack::Crack;
 use crate::vec2::{Rect, Vec2, vec2};
 
@@ -109,58 +111,6 @@ impl Places {
     }
 }
 
-/// Longest word that suggestions are sought for: keeps the search cheap on hostile text.
-const MAX_SUGGESTED: usize = 40;
-
-/// Letters of a word that may be a part of another one.
-const LEAST_PART: usize = 4;
-
-/// The known word that was meant by an unknown one: the same but for case or for a third of its letters
-/// (at least one), else one that it is a part of.
-#[must_use]
-pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if word.len() > MAX_SUGGESTED {
-        return None;
-    }
-    let known: Vec<_> = known.into_iter().filter(|k| k.len() <= MAX_SUGGESTED).collect();
-    let letters = |text: &str| text.to_lowercase().chars().collect::<Vec<_>>();
-    let meant = letters(word);
-    let limit = (meant.len() / 3).max(1);
-    let near = |&candidate: &&'a str| {
-        let other = letters(candidate);
-        let distance = edits(&meant, &other);
-        let longer = meant.len().max(other.len());
-        let starts_otherwise = meant.first() != other.first();
-        (distance <= limit && distance < longer).then_some((distance, starts_otherwise, candidate))
-    };
-    let by_letters = known.iter().filter_map(near).min_by_key(|(far, other, _)| (*far, *other));
-    let is_part = |k: &&'a str| meant.len() >= LEAST_PART && k.contains(word);
-    by_letters.map(|(.., near)| near).or_else(|| known.iter().copied().find(is_part))
-}
-
-/// `` (did you mean `near`?)`` for messages about an unknown word; empty if nothing is near.
-#[must_use]
-pub fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(word, known).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"))
-}
-
-/// Changes that lead from one word to another: letters inserted, left out, replaced, or exchanged with their
-/// neighbour.
-fn edits(a: &[char], b: &[char]) -> usize {
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let changed = replaced.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
-            let crossed = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            row.push(if crossed { changed.min(rows[i - 2][j - 2] + 1) } else { changed });
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,46 +168,5 @@ mod tests {
         assert_eq!(places(1.0, &[0.3, 0.1 + 0.2]), ["(0.3, 0)", "(0.3, 0)"], "an ulp apart");
         assert_eq!(apart(1.0, 1.000_000_01), ["1", "1.00000001"]);
         assert_eq!(apart(1.0, 1.0), ["1", "1"]);
-    }
-
-    #[test]
-    fn edit_distances() {
-        for (a, b, d) in [
-            ("", "abc", 3),
-            ("thet", "theta", 1),
-            ("kitten", "sitting", 3),
-            ("a", "a", 0),
-            ("tabel", "table", 1),
-            ("ab", "ba", 1),
-            ("sitn", "sin", 1),
-            ("abcd", "badc", 2),
-        ] {
-            let [a, b] = [a, b].map(|word| word.chars().collect::<Vec<_>>());
-            assert_eq!((edits(&a, &b), edits(&b, &a)), (d, d));
-        }
-    }
-
-    #[test]
-    fn what_was_meant() {
-        let known = ["theta", "r", "x", "sqrt", "young", "poisson", "ux", "sxx", "von-mises"];
-        let find = |name| nearest(name, known);
-        for (word, meant) in [
-            ("thet", "theta"),
-            ("R", "r"),
-            ("xs", "x"),
-            ("sqrrt", "sqrt"),
-            ("yuong", "young"),
-            ("poison", "poisson"),
-            ("vonmises", "von-mises"),
-            ("mises", "von-mises"),
-            ("sx", "sxx"),
-        ] {
-            assert_eq!(find(word), Some(meant), "{word}");
-        }
-        for word in ["velocity", "q", "density", "", &"r".repeat(1000)] {
-            assert_eq!(find(word), None, "{word}");
-        }
-        assert_eq!(hint("thet", known), " (did you mean `theta`?)");
-        assert_eq!(hint("velocity", known), "");
     }
 }

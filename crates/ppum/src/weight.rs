@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 use crate::jet::Jet;
 use crate::library;
-use crate::real::{Real, Scalar};
+use crate::real::{Real, WIDEST};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
 /// does not see it. The B-splines have w(0) = 1.
@@ -87,7 +87,7 @@ impl WeightFunction {
 
     /// w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
     ///
-    /// Where a derivative jumps, the one from the right is taken, so that a border belongs to the
+    /// At a jump of a derivative the one from the right is taken, so that a border belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
     pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
@@ -174,7 +174,7 @@ pub enum WeightError {
     Sign {
         /// The formula.
         text: String,
-        /// Where.
+        /// The place.
         t: f64,
         /// The value there.
         value: f64,
@@ -256,22 +256,19 @@ impl WeightFormula {
 
     /// w, dw/dt, d²w/dt² at t, lane by lane.
     fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
-        // 16 lanes are the widest vector there is.
-        let mut lanes = [R::Scalar::default(); 16];
-        t.store(&mut lanes);
-        let mut scratch = Vec::new();
-        let mut out = [[R::Scalar::default(); 16]; 3];
+        let (lanes, mut scratch) = (t.lanes(), Vec::new());
+        let mut out = [[0.0; WIDEST]; 3];
         for (lane, t) in lanes.iter().enumerate().take(R::LANES) {
             // Beyond the support the formula need not have a value, at its end perhaps a limit.
-            let t = t.to_f64().min(1.0);
+            let t = t.min(1.0);
             let mut jet = [0.0; 3];
             self.jets.evaluate(&[t], &mut scratch, &mut jet);
             for (out, value) in out.iter_mut().zip(jet) {
                 let possible = t < 1.0 || value.is_finite();
-                out[lane] = R::Scalar::from_f64(if possible { value } else { 0.0 });
+                out[lane] = if possible { value } else { 0.0 };
             }
         }
-        out.map(|values| t.load(&values))
+        out.map(|values| t.with_lanes(|lane| values[lane]))
     }
 }
 

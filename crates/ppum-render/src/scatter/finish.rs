@@ -87,7 +87,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                     }
                 };
                 clear(cell, zero);
-                store(value, &mut line[column..]);
+                value.store_some(&mut line[column..]);
             }
             column += R::LANES;
             start += ROWS * stride;
@@ -114,18 +114,5 @@ fn clear<R: Real>(cell: &mut [R::Scalar], like: R) {
     let zero = like.lit(0.0);
     for lanes in cell.chunks_exact_mut(R::LANES) {
         zero.store(lanes);
-    }
-}
-
-/// Stores the lanes, or as many as there is room for.
-#[inline(always)]
-fn store<R: Real>(value: R, to: &mut [R::Scalar]) {
-    if to.len() >= R::LANES {
-        value.store(to);
-    } else {
-        // 16 lanes are the widest vector there is.
-        let mut lanes = [R::Scalar::default(); 16];
-        value.store(&mut lanes);
-        to.copy_from_slice(&lanes[..to.len()]);
     }
 }

@@ -193,18 +193,9 @@ impl<T: Scalar> Scene<'_, T> {
         out: &mut [R],
         zero: R,
     ) {
-        // 16 lanes are the widest vector there is.
-        let mut lanes = vec![[T::default(); 16]; shift.len()];
-        for lane in 0..R::LANES {
-            let offset = self.view.offset((column + lane) as u32, row as u32);
-            let point = self.view.center + offset;
-            for (component, lanes) in lanes.iter_mut().enumerate() {
-                let value = self.field.exact(component, point) - shift[component];
-                lanes[lane] = T::from_f64(value);
-            }
-        }
-        for (out, lanes) in out.iter_mut().zip(&lanes) {
-            *out = zero.load(lanes);
+        let point = |lane| self.view.center + self.view.offset((column + lane) as u32, row as u32);
+        for (component, (out, shift)) in out.iter_mut().zip(shift).enumerate() {
+            *out = zero.with_lanes(|lane| self.field.exact(component, point(lane)) - shift);
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::problem::{BorderPart, Edge, Problem};
 use ppum::crack::Side;
-use ppum::domain::{Hole, segment_distance};
+use ppum::domain::Hole;
+use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
@@ -94,7 +95,7 @@ impl Surroundings<'_> {
         let sides = domain.holes.iter().flat_map(Hole::sides);
         let cracks = self.problem.cracks.iter().flat_map(|c| c.points.windows(2));
         let segments = sides.chain(cracks.map(|s| [s[0], s[1]]));
-        let segments = segments.map(|[a, b]| segment_distance(a, b, p));
+        let segments = segments.map(|[a, b]| segment::distance([a, b], p));
         let all = edges.into_iter().chain(circles).chain(segments);
         all.filter(|distance| !self.is_on(*distance)).fold(f64::INFINITY, f64::min)
     }
@@ -192,7 +193,7 @@ impl Surroundings<'_> {
 
     /// The ways along a segment from a point on it.
     fn along(&self, [a, b]: [Vec2; 2], p: Vec2) -> impl Iterator<Item = Vec2> {
-        let on = self.is_on(segment_distance(a, b, p));
+        let on = self.is_on(segment::distance([a, b], p));
         let touch = self.touch;
         [a - p, b - p].into_iter().filter(move |way| on && way.length() > touch)
     }

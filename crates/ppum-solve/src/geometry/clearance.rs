@@ -4,6 +4,7 @@ use super::material::jumps;
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::Dataset;
 use ppum::domain::Domain;
+use ppum::segment;
 use ppum::vec2::Vec2;
 
 /// Distance from a tip, in cells, at which the material is compared with the tip's: more than rounding of the
@@ -82,8 +83,10 @@ impl TipClearance {
         let rims =
             rims.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
         let others = cracks.filter(|(k, _)| *k != tip.crack as usize);
-        let others =
-            others.map(|(k, c)| Self { radius: nearest(&c.points, p), end: Obstacle::Crack(k) });
+        let others = others.map(|(k, c)| Self {
+            radius: segment::polyline_distance(&c.points, p),
+            end: Obstacle::Crack(k),
+        });
         border.with(rims).with(others.chain([Self { radius: behind(own, p), end: Obstacle::Kink }]))
     }
 
@@ -97,18 +100,9 @@ impl TipClearance {
 fn behind(own: &Crack, tip: Vec2) -> f64 {
     let vertices = own.points.iter().filter(|&&v| v != tip).map(|&v| (v - tip).length());
     let segments = own.points.windows(2).filter(|s| !s.contains(&tip));
-    vertices.chain(segments.map(|s| segment_distance(s, tip))).fold(f64::INFINITY, f64::min)
-}
-
-/// Distance of a point to a polyline.
-fn nearest(points: &[Vec2], p: Vec2) -> f64 {
-    points.windows(2).map(|s| segment_distance(s, p)).fold(f64::INFINITY, f64::min)
-}
-
-fn segment_distance(s: &[Vec2], p: Vec2) -> f64 {
-    let (d, e) = (s[1] - s[0], p - s[0]);
-    let t = (e.dot(d) / d.dot(d)).clamp(0.0, 1.0);
-    (e - d * t).length()
+    vertices
+        .chain(segments.map(|s| segment::distance([s[0], s[1]], tip)))
+        .fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

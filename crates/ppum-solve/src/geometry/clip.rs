@@ -2,6 +2,7 @@
 
 use ppum::crack::Crack;
 use ppum::domain::Hole;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// True if `p` lies in the open box.
@@ -112,11 +113,7 @@ pub(crate) fn distance([a, b]: [Vec2; 2], rect: &Rect) -> f64 {
     }
     let (min, max) = (rect.min, rect.max);
     let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    let of_corners = corners.into_iter().map(|p| {
-        let along = b - a;
-        let s = ((p - a).dot(along) / along.dot(along)).clamp(0.0, 1.0);
-        (p - a - along * s).length()
-    });
+    let of_corners = corners.into_iter().map(|p| segment::distance([a, b], p));
     of_corners.chain([rect.distance(a), rect.distance(b)]).fold(f64::INFINITY, f64::min)
 }
 

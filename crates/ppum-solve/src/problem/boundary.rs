@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::Problem;
 use ppum::crack::Side;
-use ppum::domain::segment_distance;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use ppum::expression::Expression;
@@ -249,7 +249,7 @@ impl Problem {
     /// The traction on the face of a crack at a point of it, the sum of all conditions there.
     pub(crate) fn face_load(&self, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
         let segments = self.cracks[crack].points.windows(2);
-        let distance = |s: &[Vec2]| segment_distance(s[0], s[1], x);
+        let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
         let nearest = segments.min_by(|s, t| distance(s).total_cmp(&distance(t)));
         let Some(&[a, b]) = nearest else { return [0.0; 2] };
         let left = (b - a).unit().left();

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
+use ppum::segment::{self, Segment};
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
 use super::check::Violation;
 use super::key::Key;
-use super::nearby::{Nearby, Segment, TooDense, first_pair};
+use super::nearby::{Nearby, TooDense, first_pair};
 use crate::geometry::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
@@ -273,20 +274,13 @@ pub(super) fn distance(s: Segment, t: Segment) -> f64 {
         return 0.0;
     }
     let ends = [(s[0], t), (s[1], t), (t[0], s), (t[1], s)];
-    ends.into_iter().map(|(p, segment)| distance_to(p, segment)).fold(f64::INFINITY, f64::min)
+    ends.into_iter().map(|(p, segment)| segment::distance(segment, p)).fold(f64::INFINITY, f64::min)
 }
 
 /// True if the line of `s` has the ends of `t` on different sides.
 fn splits([a, b]: [Vec2; 2], t: [Vec2; 2]) -> bool {
     let [c, d] = t.map(|p| (b - a).cross(p - a));
     (c < 0.0) != (d < 0.0)
-}
-
-/// Distance of a point to a segment of positive length.
-fn distance_to(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
-    let along = b - a;
-    let s = ((p - a).dot(along) / along.dot(along)).clamp(0.0, 1.0);
-    (p - a - along * s).length()
 }
 
 #[cfg(test)]

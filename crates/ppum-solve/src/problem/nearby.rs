@@ -3,12 +3,10 @@
 use std::cell::Cell;
 
 use ppum::box_tree::BoxTree;
-use ppum::vec2::{Rect, Vec2};
+use ppum::segment::Segment;
+use ppum::vec2::Rect;
 
 use crate::geometry::{around, wider};
-
-/// A straight piece of a crack or of a rim.
-pub(super) type Segment = [Vec2; 2];
 
 /// Most pairs of near segments that are looked at: a second or two. Cracks and rims that a cover can resolve have a
 /// few pairs a segment.

@@ -2,6 +2,7 @@
 //!
 //! Vertices run counter-clockwise, as offsets from an anchor the caller knows.
 
+use ppum::segment;
 use ppum::vec2::Vec2;
 
 /// Distances below this part of a polygon's diameter are rounding.
@@ -24,14 +25,6 @@ pub(super) fn line_side(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     let size = (u.x * v.y).abs() + (u.y * v.x).abs();
     let cross = u.cross(v);
     if cross.abs() <= ROUNDING * size { 0.0 } else { cross }
-}
-
-/// Distance of `p` to the segment from `a` to `b`.
-pub(super) fn segment_distance(a: Vec2, b: Vec2, p: Vec2) -> f64 {
-    let (edge, to) = (b - a, p - a);
-    let square = edge.dot(edge);
-    let t = if square > 0.0 { (to.dot(edge) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (to - edge * t).length()
 }
 
 impl Polygon {
@@ -61,7 +54,7 @@ impl Polygon {
         if self.edges().all(|(a, b)| (a - p).cross(b - p) >= 0.0) {
             return 0.0;
         }
-        self.edges().map(|(a, b)| segment_distance(a, b, p)).fold(f64::INFINITY, f64::min)
+        self.edges().map(|(a, b)| segment::distance([a, b], p)).fold(f64::INFINITY, f64::min)
     }
 
     /// The polygon seen from an anchor moved by `shift`.

@@ -3,7 +3,8 @@
 
 use super::graded::SMALLEST;
 use crate::problem::{Edge, Problem};
-use ppum::domain::{Hole, segment_distance};
+use ppum::domain::Hole;
+use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2};
 
 /// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half as many
@@ -92,7 +93,7 @@ impl Other<'_> {
         match *self {
             Self::Edge(edge, bounds) => edge.depth(bounds, p).abs(),
             Self::Hole(hole) => hole.rim_distance(p),
-            Self::Crack(points) => nearest(points, p),
+            Self::Crack(points) => polyline_distance(points, p),
         }
     }
 
@@ -128,9 +129,4 @@ fn width(hole: &Hole, other: Other<'_>) -> f64 {
             there.chain(back).fold(f64::INFINITY, f64::min)
         }
     }
-}
-
-/// Distance of a point to a polyline.
-fn nearest(points: &[Vec2], p: Vec2) -> f64 {
-    points.windows(2).map(|s| segment_distance(s[0], s[1], p)).fold(f64::INFINITY, f64::min)
 }

@@ -53,9 +53,7 @@ pub enum InspectError {
         point: Vec2,
     },
     /// No patch has it.
-    #[error(
-        "no patch has the enrichment `{name}`"
-    )]
+    #[error("no patch has the enrichment `{name}`")]
     Nowhere {
         /// Name of the function.
         name: String,

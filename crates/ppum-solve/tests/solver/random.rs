@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use ppum::dataset::{Dataset, Step, TipIntensity, Warning};
-use ppum::domain::segment_distance;
+use ppum::segment;
 use ppum::vec2::Vec2;
 use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::Problem;
@@ -97,7 +97,7 @@ fn distance_to_anything(problem: &Problem, p: Vec2) -> f64 {
     let edges = [p - bounds.min, bounds.max - p].into_iter().flat_map(|d| [d.x.abs(), d.y.abs()]);
     let rims = problem.domain.holes.iter().map(|hole| hole.rim_distance(p));
     let parts = problem.cracks.iter().flat_map(|crack| crack.points.windows(2));
-    let cracks = parts.map(|ends| segment_distance(ends[0], ends[1], p));
+    let cracks = parts.map(|ends| segment::distance([ends[0], ends[1]], p));
     edges.chain(rims).chain(cracks).fold(f64::INFINITY, f64::min)
 }
 

@@ -10,7 +10,9 @@ use ppum_solve::diagnostics::effort::EffortError;
 use ppum_solve::diagnostics::{RecomputeError, recompute};
 use ppum_solve::problem::{OrderError, Problem, ProblemError};
 use ppum_solve::report::SolverReport;
-use ppum_solve::solve::{EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum};
+use ppum_solve::solve::{
+    EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
+};
 use ppum_solve::space::{InspectError, RefineError, SpaceError, discretise};
 
 /// A plate with all that takes time: a formula to be probed, restraints, an interface, two tips.

@@ -1,4 +1,4 @@
-//! What a dataset's domain must be.
+//! The rules for a dataset's domain.
 
 use super::{Checked, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};

@@ -17,10 +17,10 @@ const ROUNDING: f64 = 1e-12;
 /// Most circles and sides of holes that are looked at for the gaps of a partition, the largest gaps first.
 const LOOKS: usize = 1 << 26;
 
-/// Where a gap is looked at in each direction, as parts of its size.
+/// Places of a gap that are looked at in each direction, as parts of its size.
 const PLACES: [f64; 3] = [1.0 / 16.0, 0.5, 15.0 / 16.0];
 
-/// How far a place of a gap may lie beside a hole, as part of the gap's size: rims belong to the domain.
+/// Farthest a place of a gap may lie beside a hole, as part of the gap's size: rims belong to the domain.
 const BESIDE: f64 = 1e-9;
 
 /// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap beside holes.
@@ -102,7 +102,7 @@ impl Borders {
     }
 }
 
-/// What a line parallel to the y axis crosses, as it moves to the right.
+/// The cells and gaps that a line parallel to the y axis crosses, as it moves to the right.
 struct Sweep {
     /// Intervals that follow each other, by their lower ends.
     line: BTreeMap<u32, Interval>,
@@ -113,7 +113,7 @@ struct Sweep {
 #[derive(Clone, Copy)]
 struct Interval {
     end: u32,
-    /// Where the gap begins; none of a cell.
+    /// The beginning of the gap; none of a cell.
     gap: Option<u32>,
 }
 
@@ -198,8 +198,8 @@ fn place_beside(gap: &Rect, holes: &[Hole]) -> Option<Vec2> {
 mod tests {
     use super::*;
     use crate::cover::Cover;
-    use crate::random::Random;
     use crate::weight::WeightFunction;
+    use ppum_testkit::random::Random;
 
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
 

@@ -1,4 +1,4 @@
-//! What an evaluation at a point may take.
+//! Bounds of the work of an evaluation at a point.
 //!
 //! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
 //! a point takes is bounded here, once, and all others rely on it.
@@ -18,7 +18,7 @@ use crate::weight::WeightFunction;
 /// patches over a point. A crack of 100,000 vertices may cut through.
 const MOST_WORK: u64 = 1 << 18;
 
-/// What a patch takes beside its blocks: finding it, its weight.
+/// Cost of a patch beside its blocks: finding it, its weight.
 const PATCH: usize = 16;
 
 /// Checks every field of every step.
@@ -41,7 +41,7 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
     Ok(())
 }
 
-/// What each patch takes where it is, and each group of functions where a patch has it.
+/// Cost of each patch where it is, and of each group of functions where a patch has it.
 fn works(step: &Step, field: &FieldData, table: &FunctionTable) -> Vec<(Rect, u64)> {
     let (partition, mut all) = (&step.partition, Vec::new());
     let mut groups: BTreeMap<u32, Rect> = BTreeMap::new();
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::check::tests::{dataset, place_after};
     use crate::dataset::{Ring, TipIntensity};
-    use crate::random::Random;
+    use ppum_testkit::random::Random;
 
     /// The largest sum over the corners of boxes, among which its place must be.
     fn largest(boxes: &[(Rect, u64)]) -> u64 {
@@ -181,7 +181,10 @@ mod tests {
                 let boxes: Vec<_> = (0..n)
                     .map(|k| {
                         // on a lattice, so that borders coincide
-                        let (p, size) = (random.point() * 8.0, random.point() * 4.0);
+                        let (p, size) = (
+                            vec2(random.unit(), random.unit()) * 8.0,
+                            vec2(random.unit(), random.unit()) * 4.0,
+                        );
                         let (p, size) =
                             (vec2(p.x.floor(), p.y.floor()), vec2(size.x.ceil(), size.y.ceil()));
                         (Rect::new(p, p + size), MOST_WORK / 3 + k)

@@ -26,17 +26,18 @@
 //! ```
 
 mod grid;
+mod morton;
 #[cfg(test)]
 mod tests;
 
 use crate::dataset::Partition;
-use crate::morton::morton;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use grid::{Grid, TreeCell};
+use morton::morton;
 use std::ops::RangeInclusive;
 
-/// How often a root cell can be halved: a 10⁻⁹th of its width, finer than any cover needs.
+/// Deepest level of a cell, that is how often a root cell can be halved: a 10⁻⁹th of its width, finer than any cover needs.
 pub const MAX_LEVEL: u8 = 30;
 
 /// The largest number of cells: 4¹², some two gigabytes for the partition alone.
@@ -50,7 +51,7 @@ const MAX_COORDINATE: f64 = 1e280;
 /// neighbours.
 pub const OVERLAP: RangeInclusive<f64> = 1.01..=1.99;
 
-/// Why a cover could not be made.
+/// A cover that cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CoverError {
@@ -83,7 +84,7 @@ pub enum CoverError {
     PointOutside {
         /// Index of the point, from 0.
         index: u32,
-        /// Where it is.
+        /// Its place.
         at: Vec2,
     },
     /// Two points coincide, or lie so close that no cells separate them.
@@ -255,7 +256,7 @@ impl Cover {
         leaves.iter().map(|leaf| (self.grid.rect(leaf.cell), leaf.cell.level)).collect()
     }
 
-    /// The partition of unity over the patches ω_i = c_i ± α h_i, one a leaf, in Morton order. The
+    /// The partition of unity over the patches ω_i = c_i ± α h_i, one per leaf, in Morton order. The
     /// polynomial frame is the patch: origin c_i, scale α h_i.
     ///
     /// # Errors
@@ -304,7 +305,7 @@ impl Cover {
         }
     }
 
-    /// What it means for two points that the cell they share cannot be split.
+    /// The error for two points whose common cell cannot be split.
     fn coincident(&self, error: CoverError, first: u32, second: u32) -> CoverError {
         let [a, at] = [first, second].map(|i| self.points[i as usize]);
         match error {

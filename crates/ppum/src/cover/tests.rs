@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::box_tree::BoxTree;
-use crate::random::Random;
 use crate::vec2::vec2;
+use ppum_testkit::random::Random;
 
 const SQUARE: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 /// No coordinate of it, or of its cells, is a binary fraction.
@@ -14,7 +14,7 @@ fn random_points(n: usize, domain: Rect, random: &mut Random) -> Vec<Vec2> {
     (0..n)
         .map(|k| {
             // Half of them crowd towards the lower left corner.
-            let p = random.point();
+            let p = vec2(random.unit(), random.unit());
             let s = if k % 2 == 0 { 1.0 } else { 0.01 };
             domain.min + vec2(p.x * size.x, p.y * size.y) * s
         })

@@ -34,9 +34,9 @@ pub struct LocalSegment {
     normal: Vec2,
     /// Distance of the anchor from the line, positive on its left.
     pub distance: f64,
-    /// Where the segment begins, along it from the anchor; −∞ of a crack's first segment.
+    /// Begin of the segment, along it from the anchor; −∞ of a crack's first segment.
     pub lo: f64,
-    /// Where it ends; +∞ of a crack's last segment.
+    /// End of the segment; +∞ of a crack's last segment.
     pub hi: f64,
 }
 
@@ -211,7 +211,7 @@ impl LocalTip {
 
     /// The point `anchor + offset` in the tip's frame.
     ///
-    /// Where the tip's own segment is the nearest, the branch is +1 by construction: both signs come
+    /// In the region nearest to the tip's own segment the branch is +1 by construction: both signs come
     /// from the same number.
     #[inline(always)]
     pub fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
@@ -295,8 +295,8 @@ mod tests {
     use crate::vec2::vec2;
 
     fn crack(points: &[(f64, f64)]) -> Crack {
-        let points = points.iter().map(|&(x, y)| vec2(x, y)).collect();
-        Crack { points, ends: [CrackEnd::Tip; 2] }
+        let vertices = points.iter().map(|&(x, y)| vec2(x, y)).collect();
+        Crack { points: vertices, ends: [CrackEnd::Tip; 2] }
     }
 
     /// Points of an integer lattice small enough for the cross product to be exact.

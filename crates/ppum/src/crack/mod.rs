@@ -11,7 +11,7 @@ pub struct Crack {
     pub ends: [CrackEnd; 2],
 }
 
-/// What the end of a crack is.
+/// The kind of an end of a crack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrackEnd {
     /// A tip: the field is singular there.

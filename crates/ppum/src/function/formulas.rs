@@ -8,7 +8,7 @@ use super::seen::Seen;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
-use crate::real::{Real, Scalar};
+use crate::real::{Real, WIDEST};
 use crate::vec2::{Vec2, vec2};
 
 use super::table::GROUP;
@@ -141,22 +141,19 @@ pub(super) struct LocalFormulas<'t> {
     cracks: Vec<Option<LocalCrack>>,
 }
 
-/// Lanes of the widest vector there is.
-const LANES: usize = 16;
-
 thread_local! {
-    /// What evaluation at a point writes into: allocating it each time would cost as much as the formulas.
+    /// Memory for an evaluation at a point: allocating it each time would cost as much as the formulas.
     static WORKSPACE: RefCell<Workspace> = RefCell::default();
 }
 
-/// Numbers of one evaluation, in rows of one a lane, and of one lane of it.
+/// Numbers of one evaluation, in rows of one per lane, and of one lane of it.
 #[derive(Clone, Debug, Default)]
 struct Workspace {
-    rows: Vec<[f64; LANES]>,
+    rows: Vec<[f64; WIDEST]>,
     inputs: Vec<f64>,
     scratch: Vec<f64>,
     numbers: Vec<f64>,
-    results: Vec<[f64; LANES]>,
+    results: Vec<[f64; WIDEST]>,
 }
 
 impl LocalFormulas<'_> {
@@ -186,15 +183,13 @@ impl LocalFormulas<'_> {
         let like = offset[0];
         let jets = &self.compiled.jets[D];
         let Workspace { rows, inputs, scratch, numbers, results } = workspace;
-        rows.resize(self.compiled.uses.len(), [0.0; LANES]);
+        rows.resize(self.compiled.uses.len(), [0.0; WIDEST]);
         inputs.resize(self.compiled.uses.len(), 0.0);
-        results.resize(jets.n_outputs(), [0.0; LANES]);
+        results.resize(jets.n_outputs(), [0.0; WIDEST]);
         numbers.resize(jets.n_outputs(), 0.0);
         let polar = self.polar(offset, side);
         for (index, row) in rows.iter_mut().enumerate() {
-            let mut lanes = [R::Scalar::default(); LANES];
-            self.input(index, &polar, offset, side).store(&mut lanes);
-            row.iter_mut().zip(lanes).take(R::LANES).for_each(|(to, lane)| *to = lane.to_f64());
+            *row = self.input(index, &polar, offset, side).lanes();
         }
         for lane in 0..R::LANES {
             inputs.iter_mut().zip(&*rows).for_each(|(input, row)| *input = row[lane]);
@@ -206,7 +201,7 @@ impl LocalFormulas<'_> {
             let rows = &results[entry * SIZE[D]..];
             let mut values = [like.lit(0.0); 6];
             values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(value, row)| {
-                *value = like.load(&row.map(R::Scalar::from_f64));
+                *value = like.with_lanes(|lane| row[lane]);
             });
             *out = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
         }

@@ -19,7 +19,7 @@ pub use westergaard::westergaard;
 pub struct Function {
     /// Name for reports, e.g. `westergaard 1 of crack 0 end`.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: FunctionKind,
 }
 
@@ -38,11 +38,11 @@ pub enum FunctionKind {
     Formula {
         /// The formula.
         text: String,
-        /// Where x, y, r and theta are measured.
+        /// The frame of x, y, r and theta.
         frame: Frame,
         /// Named constants the formula may use.
         parameters: Vec<(String, f64)>,
-        /// Where it is not smooth, beside what the formula itself shows.
+        /// Lines and points where it is not smooth, beside those the formula itself shows.
         declared: Declared,
     },
 }

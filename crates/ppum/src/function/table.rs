@@ -15,7 +15,7 @@ use crate::jet::Jet;
 use crate::real::Real;
 use crate::vec2::Vec2;
 
-/// Where the value of a function is found.
+/// The place of a function's value in a compiled table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// The function is 1.
@@ -36,7 +36,7 @@ pub struct FunctionTable {
     groups: Vec<Group>,
 }
 
-/// What any group is counted with at least in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
+/// Least cost of a group in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
 /// a picture, and turned into the world.
 pub const LEAST_COST: usize = 256;
 
@@ -58,11 +58,11 @@ pub struct FunctionError {
     pub index: usize,
     /// Name of the function.
     pub name: String,
-    /// What is wrong.
+    /// The mistake.
     pub source: Box<CompileError>,
 }
 
-/// Why a formula cannot be used as a function.
+/// A reason for which a formula cannot be used as a function.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 #[non_exhaustive]
@@ -121,7 +121,7 @@ impl FunctionTable {
         Compiler::new(cracks, tables).compile(functions)
     }
 
-    /// Where function `function` of the step is found.
+    /// The place of function `function` of the step.
     #[must_use]
     pub fn of(&self, function: u32) -> Slot {
         self.slots[function as usize]
@@ -143,7 +143,7 @@ impl FunctionTable {
         }
     }
 
-    /// What an evaluation of a group takes, with its first derivatives: operations, and segments of cracks.
+    /// Cost of an evaluation of a group with its first derivatives: operations, and segments of cracks.
     /// That of any function counts as [`LEAST_COST`] at least.
     ///
     /// # Panics
@@ -344,7 +344,7 @@ pub fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
     (0..).zip(WESTERGAARD).find(|(_, known)| *known == text).map(|(k, _)| (tip, k))
 }
 
-/// What the formula of a function may name: x, y, r, theta of its frame, its parameters, the sides of
+/// The names that the formula of a function may use: x, y, r, theta of its frame, its parameters, the sides of
 /// the step's cracks, the tables.
 ///
 /// # Errors

@@ -2,27 +2,18 @@
 
 use std::sync::Arc;
 
+use crate::dataset::NamedQuantity;
 use crate::equation::Equation;
+use crate::field::Field;
 use crate::formula::{
     DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
 };
 use crate::library::{Definition, ELASTICITY, POISSON};
-use crate::real::{Real, Scalar};
+use crate::real::Real;
 
 use super::{Sample, Source};
 
-/// A quantity that a dataset names: the text of a [`QuantityFormula`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NamedQuantity {
-    /// Its name, a word that no built-in quantity has.
-    pub name: String,
-    /// The formula.
-    pub text: String,
-    /// Unit for labels; may be empty.
-    pub unit: String,
-}
-
-/// What formulas of quantities may name.
+/// The names that formulas of quantities may use.
 #[derive(Clone, Copy, Debug)]
 pub struct Vocabulary<'a> {
     /// The equation.
@@ -33,6 +24,19 @@ pub struct Vocabulary<'a> {
     pub tables: &'a [Arc<Table>],
     /// Named quantities, each of which may use those before it.
     pub named: &'a [NamedQuantity],
+}
+
+impl<'a> Vocabulary<'a> {
+    /// The names that quantities of a field may use.
+    #[must_use]
+    pub fn of(field: &Field<'a>) -> Self {
+        Self {
+            equation: field.equation,
+            components: &field.data.components,
+            tables: field.tables,
+            named: field.quantities,
+        }
+    }
 }
 
 /// A quantity as a formula, e.g. `sqrt(ux^2 + uy^2)` or `sxx - young*exx`.
@@ -65,7 +69,7 @@ pub enum QuantityFormulaError {
     Derivative(#[from] DerivativeError),
 }
 
-/// Where an input of a quantity's formula comes from.
+/// The origin of an input of a quantity's formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Input {
     /// The position's first coordinate.
@@ -125,7 +129,7 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
-    /// What an input of a formula of this vocabulary is, by its name; `None` for other names.
+    /// The input of a formula by its name; `None` for names that are no inputs.
     #[must_use]
     pub fn input(&self, name: &str) -> Option<Input> {
         self.inputs().into_iter().find(|(known, _)| known == name).map(|(_, input)| input)
@@ -158,15 +162,20 @@ impl QuantityFormula {
     /// The text is no formula of the vocabulary; the error points at the place.
     pub fn new(text: &str, vocabulary: &Vocabulary<'_>) -> Result<Self, QuantityFormulaError> {
         let inputs = vocabulary.inputs();
-        let definitions: Vec<_> = vocabulary.definitions().collect();
-        let names = inputs.iter().map(|(name, _)| name).chain(definitions.iter().map(|(n, _)| n));
-        let names: Vec<_> = names.map(String::as_str).collect();
+        let texts: Vec<_> = vocabulary.definitions().collect();
+        let names: Vec<_> = inputs
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .chain(texts.iter().map(|(name, _)| name.as_str()))
+            .collect();
         let scope = Scope::new(&names)?.with_tables(vocabulary.tables)?;
-        let parse =
-            |(name, text): &(String, &str)| Ok((name.clone(), Formula::parse(text, &scope)?));
-        let definitions: Result<Vec<_>, FormulaError> = definitions.iter().map(parse).collect();
-        let definitions = definitions?;
-        let definitions: Vec<_> = definitions.iter().map(|(n, f)| (n.as_str(), f)).collect();
+        let parse = |(_, text): &(String, &str)| Formula::parse(text, &scope);
+        let parsed = texts.iter().map(parse).collect::<Result<Vec<_>, FormulaError>>()?;
+        let definitions: Vec<_> = texts
+            .iter()
+            .zip(&parsed)
+            .map(|((name, _), formula)| (name.as_str(), formula))
+            .collect();
         let formula = Formula::parse(text, &scope)?.substitute(&definitions)?;
         let used = |(index, (name, input)): (usize, &(String, Input))| {
             formula.uses(name).then_some((index, *input))
@@ -215,28 +224,17 @@ impl QuantityFormula {
     /// The value; +∞ where the field has no gradient but the formula needs it.
     #[inline(always)]
     pub(super) fn evaluate<R: Real>(&self, at: &Sample<'_, R>) -> R {
-        // 16 lanes are the widest vector there is.
-        let mut lanes = vec![[R::Scalar::default(); 16]; self.inputs.len()];
-        for ((_, input), lanes) in self.inputs.iter().zip(&mut lanes) {
-            input.value(at).store(lanes);
-        }
-        let value = at.offset[0].load(&self.lanes::<R>(&lanes));
-        if self.source() == Source::Gradient { at.apart(value) } else { value }
-    }
-
-    /// The values of some lanes, one after the other.
-    fn lanes<R: Real>(&self, lanes: &[[R::Scalar; 16]]) -> [R::Scalar; 16] {
-        let mut out = [R::Scalar::default(); 16];
+        let lanes: Vec<_> = self.inputs.iter().map(|(_, input)| input.value(at).lanes()).collect();
         let (mut values, mut scratch) = (vec![0.0; self.n_inputs], Vec::new());
-        for (lane, out) in out.iter_mut().enumerate().take(R::LANES) {
-            for ((index, _), lanes) in self.inputs.iter().zip(lanes) {
-                values[*index] = lanes[lane].to_f64();
+        let value = at.offset[0].with_lanes(|lane| {
+            for ((index, _), lanes) in self.inputs.iter().zip(&lanes) {
+                values[*index] = lanes[lane];
             }
             let mut value = [0.0];
             self.jets.evaluate(&values, &mut scratch, &mut value);
-            *out = R::Scalar::from_f64(value[0]);
-        }
-        out
+            value[0]
+        });
+        if self.source() == Source::Gradient { at.apart(value) } else { value }
     }
 }
 

@@ -12,13 +12,14 @@ mod tensors;
 use std::sync::Arc;
 
 use crate::crack::Side;
+use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::real::Real;
 use crate::text::hint;
 use crate::vec2::Vec2;
-pub use formula::{Input, NamedQuantity, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
 use tensors::Strain;
 
 /// A scalar made of a field. Made from its name or formula with [`Quantity::parse`].
@@ -78,7 +79,7 @@ pub enum Axis {
     Y,
 }
 
-/// What a quantity is made of.
+/// The ingredients of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The field's values.
@@ -100,15 +101,13 @@ pub enum QuantityError {
     Unknown {
         /// The name asked for.
         name: String,
-        /// What was meant, if it is like one that is known, see [`hint`].
+        /// A suggestion, if a known name is similar, see [`hint`].
         hint: String,
         /// All names that have a meaning for the field.
         known: String,
     },
     /// Needs the exact solution.
-    #[error(
-        "`{0}` needs the exact solution, which this dataset does not hold; give it as [exact] in the problem file"
-    )]
+    #[error("`{0}` needs the exact solution, which this dataset does not hold")]
     NoExact(String),
     /// A patch that does not exist.
     #[error("there is no patch {patch}; the partition has {count} (numbered from 0)")]
@@ -253,7 +252,7 @@ impl Quantity {
         if let Ok(known) = Self::from_name(text, field.equation, components) {
             return Ok(known);
         }
-        let mut vocabulary = field.vocabulary();
+        let mut vocabulary = Vocabulary::of(field);
         if let Some(at) = field.quantities.iter().position(|named| named.name == text) {
             let NamedQuantity { name, text, unit } = &field.quantities[at];
             vocabulary.named = &field.quantities[..at];
@@ -269,7 +268,7 @@ impl Quantity {
         }
     }
 
-    /// What the quantity is made of.
+    /// The ingredients of the quantity.
     #[must_use]
     pub fn source(&self) -> Source {
         match self {

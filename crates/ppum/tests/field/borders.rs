@@ -25,7 +25,7 @@ fn dataset(weight: WeightFunction) -> Dataset {
     recipe.dataset()
 }
 
-/// How far the field is followed from a border, in half-extents of a patch.
+/// Distance over which the field is followed from a border, in half-extents of a patch.
 const STEP: f64 = 1e-8;
 
 fn jets(local: &mut LocalField<'_>, p: Vec2) -> Option<Vec<Jet<f64>>> {

@@ -82,7 +82,7 @@ fn gradients_and_hessians_against_differences() {
     }
 }
 
-/// What has fewer derivatives is the same field.
+/// A field evaluated with fewer derivatives is the same field.
 #[test]
 fn fewer_derivatives_agree() {
     for seed in 0..4 {

@@ -1,4 +1,4 @@
-//! What must be true of every field, on synthetic datasets.
+//! Properties of every field, on synthetic datasets.
 
 mod anchors;
 mod borders;

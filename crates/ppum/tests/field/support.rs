@@ -1,4 +1,4 @@
-//! What the tests share: where a field is not smooth, scales, and comparisons.
+//! Shared by the tests: where a field is not smooth, scales, and comparisons.
 
 use ppum::crack::{Crack, Side};
 use ppum::dataset::{Dataset, Step};

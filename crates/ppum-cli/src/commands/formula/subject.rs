@@ -117,7 +117,7 @@ impl Question<'_> {
             Of::Poisson => self.built_in(&of, &Equation::poisson(1.0), &["u"]),
             Of::File(path) => {
                 let dataset = open(path)?;
-                self.quantity(&of, &field(&dataset, None)?.vocabulary())
+                self.quantity(&of, &Vocabulary::of(&field(&dataset, None)?))
             }
         }
     }

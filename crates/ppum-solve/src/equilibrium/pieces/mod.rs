@@ -10,7 +10,8 @@
 
 use crate::quadrature::{EdgeRule, Face};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
-use ppum::domain::{Domain, Hole, segment_distance};
+use ppum::domain::{Domain, Hole};
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use spade::handles::{FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
@@ -222,7 +223,7 @@ fn add_edges(
 
 fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
     let [a, b, p] = [a, b, p].map(|p| vec2(p.x, p.y));
-    segment_distance(a, b, p)
+    segment::distance([a, b], p)
 }
 
 /// The faces that are connected with one, ascending.

@@ -3,7 +3,7 @@
 use super::{Interfaces, Place};
 use crate::geometry::inside;
 use ppum::crack::{Crack, End};
-use ppum::domain::segment_distance;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Most interfaces that a patch resolves.
@@ -132,7 +132,7 @@ fn at_crack<'p>(
     }
     let meets = |place: &&Place| {
         crack.points.windows(2).any(|s| {
-            segment_distance(s[0], s[1], place.at) < touch
+            segment::distance([s[0], s[1]], place.at) < touch
                 && (s[1] - s[0]).unit().dot(place.normal).abs() > ASLANT
         })
     };

@@ -1,0 +1,118 @@
+//! The names every formula knows: functions, constants, words of the language.
+
+use crate::operation::{Binary, Unary};
+
+/// A function as a formula calls it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Function {
+    /// One operation of one number.
+    Unary(Unary),
+    /// One operation of two numbers.
+    Binary(Binary),
+    /// `if(c, a, b)`.
+    If,
+    /// `clamp(x, low, high)` = min(max(x, low), high).
+    Clamp,
+    /// `table(name, x)` or `table(name, x, y)`.
+    Table,
+    /// `dtable(name, m, x)` or `dtable(name, m, n, x, y)`: a derivative of a table.
+    TableDerivative,
+    /// `side(k)`: +1 on the left of crack k, −1 on its right.
+    Side,
+}
+
+impl Function {
+    /// The function of a name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+    }
+
+    /// Number of arguments; `None` of functions with arguments that are no values.
+    pub(crate) fn arity(self) -> Option<usize> {
+        match self {
+            Self::Unary(_) => Some(1),
+            Self::Binary(_) => Some(2),
+            Self::If | Self::Clamp => Some(3),
+            Self::Table | Self::TableDerivative | Self::Side => None,
+        }
+    }
+}
+
+/// All functions.
+pub(crate) const FUNCTIONS: [(&str, Function); 26] = [
+    ("sqrt", Function::Unary(Unary::Sqrt)),
+    ("cbrt", Function::Unary(Unary::Cbrt)),
+    ("exp", Function::Unary(Unary::Exp)),
+    ("log", Function::Unary(Unary::Log)),
+    ("log10", Function::Unary(Unary::Log10)),
+    ("sin", Function::Unary(Unary::Sin)),
+    ("cos", Function::Unary(Unary::Cos)),
+    ("tan", Function::Unary(Unary::Tan)),
+    ("asin", Function::Unary(Unary::Asin)),
+    ("acos", Function::Unary(Unary::Acos)),
+    ("atan", Function::Unary(Unary::Atan)),
+    ("sinh", Function::Unary(Unary::Sinh)),
+    ("cosh", Function::Unary(Unary::Cosh)),
+    ("tanh", Function::Unary(Unary::Tanh)),
+    ("abs", Function::Unary(Unary::Abs)),
+    ("sign", Function::Unary(Unary::Sign)),
+    ("floor", Function::Unary(Unary::Floor)),
+    ("atan2", Function::Binary(Binary::Atan2)),
+    ("min", Function::Binary(Binary::Min)),
+    ("max", Function::Binary(Binary::Max)),
+    ("hypot", Function::Binary(Binary::Hypot)),
+    ("if", Function::If),
+    ("clamp", Function::Clamp),
+    ("table", Function::Table),
+    ("dtable", Function::TableDerivative),
+    ("side", Function::Side),
+];
+
+/// All constants.
+pub(crate) const CONSTANTS: [(&str, f64); 2] =
+    [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+
+/// Functions of other languages and what stands for them here.
+const FOREIGN: [(&str, &str); 14] = [
+    ("ln", "log"),
+    ("lg", "log10"),
+    ("pow", "^"),
+    ("power", "^"),
+    ("fabs", "abs"),
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("arctan2", "atan2"),
+    ("sgn", "sign"),
+    ("ceil", "-floor(-…)"),
+    ("where", "if"),
+    ("select", "if"),
+    ("interp", "table"),
+];
+
+/// The name that stands for a function of another language.
+pub(crate) fn foreign(name: &str) -> Option<&'static str> {
+    FOREIGN.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|&(_, here)| here)
+}
+
+/// Words of the language that are neither functions nor constants.
+pub(crate) const KEYWORDS: [&str; 4] = ["let", "and", "or", "not"];
+
+/// The constant of a name.
+pub(crate) fn constant(name: &str) -> Option<f64> {
+    CONSTANTS.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
+}
+
+/// Name of an operation that formulas write as a function.
+pub(crate) fn name_of(function: Function) -> &'static str {
+    FUNCTIONS
+        .iter()
+        .find(|(_, known)| *known == function)
+        .map(|&(name, _)| name)
+        .expect("operators are written with their own signs")
+}
+
+/// True if the language itself uses the name.
+pub(crate) fn is_reserved(name: &str) -> bool {
+    KEYWORDS.contains(&name) || constant(name).is_some() || Function::named(name).is_some()
+}

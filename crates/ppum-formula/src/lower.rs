@@ -1,0 +1,174 @@
+//! Syntax tree → expression graph: types are checked, functions become operations.
+
+use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
+use crate::error::{FormulaError, Problem};
+use crate::graph::{Graph, NodeId};
+use crate::half_angle::{self, Multiple};
+use crate::library::Function;
+use crate::operation::{Binary, Comparison};
+use crate::parser::parse;
+use crate::scope::Scope;
+
+/// Parses a formula and makes sure that it is a number.
+pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
+    let ast = parse(source, scope)?;
+    match lower(&ast, scope, &mut Graph::new(scope.tables())) {
+        Ok(_) => Ok(ast),
+        Err(mistake) => Err(mistake.locate(source, &ast)),
+    }
+}
+
+/// A node of the wrong type.
+#[derive(Debug)]
+pub(crate) struct Mistake {
+    expr: ExprId,
+    problem: Problem,
+}
+
+impl Mistake {
+    /// The mistake as an error in the text.
+    pub(crate) fn locate(self, source: &str, ast: &Ast) -> FormulaError {
+        FormulaError::new(source, ast.nodes[self.expr.index()].span, self.problem)
+    }
+}
+
+/// Adds a formula of a scope to a graph; gives the node of its value.
+pub(crate) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, Mistake> {
+    Lowering::new(ast, scope, graph)?.number(ast.root)
+}
+
+/// Adds a condition to a graph; gives the node of 1 where it holds, 0 elsewhere.
+pub(crate) fn lower_condition(
+    ast: &Ast,
+    scope: &Scope,
+    graph: &mut Graph,
+) -> Result<NodeId, Mistake> {
+    let condition = Lowering::new(ast, scope, graph)?.condition(ast.root)?;
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    Ok(graph.select(condition, one, zero))
+}
+
+struct Lowering<'a> {
+    graph: &'a mut Graph,
+    scope: &'a Scope,
+    /// The input θ, if there are half angles.
+    theta: Option<u32>,
+    /// The graph's node of each node of the tree so far.
+    nodes: Vec<NodeId>,
+    /// Each expression as a multiple of θ.
+    multiples: Vec<Multiple>,
+}
+
+impl<'a> Lowering<'a> {
+    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, Mistake> {
+        let theta = scope.half_angles().and_then(|_| scope.input("theta"));
+        let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
+        let mut lowering = Self { graph, scope, theta, nodes, multiples };
+        for expr in &ast.nodes {
+            let node = lowering.expr(expr)?;
+            let multiple = lowering.multiple(expr, node);
+            lowering.nodes.push(node);
+            lowering.multiples.push(multiple);
+        }
+        Ok(lowering)
+    }
+
+    fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
+        match &expr.kind {
+            ExprKind::Number(value) => Ok(self.graph.constant(*value)),
+            ExprKind::Input(index) => Ok(self.graph.input(*index)),
+            ExprKind::Prefix(prefix, a) => self.prefix(*prefix, *a),
+            ExprKind::Infix(infix, a, b) => self.infix(*infix, *a, *b),
+            ExprKind::Call(function, arguments) => self.call(*function, arguments),
+            ExprKind::Table { table, orders, x, y } => {
+                let y = y.map(|y| self.number(y)).transpose()?;
+                let x = self.number(*x)?;
+                Ok(self.graph.table(*table, *orders, x, y))
+            }
+        }
+    }
+
+    fn multiple(&self, expr: &Expr, node: NodeId) -> Multiple {
+        match self.graph.value(node) {
+            Some(value) => Multiple::Constant(value),
+            None => half_angle::multiple(&expr.kind, self.theta, |of| self.multiples[of.index()]),
+        }
+    }
+
+    fn number(&self, expr: ExprId) -> Result<NodeId, Mistake> {
+        self.typed(expr, false, Problem::ConditionForNumber)
+    }
+
+    fn condition(&self, expr: ExprId) -> Result<NodeId, Mistake> {
+        self.typed(expr, true, Problem::NumberForCondition)
+    }
+
+    fn typed(&self, expr: ExprId, condition: bool, problem: Problem) -> Result<NodeId, Mistake> {
+        let node = self.nodes[expr.index()];
+        if self.graph.op(node).is_condition() == condition {
+            Ok(node)
+        } else {
+            Err(Mistake { expr, problem })
+        }
+    }
+
+    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, Mistake> {
+        match prefix {
+            Prefix::Plus => self.number(a),
+            Prefix::Minus => self.number(a).map(|a| self.graph.neg(a)),
+            Prefix::Not => self.condition(a).map(|a| self.graph.not(a)),
+        }
+    }
+
+    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, Mistake> {
+        if let Infix::And | Infix::Or = infix {
+            let (a, b) = (self.condition(a)?, self.condition(b)?);
+            let joined =
+                if infix == Infix::And { self.graph.and(a, b) } else { self.graph.or(a, b) };
+            return Ok(joined);
+        }
+        let (a, b) = (self.number(a)?, self.number(b)?);
+        let g = &mut *self.graph;
+        Ok(match infix {
+            Infix::And | Infix::Or | Infix::Less => g.compare(Comparison::Less, a, b),
+            Infix::LessEqual => g.compare(Comparison::LessEqual, a, b),
+            Infix::Greater => g.compare(Comparison::Less, b, a),
+            Infix::GreaterEqual => g.compare(Comparison::LessEqual, b, a),
+            Infix::Equal => g.compare(Comparison::Equal, a, b),
+            Infix::NotEqual => {
+                let equal = g.compare(Comparison::Equal, a, b);
+                g.not(equal)
+            }
+            Infix::Add => g.binary(Binary::Add, a, b),
+            Infix::Sub => g.binary(Binary::Sub, a, b),
+            Infix::Mul => g.binary(Binary::Mul, a, b),
+            Infix::Div => g.binary(Binary::Div, a, b),
+            Infix::Pow => g.binary(Binary::Pow, a, b),
+        })
+    }
+
+    fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, Mistake> {
+        match (function, arguments) {
+            (Function::Unary(op), &[argument]) => {
+                let a = self.number(argument)?;
+                let of = self.multiples[argument.index()];
+                let products = half_angle::expand(op, of, self.scope, self.graph);
+                Ok(products.unwrap_or_else(|| self.graph.unary(op, a)))
+            }
+            (Function::Binary(op), &[a, b]) => {
+                let (a, b) = (self.number(a)?, self.number(b)?);
+                Ok(self.graph.binary(op, a, b))
+            }
+            (Function::If, &[c, a, b]) => {
+                let (c, a, b) = (self.condition(c)?, self.number(a)?, self.number(b)?);
+                Ok(self.graph.select(c, a, b))
+            }
+            (Function::Clamp, &[x, low, high]) => {
+                let (x, low, high) = (self.number(x)?, self.number(low)?, self.number(high)?);
+                let raised = self.graph.binary(Binary::Max, x, low);
+                Ok(self.graph.binary(Binary::Min, raised, high))
+            }
+            _ => unreachable!("the parser counts arguments and knows tables"),
+        }
+    }
+}

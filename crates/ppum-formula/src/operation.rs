@@ -1,0 +1,157 @@
+//! The operations of formulas on numbers: the meaning that every back end has to reproduce.
+
+/// Functions of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Unary {
+    Neg,
+    Sqrt,
+    Cbrt,
+    Exp,
+    /// Natural logarithm.
+    Log,
+    Log10,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Abs,
+    /// −1, 0 or +1.
+    Sign,
+    Floor,
+}
+
+impl Unary {
+    /// The value at `a`.
+    pub(crate) fn apply(self, a: f64) -> f64 {
+        match self {
+            Self::Neg => -a,
+            Self::Sqrt => a.sqrt(),
+            Self::Cbrt => a.cbrt(),
+            Self::Exp => a.exp(),
+            Self::Log => a.ln(),
+            Self::Log10 => a.log10(),
+            Self::Sin => a.sin(),
+            Self::Cos => a.cos(),
+            Self::Tan => a.tan(),
+            Self::Asin => a.asin(),
+            Self::Acos => a.acos(),
+            Self::Atan => a.atan(),
+            Self::Sinh => a.sinh(),
+            Self::Cosh => a.cosh(),
+            Self::Tanh => a.tanh(),
+            Self::Abs => a.abs(),
+            Self::Sign => sign(a),
+            Self::Floor => a.floor(),
+        }
+    }
+}
+
+/// −1, 0 or +1; NaN of NaN.
+fn sign(a: f64) -> f64 {
+    if a > 0.0 {
+        1.0
+    } else if a < 0.0 {
+        -1.0
+    } else {
+        a
+    }
+}
+
+/// Functions of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Binary {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Pow,
+    /// Angle of the point (b, a), as in `atan2(y, x)`.
+    Atan2,
+    Min,
+    Max,
+    /// √(a² + b²) without overflow.
+    Hypot,
+}
+
+impl Binary {
+    /// The value at `(a, b)`. Unlike those of std, `min` and `max` hand NaN on.
+    pub(crate) fn apply(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Add => a + b,
+            Self::Sub => a - b,
+            Self::Mul => a * b,
+            Self::Div => a / b,
+            Self::Pow => a.powf(b),
+            Self::Atan2 => a.atan2(b),
+            Self::Min if a < b || a.is_nan() => a,
+            Self::Max if a > b || a.is_nan() => a,
+            Self::Min | Self::Max => b,
+            Self::Hypot => a.hypot(b),
+        }
+    }
+}
+
+/// Comparisons; the others are these with exchanged operands or negated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Comparison {
+    Less,
+    LessEqual,
+    Equal,
+}
+
+impl Comparison {
+    /// Whether it holds; never for NaN.
+    #[expect(clippy::float_cmp, reason = "`==` of formulas is exact")]
+    pub(crate) fn holds(self, a: f64, b: f64) -> bool {
+        match self {
+            Self::Less => a < b,
+            Self::LessEqual => a <= b,
+            Self::Equal => a == b,
+        }
+    }
+}
+
+/// aⁿ by repeated squaring: the same products in every back end.
+pub(crate) fn power(a: f64, n: i32) -> f64 {
+    let (mut square, mut rest, mut product) = (a, n.unsigned_abs(), 1.0);
+    while rest > 0 {
+        if rest & 1 == 1 {
+            product *= square;
+        }
+        square *= square;
+        rest >>= 1;
+    }
+    if n < 0 { 1.0 / product } else { product }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integer_powers() {
+        for n in -16..=16 {
+            for a in [-2.5, -1.0, 0.3, 1.7] {
+                let expected = f64::powf(a, f64::from(n));
+                assert!((power(a, n) - expected).abs() <= 4e-15 * expected.abs(), "{a}^{n}");
+            }
+        }
+        assert_eq!(power(0.0, -1), f64::INFINITY);
+        assert_eq!(power(f64::NAN, 0), 1.0);
+    }
+
+    #[test]
+    fn extrema_hand_nan_on() {
+        for op in [Binary::Min, Binary::Max] {
+            assert!(op.apply(f64::NAN, 1.0).is_nan());
+            assert!(op.apply(1.0, f64::NAN).is_nan());
+        }
+        assert_eq!(Binary::Min.apply(1.0, 2.0), 1.0);
+        assert_eq!(Binary::Max.apply(1.0, 2.0), 2.0);
+    }
+}

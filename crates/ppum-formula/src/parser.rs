@@ -1,0 +1,390 @@
+//! Tokens → syntax tree, by precedence climbing. Names are resolved on the way.
+
+use crate::MAX_DEPTH;
+use crate::MAX_LENGTH;
+use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
+use crate::error::{FormulaError, Problem, Span, nearest};
+use crate::lexer::{Token, TokenKind, tokens};
+use crate::library::{self, Function};
+use crate::scope::{Meaning, Scope};
+
+/// Parses a formula whose names are those of `scope`.
+pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
+    if source.len() > MAX_LENGTH {
+        return Err(FormulaError::new(source, Span { start: 0, end: 0 }, Problem::TooLong));
+    }
+    let tokens = tokens(source)?;
+    let mut parser =
+        Parser { source, scope, tokens, next: 0, nodes: Vec::new(), locals: Vec::new(), depth: 0 };
+    let root = parser.block()?;
+    parser.expect(TokenKind::End, "an operator or the end")?;
+    Ok(Ast { nodes: parser.nodes, root })
+}
+
+struct Parser<'a> {
+    source: &'a str,
+    scope: &'a Scope,
+    tokens: Vec<Token>,
+    next: usize,
+    nodes: Vec<Expr>,
+    /// Names bound by `let`, innermost last; `None` while the value is being read.
+    locals: Vec<(&'a str, Option<ExprId>)>,
+    depth: usize,
+}
+
+type Parsed = Result<ExprId, FormulaError>;
+
+impl<'a> Parser<'a> {
+    /// `let name = expression; … expression`; what `let` binds holds to the end of the block.
+    fn block(&mut self) -> Parsed {
+        let outer = self.locals.len();
+        while self.accept(TokenKind::Let) {
+            self.binding()?;
+        }
+        let value = self.expression(0)?;
+        self.locals.truncate(outer);
+        Ok(value)
+    }
+
+    /// `name = expression;` after `let`.
+    fn binding(&mut self) -> Result<(), FormulaError> {
+        let span = self.expect(TokenKind::Name, "a new name")?.span;
+        let name = self.text(span);
+        if library::is_reserved(name) || self.scope.meaning(name).is_some() || self.is_local(name) {
+            return Err(self.error(span, Problem::NameTaken));
+        }
+        self.expect(TokenKind::Assign, "`=`")?;
+        self.locals.push((name, None));
+        let value = self.expression(0)?;
+        self.expect(TokenKind::Semicolon, "an operator or `;`")?;
+        let last = self.locals.len() - 1;
+        self.locals[last].1 = Some(value);
+        Ok(())
+    }
+
+    /// Operands joined by operators that bind at least as tightly as `weakest`.
+    fn expression(&mut self, weakest: u8) -> Parsed {
+        let mut left = self.operand()?;
+        while let Some(infix) = infix(self.peek().kind) {
+            let strength = precedence::of(infix);
+            if strength < weakest {
+                break;
+            }
+            self.advance();
+            let right = if infix == Infix::Pow {
+                self.nested(|p| p.expression(strength))?
+            } else {
+                self.expression(strength + 1)?
+            };
+            let span = self.span(left).to(self.span(right));
+            left = self.push(ExprKind::Infix(infix, left, right), span);
+            if infix.is_comparison() {
+                self.refuse_comparison()?;
+            }
+        }
+        Ok(left)
+    }
+
+    fn refuse_comparison(&self) -> Result<(), FormulaError> {
+        match infix(self.peek().kind) {
+            Some(next) if next.is_comparison() => {
+                Err(self.error(self.peek().span, Problem::ChainedComparison))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// An atom, or an operand with its sign.
+    fn operand(&mut self) -> Parsed {
+        let token = self.peek();
+        let (prefix, strength) = match token.kind {
+            TokenKind::Minus => (Prefix::Minus, precedence::POWER),
+            TokenKind::Plus => (Prefix::Plus, precedence::POWER),
+            TokenKind::Not => (Prefix::Not, precedence::COMPARISON),
+            _ => return self.atom(),
+        };
+        self.advance();
+        let operand = self.nested(|p| p.expression(strength))?;
+        let span = token.span.to(self.span(operand));
+        Ok(self.push(ExprKind::Prefix(prefix, operand), span))
+    }
+
+    /// A number, a name, a call or a block in parentheses.
+    fn atom(&mut self) -> Parsed {
+        let token = self.peek();
+        match token.kind {
+            TokenKind::Number(value) => {
+                self.advance();
+                Ok(self.push(ExprKind::Number(value), token.span))
+            }
+            TokenKind::Name => {
+                self.advance();
+                if self.peek().kind == TokenKind::Open {
+                    self.call(token.span)
+                } else {
+                    self.name(token.span)
+                }
+            }
+            TokenKind::Open => {
+                self.advance();
+                let inner = self.nested(Self::block)?;
+                self.expect(TokenKind::Close, "an operator or `)`")?;
+                Ok(inner)
+            }
+            _ => {
+                let expected = "a number, a name or `(`";
+                Err(self.error(token.span, Problem::Unexpected { expected }))
+            }
+        }
+    }
+
+    fn name(&mut self, span: Span) -> Parsed {
+        let name = self.text(span);
+        if let Some(&(_, value)) = self.locals.iter().rev().find(|(local, _)| *local == name) {
+            return value.ok_or_else(|| self.error(span, Problem::SelfReference));
+        }
+        let kind = match (self.scope.meaning(name), library::constant(name)) {
+            (Some(Meaning::Input(index)), _) => ExprKind::Input(index),
+            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Problem::TableForNumber)),
+            (Some(Meaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
+            (None, None) => return Err(self.error(span, self.unknown_name(name))),
+        };
+        Ok(self.push(kind, span))
+    }
+
+    /// The arguments of the function whose name stands at `name`.
+    fn call(&mut self, name: Span) -> Parsed {
+        let function = self.function(name)?;
+        self.expect(TokenKind::Open, "`(`")?;
+        let Some(expected) = function.arity() else {
+            return match function {
+                Function::Side => self.side(name),
+                _ => self.table(name, function == Function::TableDerivative),
+            };
+        };
+        let mut arguments = Vec::new();
+        if self.peek().kind != TokenKind::Close {
+            arguments.push(self.nested(Self::block)?);
+            arguments.extend(self.further_arguments()?);
+        }
+        let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
+        let given = arguments.len();
+        if given != expected {
+            let suggestion = self.with_arguments(name, given);
+            return Err(self.error(name, Problem::ArgumentCount { expected, given, suggestion }));
+        }
+        Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
+    }
+
+    /// Arguments, each after a comma.
+    fn further_arguments(&mut self) -> Result<Vec<ExprId>, FormulaError> {
+        let mut arguments = Vec::new();
+        while self.accept(TokenKind::Comma) {
+            arguments.push(self.nested(Self::block)?);
+        }
+        Ok(arguments)
+    }
+
+    /// `name, x)`, `name, x, y)` or, of a derivative, `name, m, x)`, `name, m, n, x, y)` after the
+    /// parenthesis of `table(`; its name stands at `function`.
+    fn table(&mut self, function: Span, derivative: bool) -> Parsed {
+        let name = self.expect(TokenKind::Name, "the name of a table")?.span;
+        let table = self.table_named(name)?;
+        let n = self.scope.tables()[table as usize].n_arguments();
+        let arguments = self.further_arguments()?;
+        let close = self.expect(TokenKind::Close, "an operator, `,` or `)`")?;
+        let expected = if derivative { 2 * n } else { n };
+        if arguments.len() != expected {
+            let given = arguments.len() + 1;
+            let form = table_form(self.text(name), n, derivative).into();
+            return Err(self.error(function, Problem::TableArguments { form, given }));
+        }
+        let mut orders = [0; 2];
+        for (order, &argument) in orders.iter_mut().zip(&arguments[..expected - n]) {
+            *order = self.order(argument)?;
+        }
+        let (x, y) = (arguments[expected - n], arguments.get(expected - n + 1).copied());
+        Ok(self.push(ExprKind::Table { table, orders, x, y }, function.to(close.span)))
+    }
+
+    /// `k)` after the parenthesis of `side(`; its name stands at `function`.
+    fn side(&mut self, function: Span) -> Parsed {
+        let cracks = self.scope.n_sides();
+        if cracks == 0 {
+            return Err(self.error(function, Problem::NoCracks));
+        }
+        if self.peek().kind == TokenKind::Close {
+            let expected = "the number of a crack";
+            return Err(self.error(self.peek().span, Problem::Unexpected { expected }));
+        }
+        let argument = self.nested(Self::block)?;
+        let close = self.expect(TokenKind::Close, "an operator or `)`")?;
+        let input = match self.nodes[argument.index()].kind {
+            ExprKind::Number(k) => self.scope.input(&format!("side({k})")),
+            _ => None,
+        };
+        match input {
+            Some(input) => Ok(self.push(ExprKind::Input(input), function.to(close.span))),
+            None => Err(self.error(self.span(argument), Problem::UnknownCrack { cracks })),
+        }
+    }
+
+    fn table_named(&self, span: Span) -> Result<u32, FormulaError> {
+        let name = self.text(span);
+        if let Some(Meaning::Table(table)) = self.scope.meaning(name) {
+            return Ok(table);
+        }
+        let names: Vec<&str> = self.scope.table_names().collect();
+        let problem = if names.is_empty() {
+            Problem::NoTables
+        } else {
+            let suggestion = nearest(name, names.iter().copied()).map(String::into_boxed_str);
+            Problem::UnknownTable { suggestion, known: names.join(", ").into() }
+        };
+        Err(self.error(span, problem))
+    }
+
+    /// The order of a derivative; beyond the third they are 0, but may be asked for.
+    fn order(&self, argument: ExprId) -> Result<u8, FormulaError> {
+        match self.nodes[argument.index()].kind {
+            ExprKind::Number(order) if (0.0..=9.0).contains(&order) && order.fract() == 0.0 => {
+                Ok(order as u8)
+            }
+            _ => Err(self.error(self.span(argument), Problem::InvalidOrder)),
+        }
+    }
+
+    fn function(&self, span: Span) -> Result<Function, FormulaError> {
+        let name = self.text(span);
+        let problem = match Function::named(name) {
+            Some(function) => return Ok(function),
+            None if self.scope.table_names().any(|known| known == name) => Problem::TableForNumber,
+            None if self.known_names().any(|known| known == name) => Problem::NotAFunction,
+            None => {
+                let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
+                let foreign = library::foreign(name).map(str::to_owned);
+                Problem::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
+            }
+        };
+        Err(self.error(span, problem))
+    }
+
+    /// The function of a similar name that takes this many arguments.
+    fn with_arguments(&self, name: Span, given: usize) -> Option<&'static str> {
+        let fits = |function: Function| function.arity() == Some(given);
+        let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
+        let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
+        library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
+    }
+
+    fn unknown_name(&self, name: &str) -> Problem {
+        if Function::named(name).is_some() {
+            return Problem::MissingArguments;
+        }
+        if self.peek().kind == TokenKind::Assign {
+            return Problem::MissingLet;
+        }
+        let table =
+            || nearest(name, self.scope.table_names()).map(|name| format!("table({name}, …)"));
+        Problem::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
+    }
+
+    /// Every name that stands for a value here.
+    fn known_names(&self) -> impl Iterator<Item = &str> {
+        let locals = self.locals.iter().map(|&(name, _)| name);
+        let constants = library::CONSTANTS.iter().map(|&(name, _)| name);
+        // `cos(theta/2)` and `side(0)` are no names
+        let names = self.scope.names().filter(|name| !name.contains('('));
+        names.chain(locals).chain(constants)
+    }
+
+    fn is_local(&self, name: &str) -> bool {
+        self.locals.iter().any(|(local, _)| *local == name)
+    }
+
+    /// Goes one level deeper. Every recursion of the grammar passes here, or through the few
+    /// levels of precedence.
+    fn nested(&mut self, inner: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
+        if self.depth == MAX_DEPTH {
+            return Err(self.error(self.peek().span, Problem::TooDeep));
+        }
+        self.depth += 1;
+        let value = inner(self)?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn push(&mut self, kind: ExprKind, span: Span) -> ExprId {
+        let id = u32::try_from(self.nodes.len()).expect("fewer nodes than MAX_LENGTH");
+        self.nodes.push(Expr { kind, span });
+        ExprId(id)
+    }
+
+    fn span(&self, id: ExprId) -> Span {
+        self.nodes[id.index()].span
+    }
+
+    fn text(&self, span: Span) -> &'a str {
+        &self.source[span.range()]
+    }
+
+    fn peek(&self) -> Token {
+        self.tokens[self.next]
+    }
+
+    /// Passes a token; the end stays.
+    fn advance(&mut self) {
+        self.next = (self.next + 1).min(self.tokens.len() - 1);
+    }
+
+    fn accept(&mut self, kind: TokenKind) -> bool {
+        let fits = self.peek().kind == kind;
+        if fits {
+            self.advance();
+        }
+        fits
+    }
+
+    fn expect(&mut self, kind: TokenKind, expected: &'static str) -> Result<Token, FormulaError> {
+        let token = self.peek();
+        if !self.accept(kind) {
+            let compares = token.kind == TokenKind::Assign && expected.starts_with("an operator");
+            let expected = if compares { "`==` to compare" } else { expected };
+            return Err(self.error(token.span, Problem::Unexpected { expected }));
+        }
+        Ok(token)
+    }
+
+    fn error(&self, span: Span, problem: Problem) -> FormulaError {
+        FormulaError::new(self.source, span, problem)
+    }
+}
+
+/// The form of a table of `n` arguments.
+fn table_form(name: &str, n: usize, derivative: bool) -> String {
+    let arguments = if n == 1 { "x" } else { "x, y" };
+    match (derivative, n) {
+        (false, _) => format!("table({name}, {arguments})"),
+        (true, 1) => format!("dtable({name}, m, {arguments})"),
+        (true, _) => format!("dtable({name}, m, n, {arguments})"),
+    }
+}
+
+fn infix(kind: TokenKind) -> Option<Infix> {
+    Some(match kind {
+        TokenKind::Or => Infix::Or,
+        TokenKind::And => Infix::And,
+        TokenKind::Less => Infix::Less,
+        TokenKind::LessEqual => Infix::LessEqual,
+        TokenKind::Greater => Infix::Greater,
+        TokenKind::GreaterEqual => Infix::GreaterEqual,
+        TokenKind::Equal => Infix::Equal,
+        TokenKind::NotEqual => Infix::NotEqual,
+        TokenKind::Plus => Infix::Add,
+        TokenKind::Minus => Infix::Sub,
+        TokenKind::Star => Infix::Mul,
+        TokenKind::Slash => Infix::Div,
+        TokenKind::Caret => Infix::Pow,
+        _ => return None,
+    })
+}

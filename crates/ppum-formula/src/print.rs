@@ -1,0 +1,243 @@
+//! Program → text of the language, from which the same program can be parsed again.
+
+use std::collections::HashSet;
+
+use crate::ast::precedence;
+use crate::graph::{NodeId, Op};
+use crate::library::{Function, name_of};
+use crate::operation::{Binary, Comparison, Unary};
+use crate::program::Program;
+use crate::scope::Scope;
+
+/// Longer or deeper pieces of text get a name by `let`, as shared ones do: it keeps the text
+/// readable, and within the parser's limit of nesting.
+const MAX_PIECE: usize = 100;
+const MAX_PIECE_DEPTH: usize = 20;
+
+/// The text of a program with one output.
+pub(crate) fn print(program: &Program, scope: &Scope) -> String {
+    let root = program.outputs()[0];
+    let mut printer = Printer::new(program, scope);
+    for (index, &op) in program.ops().iter().enumerate() {
+        let piece = match printer.defined[index] {
+            Some(name) => atom(name.to_owned(), 1),
+            None => printer.piece(op),
+        };
+        let large = piece.text.len() > MAX_PIECE || piece.depth > MAX_PIECE_DEPTH;
+        let shared = printer.uses[index] > 1 && !printer.is_leaf(index, op);
+        let part = index != root.index() && printer.uses[index] > 0;
+        let piece = if part && (shared || large) { printer.name(&piece) } else { piece };
+        printer.pieces.push(piece);
+    }
+    let value = &printer.pieces[root.index()].text;
+    format!("{}{value}", printer.bindings)
+}
+
+/// Text of a subexpression.
+#[derive(Clone)]
+struct Piece {
+    text: String,
+    /// Precedence of its outermost operator.
+    strength: u8,
+    depth: usize,
+}
+
+struct Printer<'a> {
+    inputs: Vec<&'a str>,
+    tables: Vec<&'a str>,
+    taken: HashSet<&'a str>,
+    /// The scope's text of each operation, if it is a function that the scope defines.
+    defined: Vec<Option<&'static str>>,
+    /// Which operations are numbers.
+    numbers: Vec<bool>,
+    /// Number of texts that the text of each operation is part of.
+    uses: Vec<u32>,
+    pieces: Vec<Piece>,
+    bindings: String,
+    n_names: usize,
+}
+
+impl<'a> Printer<'a> {
+    fn new(program: &Program, scope: &'a Scope) -> Self {
+        let defined = defined(program, scope);
+        let uses = uses(program, &defined);
+        Self {
+            inputs: scope.inputs().collect(),
+            tables: scope.table_names().collect(),
+            taken: scope.names().chain(scope.table_names()).collect(),
+            defined,
+            numbers: program.ops().iter().map(|op| op.value().is_some()).collect(),
+            uses,
+            pieces: Vec::new(),
+            bindings: String::new(),
+            n_names: 0,
+        }
+    }
+
+    /// True if the text is as short as a name.
+    fn is_leaf(&self, index: usize, op: Op) -> bool {
+        matches!(op, Op::Constant(_) | Op::Input(_)) || self.defined[index].is_some()
+    }
+
+    /// Binds a piece to a new name.
+    fn name(&mut self, piece: &Piece) -> Piece {
+        let name = loop {
+            self.n_names += 1;
+            let name = format!("s{}", self.n_names);
+            if !self.taken.contains(name.as_str()) {
+                break name;
+            }
+        };
+        self.bindings.push_str(&format!("let {name} = {};\n", piece.text));
+        atom(name, 0)
+    }
+
+    fn piece(&mut self, op: Op) -> Piece {
+        match op {
+            Op::Constant(bits) => number(f64::from_bits(bits)),
+            Op::Input(index) => atom(self.inputs[index as usize].to_owned(), 0),
+            Op::Unary(Unary::Neg, a) => self.prefix("-", a, precedence::POWER, precedence::MINUS),
+            Op::Unary(op, a) => self.call(Function::Unary(op), &[a]),
+            Op::Power(a, n) if n < 0 => {
+                self.before(a, precedence::ATOM, &format!("^({n})"), precedence::POWER)
+            }
+            Op::Power(a, n) => {
+                self.before(a, precedence::ATOM, &format!("^{n}"), precedence::POWER)
+            }
+            Op::Binary(op, a, b) => self.binary(op, a, b),
+            Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
+            Op::Select(c, a, b) => self.call(Function::If, &[c, a, b]),
+            Op::Truth(holds) => Piece {
+                text: if holds { "0 == 0" } else { "0 == 1" }.to_owned(),
+                strength: precedence::COMPARISON,
+                depth: 0,
+            },
+            Op::Compare(op, a, b) => self.infix(a, sign(op), b, precedence::COMPARISON),
+            Op::Not(a) => self.prefix("not ", a, precedence::COMPARISON, precedence::NOT),
+            Op::And(a, b) => self.infix(a, " and ", b, precedence::AND),
+            Op::Or(a, b) => self.infix(a, " or ", b, precedence::OR),
+        }
+    }
+
+    fn binary(&mut self, op: Binary, a: NodeId, b: NodeId) -> Piece {
+        match op {
+            Binary::Add => self.infix(a, " + ", b, precedence::SUM),
+            Binary::Sub => self.infix(a, " - ", b, precedence::SUM),
+            // a number goes first; the graph keeps the factors in any order
+            Binary::Mul if self.numbers[b.index()] => self.infix(b, "*", a, precedence::PRODUCT),
+            Binary::Mul => self.infix(a, "*", b, precedence::PRODUCT),
+            Binary::Div => self.infix(a, "/", b, precedence::PRODUCT),
+            Binary::Pow => {
+                let (a, b) = (self.operand(a, precedence::ATOM), self.operand(b, precedence::ATOM));
+                let depth = a.depth.max(b.depth);
+                Piece { text: format!("{}^{}", a.text, b.text), strength: precedence::POWER, depth }
+            }
+            Binary::Atan2 | Binary::Min | Binary::Max | Binary::Hypot => {
+                self.call(Function::Binary(op), &[a, b])
+            }
+        }
+    }
+
+    /// `a sign b`, grouped from the left; comparisons group neither way.
+    fn infix(&mut self, a: NodeId, sign: &str, b: NodeId, strength: u8) -> Piece {
+        let left = strength + u8::from(strength == precedence::COMPARISON);
+        let (a, b) = (self.operand(a, left), self.operand(b, strength + 1));
+        let depth = a.depth.max(b.depth);
+        Piece { text: format!("{}{sign}{}", a.text, b.text), strength, depth }
+    }
+
+    fn prefix(&mut self, sign: &str, a: NodeId, weakest: u8, strength: u8) -> Piece {
+        let a = self.operand(a, weakest);
+        Piece { text: format!("{sign}{}", a.text), strength, depth: a.depth + 1 }
+    }
+
+    fn before(&mut self, a: NodeId, weakest: u8, sign: &str, strength: u8) -> Piece {
+        let a = self.operand(a, weakest);
+        Piece { text: format!("{}{sign}", a.text), strength, depth: a.depth }
+    }
+
+    fn call(&mut self, function: Function, arguments: &[NodeId]) -> Piece {
+        let pieces: Vec<Piece> = arguments.iter().map(|&a| self.operand(a, 0)).collect();
+        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
+        let texts: Vec<&str> = pieces.iter().map(|piece| piece.text.as_str()).collect();
+        atom(format!("{}({})", name_of(function), texts.join(", ")), depth + 1)
+    }
+
+    /// `table(name, x, y)` or `dtable(name, m, n, x, y)`.
+    fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> Piece {
+        let given = 1 + usize::from(y.is_some());
+        let mut parts = vec![self.tables[table].to_owned()];
+        let derived = orders != [0, 0];
+        if derived {
+            parts.extend(orders[..given].iter().map(u8::to_string));
+        }
+        let pieces: Vec<Piece> =
+            [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
+        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
+        parts.extend(pieces.into_iter().map(|piece| piece.text));
+        let function = if derived { Function::TableDerivative } else { Function::Table };
+        atom(format!("{}({})", name_of(function), parts.join(", ")), depth + 1)
+    }
+
+    /// The text of an operand, in parentheses if it binds less tightly than `weakest`.
+    fn operand(&self, id: NodeId, weakest: u8) -> Piece {
+        let piece = self.pieces[id.index()].clone();
+        if piece.strength >= weakest {
+            return piece;
+        }
+        atom(format!("({})", piece.text), piece.depth + 1)
+    }
+}
+
+/// The names of the operations that are functions which the scope defines.
+fn defined(program: &Program, scope: &Scope) -> Vec<Option<&'static str>> {
+    let mut names = vec![None; program.ops().len()];
+    let definitions = scope.definitions(&mut program.graph());
+    for (index, node) in definitions.into_iter().enumerate() {
+        // a node beyond the program is not part of it
+        if let Some(name) = names.get_mut(node.index()) {
+            *name = Some(scope.defined_name(index));
+        }
+    }
+    names
+}
+
+/// Number of needed texts that show each operation as an operand.
+fn uses(program: &Program, defined: &[Option<&str>]) -> Vec<u32> {
+    let mut uses = vec![0; program.ops().len()];
+    let root = program.outputs()[0].index();
+    for (index, op) in program.ops().iter().enumerate().rev() {
+        if (index == root || uses[index] > 0) && defined[index].is_none() {
+            op.operands().for_each(|operand| uses[operand.index()] += 1);
+        }
+    }
+    uses
+}
+
+fn atom(text: String, depth: usize) -> Piece {
+    Piece { text, strength: precedence::ATOM, depth }
+}
+
+/// The shortest text that gives the same number; infinities and NaN as quotients.
+fn number(value: f64) -> Piece {
+    let quotient =
+        |text: &str| Piece { text: text.to_owned(), strength: precedence::PRODUCT, depth: 0 };
+    if value.is_nan() {
+        return quotient("0/0");
+    }
+    if value.is_infinite() {
+        return quotient(if value > 0.0 { "1/0" } else { "-1/0" });
+    }
+    let text = format!("{value:?}");
+    let text = text.strip_suffix(".0").unwrap_or(&text).to_owned();
+    let strength = if text.starts_with('-') { precedence::MINUS } else { precedence::ATOM };
+    Piece { text, strength, depth: 0 }
+}
+
+fn sign(op: Comparison) -> &'static str {
+    match op {
+        Comparison::Less => " < ",
+        Comparison::LessEqual => " <= ",
+        Comparison::Equal => " == ",
+    }
+}

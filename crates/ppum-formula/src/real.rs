@@ -1,0 +1,324 @@
+//! The number type of the evaluators: one text for f64, f32 and SIMD lanes.
+//!
+//! Kernels are written once over [`Real`]. The instance `f64` is the reference; lanes are the
+//! vectors of `fearless_simd`, chosen at run time by [`Scalar::dispatch`]. There are no branches on
+//! values, only [`Real::select`].
+//!
+//! Every kernel that runs on lanes must be `#[inline(always)]` and must not call a closure that is
+//! not inlined: a call leaves the region compiled for the wider instruction set, which costs a
+//! factor of ten or more and changes no result.
+
+use fearless_simd::{Level, Select as _, Simd, dispatch, f32x16, f64x8, prelude::*};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::tape::Interpret;
+
+/// Lanes of the widest vector there is: f32 on 512 bits.
+pub const WIDEST: usize = 16;
+
+/// A number or a vector of numbers.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Type of one lane.
+    type Scalar: Scalar;
+    /// Result of a comparison.
+    type Mask: Copy;
+    /// The numbers in the lanes.
+    type Array: Copy + AsRef<[Self::Scalar]> + AsMut<[Self::Scalar]>;
+    /// Number of lanes.
+    const LANES: usize;
+
+    /// A constant in every lane. Taken from an existing value, because lanes carry the proof that
+    /// the processor has them.
+    fn lit(self, value: f64) -> Self;
+    /// `self · b + c`, fused where the processor fuses.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// Largest integer that is not above it.
+    fn floor(self) -> Self;
+    /// Larger value; `other` if `self` is NaN.
+    fn max(self, other: Self) -> Self;
+    /// Smaller value; `other` if `self` is NaN.
+    fn min(self, other: Self) -> Self;
+    /// `self ≥ other`, lane by lane; false for NaN.
+    fn ge(self, other: Self) -> Self::Mask;
+    /// `self > other`, lane by lane; false for NaN.
+    fn gt(self, other: Self) -> Self::Mask;
+    /// `a` where the mask holds, else `b`.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// The first [`Self::LANES`] numbers of a slice.
+    fn load(self, from: &[Self::Scalar]) -> Self;
+    /// Whole vectors of a slice.
+    fn arrays_mut(of: &mut [Self::Scalar]) -> &mut [Self::Array];
+    /// The lanes from an array.
+    fn load_array(self, array: &Self::Array) -> Self;
+    /// The lanes as an array.
+    fn store_array(self, array: &mut Self::Array);
+    /// Writes the lanes to the start of a slice.
+    fn store(self, to: &mut [Self::Scalar]);
+    /// The lanes widened to f64; zero beyond [`Self::LANES`].
+    #[inline(always)]
+    fn lanes(self) -> [f64; WIDEST] {
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        self.store(&mut lanes);
+        lanes.map(Scalar::to_f64)
+    }
+    /// The number of each lane, rounded from f64; `self` is any value to take the kind from.
+    #[inline(always)]
+    fn with_lanes(self, mut number: impl FnMut(usize) -> f64) -> Self {
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        for (k, lane) in lanes.iter_mut().enumerate().take(Self::LANES) {
+            *lane = Self::Scalar::from_f64(number(k));
+        }
+        self.load(&lanes)
+    }
+    /// Applies a scalar function in f64 lane by lane: the slow path for functions without a kernel.
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let lanes = self.lanes();
+        self.with_lanes(|k| f(lanes[k]))
+    }
+    /// Writes the lanes to a slice, or as many as there is room for.
+    #[inline(always)]
+    fn store_some(self, to: &mut [Self::Scalar]) {
+        if to.len() >= Self::LANES {
+            return self.store(to);
+        }
+        let mut lanes = [Self::Scalar::default(); WIDEST];
+        self.store(&mut lanes);
+        to.copy_from_slice(&lanes[..to.len()]);
+    }
+    /// +1 where the mask holds, else −1; `one` is a one to take the kind from.
+    #[inline(always)]
+    fn sign(positive: Self::Mask, one: Self) -> Self {
+        Self::select(positive, one, -one)
+    }
+}
+
+/// Work that is compiled for every instruction set and run with the widest the processor has.
+pub trait Job<T: Scalar> {
+    /// The result of the work.
+    type Output;
+    /// Runs with numbers of type `R`; `zero` is a zero to take constants from. Must be
+    /// `#[inline(always)]`.
+    fn run<R: Real<Scalar = T>>(self, zero: R) -> Self::Output;
+}
+
+/// One lane: f64 or f32.
+pub trait Scalar:
+    Real<Scalar = Self> + Interpret + Default + PartialOrd + Send + Sync + std::fmt::Debug
+{
+    /// Lanes in a vector of [`Scalar::dispatch`]; buffers are padded to a multiple of it.
+    const VECTOR: usize;
+    /// Rounds from f64.
+    fn from_f64(value: f64) -> Self;
+    /// Widens to f64.
+    fn to_f64(self) -> f64;
+    /// Runs the job on the widest vectors of this processor.
+    fn dispatch<J: Job<Self>>(job: J) -> J::Output;
+}
+
+macro_rules! scalar {
+    ($t:ident, $vector:ident, $lanes:literal) => {
+        impl Real for $t {
+            type Scalar = $t;
+            type Mask = bool;
+            type Array = [$t; 1];
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn lit(self, value: f64) -> Self {
+                value as $t
+            }
+            // Not fused: without the instruction `mul_add` is a library call, ten times slower.
+            #[inline(always)]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                self * b + c
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $t::sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $t::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                $t::floor(self)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn ge(self, other: Self) -> bool {
+                self >= other
+            }
+            #[inline(always)]
+            fn gt(self, other: Self) -> bool {
+                self > other
+            }
+            #[inline(always)]
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+            #[inline(always)]
+            fn load(self, from: &[$t]) -> Self {
+                from[0]
+            }
+            #[inline(always)]
+            fn arrays_mut(of: &mut [$t]) -> &mut [[$t; 1]] {
+                of.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn load_array(self, array: &[$t; 1]) -> Self {
+                array[0]
+            }
+            #[inline(always)]
+            fn store_array(self, array: &mut [$t; 1]) {
+                array[0] = self;
+            }
+            #[inline(always)]
+            fn store(self, to: &mut [$t]) {
+                to[0] = self;
+            }
+            #[inline(always)]
+            fn map(self, f: impl Fn(f64) -> f64) -> Self {
+                f(f64::from(self)) as $t
+            }
+        }
+
+        impl Scalar for $t {
+            const VECTOR: usize = $lanes;
+            fn from_f64(value: f64) -> Self {
+                value as $t
+            }
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            fn dispatch<J: Job<Self>>(job: J) -> J::Output {
+                dispatch!(Level::new(), simd => job.run($vector::splat(simd, 0.0)))
+            }
+        }
+
+        impl<S: Simd> Real for $vector<S> {
+            type Scalar = $t;
+            type Mask = <Self as SimdBase<S>>::Mask;
+            type Array = [$t; $lanes];
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn lit(self, value: f64) -> Self {
+                Self::splat(self.token(), value as $t)
+            }
+            #[inline(always)]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                SimdFloat::mul_add(self, b, c)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                SimdBase::abs(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                SimdFloat::floor(self)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.simd_gt(other).select(self, other)
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.simd_lt(other).select(self, other)
+            }
+            #[inline(always)]
+            fn ge(self, other: Self) -> Self::Mask {
+                self.simd_ge(other)
+            }
+            #[inline(always)]
+            fn gt(self, other: Self) -> Self::Mask {
+                self.simd_gt(other)
+            }
+            #[inline(always)]
+            fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
+                mask.select(a, b)
+            }
+            #[inline(always)]
+            fn load(self, from: &[$t]) -> Self {
+                Self::from_slice(self.token(), &from[..$lanes])
+            }
+            #[inline(always)]
+            fn arrays_mut(of: &mut [$t]) -> &mut [[$t; $lanes]] {
+                of.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn load_array(self, array: &[$t; $lanes]) -> Self {
+                Self::from_slice(self.token(), array)
+            }
+            #[inline(always)]
+            fn store_array(self, array: &mut [$t; $lanes]) {
+                self.store_slice(array);
+            }
+            #[inline(always)]
+            fn store(self, to: &mut [$t]) {
+                self.store_slice(&mut to[..$lanes]);
+            }
+        }
+    };
+}
+
+scalar!(f64, f64x8, 8);
+scalar!(f32, f32x16, 16);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Kernel<'a, T>(&'a [T], &'a mut [T]);
+
+    impl<T: Scalar> Job<T> for Kernel<'_, T> {
+        type Output = ();
+        #[inline(always)]
+        fn run<R: Real<Scalar = T>>(self, zero: R) {
+            for (from, to) in self.0.chunks_exact(R::LANES).zip(self.1.chunks_exact_mut(R::LANES)) {
+                let x = zero.load(from);
+                let y = x.abs().sqrt().max(zero.lit(0.5)) / (x + zero.lit(10.0));
+                let z = R::select(x.ge(zero), y, -y).min(zero.lit(0.1));
+                z.map(|v| v * 2.0).store(to);
+            }
+        }
+    }
+
+    /// Every operation of the kernel is exact or correctly rounded, so lanes and scalars agree.
+    #[test]
+    fn lanes_equal_scalars_bit_for_bit() {
+        let xs: Vec<f64> = (0..64).map(|k| f64::from(k) * 0.37 - 9.0).collect();
+        let (mut lanes, mut scalars) = (vec![0.0; 64], vec![0.0; 64]);
+        f64::dispatch(Kernel(&xs, &mut lanes));
+        Kernel(&xs, &mut scalars).run(0.0f64);
+        assert_eq!(lanes, scalars);
+        let xs: Vec<f32> = xs.iter().map(|&x| x as f32).collect();
+        let (mut lanes, mut scalars) = (vec![0.0; 64], vec![0.0; 64]);
+        f32::dispatch(Kernel(&xs, &mut lanes));
+        Kernel(&xs, &mut scalars).run(0.0f32);
+        assert_eq!(lanes, scalars);
+    }
+}

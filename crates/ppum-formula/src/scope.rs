@@ -1,0 +1,456 @@
+//! The variables a formula may use.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::sync::{Arc, LazyLock};
+
+use crate::Table;
+use crate::ast::Ast;
+use crate::error::FormulaError;
+use crate::graph::{Graph, NodeId};
+use crate::{library, lower};
+
+/// The variables of a dataset's formulas. No table may be called like one of them: it could not be
+/// read where the variable is known.
+pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
+
+/// The names a formula may use besides functions and constants.
+///
+/// - *Independent variables* are inputs of an evaluation; derivatives are taken with respect to them.
+/// - *Dependent variables* are inputs too, because the caller knows them best, but functions of the
+///   independent ones: each comes with its derivatives as formulas. The polar angle is the model:
+///   which branch it is on depends on the crack, its derivatives do not.
+/// - *Parameters* are constants with a name.
+/// - *Tables* are data, used by `table(name, x)`.
+///
+/// The inputs of an evaluation are the independent, then the dependent variables, in the order in
+/// which they were given.
+///
+/// ```
+/// use ppum_formula::{Formula, Scope};
+///
+/// let scope = Scope::polar().with_parameter("lambda", 0.5).expect("a new name");
+/// let f = Formula::parse("r^lambda * sin(lambda*theta)", &scope).expect("a formula");
+/// let (x, y) = (0.0_f64, 4.0_f64);
+/// let theta = y.atan2(x);
+/// let value = f.evaluate(&[x, y, x.hypot(y), theta, (theta / 2.0).cos(), (theta / 2.0).sin()]);
+/// assert!((value - 2.0_f64.sqrt()).abs() < 1e-15);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scope {
+    independent: Vec<String>,
+    dependent: Vec<Dependent>,
+    defined: Arc<[Defined]>,
+    parameters: Vec<(String, f64)>,
+    tables: Arc<[Arc<Table>]>,
+    /// The dependent variables that are sides of cracks: they follow each other.
+    sides: Range<usize>,
+}
+
+/// A dependent variable.
+#[derive(Clone, Debug, PartialEq)]
+struct Dependent {
+    name: String,
+    /// Its derivative with respect to each independent variable.
+    rules: Arc<[Ast]>,
+}
+
+/// A function of the inputs whose derivatives have rules of their own, better than those of its
+/// definition: fewer operations, no cancellation.
+#[derive(Clone, Debug, PartialEq)]
+struct Defined {
+    /// The text that stands for it.
+    name: &'static str,
+    definition: Ast,
+    /// Its derivative with respect to each independent variable.
+    rules: Arc<[Ast]>,
+}
+
+/// cos θ and sin θ of the polar angle: name, definition, derivatives. The direction of the origin
+/// itself is +x, so that √r sin θ has the value 0 there; NaN stays NaN.
+const WHOLE_ANGLE: [(&str, &str, [&str; 2]); 2] = [
+    ("cos(theta)", "if(r == 0, 1, x/r)", ["sin(theta)*sin(theta)/r", "-(sin(theta)*cos(theta)/r)"]),
+    ("sin(theta)", "if(r == 0, 0, y/r)", ["-(sin(theta)*cos(theta)/r)", "cos(theta)*cos(theta)/r"]),
+];
+
+/// The inputs of polar coordinates and their derivatives.
+const POLAR: [(&str, [&str; 2]); 4] = [
+    ("r", ["cos(theta)", "sin(theta)"]),
+    ("theta", ["-(sin(theta)/r)", "cos(theta)/r"]),
+    (COS_HALF, ["sin(theta/2)*sin(theta)/(2*r)", "-(sin(theta/2)*cos(theta)/(2*r))"]),
+    (SIN_HALF, ["-(cos(theta/2)*sin(theta)/(2*r))", "cos(theta/2)*cos(theta)/(2*r)"]),
+];
+
+const COS_HALF: &str = "cos(theta/2)";
+const SIN_HALF: &str = "sin(theta/2)";
+
+/// A name or a rule that a [`Scope`] cannot take.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScopeError {
+    /// Not a name.
+    #[error("`{name}` is not a name; names are letters, digits and `_`, no digit first")]
+    InvalidName {
+        /// The text.
+        name: String,
+    },
+    /// The scope or the language has the name already.
+    #[error("the name `{name}` already has a meaning in formulas; choose another")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+    /// The number of rules differs from that of the independent variables.
+    #[error(
+        "`{name}` has {given} derivative rules, one for each of {expected} variables is needed"
+    )]
+    RuleCount {
+        /// The dependent variable.
+        name: String,
+        /// Independent variables.
+        expected: usize,
+        /// Rules.
+        given: usize,
+    },
+    /// A rule is no formula.
+    #[error("in a derivative rule of `{name}`: {error}")]
+    Rule {
+        /// The dependent variable.
+        name: String,
+        /// The mistake.
+        #[source]
+        error: FormulaError,
+    },
+}
+
+/// The meaning of a name of the scope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Meaning {
+    /// A variable: its index among the inputs.
+    Input(u32),
+    /// A parameter.
+    Value(f64),
+    /// A table: its index.
+    Table(u32),
+}
+
+impl Dependent {
+    fn without_rules(name: &str) -> Self {
+        Self { name: name.to_owned(), rules: Arc::default() }
+    }
+}
+
+impl Scope {
+    /// A scope of independent variables.
+    ///
+    /// # Errors
+    /// When a name is not one, or is taken.
+    pub fn new(independent: &[&str]) -> Result<Self, ScopeError> {
+        let empty = Self {
+            independent: vec![],
+            dependent: vec![],
+            defined: Arc::default(),
+            parameters: vec![],
+            tables: Arc::default(),
+            sides: 0..0,
+        };
+        independent.iter().try_fold(empty, |mut scope, name| {
+            scope.check_name(name)?;
+            scope.independent.push((*name).to_owned());
+            Ok(scope)
+        })
+    }
+
+    /// Inputs x, y.
+    #[must_use]
+    pub fn cartesian() -> Self {
+        Self::new(&["x", "y"]).expect("x and y are names")
+    }
+
+    /// Inputs x, y, r, theta, `cos(theta/2)`, `sin(theta/2)`, where r = √(x² + y²) and θ is the polar
+    /// angle on the branch that the caller chooses, with the half angles on the same branch:
+    /// ∂r = (x, y)/r, ∂θ = (−y, x)/r², ∂ cos(θ/2) = sin(θ/2) (y, −x)/(2r²),
+    /// ∂ sin(θ/2) = cos(θ/2) (−y, x)/(2r²).
+    ///
+    /// The names of the last two are their texts. Sines, cosines and tangents of multiples kθ/2,
+    /// 0 < |k| ≤ 64, are products of x/r, y/r and these two; θ itself is not used for them. At r = 0
+    /// cos θ is 1 and sin θ is 0, their derivatives are NaN.
+    #[must_use]
+    pub fn polar() -> Self {
+        static SCOPE: LazyLock<Scope> = LazyLock::new(Scope::new_polar);
+        SCOPE.clone()
+    }
+
+    fn new_polar() -> Self {
+        let mut scope = Self::cartesian();
+        scope.dependent.extend(POLAR.map(|(name, _)| Dependent::without_rules(name)));
+        // the rules use the definitions
+        scope.defined = scope.whole_angle(|_| Arc::default());
+        let parsed = |texts: &[&str; 2]| texts.map(|text| scope.built_in(text)).into();
+        let (defined, rules) = (scope.whole_angle(parsed), POLAR.map(|(_, texts)| parsed(&texts)));
+        scope.defined = defined;
+        for (dependent, rules) in scope.dependent.iter_mut().zip(rules) {
+            dependent.rules = rules;
+        }
+        scope
+    }
+
+    fn whole_angle(&self, rules: impl Fn(&[&str; 2]) -> Arc<[Ast]>) -> Arc<[Defined]> {
+        let define = |(name, text, texts): &(&'static str, &str, [&str; 2])| Defined {
+            name,
+            definition: self.built_in(text),
+            rules: rules(texts),
+        };
+        WHOLE_ANGLE.iter().map(define).collect()
+    }
+
+    fn built_in(&self, text: &str) -> Ast {
+        lower::checked(text, self).expect("definitions and rules are formulas")
+    }
+
+    /// Adds a named constant.
+    ///
+    /// # Errors
+    /// When the name is not one, or is taken.
+    pub fn with_parameter(mut self, name: &str, value: f64) -> Result<Self, ScopeError> {
+        self.check_name(name)?;
+        self.parameters.push((name.to_owned(), value));
+        Ok(self)
+    }
+
+    /// Adds a table.
+    ///
+    /// # Errors
+    /// When its name is not one, or is taken.
+    pub fn with_table(self, table: Arc<Table>) -> Result<Self, ScopeError> {
+        self.with_tables(&[table])
+    }
+
+    /// Adds tables.
+    ///
+    /// # Errors
+    /// When the name of one is no name, or is taken.
+    pub fn with_tables(mut self, tables: &[Arc<Table>]) -> Result<Self, ScopeError> {
+        let mut names = BTreeSet::new();
+        for table in tables {
+            self.check_name(table.name())?;
+            if !names.insert(table.name()) {
+                return Err(ScopeError::NameTaken { name: table.name().to_owned() });
+            }
+        }
+        self.tables = self.tables.iter().chain(tables).cloned().collect();
+        Ok(self)
+    }
+
+    /// Adds an input that is a function of the independent variables. `rules` are its derivatives
+    /// with respect to each of them, in their order, as formulas of this scope and of itself.
+    ///
+    /// # Errors
+    /// When the name is not one or is taken, or a rule is missing or is no formula.
+    pub fn with_dependent(self, name: &str, rules: &[&str]) -> Result<Self, ScopeError> {
+        self.with_dependents(&[(name, rules)])
+    }
+
+    /// Adds inputs that are functions of the independent variables, each with the rules of its
+    /// derivatives, which may use all inputs of the group.
+    ///
+    /// # Errors
+    /// As [`Scope::with_dependent`].
+    pub fn with_dependents(mut self, group: &[(&str, &[&str])]) -> Result<Self, ScopeError> {
+        let first = self.dependent.len();
+        for (name, rules) in group {
+            self.check_name(name)?;
+            let (expected, given) = (self.independent.len(), rules.len());
+            if given != expected {
+                return Err(ScopeError::RuleCount { name: (*name).to_owned(), expected, given });
+            }
+            self.dependent.push(Dependent::without_rules(name));
+        }
+        for (k, (name, rules)) in group.iter().enumerate() {
+            let parsed: Result<Arc<[Ast]>, FormulaError> =
+                rules.iter().map(|rule| lower::checked(rule, &self)).collect();
+            self.dependent[first + k].rules =
+                parsed.map_err(|error| ScopeError::Rule { name: (*name).to_owned(), error })?;
+        }
+        Ok(self)
+    }
+
+    /// Adds the sides of cracks as inputs called `side(0)` to `side(n - 1)`: +1 on the left of crack k,
+    /// −1 on its right, with derivatives 0. Formulas write them so.
+    ///
+    /// # Panics
+    /// When inputs were added after sides.
+    #[must_use]
+    pub fn with_sides(mut self, n: usize) -> Self {
+        let (first, end) = (self.n_sides(), self.dependent.len());
+        assert!(first == 0 || self.sides.end == end, "sides of cracks follow each other");
+        let rules: Arc<[Ast]> = vec![self.built_in("0"); self.independent.len()].into();
+        let side = |k| Dependent { name: format!("side({k})"), rules: rules.clone() };
+        self.dependent.extend((first..first + n).map(side));
+        self.sides = end - first..end + n;
+        self
+    }
+
+    /// Names of the inputs of an evaluation, in order.
+    pub fn inputs(&self) -> impl Iterator<Item = &str> {
+        let dependent = self.dependent.iter().map(|d| d.name.as_str());
+        self.independent.iter().map(String::as_str).chain(dependent)
+    }
+
+    /// Names of the independent variables, in order.
+    pub(crate) fn independent(&self) -> &[String] {
+        &self.independent
+    }
+
+    /// Number of inputs.
+    pub(crate) fn n_inputs(&self) -> usize {
+        self.independent.len() + self.dependent.len()
+    }
+
+    /// The rules of an input's derivatives; `None` for an independent variable.
+    pub(crate) fn rules(&self, input: usize) -> Option<&[Ast]> {
+        let dependent = input.checked_sub(self.independent.len())?;
+        Some(&self.dependent[dependent].rules)
+    }
+
+    /// Number of cracks whose sides are inputs.
+    pub(crate) fn n_sides(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// Indices of the inputs cos(θ/2) and sin(θ/2), if there are any.
+    pub(crate) fn half_angles(&self) -> Option<[u32; 2]> {
+        Some([self.input(COS_HALF)?, self.input(SIN_HALF)?])
+    }
+
+    /// Index of an input.
+    pub(crate) fn input(&self, name: &str) -> Option<u32> {
+        let first = self.independent.len() + self.sides.start;
+        // there may be many sides, and each name in a formula is looked up
+        let (before, after) = (first, first + self.sides.len());
+        let at = |index: &usize| self.input_name(*index) == name;
+        let mut others = (0..before).chain(after..self.n_inputs());
+        let found = match side_number(name) {
+            Some(k) => (first..after).nth(k).filter(at),
+            None => others.find(at),
+        };
+        found.map(|index| index as u32)
+    }
+
+    /// Name of an input by its index.
+    fn input_name(&self, index: usize) -> &str {
+        match index.checked_sub(self.independent.len()) {
+            Some(dependent) => &self.dependent[dependent].name,
+            None => &self.independent[index],
+        }
+    }
+
+    /// The nodes of the functions with derivative rules of their own, added to a graph: cos θ and
+    /// sin θ in polar scopes, else none.
+    pub(crate) fn definitions(&self, graph: &mut Graph) -> Vec<NodeId> {
+        self.defined
+            .iter()
+            .map(|f| lower::lower(&f.definition, self, graph).expect("checked when it was defined"))
+            .collect()
+    }
+
+    /// The text that stands for a function of [`Scope::definitions`].
+    pub(crate) fn defined_name(&self, index: usize) -> &'static str {
+        self.defined[index].name
+    }
+
+    /// The rules of the derivatives of a function of [`Scope::definitions`].
+    pub(crate) fn defined_rules(&self, index: usize) -> &[Ast] {
+        &self.defined[index].rules
+    }
+
+    /// True if it differs from the other scope in its parameters at most.
+    pub(crate) fn has_variables_of(&self, other: &Self) -> bool {
+        self.independent == other.independent
+            && self.dependent == other.dependent
+            && self.tables == other.tables
+    }
+
+    /// All names of values: inputs and parameters.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.inputs().chain(self.parameters.iter().map(|(name, _)| name.as_str()))
+    }
+
+    /// The tables, in the order in which they were given: formulas refer to them by index.
+    pub(crate) fn tables(&self) -> Arc<[Arc<Table>]> {
+        Arc::clone(&self.tables)
+    }
+
+    /// Names of the tables, in order.
+    pub(crate) fn table_names(&self) -> impl Iterator<Item = &str> {
+        self.tables.iter().map(|table| table.name())
+    }
+
+    /// The meaning of a name.
+    pub(crate) fn meaning(&self, name: &str) -> Option<Meaning> {
+        if let Some(index) = self.input(name) {
+            return Some(Meaning::Input(index));
+        }
+        if let Some((_, value)) = self.parameters.iter().find(|(known, _)| known == name) {
+            return Some(Meaning::Value(*value));
+        }
+        (0..)
+            .zip(self.table_names())
+            .find(|(_, known)| *known == name)
+            .map(|(i, _)| Meaning::Table(i))
+    }
+
+    fn check_name(&self, name: &str) -> Result<(), ScopeError> {
+        let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
+        let named =
+            name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());
+        if !named {
+            return Err(ScopeError::InvalidName { name: name.to_owned() });
+        }
+        if library::is_reserved(name) || self.meaning(name).is_some() {
+            return Err(ScopeError::NameTaken { name: name.to_owned() });
+        }
+        Ok(())
+    }
+}
+
+/// k of `side(k)`.
+fn side_number(name: &str) -> Option<usize> {
+    name.strip_prefix("side(")?.strip_suffix(')')?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_must_be_new_and_names() {
+        let taken = |name: &str| ScopeError::NameTaken { name: name.to_owned() };
+        for name in ["x", "theta", "pi", "e", "sin", "let", "if"] {
+            assert_eq!(Scope::polar().with_parameter(name, 1.0), Err(taken(name)));
+        }
+        for name in ["", "1a", "a b", "ä", "a-b"] {
+            let invalid = ScopeError::InvalidName { name: name.to_owned() };
+            assert_eq!(Scope::polar().with_parameter(name, 1.0), Err(invalid));
+        }
+        assert_eq!(Scope::new(&["t", "t"]), Err(taken("t")));
+    }
+
+    #[test]
+    fn inputs_in_order() {
+        let scope = Scope::polar().with_parameter("a", 2.0).expect("new");
+        assert_eq!(
+            scope.inputs().collect::<Vec<_>>(),
+            ["x", "y", "r", "theta", "cos(theta/2)", "sin(theta/2)"]
+        );
+    }
+
+    #[test]
+    fn rules_are_checked() {
+        let missing = Scope::cartesian().with_dependent("d", &["1"]);
+        let name = "d".to_owned();
+        assert_eq!(missing, Err(ScopeError::RuleCount { name, expected: 2, given: 1 }));
+        let faulty = Scope::cartesian().with_dependent("d", &["1", "x < y"]);
+        assert!(matches!(faulty, Err(ScopeError::Rule { .. })));
+    }
+}

@@ -1,0 +1,507 @@
+//! Tables: handbook or measured data as smooth functions.
+
+/// A function of one or two numbers given by its values at knots, as formulas use it in
+/// `table(name, x)` and `table(name, x, y)`.
+///
+/// Between the knots it is the cubic spline through the values, twice continuously differentiable,
+/// the third derivative continuous at the first and last inner knot as well (*not-a-knot*: no
+/// slopes need to be known at the ends; de Boor 1978, chapter IV). So a cubic is reproduced exactly.
+/// Three knots give the parabola, two the line. With two arguments it is the tensor product of such
+/// splines: bicubic on each cell, reproducing x³y³.
+///
+/// Outside the knots the value is that of the nearest point of the border, the derivatives in that
+/// direction are 0, as of `numpy.interp`. On the ends of the range the derivatives are those of
+/// the inside. NaN gives NaN.
+///
+/// An evaluation costs a binary search in each direction and at most 15 multiplications and
+/// additions; the spline's coefficients are stored, 4 a cell with one argument, 16 with two.
+///
+/// ```
+/// use ppum_formula::Table;
+///
+/// let stiffness = Table::curve("k", vec![0.0, 1.0, 2.0, 4.0], vec![0.0, 1.0, 8.0, 64.0])?;
+/// assert!((stiffness.value(3.0, 0.0) - 27.0).abs() < 1e-13);
+/// assert_eq!(stiffness.value(-7.0, 0.0), 0.0);
+/// # Ok::<(), ppum_formula::TableError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Table {
+    name: String,
+    x: Vec<f64>,
+    /// Empty if the table has one argument.
+    y: Vec<f64>,
+    values: Vec<f64>,
+    /// For each cell, row-major \[cell in y\]\[cell in x\], its coefficients \[power of y\]\[power of x\] in
+    /// powers of the distances from the cell's lower left knot.
+    coefficients: Vec<f64>,
+}
+
+/// Equal names, knots and values. Scopes share their tables and are compared often: one table with itself costs
+/// nothing.
+impl PartialEq for Table {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+            || self.name == other.name
+                && self.x == other.x
+                && self.y == other.y
+                && self.values == other.values
+    }
+}
+
+/// Data that make no table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// Fewer than two knots.
+    #[error("table `{table}` has {given} knots in {axis}; at least two are needed")]
+    TooFewKnots {
+        /// The table.
+        table: String,
+        /// `x` or `y`.
+        axis: char,
+        /// Knots given.
+        given: usize,
+    },
+    /// An infinity or NaN among the knots.
+    #[error(
+        "table `{table}`: knot {index} in {axis}, counted from 0, is {value}; it must be finite"
+    )]
+    KnotNotFinite {
+        /// The table.
+        table: String,
+        /// `x` or `y`.
+        axis: char,
+        /// Index of the knot.
+        index: usize,
+        /// The knot.
+        value: f64,
+    },
+    /// Knots are not in strictly increasing order.
+    #[error(
+        "table `{table}`: knot {index} in {axis}, counted from 0, is {value} after {previous}; sort the knots and \
+         give each one once"
+    )]
+    NotIncreasing {
+        /// The table.
+        table: String,
+        /// `x` or `y`.
+        axis: char,
+        /// Index of the later knot.
+        index: usize,
+        /// The later knot.
+        value: f64,
+        /// The knot before it.
+        previous: f64,
+    },
+    /// The number of values is not that of the knots.
+    #[error(
+        "table `{table}` has {given} values, but {expected} are needed: one for each knot, in rows of \
+         constant y"
+    )]
+    ValueCount {
+        /// The table.
+        table: String,
+        /// Number of knots, or product of the two numbers.
+        expected: usize,
+        /// Values given.
+        given: usize,
+    },
+    /// An infinity or NaN among the values.
+    #[error("table `{table}`: value {index}, counted from 0, is {value}; it must be finite")]
+    ValueNotFinite {
+        /// The table.
+        table: String,
+        /// Index of the value, row after row.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The spline's coefficients are beyond double precision.
+    #[error("table `{table}` is too steep for double precision; scale its knots or its values")]
+    TooSteep {
+        /// The table.
+        table: String,
+    },
+}
+
+/// Coefficients of a cubic polynomial, constant first.
+type Cubic = [f64; 4];
+
+impl Table {
+    /// A function of one number: `values[i]` at `x[i]`. The name is checked by
+    /// [`Scope::with_table`](crate::Scope::with_table).
+    ///
+    /// # Errors
+    /// When there are fewer than two knots, they do not increase strictly, a number is not finite,
+    /// or there is not one value for each knot.
+    pub fn curve(name: &str, x: Vec<f64>, values: Vec<f64>) -> Result<Self, TableError> {
+        check_knots(name, 'x', &x)?;
+        check_values(name, x.len(), &values)?;
+        let coefficients = spline(&x, &values).concat();
+        Self { name: name.to_owned(), x, y: Vec::new(), values, coefficients }.check_steepness()
+    }
+
+    /// A function of two numbers: `values[j * x.len() + i]` at (`x[i]`, `y[j]`), that is row-major
+    /// \[y\]\[x\], a row being the values of one y.
+    ///
+    /// # Errors
+    /// As [`Table::curve`], for both directions.
+    pub fn surface(
+        name: &str,
+        x: Vec<f64>,
+        y: Vec<f64>,
+        values: Vec<f64>,
+    ) -> Result<Self, TableError> {
+        check_knots(name, 'x', &x)?;
+        check_knots(name, 'y', &y)?;
+        check_values(name, x.len() * y.len(), &values)?;
+        let coefficients = tensor_spline(&x, &y, &values);
+        Self { name: name.to_owned(), x, y, values, coefficients }.check_steepness()
+    }
+
+    fn check_steepness(self) -> Result<Self, TableError> {
+        if self.coefficients.iter().all(|c| c.is_finite()) {
+            Ok(self)
+        } else {
+            Err(TableError::TooSteep { table: self.name })
+        }
+    }
+
+    /// Its name in formulas.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of arguments, 1 or 2.
+    #[must_use]
+    pub fn n_arguments(&self) -> usize {
+        if self.y.is_empty() { 1 } else { 2 }
+    }
+
+    /// Knots of the first argument, increasing.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Knots of the second argument, increasing; empty if there is one argument.
+    #[must_use]
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// The values at the knots, row-major \[y\]\[x\].
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The spline's polynomials. For each cell between knots, row-major \[cell in y\]\[cell in x\], the
+    /// coefficients \[power of y\]\[power of x\] in powers of the distances from the cell's lower left
+    /// knot: 16 numbers, or 4 with one argument.
+    #[must_use]
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients
+    }
+
+    /// The value at (x, y); `y` is ignored if there is one argument.
+    #[must_use]
+    pub fn value(&self, x: f64, y: f64) -> f64 {
+        self.derivative([0, 0], x, y)
+    }
+
+    /// ∂^(m+n) / ∂x^m ∂y^n of the table at (x, y), with `orders` = \[m, n\]; `y` is ignored if there is
+    /// one argument. The third derivatives are piecewise constant in their direction, higher ones 0.
+    #[must_use]
+    pub fn derivative(&self, orders: [u8; 2], x: f64, y: f64) -> f64 {
+        let column = Place::new(&self.x, x);
+        if self.y.is_empty() {
+            if orders[1] > 0 || column.is_flat(orders[0]) {
+                return 0.0;
+            }
+            return polynomial(&self.coefficients[4 * column.cell..], orders[0], column.distance);
+        }
+        let row = Place::new(&self.y, y);
+        if column.is_flat(orders[0]) || row.is_flat(orders[1]) {
+            return 0.0;
+        }
+        let cell = row.cell * (self.x.len() - 1) + column.cell;
+        let powers = &self.coefficients[16 * cell..];
+        let in_y: Cubic =
+            std::array::from_fn(|k| polynomial(&powers[4 * k..], orders[0], column.distance));
+        polynomial(&in_y, orders[1], row.distance)
+    }
+}
+
+/// The place of an argument among the knots.
+struct Place {
+    cell: usize,
+    /// From the cell's first knot; of the nearest end of the range if the argument is outside.
+    distance: f64,
+    outside: bool,
+}
+
+impl Place {
+    fn new(knots: &[f64], x: f64) -> Self {
+        let (first, last) = (knots[0], knots[knots.len() - 1]);
+        let inside = x.clamp(first, last);
+        let cell = knots[1..knots.len() - 1].partition_point(|&knot| knot <= inside);
+        Self { cell, distance: inside - knots[cell], outside: x < first || x > last }
+    }
+
+    /// True if a derivative of this order is 0, whatever the polynomial.
+    fn is_flat(&self, order: u8) -> bool {
+        order > 3 || order > 0 && self.outside
+    }
+}
+
+/// The derivative of an order up to 3 of the polynomial with the first four coefficients, at `t`.
+fn polynomial(c: &[f64], order: u8, t: f64) -> f64 {
+    match order {
+        0 => ((c[3] * t + c[2]) * t + c[1]) * t + c[0],
+        1 => (3.0 * c[3] * t + 2.0 * c[2]) * t + c[1],
+        2 => 6.0 * c[3] * t + 2.0 * c[2],
+        _ => 6.0 * c[3],
+    }
+}
+
+fn check_knots(name: &str, axis: char, knots: &[f64]) -> Result<(), TableError> {
+    let table = || name.to_owned();
+    if knots.len() < 2 {
+        return Err(TableError::TooFewKnots { table: table(), axis, given: knots.len() });
+    }
+    if let Some((index, &value)) = knots.iter().enumerate().find(|(_, knot)| !knot.is_finite()) {
+        return Err(TableError::KnotNotFinite { table: table(), axis, index, value });
+    }
+    match (1..knots.len()).find(|&i| knots[i] <= knots[i - 1]) {
+        Some(index) => Err(TableError::NotIncreasing {
+            table: table(),
+            axis,
+            index,
+            value: knots[index],
+            previous: knots[index - 1],
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_values(name: &str, expected: usize, values: &[f64]) -> Result<(), TableError> {
+    let (table, given) = (name.to_owned(), values.len());
+    if given != expected {
+        return Err(TableError::ValueCount { table, expected, given });
+    }
+    match values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((index, &value)) => Err(TableError::ValueNotFinite { table, index, value }),
+        None => Ok(()),
+    }
+}
+
+/// The cubics of the not-a-knot spline between the knots.
+fn spline(knots: &[f64], values: &[f64]) -> Vec<Cubic> {
+    let steps: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
+    let chords: Vec<f64> =
+        values.windows(2).zip(&steps).map(|(v, step)| (v[1] - v[0]) / step).collect();
+    let slopes = slopes(&steps, &chords);
+    (0..steps.len())
+        .map(|i| {
+            let (h, chord) = (steps[i], chords[i]);
+            // the cubic with the values and slopes at both ends (Hermite)
+            let excess = (slopes[i] - chord + (slopes[i + 1] - chord)) / h;
+            [values[i], slopes[i], (chord - slopes[i]) / h - excess, excess / h]
+        })
+        .collect()
+}
+
+/// Slopes of the spline at the knots, from the steps between knots and the slopes of the chords.
+fn slopes(h: &[f64], chords: &[f64]) -> Vec<f64> {
+    match *chords {
+        [chord] => vec![chord; 2],
+        [left, right] => {
+            let bend = (right - left) / (h[0] + h[1]);
+            vec![left - bend * h[0], left + bend * h[0], right + bend * h[1]]
+        }
+        _ => not_a_knot_slopes(h, chords),
+    }
+}
+
+/// The second derivative is continuous at inner knots, the third at the first and last of them
+/// (de Boor 1978, chapter IV). The tridiagonal system is eliminated without exchanging rows: all
+/// pivots are positive.
+fn not_a_knot_slopes(h: &[f64], chords: &[f64]) -> Vec<f64> {
+    let n = h.len() + 1;
+    let end = |h0: f64, h1: f64, c0: f64, c1: f64| {
+        let both = h0 + h1;
+        ((h0 + 2.0 * both) * h1 * c0 + h0 * h0 * c1) / both
+    };
+    let mut slopes = vec![end(h[0], h[1], chords[0], chords[1])];
+    let (mut above, mut pivots) = (vec![h[0] + h[1]], vec![h[1]]);
+    for i in 1..n {
+        let last = i == n - 1;
+        let (below, diagonal, right) = if last {
+            (h[n - 3] + h[n - 2], h[n - 3], end(h[n - 2], h[n - 3], chords[n - 2], chords[n - 3]))
+        } else {
+            let right = 3.0 * (h[i] * chords[i - 1] + h[i - 1] * chords[i]);
+            (h[i], 2.0 * (h[i - 1] + h[i]), right)
+        };
+        let factor = below / pivots[i - 1];
+        pivots.push(diagonal - factor * above[i - 1]);
+        slopes.push(right - factor * slopes[i - 1]);
+        above.push(h[i - 1]);
+    }
+    slopes[n - 1] /= pivots[n - 1];
+    for i in (0..n - 1).rev() {
+        slopes[i] = (slopes[i] - above[i] * slopes[i + 1]) / pivots[i];
+    }
+    slopes
+}
+
+/// The bicubics of the tensor product spline: splines in x of each row, then splines in y of their
+/// coefficients.
+fn tensor_spline(x: &[f64], y: &[f64], values: &[f64]) -> Vec<f64> {
+    let rows: Vec<Vec<Cubic>> = values.chunks(x.len()).map(|row| spline(x, row)).collect();
+    let (columns, lines) = (x.len() - 1, y.len() - 1);
+    let mut coefficients = vec![0.0; 16 * columns * lines];
+    for column in 0..columns {
+        for power in 0..4 {
+            let along: Vec<f64> = rows.iter().map(|row| row[column][power]).collect();
+            for (line, cubic) in spline(y, &along).into_iter().enumerate() {
+                let cell = 16 * (line * columns + column);
+                for (k, c) in cubic.into_iter().enumerate() {
+                    coefficients[cell + 4 * k + power] = c;
+                }
+            }
+        }
+    }
+    coefficients
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_are_checked() {
+        let curve = |x: &[f64], v: &[f64]| Table::curve("t", x.to_vec(), v.to_vec());
+        let message = |r: Result<Table, TableError>| r.expect_err("faulty").to_string();
+        for (result, part) in [
+            (curve(&[1.0], &[1.0]), "has 1 knots in x"),
+            (curve(&[1.0, f64::NAN], &[1.0, 2.0]), "knot 1 in x, counted from 0, is NaN"),
+            (curve(&[1.0, 2.0, 2.0], &[1.0; 3]), "knot 2 in x, counted from 0, is 2 after 2"),
+            (curve(&[1.0, 2.0], &[1.0; 3]), "3 values, but 2 are needed"),
+            (curve(&[1.0, 2.0], &[1.0, f64::INFINITY]), "value 1, counted from 0, is inf"),
+            (curve(&[0.0, 1e-300], &[0.0, 1e300]), "too steep"),
+            (
+                Table::surface("t", vec![0.0, 1.0], vec![1.0, 0.0], vec![0.0; 4]),
+                "knot 1 in y, counted from 0, is 0 after 1",
+            ),
+            (Table::surface("t", vec![0.0, 1.0], vec![0.0, 1.0], vec![0.0; 3]), "but 4 are needed"),
+        ] {
+            assert!(message(result.clone()).contains(part), "{result:?}");
+        }
+    }
+
+    const KNOTS: [f64; 6] = [-2.0, -1.5, -0.2, 0.1, 2.0, 3.0];
+
+    /// Polynomials the spline must reproduce, of a degree that depends on the number of knots.
+    #[test]
+    fn polynomials_are_reproduced() {
+        let p = |degree: i32, x: f64| x.powi(degree) - 2.0 * x + 1.0;
+        for (n, degree) in [(2, 1), (3, 2), (4, 3), (5, 3), (6, 3)] {
+            let knots = &KNOTS[..n];
+            let values = knots.iter().map(|&x| p(degree, x)).collect();
+            let table = Table::curve("t", knots.to_vec(), values).expect("valid");
+            for k in 0..=20 {
+                let t = f64::from(k) / 20.0;
+                let x = knots[0] * (1.0 - t) + knots[n - 1] * t;
+                let expected = [
+                    p(degree, x),
+                    f64::from(degree) * x.powi(degree - 1) - 2.0,
+                    f64::from(degree * (degree - 1)) * x.powi((degree - 2).max(0)),
+                ];
+                for (order, expected) in (0u8..).zip(expected) {
+                    let found = table.derivative([order, 0], x, f64::NAN);
+                    assert!((found - expected).abs() < 1e-12, "{n} knots, order {order} at {x}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bicubics_are_reproduced() {
+        let (p, dp) = (|x: f64| x * x * x - x, |x: f64| 3.0 * x * x - 1.0);
+        let (q, dq) = (|y: f64| 2.0 - y * y * y, |y: f64| -3.0 * y * y);
+        let ys = [0.0, 0.5, 0.7, 2.0, 3.5];
+        let values = ys.iter().flat_map(|&y| KNOTS.map(|x| p(x) * q(y))).collect();
+        let table = Table::surface("t", KNOTS.to_vec(), ys.to_vec(), values).expect("valid");
+        for (x, y) in [(-2.0, 0.0), (-1.7, 0.6), (0.0, 1.0), (0.1, 2.0), (2.9, 3.4), (3.0, 3.5)] {
+            for (orders, expected) in [
+                ([0, 0], p(x) * q(y)),
+                ([1, 0], dp(x) * q(y)),
+                ([0, 1], p(x) * dq(y)),
+                ([2, 0], 6.0 * x * q(y)),
+                ([1, 1], dp(x) * dq(y)),
+                ([0, 2], p(x) * -6.0 * y),
+                ([3, 3], -36.0),
+                ([4, 0], 0.0),
+            ] {
+                let found = table.derivative(orders, x, y);
+                // rounding of the largest value, 24 · 40, divided by the smallest step, 1/5, once an order
+                let tolerance = 1e-12 * 5f64.powi(i32::from(orders[0] + orders[1]));
+                assert!((found - expected).abs() < tolerance, "{orders:?} at {x}, {y}: {found}");
+            }
+        }
+    }
+
+    /// Values, slopes and curvatures are continuous at inner knots, the third derivative at the first
+    /// and last of them: the defining conditions of the spline, with data that are no polynomial.
+    #[test]
+    fn defining_conditions() {
+        let values = [1.0, -2.0, 0.5, 0.25, 3.0, -1.0];
+        let table = Table::curve("t", KNOTS.to_vec(), values.to_vec()).expect("valid");
+        let piece = |cell: usize, order: u8, x: f64| {
+            polynomial(&table.coefficients()[4 * cell..], order, x - KNOTS[cell])
+        };
+        for i in 0..5 {
+            assert_eq!(table.value(KNOTS[i], 0.0), values[i]);
+            assert!((piece(i, 0, KNOTS[i + 1]) - values[i + 1]).abs() < 1e-13);
+        }
+        for (i, &knot) in KNOTS.iter().enumerate().take(5).skip(1) {
+            let orders = if i == 1 || i == 4 { 0..4 } else { 0..3 };
+            for order in orders {
+                let jump = piece(i, order, knot) - piece(i - 1, order, knot);
+                assert!(jump.abs() < 1e-11, "order {order} at knot {i}: {jump}");
+            }
+        }
+    }
+
+    /// The spline through n + 1 values of sin converges as h⁴, its slope as h³.
+    #[test]
+    fn rates() {
+        let errors = |n: u32| {
+            let knots: Vec<f64> = (0..=n).map(|i| 3.0 * f64::from(i) / f64::from(n)).collect();
+            let values = knots.iter().map(|x| x.sin()).collect();
+            let table = Table::curve("t", knots, values).expect("valid");
+            (0..=1000).map(|k| 3.0 * f64::from(k) / 1000.0).fold([0.0f64; 2], |[v, d], x| {
+                let slope = table.derivative([1, 0], x, 0.0) - x.cos();
+                [v.max((table.value(x, 0.0) - x.sin()).abs()), d.max(slope.abs())]
+            })
+        };
+        let ([v, d], [v2, d2]) = (errors(20), errors(40));
+        // the asymptotic ratios are 16 and 8; near the ends convergence sets in late
+        assert!(v / v2 > 13.0 && d / d2 > 6.5, "{} {}", v / v2, d / d2);
+    }
+
+    #[test]
+    fn outside_the_value_is_that_of_the_border() {
+        let table = Table::surface("t", vec![0.0, 1.0], vec![0.0, 2.0], vec![1.0, 2.0, 3.0, 7.0])
+            .expect("valid");
+        assert_eq!(table.value(-5.0, 1.0), table.value(0.0, 1.0));
+        assert_eq!(table.value(f64::INFINITY, 9.0), 7.0);
+        assert_eq!(table.derivative([1, 0], -5.0, 1.0), 0.0);
+        assert_eq!(table.derivative([0, 1], -5.0, 1.0), 1.0);
+        assert_eq!(table.derivative([0, 1], 1.0, 2.0), 2.5);
+        assert_eq!(table.derivative([0, 1], 1.0, 2.1), 0.0);
+        assert!(table.value(f64::NAN, 1.0).is_nan() && table.value(0.5, f64::NAN).is_nan());
+    }
+}

@@ -1,0 +1,332 @@
+//! The lane interpreter: runs a [`Tape`] on a block of points, with SIMD chosen at run time.
+//!
+//! A step works on all eight vectors of a block before the next step begins, and without a loop: so
+//! the processor foresees the jumps from step to step, finding out what a step does costs little,
+//! and all registers of a formula stay in the cache next to it. Arithmetic, roots, comparisons and
+//! selections are done on lanes; functions of the mathematical library number by number, in double
+//! precision. Nothing is fused: in double precision each result is that of the scalar back end to the
+//! last bit.
+
+use super::{Step, Tape};
+use crate::operation::{Binary, Unary};
+use crate::real::{Job, Real, Scalar};
+
+/// Vectors of a block: enough that a step's work outweighs its start.
+pub(crate) const VECTORS: usize = 8;
+
+/// Number types that tapes run on. The function is not generic, so that the interpreter is compiled
+/// here and not in every crate that uses it.
+pub trait Interpret: Sized {
+    /// Runs a tape; `registers` are its registers one after the other.
+    #[doc(hidden)]
+    fn interpret(tape: &Tape, registers: &mut [Self]);
+}
+
+impl Interpret for f64 {
+    fn interpret(tape: &Tape, registers: &mut [f64]) {
+        f64::dispatch(Run { tape, registers });
+    }
+}
+
+impl Interpret for f32 {
+    fn interpret(tape: &Tape, registers: &mut [f32]) {
+        f32::dispatch(Run { tape, registers });
+    }
+}
+
+struct Run<'r, T> {
+    tape: &'r Tape,
+    registers: &'r mut [T],
+}
+
+impl<T: Scalar> Job<T> for Run<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = T>>(self, zero: R) {
+        let (registers, _) = R::arrays_mut(self.registers).as_chunks_mut();
+        let mut machine = Machine { tape: self.tape, registers, zero };
+        for step in &self.tape.steps {
+            machine.run(step);
+        }
+    }
+}
+
+/// The numbers of a register.
+type Register<R> = [<R as Real>::Array; VECTORS];
+
+/// A tape with its registers.
+struct Machine<'r, R: Real> {
+    tape: &'r Tape,
+    registers: &'r mut [Register<R>],
+    zero: R,
+}
+
+/// A function of `N` numbers on lanes.
+trait Function<const N: usize>: Copy {
+    fn apply<R: Real>(self, operands: [R; N]) -> R;
+}
+
+/// A step's operand on lanes.
+trait Operand<R: Real>: Copy {
+    /// Its vector `k`.
+    fn at(self, registers: &[Register<R>], k: usize) -> R;
+}
+
+/// The numbers of a register.
+#[derive(Clone, Copy)]
+struct Each<R> {
+    register: usize,
+    zero: R,
+}
+
+impl<R: Real> Operand<R> for Each<R> {
+    #[inline(always)]
+    fn at(self, registers: &[Register<R>], k: usize) -> R {
+        self.zero.load_array(&registers[self.register][k])
+    }
+}
+
+/// The same number at all points.
+#[derive(Clone, Copy)]
+struct Same<R>(R);
+
+impl<R: Real> Operand<R> for Same<R> {
+    #[inline(always)]
+    fn at(self, _: &[Register<R>], _: usize) -> R {
+        self.0
+    }
+}
+
+/// The function `value` of some numbers.
+macro_rules! function {
+    ([$($a:ident),+] $value:expr) => {{
+        #[derive(Clone, Copy)]
+        struct Body;
+        impl Function<{ [$(stringify!($a)),+].len() }> for Body {
+            #[inline(always)]
+            fn apply<R: Real>(self, [$($a),+]: [R; [$(stringify!($a)),+].len()]) -> R {
+                $value
+            }
+        }
+        Body
+    }};
+}
+
+/// Actions on lanes: name, function of the machine for as many operands, meaning.
+macro_rules! actions {
+    ($($name:ident = $run:ident [$($a:ident),+] $value:expr;)+) => {
+        /// The action of a step. Conditions are the numbers 1 and 0.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum Action {
+            $($name,)+
+            /// An integer power.
+            Power(i32),
+            /// A constant at all points.
+            Fill,
+            /// A function of the mathematical library.
+            Library1(Unary),
+            Library2(Binary),
+            /// A derivative of a table.
+            Table { table: u32, orders: [u8; 2] },
+        }
+
+        impl<R: Real> Machine<'_, R> {
+            #[inline(always)]
+            fn run(&mut self, step: &Step) {
+                match step.action {
+                    $(Action::$name => self.$run(function!([$($a),+] $value), step),)+
+                    Action::Power(n) => self.one(Power(n), step),
+                    Action::Fill => self.each1(function!([a] a), self.same(step, 0), step),
+                    Action::Library1(_) | Action::Library2(_) | Action::Table { .. } => {
+                        library::<R::Scalar, R::Array>(self.tape, step, self.registers);
+                    }
+                }
+            }
+        }
+    };
+}
+
+actions! {
+    Copy = one [a] a;
+    Neg = one [a] -a;
+    Sqrt = one [a] a.sqrt();
+    Abs = one [a] a.abs();
+    Floor = one [a] a.floor();
+    Sign = one [a] sign(a);
+    Square = one [a] a * a;
+    Not = one [a] a.lit(1.0) - a;
+    Add = two [a, b] a + b;
+    Sub = two [a, b] a - b;
+    Mul = two [a, b] a * b;
+    Div = two [a, b] a / b;
+    // NaN is not ≥ itself
+    Min = two [a, b] R::select(a.ge(a), R::select(b.gt(a), a, b), a);
+    Max = two [a, b] R::select(a.ge(a), R::select(a.gt(b), a, b), a);
+    Less = two [a, b] R::select(b.gt(a), a.lit(1.0), a.lit(0.0));
+    LessEqual = two [a, b] R::select(b.ge(a), a.lit(1.0), a.lit(0.0));
+    Equal = two [a, b] R::select(b.ge(a), R::select(a.ge(b), a.lit(1.0), a.lit(0.0)), a.lit(0.0));
+    MulAdd = three [a, b, c] a * b + c;
+    MulSub = three [a, b, c] a * b - c;
+    SubMul = three [a, b, c] c - a * b;
+    MulMul = three [a, b, c] a * b * c;
+    MulDiv = three [a, b, c] a * b / c;
+    Select = three [c, a, b] R::select(c.gt(c.lit(0.0)), a, b);
+    MulAddMul = four [a, b, c, d] a * b + c * d;
+    MulSubMul = four [a, b, c, d] a * b - c * d;
+}
+
+/// −1, 0 or +1; NaN of NaN.
+#[inline(always)]
+fn sign<R: Real>(a: R) -> R {
+    let (zero, one) = (a.lit(0.0), a.lit(1.0));
+    R::select(a.gt(zero), one, R::select(zero.gt(a), -one, a))
+}
+
+/// An integer power, by the products of [`power`](crate::operation::power).
+#[derive(Clone, Copy)]
+struct Power(i32);
+
+impl Function<1> for Power {
+    #[inline(always)]
+    fn apply<R: Real>(self, [a]: [R; 1]) -> R {
+        let one = a.lit(1.0);
+        let (mut square, mut rest, mut product) = (a, self.0.unsigned_abs(), one);
+        while rest > 0 {
+            if rest & 1 == 1 {
+                product = product * square;
+            }
+            square = square * square;
+            rest >>= 1;
+        }
+        if self.0 < 0 { one / product } else { product }
+    }
+}
+
+/// The loops over the vectors of a block, for each pattern of constants that a tape may have.
+impl<R: Real> Machine<'_, R> {
+    #[inline(always)]
+    fn each(&self, step: &Step, operand: usize) -> Each<R> {
+        Each { register: step.operands[operand] as usize, zero: self.zero }
+    }
+
+    #[inline(always)]
+    fn same(&self, step: &Step, operand: usize) -> Same<R> {
+        Same(self.zero.lit(self.tape.constants[step.operands[operand] as usize]))
+    }
+
+    #[inline(always)]
+    fn one(&mut self, f: impl Function<1>, step: &Step) {
+        self.each1(f, self.each(step, 0), step);
+    }
+
+    #[inline(always)]
+    fn two(&mut self, f: impl Function<2>, step: &Step) {
+        match step.constants {
+            0b00 => self.each2(f, self.each(step, 0), self.each(step, 1), step),
+            0b01 => self.each2(f, self.same(step, 0), self.each(step, 1), step),
+            _ => self.each2(f, self.each(step, 0), self.same(step, 1), step),
+        }
+    }
+
+    #[inline(always)]
+    fn three(&mut self, f: impl Function<3>, step: &Step) {
+        let a = self.each(step, 0);
+        match step.constants {
+            0b000 => self.each3(f, a, self.each(step, 1), self.each(step, 2), step),
+            0b010 => self.each3(f, a, self.same(step, 1), self.each(step, 2), step),
+            0b100 => self.each3(f, a, self.each(step, 1), self.same(step, 2), step),
+            _ => self.each3(f, a, self.same(step, 1), self.same(step, 2), step),
+        }
+    }
+
+    #[inline(always)]
+    fn four(&mut self, f: impl Function<4>, step: &Step) {
+        let (a, b) = (self.each(step, 0), self.each(step, 1));
+        let (c, d) = (self.each(step, 2), self.each(step, 3));
+        let mut k = 0;
+        while k < VECTORS {
+            let r = &*self.registers;
+            let value = f.apply([a.at(r, k), b.at(r, k), c.at(r, k), d.at(r, k)]);
+            self.store(value, step, k);
+            k += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn each1(&mut self, f: impl Function<1>, a: impl Operand<R>, step: &Step) {
+        let mut k = 0;
+        while k < VECTORS {
+            self.store(f.apply([a.at(self.registers, k)]), step, k);
+            k += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn each2(&mut self, f: impl Function<2>, a: impl Operand<R>, b: impl Operand<R>, step: &Step) {
+        let mut k = 0;
+        while k < VECTORS {
+            let r = &*self.registers;
+            self.store(f.apply([a.at(r, k), b.at(r, k)]), step, k);
+            k += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn each3(
+        &mut self,
+        f: impl Function<3>,
+        a: impl Operand<R>,
+        b: impl Operand<R>,
+        c: impl Operand<R>,
+        step: &Step,
+    ) {
+        let mut k = 0;
+        while k < VECTORS {
+            let r = &*self.registers;
+            self.store(f.apply([a.at(r, k), b.at(r, k), c.at(r, k)]), step, k);
+            k += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn store(&mut self, value: R, step: &Step, k: usize) {
+        value.store_array(&mut self.registers[step.to as usize][k]);
+    }
+}
+
+/// A step that is not done on lanes.
+#[inline(never)]
+fn library<T: Scalar, A: AsRef<[T]> + AsMut<[T]>>(
+    tape: &Tape,
+    step: &Step,
+    registers: &mut [[A; VECTORS]],
+) {
+    let mut k = 0;
+    while k < VECTORS {
+        let mut lane = 0;
+        while lane < T::VECTOR {
+            let at = |operand: usize| {
+                let place = step.operands[operand] as usize;
+                if step.constants >> operand & 1 == 1 {
+                    T::from_f64(tape.constants[place])
+                } else {
+                    registers[place][k].as_ref()[lane]
+                }
+            };
+            let value = library_value(tape, step.action, at(0).to_f64(), at(1).to_f64());
+            registers[step.to as usize][k].as_mut()[lane] = T::from_f64(value);
+            lane += 1;
+        }
+        k += 1;
+    }
+}
+
+fn library_value(tape: &Tape, action: Action, a: f64, b: f64) -> f64 {
+    match action {
+        Action::Library1(op) => op.apply(a),
+        Action::Library2(op) => op.apply(a, b),
+        Action::Table { table, orders } => tape.tables[table as usize].derivative(orders, a, b),
+        _ => unreachable!("done on lanes"),
+    }
+}

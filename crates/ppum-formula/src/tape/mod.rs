@@ -1,0 +1,322 @@
+//! Tapes: programs for the lane interpreter, with their results in few registers.
+//!
+//! A register holds one number for each point of a block. Outputs and inputs have one each; the others
+//! are *slots*, used again when their number has had its last use. Constants need none. Products that are used once, by a sum, a difference, a product or
+//! a quotient, become one step with it: that saves the way through memory, and rounds as before.
+
+mod lanes;
+
+use std::sync::Arc;
+
+use crate::Table;
+use crate::graph::{NodeId, Op};
+use crate::operation::{Binary, Comparison, Unary};
+use crate::program::Program;
+use lanes::Action;
+pub(crate) use lanes::{Interpret, VECTORS};
+
+/// A program for blocks of points.
+#[derive(Clone, Debug)]
+pub struct Tape {
+    pub(crate) steps: Vec<Step>,
+    pub(crate) constants: Vec<f64>,
+    pub(crate) tables: Arc<[Arc<Table>]>,
+    /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots` slots.
+    pub(crate) n_outputs: usize,
+    pub(crate) n_inputs: usize,
+    pub(crate) n_slots: usize,
+}
+
+/// One operation on all points of a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    pub(crate) action: Action,
+    /// Registers, or indices of constants.
+    pub(crate) operands: [u32; 4],
+    /// Which operands are constants: bit k stands for operand k.
+    pub(crate) constants: u8,
+    /// The register it writes; it may be that of an operand.
+    pub(crate) to: u32,
+}
+
+impl Tape {
+    /// The tape of a program with a number of inputs.
+    pub(crate) fn new(program: &Program, n_inputs: usize) -> Self {
+        let forms = forms(program);
+        let mut writer = Writer::new(program, &forms, n_inputs);
+        for (id, form) in (0..).map(NodeId).zip(&forms) {
+            if let Some(form) = form {
+                writer.step(id, form);
+            }
+        }
+        writer.copy_outputs(program);
+        Self {
+            steps: writer.steps,
+            constants: writer.constants,
+            tables: Arc::clone(program.tables()),
+            n_outputs: program.outputs().len(),
+            n_inputs,
+            n_slots: writer.n_slots as usize,
+        }
+    }
+
+    /// Number of registers.
+    pub(crate) fn n_registers(&self) -> usize {
+        self.n_outputs + self.n_inputs + self.n_slots
+    }
+}
+
+/// The action that computes an operation, and its operands.
+#[derive(Clone, Debug)]
+struct Form {
+    action: Action,
+    operands: Vec<NodeId>,
+}
+
+/// The forms of the operations; none for constants, inputs, and products that are part of
+/// the form of their only user.
+fn forms(program: &Program) -> Vec<Option<Form>> {
+    let mut forms = vec![None; program.ops().len()];
+    let mut products = Products::new(program);
+    for id in (0..program.ops().len()).rev() {
+        if !products.is_absorbed[id] {
+            forms[id] = form(program.ops()[id], &mut products);
+        }
+    }
+    forms
+}
+
+/// The products that can be computed by their only user.
+struct Products<'a> {
+    ops: &'a [Op],
+    /// Number of times each operation is an operand; outputs count as many.
+    uses: Vec<u32>,
+    is_absorbed: Vec<bool>,
+}
+
+impl<'a> Products<'a> {
+    fn new(program: &'a Program) -> Self {
+        let ops = program.ops();
+        let mut uses = vec![0; ops.len()];
+        for operand in ops.iter().flat_map(Op::operands) {
+            uses[operand.index()] += 1;
+        }
+        for output in program.outputs() {
+            uses[output.index()] += 2;
+        }
+        Self { ops, uses, is_absorbed: vec![false; ops.len()] }
+    }
+
+    /// The factors of a node if it is such a product, a constant one last.
+    fn factors(&self, node: NodeId) -> Option<[NodeId; 2]> {
+        if self.uses[node.index()] != 1 {
+            return None;
+        }
+        match self.ops[node.index()] {
+            Op::Binary(Binary::Mul, a, b) if self.is_constant(a) => Some([b, a]),
+            Op::Binary(Binary::Mul, a, b) => Some([a, b]),
+            Op::Power(a, 2) => Some([a, a]),
+            _ => None,
+        }
+    }
+
+    fn is_constant(&self, node: NodeId) -> bool {
+        matches!(self.ops[node.index()], Op::Constant(_) | Op::Truth(_))
+    }
+
+    /// A step that computes the product `p` and another operation.
+    fn three(&mut self, op: Action, p: NodeId, other: NodeId) -> Option<Form> {
+        let [a, b] = self.factors(p)?;
+        self.is_absorbed[p.index()] = true;
+        Some(Form { action: op, operands: vec![a, b, other] })
+    }
+
+    /// A step that computes the products `p` and `q` and their sum or difference.
+    fn four(&mut self, op: Action, p: NodeId, q: NodeId) -> Option<Form> {
+        let [[a, b], [c, d]] = [self.factors(p)?, self.factors(q)?];
+        if self.is_constant(b) || self.is_constant(d) {
+            return None;
+        }
+        self.is_absorbed[p.index()] = true;
+        self.is_absorbed[q.index()] = true;
+        Some(Form { action: op, operands: vec![a, b, c, d] })
+    }
+}
+
+fn form(op: Op, products: &mut Products<'_>) -> Option<Form> {
+    let joined = match op {
+        Op::Binary(Binary::Add, a, b) => products
+            .four(Action::MulAddMul, a, b)
+            .or_else(|| products.three(Action::MulAdd, a, b))
+            .or_else(|| products.three(Action::MulAdd, b, a)),
+        Op::Binary(Binary::Sub, a, b) => products
+            .four(Action::MulSubMul, a, b)
+            .or_else(|| products.three(Action::MulSub, a, b))
+            .or_else(|| products.three(Action::SubMul, b, a)),
+        Op::Binary(Binary::Mul, a, b) => {
+            products.three(Action::MulMul, a, b).or_else(|| products.three(Action::MulMul, b, a))
+        }
+        Op::Binary(Binary::Div, a, b) => products.three(Action::MulDiv, a, b),
+        _ => None,
+    };
+    joined.or_else(|| {
+        let action = action(op)?;
+        Some(Form { action, operands: op.operands().collect() })
+    })
+}
+
+/// The action of an operation by itself; none for constants and inputs.
+fn action(op: Op) -> Option<Action> {
+    Some(match op {
+        Op::Constant(_) | Op::Input(_) | Op::Truth(_) => return None,
+        Op::Unary(op, _) => unary(op),
+        Op::Power(_, 2) => Action::Square,
+        Op::Power(_, n) => Action::Power(n),
+        Op::Binary(op, ..) => binary(op),
+        Op::Table { table, orders, .. } => Action::Table { table, orders },
+        Op::Select(..) => Action::Select,
+        Op::Compare(Comparison::Less, ..) => Action::Less,
+        Op::Compare(Comparison::LessEqual, ..) => Action::LessEqual,
+        Op::Compare(Comparison::Equal, ..) => Action::Equal,
+        // of the numbers 1 and 0
+        Op::Not(_) => Action::Not,
+        Op::And(..) => Action::Mul,
+        Op::Or(..) => Action::Max,
+    })
+}
+
+fn unary(op: Unary) -> Action {
+    match op {
+        Unary::Neg => Action::Neg,
+        Unary::Sqrt => Action::Sqrt,
+        Unary::Abs => Action::Abs,
+        Unary::Sign => Action::Sign,
+        Unary::Floor => Action::Floor,
+        _ => Action::Library1(op),
+    }
+}
+
+fn binary(op: Binary) -> Action {
+    match op {
+        Binary::Add => Action::Add,
+        Binary::Sub => Action::Sub,
+        Binary::Mul => Action::Mul,
+        Binary::Div => Action::Div,
+        Binary::Min => Action::Min,
+        Binary::Max => Action::Max,
+        Binary::Pow | Binary::Atan2 | Binary::Hypot => Action::Library2(op),
+    }
+}
+
+/// The place of an operation's result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place {
+    Register(u32),
+    Constant(u32),
+    Nowhere,
+}
+
+/// Assigns registers while it writes the steps in order.
+struct Writer {
+    steps: Vec<Step>,
+    constants: Vec<f64>,
+    /// The place of each operation so far.
+    places: Vec<Place>,
+    /// The last operation whose form has each as an operand.
+    last_use: Vec<u32>,
+    /// The output register of the operations that are outputs.
+    output: Vec<Option<u32>>,
+    /// Slots whose numbers are used up.
+    free: Vec<u32>,
+    first_slot: u32,
+    n_slots: u32,
+}
+
+impl Writer {
+    fn new(program: &Program, forms: &[Option<Form>], n_inputs: usize) -> Self {
+        let mut last_use = vec![0; forms.len()];
+        for (user, form) in (0..).zip(forms) {
+            for operand in form.iter().flat_map(|form| &form.operands) {
+                last_use[operand.index()] = user;
+            }
+        }
+        let mut output = vec![None; forms.len()];
+        for (register, node) in (0..).zip(program.outputs()) {
+            output[node.index()].get_or_insert(register);
+        }
+        let n_outputs = program.outputs().len() as u32;
+        let mut constants = Vec::new();
+        let mut constant = |value| {
+            constants.push(value);
+            Place::Constant(constants.len() as u32 - 1)
+        };
+        let place = |&op: &Op| match op {
+            Op::Constant(bits) => constant(f64::from_bits(bits)),
+            Op::Truth(holds) => constant(f64::from(u8::from(holds))),
+            Op::Input(index) => Place::Register(n_outputs + index),
+            _ => Place::Nowhere,
+        };
+        Self {
+            steps: Vec::new(),
+            places: program.ops().iter().map(place).collect(),
+            constants,
+            last_use,
+            output,
+            free: Vec::new(),
+            first_slot: n_outputs + n_inputs as u32,
+            n_slots: 0,
+        }
+    }
+
+    fn step(&mut self, id: NodeId, form: &Form) {
+        let (mut operands, mut mask) = ([0; 4], 0);
+        for (k, operand) in form.operands.iter().enumerate() {
+            operands[k] = match self.places[operand.index()] {
+                Place::Register(register) => register,
+                Place::Constant(constant) => {
+                    mask |= 1 << k;
+                    constant
+                }
+                Place::Nowhere => unreachable!("operands come before what uses them"),
+            };
+        }
+        for operand in &form.operands {
+            self.free_after(*operand, id);
+        }
+        let to = self.output[id.index()].unwrap_or_else(|| self.slot());
+        self.steps.push(Step { action: form.action, operands, constants: mask, to });
+        self.places[id.index()] = Place::Register(to);
+    }
+
+    /// A slot that is free.
+    fn slot(&mut self) -> u32 {
+        self.free.pop().unwrap_or_else(|| {
+            self.n_slots += 1;
+            self.first_slot + self.n_slots - 1
+        })
+    }
+
+    /// Frees the slot of an operand if this was its last use.
+    fn free_after(&mut self, operand: NodeId, user: NodeId) {
+        if let Place::Register(register) = self.places[operand.index()]
+            && register >= self.first_slot
+            && self.last_use[operand.index()] == user.0
+        {
+            self.places[operand.index()] = Place::Nowhere;
+            self.free.push(register);
+        }
+    }
+
+    /// Fills the outputs that are constants, inputs, or equal to earlier outputs.
+    fn copy_outputs(&mut self, program: &Program) {
+        for (to, node) in (0..).zip(program.outputs()) {
+            let (action, operand) = match self.places[node.index()] {
+                Place::Register(register) if register == to => continue,
+                Place::Register(register) => (Action::Copy, register),
+                Place::Constant(constant) => (Action::Fill, constant),
+                Place::Nowhere => unreachable!("outputs are no slots"),
+            };
+            self.steps.push(Step { action, operands: [operand, 0, 0, 0], constants: 0, to });
+        }
+    }
+}

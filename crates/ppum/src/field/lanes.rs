@@ -1,0 +1,132 @@
+//! Evaluation at many points, on lanes.
+
+use super::LocalField;
+use crate::crack::Side;
+use crate::jet::Jet;
+use crate::real::{Job, Real, Scalar};
+use crate::vec2::Vec2;
+
+/// [`LocalField::evaluate_into`] on lanes.
+struct Many<'a, 'f, const D: usize> {
+    local: &'a mut LocalField<'f>,
+    offsets: &'a [Vec2],
+    side: Side,
+    out: &'a mut [Jet<f64>],
+}
+
+impl<const D: usize> Job<f64> for Many<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) {
+        let components = self.local.field.components();
+        let mut lanes = vec![Jet::constant(zero); components];
+        let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
+        for (points, out) in chunks {
+            let patches = self.local.covering_any(points);
+            self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
+            for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
+                if !self.local.contains(point) {
+                    out.fill(NOWHERE);
+                }
+            }
+            self.local.patches = patches;
+        }
+    }
+}
+
+/// [`LocalField::evaluate_over`] on lanes.
+struct Over<'a, 'f, const D: usize> {
+    local: &'a LocalField<'f>,
+    offsets: &'a [Vec2],
+    side: Side,
+    patches: &'a [u32],
+    out: &'a mut [Jet<f64>],
+}
+
+impl<const D: usize> Job<f64> for Over<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) {
+        let components = self.local.field.components();
+        let mut lanes = vec![Jet::constant(zero); components];
+        let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
+        for (points, out) in chunks {
+            self.local.at_once::<R, D>(points, self.side, self.patches, &mut lanes, out);
+        }
+    }
+}
+
+/// The value outside the domain.
+const NOWHERE: Jet<f64> =
+    Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
+
+/// Calls `f` with each lane's jet.
+fn scatter<R: Real<Scalar = f64>>(jet: &Jet<R>, mut f: impl FnMut(usize, Jet<f64>)) {
+    let lanes = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy].map(Real::lanes);
+    for k in 0..R::LANES {
+        let [v, x, y, xx, xy, yy] = lanes.map(|lane| lane[k]);
+        f(k, Jet { v, x, y, xx, xy, yy });
+    }
+}
+
+impl LocalField<'_> {
+    /// Evaluates at many points, vectorised over lanes: `out` holds the components of the first
+    /// point, then those of the second, and so on; points outside the domain give NaN.
+    ///
+    /// Points that follow each other should be near each other: lanes share the patches of all. So the
+    /// last digit of a value may depend on the points beside it: where a single patch covers a point, its
+    /// weight is left out, or, for the sake of its neighbours, multiplied and divided.
+    ///
+    /// # Panics
+    /// If `out` is shorter than points × components.
+    pub fn evaluate_into<const D: usize>(
+        &mut self,
+        offsets: &[Vec2],
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) {
+        f64::dispatch(Many::<D> { local: self, offsets, side, out });
+    }
+
+    /// Evaluates at many points over a given list of patches, which must hold all that cover one of
+    /// them: like [`evaluate_into`](Self::evaluate_into), without looking for patches and borders.
+    ///
+    /// # Panics
+    /// If `out` is shorter than points × components.
+    pub fn evaluate_over<const D: usize>(
+        &self,
+        offsets: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        out: &mut [Jet<f64>],
+    ) {
+        f64::dispatch(Over::<D> { local: self, offsets, side, patches, out });
+    }
+
+    /// Evaluates at no more points than there are lanes; `lanes` holds one vector per component.
+    #[inline(always)]
+    fn at_once<R: Real<Scalar = f64>, const D: usize>(
+        &self,
+        points: &[Vec2],
+        side: Side,
+        patches: &[u32],
+        lanes: &mut [Jet<R>],
+        out: &mut [Jet<f64>],
+    ) {
+        let components = lanes.len();
+        // the last point stands in for those that are missing
+        let at = |k: usize| points[k.min(points.len() - 1)];
+        let like = lanes[0].v;
+        let offset = [like.with_lanes(|k| at(k).x), like.with_lanes(|k| at(k).y)];
+        self.over_patches::<R, D>(offset, side, patches, lanes);
+        for (component, jet) in lanes.iter().enumerate() {
+            scatter(jet, |k, jet| {
+                if k < points.len() {
+                    out[k * components + component] = jet;
+                }
+            });
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! A field as seen from an anchor: evaluation at one point, or at one vector of points.
+
+use super::Field;
+use super::functions::FunctionJets;
+use crate::crack::Side;
+use crate::domain::LocalDomain;
+use crate::function::{LocalFunctions, Slot};
+use crate::jet::Jet;
+use crate::polynomial::polynomial;
+use crate::real::Real;
+use crate::vec2::Vec2;
+
+/// A field seen from an anchor.
+#[derive(Clone, Debug)]
+pub struct LocalField<'f> {
+    /// The field.
+    pub field: &'f Field<'f>,
+    /// The anchor.
+    pub anchor: Vec2,
+    domain: LocalDomain,
+    functions: LocalFunctions<'f>,
+    /// Memory for the patches around a point.
+    pub(super) patches: Vec<u32>,
+}
+
+/// The partition of unity at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Covering {
+    /// S = Σ W_i with derivatives.
+    pub weight_sum: Jet<f64>,
+    /// Number of patches that cover the point.
+    pub overlap: usize,
+}
+
+impl<'f> LocalField<'f> {
+    pub(super) fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
+        let domain = field.domain.at(anchor);
+        Self { field, anchor, domain, functions, patches: Vec::new() }
+    }
+
+    /// The functions as seen from the anchor.
+    #[must_use]
+    pub fn functions(&self) -> &LocalFunctions<'f> {
+        &self.functions
+    }
+
+    /// True if `anchor + offset` lies in the closed domain; exact also where the sum would round.
+    #[must_use]
+    pub fn contains(&self, offset: Vec2) -> bool {
+        self.domain.contains(offset)
+    }
+
+    /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).
+    ///
+    /// On a crack the field of the given side is taken. Returns false, and leaves `out` alone,
+    /// outside the domain. Cost: O(log N) to find the patches, then a few hundred operations a patch.
+    ///
+    /// # Panics
+    /// If `out` is shorter than the number of components.
+    pub fn evaluate<const D: usize>(
+        &mut self,
+        offset: Vec2,
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) -> bool {
+        if !self.contains(offset) {
+            return false;
+        }
+        let patches = self.covering_any(&[offset]);
+        self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
+        self.patches = patches;
+        true
+    }
+
+    /// The partition of unity at `anchor + offset`; `None` outside the domain.
+    pub fn covering<const D: usize>(&mut self, offset: Vec2) -> Option<Covering> {
+        if !self.contains(offset) {
+            return None;
+        }
+        let patches = self.covering_any(&[offset]);
+        let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
+        let zero = Jet::constant(0.0);
+        let weight_sum = patches.iter().map(weight).fold(zero, Jet::plus::<D>);
+        let overlap = patches.len();
+        self.patches = patches;
+        Some(Covering { weight_sum, overlap })
+    }
+
+    /// The patches that cover at least one of the points, ascending.
+    pub(super) fn covering_any(&mut self, offsets: &[Vec2]) -> Vec<u32> {
+        let mut patches = std::mem::take(&mut self.patches);
+        patches.clear();
+        for &offset in offsets {
+            self.field.tree.query_point(self.anchor + offset, &mut patches);
+        }
+        patches.sort_unstable();
+        patches.dedup();
+        patches
+    }
+
+    /// Evaluates over a given list of patches, which must hold all that cover the point.
+    #[inline(always)]
+    pub fn over_patches<R: Real, const D: usize>(
+        &self,
+        offset: [R; 2],
+        side: Side,
+        patches: &[u32],
+        out: &mut [Jet<R>],
+    ) {
+        let zero = Jet::constant(offset[0].lit(0.0));
+        let mut functions = FunctionJets::new(&self.functions, offset, side);
+        let components = self.field.components();
+        out[..components].fill(zero);
+        let mut weight_sum = zero;
+        for &patch in patches {
+            let patch = patch as usize;
+            let weight = self.weight::<R, D>(patch, offset, patches.len() == 1);
+            weight_sum = weight_sum.plus::<D>(weight);
+            for (component, sum) in out[..components].iter_mut().enumerate() {
+                let v = self.local_field::<R, D>(patch, component, offset, &mut functions);
+                *sum = sum.plus::<D>(self.shared::<R, D>(patch, offset, weight.times::<D>(v)));
+            }
+        }
+        for sum in &mut out[..components] {
+            *sum = sum.over::<D>(weight_sum);
+        }
+    }
+
+    /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need not
+    /// have a value.
+    #[inline(always)]
+    fn shared<R: Real, const D: usize>(
+        &self,
+        patch: usize,
+        offset: [R; 2],
+        part: Jet<R>,
+    ) -> Jet<R> {
+        if R::LANES == 1 {
+            return part;
+        }
+        let support = self.field.step.partition.support(patch);
+        let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
+        let [x, y] = offset;
+        let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
+        part.only::<D>(y.ge(y.lit(lo.y))).only::<D>(y.lit(hi.y).gt(y))
+    }
+
+    /// W_i; constant 1 where the patch is alone, since φ_i = 1 there whatever W_i is.
+    #[inline(always)]
+    fn weight<R: Real, const D: usize>(&self, patch: usize, offset: [R; 2], alone: bool) -> Jet<R> {
+        if alone {
+            return Jet::constant(offset[0].lit(1.0));
+        }
+        self.partition_weight::<R, D>(patch, offset)
+    }
+
+    /// W_i at `anchor + offset` with derivatives.
+    #[inline(always)]
+    pub fn partition_weight<R: Real, const D: usize>(
+        &self,
+        patch: usize,
+        offset: [R; 2],
+    ) -> Jet<R> {
+        let partition = &self.field.step.partition;
+        let half = partition.half[patch];
+        let inverse = [1.0 / half.x, 1.0 / half.y];
+        let xi = self.scaled(offset, partition.center[patch], inverse);
+        partition.weight.tensor::<R, D>(xi, inverse)
+    }
+
+    /// The partition function φ_i = W_i / S of a patch, with derivatives: zero where the patch does
+    /// not cover the point, `None` outside the domain.
+    pub fn partition_function<const D: usize>(
+        &mut self,
+        patch: usize,
+        offset: Vec2,
+    ) -> Option<Jet<f64>> {
+        let Covering { weight_sum, .. } = self.covering::<D>(offset)?;
+        let weight = self.partition_weight::<f64, D>(patch, [offset.x, offset.y]);
+        Some(weight.over::<D>(weight_sum))
+    }
+
+    /// The local field v_i of one patch and component.
+    #[inline(always)]
+    fn local_field<R: Real, const D: usize>(
+        &self,
+        patch: usize,
+        component: usize,
+        offset: [R; 2],
+        functions: &mut FunctionJets<'_, 'f, R>,
+    ) -> Jet<R> {
+        let (partition, data) = (&self.field.step.partition, self.field.data);
+        let scale = partition.scale[patch];
+        let inverse = [1.0 / scale.x, 1.0 / scale.y];
+        let xi = self.scaled(offset, partition.origin[patch], inverse);
+        let mut v = Jet::constant(offset[0].lit(0.0));
+        for block in data.blocks(patch) {
+            let coefficients = data.block_coefficients(block, component);
+            let degree = data.block_degree[block] as usize;
+            let p = polynomial::<R, D>(coefficients, degree, xi);
+            let p = stretched::<R, D>(p, inverse);
+            v = v.plus::<D>(match self.field.functions.of(data.block_function[block]) {
+                Slot::One => p,
+                slot => p.times::<D>(functions.jet::<D>(slot)),
+            });
+        }
+        v
+    }
+
+    /// (anchor + offset − origin) · inverse; the difference of anchor and origin is formed in f64.
+    #[inline(always)]
+    fn scaled<R: Real>(&self, offset: [R; 2], origin: Vec2, inverse: [f64; 2]) -> [R; 2] {
+        let d = self.anchor - origin;
+        let one = offset[0].lit(1.0);
+        [
+            (offset[0] + one.lit(d.x)) * one.lit(inverse[0]),
+            (offset[1] + one.lit(d.y)) * one.lit(inverse[1]),
+        ]
+    }
+}
+
+/// Chain rule for ξ = (x − origin) · inverse.
+#[inline(always)]
+fn stretched<R: Real, const D: usize>(p: Jet<R>, inverse: [f64; 2]) -> Jet<R> {
+    let (ix, iy) = (p.v.lit(inverse[0]), p.v.lit(inverse[1]));
+    let mut out = p;
+    if D >= 1 {
+        (out.x, out.y) = (p.x * ix, p.y * iy);
+    }
+    if D >= 2 {
+        (out.xx, out.xy, out.yy) = (p.xx * ix * ix, p.xy * ix * iy, p.yy * iy * iy);
+    }
+    out
+}

@@ -1,0 +1,168 @@
+//! Evaluation of a field: v = Σ_i φ_i v_i with gradient and Hessian.
+//!
+//! A [`Field`] is a dataset's field at one step, compiled. [`Field::at`] looks at it from an anchor;
+//! points are `anchor + offset`. The weights, weight gradients and weighted local fields of the
+//! covering patches are summed and divided once (Üffinger et al. 2011, equations (4), (9), (10)):
+//!
+//! ```text
+//! S = Σ W_i     U = Σ W_i v_i     u = U / S     ∇u = (∇U − u ∇S) / S
+//! ```
+
+mod functions;
+mod lanes;
+mod local;
+
+use std::sync::Arc;
+
+use crate::box_tree::BoxTree;
+use crate::crack::SegmentId;
+use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::domain::Domain;
+use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
+use crate::function::{FunctionError, FunctionTable};
+use crate::vec2::Vec2;
+pub use local::{Covering, LocalField};
+
+/// A field of a dataset at one step, ready to be evaluated.
+#[derive(Debug)]
+pub struct Field<'d> {
+    /// The domain; outside nothing is defined.
+    pub domain: &'d Domain,
+    /// The equation the field solves.
+    pub equation: &'d Equation,
+    /// Quantities the dataset names.
+    pub quantities: &'d [NamedQuantity],
+    /// Tables that formulas may read.
+    pub tables: &'d [Arc<Table>],
+    /// The step.
+    pub step: &'d Step,
+    /// Blocks and coefficients.
+    pub data: &'d FieldData,
+    /// The compiled functions of the step.
+    pub functions: FunctionTable,
+    /// Finds the patches that cover a point or meet a box.
+    pub tree: BoxTree,
+    exact: Vec<Formula>,
+}
+
+/// The field asked for is not there or cannot be evaluated.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FieldError {
+    /// No such step.
+    #[error("there is no step {step}; the dataset has {count} (numbered from 0)")]
+    Step {
+        /// The step asked for.
+        step: usize,
+        /// Number of steps.
+        count: usize,
+    },
+    /// The step has no field at all.
+    #[error("step {step} has no field: there is nothing to evaluate")]
+    NoField {
+        /// The step asked for.
+        step: usize,
+    },
+    /// No such field.
+    #[error("there is no field `{name}`; the step has {known}")]
+    Name {
+        /// The field asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A function of the step is wrong.
+    #[error(transparent)]
+    Function(#[from] FunctionError),
+    /// A table has a name that formulas cannot use.
+    #[error("the tables of the dataset: {0}")]
+    Tables(#[from] ScopeError),
+    /// A formula of the exact solution is wrong.
+    #[error("exact solution of field `{name}`: {source}")]
+    Exact {
+        /// The field.
+        name: String,
+        /// The mistake.
+        source: Box<FormulaError>,
+    },
+}
+
+impl<'d> Field<'d> {
+    /// Compiles the first field of a step.
+    ///
+    /// # Errors
+    /// See [`FieldError`].
+    pub fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
+        let first = dataset.steps.get(step).map(|s| s.fields.first());
+        let Some(name) = first.map(|field| field.map(|f| f.name.as_str())) else {
+            return Self::named(dataset, step, "");
+        };
+        Self::named(dataset, step, name.ok_or(FieldError::NoField { step })?)
+    }
+
+    /// Compiles the field called `name`.
+    ///
+    /// # Errors
+    /// See [`FieldError`].
+    pub fn named(dataset: &'d Dataset, step: usize, name: &str) -> Result<Self, FieldError> {
+        let count = dataset.steps.len();
+        let step = dataset.steps.get(step).ok_or(FieldError::Step { step, count })?;
+        let data = step.fields.iter().find(|f| f.name == name).ok_or_else(|| FieldError::Name {
+            name: name.into(),
+            known: step.fields.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", "),
+        })?;
+        let supports: Vec<_> =
+            (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
+        Ok(Self {
+            domain: &dataset.domain,
+            equation: &dataset.equation,
+            quantities: &dataset.quantities,
+            tables: &dataset.tables,
+            step,
+            data,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
+            tree: BoxTree::new(&supports),
+            exact: exact(data, &dataset.tables)?,
+        })
+    }
+
+    /// Number of components.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.data.coefficients.len()
+    }
+
+    /// True if the exact solution is known.
+    #[must_use]
+    pub fn has_exact(&self) -> bool {
+        !self.exact.is_empty()
+    }
+
+    /// The exact value of a component at a point; NaN if it is not known.
+    #[must_use]
+    pub fn exact(&self, component: usize, p: Vec2) -> f64 {
+        self.exact.get(component).map_or(f64::NAN, |formula| formula.evaluate(&[p.x, p.y]))
+    }
+
+    /// The field as seen from an anchor.
+    #[must_use]
+    pub fn at(&self, anchor: Vec2) -> LocalField<'_> {
+        LocalField::new(self, anchor, self.functions.at(&self.step.cracks, anchor))
+    }
+
+    /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation takes
+    /// the side of this crack that it is told, wherever rounding has put the points.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
+        LocalField::new(self, anchor, self.functions.on(&self.step.cracks, segment, anchor))
+    }
+}
+
+fn exact(data: &FieldData, tables: &[Arc<Table>]) -> Result<Vec<Formula>, FieldError> {
+    let scope = Scope::cartesian().with_tables(tables)?;
+    let formulas: Result<_, _> = data.exact.iter().map(|t| Formula::parse(t, &scope)).collect();
+    formulas.map_err(|error| FieldError::Exact { name: data.name.clone(), source: Box::new(error) })
+}

@@ -1,0 +1,55 @@
+//! Segments of cracks, rims and borders.
+
+use crate::vec2::Vec2;
+
+/// A segment by its ends. It may be a point.
+pub type Segment = [Vec2; 2];
+
+/// Distance of `p` to a segment, to rounding of p − a and b − a.
+#[must_use]
+pub fn distance([a, b]: Segment, p: Vec2) -> f64 {
+    let (d, q) = (b - a, p - a);
+    let square = d.dot(d);
+    let s = if square > 0.0 { (q.dot(d) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (q - d * s).length()
+}
+
+/// Distance of `p` to a polyline; ∞ if it has fewer than two points.
+#[must_use]
+pub fn polyline_distance(points: &[Vec2], p: Vec2) -> f64 {
+    points.windows(2).map(|s| distance([s[0], s[1]], p)).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vec2::vec2;
+    use ppum_testkit::random::Random;
+
+    #[test]
+    fn beside_beyond_and_of_a_point() {
+        let segment = [vec2(1.0, 1.0), vec2(3.0, 1.0)];
+        for (p, expected) in
+            [([2.0, 3.0], 2.0), ([0.0, 1.0], 1.0), ([6.0, 5.0], 5.0), ([1.0, 1.0], 0.0)]
+        {
+            assert_eq!(distance(segment, p.into()), expected);
+        }
+        assert_eq!(distance([vec2(1.0, 1.0); 2], vec2(4.0, 5.0)), 5.0);
+        assert_eq!(polyline_distance(&[vec2(0.0, 0.0)], vec2(1.0, 0.0)), f64::INFINITY);
+    }
+
+    /// The least distance to points of the segment, whichever way it runs.
+    #[test]
+    fn it_is_the_least() {
+        let mut random = Random(4);
+        let mut point = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        for _ in 0..200 {
+            let (a, b, p) = (point(), point(), point());
+            let at = |k: u32| a + (b - a) * (f64::from(k) / 2000.0);
+            let least = (0..=2000).map(|k| (at(k) - p).length()).fold(f64::INFINITY, f64::min);
+            let found = distance([a, b], p);
+            assert!(found <= least + 1e-15 && least - found < 1e-3, "{a:?} {b:?} {p:?}");
+            assert!((distance([b, a], p) - found).abs() < 1e-15);
+        }
+    }
+}
