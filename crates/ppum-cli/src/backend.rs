@@ -8,14 +8,15 @@ use std::num::NonZeroUsize;
 use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::quantity::{Quantity, Source};
-use ppum_gpu::{Choice, GpuError, Method, RenderError, Renderer};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
+use crate::graphics::{Device, Method};
 use crate::output::tell;
-use crate::{drivers, threads, undefined};
+use crate::progress::Bar;
+use crate::{graphics, threads, undefined};
 
 /// What draws, as it was asked for.
 #[derive(Debug, clap::Args)]
@@ -69,7 +70,11 @@ pub(crate) struct Drawn {
 }
 
 impl Drawn {
-    fn new<T: Sample>(raster: &Raster<T>, job: Job<'_>, by: &str) -> anyhow::Result<Self> {
+    pub(crate) fn new<T: Sample>(
+        raster: &Raster<T>,
+        job: Job<'_>,
+        by: &str,
+    ) -> anyhow::Result<Self> {
         let picture = Picture::bare(raster, job.view, job.style)?;
         let undefined = undefined::pixels(raster, job.field, job.view);
         let is_finite = raster.statistics().finite > 0;
@@ -92,13 +97,13 @@ impl Engine {
     pub(crate) fn draw(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
         match self.backend {
             Backend::Cpu => self.on_cpu(job),
-            Backend::Gpu => on_gpu(job, Choice::Any, Method::Gather)?,
-            Backend::Splat => on_gpu(job, Choice::Any, Method::Splat)?,
+            Backend::Gpu => graphics::draw(job, Device::Any, Method::Gather)?,
+            Backend::Splat => graphics::draw(job, Device::Any, Method::Splat)?,
             Backend::Auto if self.needs_cpu(job) => self.on_cpu(job),
-            Backend::Auto => match on_gpu(job, Choice::Real, Method::Gather) {
+            Backend::Auto => match graphics::draw(job, Device::Hardware, Method::Gather) {
                 Ok(drawn) => drawn,
                 Err(error) => {
-                    note(&error).iter().for_each(|note| tell(note));
+                    error.note().iter().for_each(|note| tell(note));
                     self.on_cpu(job)
                 }
             },
@@ -119,57 +124,5 @@ impl Engine {
 }
 
 fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn> {
-    Drawn::new(&render::<T>(job.field, job.view, job.quantity)?, job, by)
-}
-
-/// The outer error is the device's, after which the CPU may try; the inner one is anything else.
-fn on_gpu(
-    job: Job<'_>,
-    choice: Choice,
-    method: Method,
-) -> Result<anyhow::Result<Drawn>, RenderError> {
-    let mut renderer = drivers::opening(|| Renderer::open(choice))?;
-    let raster = renderer.render(job.field, job.view, job.quantity, method)?;
-    let name = &renderer.gpu().info().name;
-    let by = match method {
-        Method::Gather => format!("gpu f32, {name}"),
-        Method::Splat => format!("gpu splat f32, {name}"),
-    };
-    Ok(Drawn::new(&raster, job, &by))
-}
-
-/// What is told when the CPU draws in place of a graphics card: nothing if there is none, as is normal,
-/// or if the CPU will say the same.
-fn note(error: &RenderError) -> Option<String> {
-    match error {
-        RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_) => None,
-        error => {
-            let text = error.to_string();
-            let lines: Vec<_> = text.lines().map(str::trim).collect();
-            Some(format!(
-                "note: drawn on the CPU, since the graphics card fails: {}",
-                lines.join(" ")
-            ))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn failures_are_told_in_one_line() {
-        let error = GpuError::Shader { message: "expected `;`\n  at 3:4\n".to_owned() };
-        let note = note(&error.into()).expect("a failure");
-        assert!(note.starts_with("note: ") && note.ends_with("expected `;` at 3:4"), "{note}");
-        assert_eq!(note.lines().count(), 1);
-        assert!(super::note(&GpuError::Lost.into()).is_some());
-    }
-
-    #[test]
-    fn a_machine_without_a_graphics_card_is_no_failure() {
-        let missing = GpuError::NoAdapter { wanted: " of a graphics card" };
-        assert_eq!(note(&missing.into()), None);
-    }
+    Drawn::new(&render::<T>(job.field, job.view, job.quantity, &Bar::new())?, job, by)
 }

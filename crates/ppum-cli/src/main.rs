@@ -10,9 +10,9 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
-mod drivers;
 mod families;
 mod given;
+mod graphics;
 mod memory;
 mod number;
 mod output;
@@ -20,7 +20,6 @@ mod panics;
 mod progress;
 mod remedy;
 mod replacements;
-mod sides;
 mod signals;
 mod standard;
 mod target;
@@ -78,7 +77,7 @@ fn report(error: &anyhow::Error) {
 fn message(error: &anyhow::Error) -> String {
     error
         .chain()
-        .map(ToString::to_string)
+        .map(|cause| remedy::told(cause))
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
 }

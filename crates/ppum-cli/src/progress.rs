@@ -1,4 +1,4 @@
-//! The progress of a solver: on a terminal only.
+//! The progress of long calls: on a terminal only.
 
 use std::time::Duration;
 
@@ -26,6 +26,7 @@ impl Bar {
 }
 
 impl Watcher for Bar {
+    /// Shows the progress; signals end the program as a whole, so nothing is to be stopped.
     fn hear(&self, progress: Progress) -> Verdict {
         self.show(progress);
         Verdict::GoOn

@@ -1,15 +1,16 @@
-//! What is done to a dataset before anything is evaluated: a part chosen, functions replaced.
+//! Options that change a dataset before anything is evaluated: a part chosen, functions replaced.
 
 use std::path::Path;
 
 use anyhow::Context as _;
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::Dataset;
 use ppum::decompose::Part;
+use ppum::replace::{self, ReplacementsError};
 
 use crate::arguments::assignment;
 use crate::given::{Given, file};
 
-/// Which part is taken, and what takes the place of what.
+/// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Replacements {
     /// Only a part of the field: smooth, jump, tip, other (enrichments of one's own), or patch:N
@@ -24,40 +25,35 @@ pub(crate) struct Replacements {
 }
 
 impl Replacements {
-    /// Changes a step of the dataset, by default the last one. Coefficients stay as they are. Parts
-    /// are told apart by the functions of the file, not by those that replace them.
+    /// Changes a step of the dataset, by default the last one. No such step is told where the field is made.
     pub(crate) fn apply(&self, dataset: &mut Dataset, step: Option<usize>) -> anyhow::Result<()> {
-        let Dataset { steps, tables, .. } = dataset;
-        let index = step.unwrap_or(steps.len().saturating_sub(1));
-        // which steps there are is told where the field is made
-        let Some(step) = steps.get_mut(index) else { return Ok(()) };
-        self.choose_part(step).context("--part")?;
-        for (which, given) in &self.function {
-            let given = Given::read(given)?;
-            let replaced = step.replace_function(which, &given.text, tables);
-            given.explain(replaced).with_context(|| format!("--function {which}"))?;
+        let texts = self.function.iter().map(|(_, text)| Given::read(text));
+        let functions = texts.collect::<anyhow::Result<Vec<_>>>()?;
+        let weight = self.weight.as_deref().map(Given::read).transpose()?;
+        let names = self.function.iter().map(|(which, _)| which.clone());
+        let replacements = replace::Replacements {
+            part: self.part,
+            functions: names.zip(functions.iter().map(|given| given.text.clone())).collect(),
+            weight: weight.as_ref().map(|given| given.text.clone()),
+        };
+        let step = step.unwrap_or(dataset.steps.len().saturating_sub(1));
+        let Err(error) = replacements.apply(dataset, step) else { return Ok(()) };
+        match (error, &weight) {
+            (ReplacementsError::Part(error), _) => Err(error).context("--part"),
+            (ReplacementsError::Function { index, which, error }, _) => {
+                functions[index].explain(Err(error)).with_context(|| format!("--function {which}"))
+            }
+            (ReplacementsError::Weight(error), Some(given)) => {
+                given.explain(Err(error)).context("--weight")
+            }
+            (error, _) => Err(error.into()),
         }
-        if let Some(given) = &self.weight {
-            let given = Given::read(given)?;
-            let replaced = step.replace_weight(&given.text, tables);
-            given.explain(replaced).context("--weight")?;
-        }
-        Ok(())
     }
 
     /// The files that formulas are read from.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
         let functions = self.function.iter().map(|(_, given)| given);
         functions.chain(&self.weight).filter_map(|given| file(given))
-    }
-
-    /// Puts a part of the first field in its place.
-    fn choose_part(&self, step: &mut Step) -> anyhow::Result<()> {
-        let Step { fields, functions, .. } = step;
-        if let (Some(part), Some(field)) = (self.part, fields.first_mut()) {
-            *field = field.part(part, functions)?;
-        }
-        Ok(())
     }
 
     /// A title that tells the part.

@@ -11,6 +11,7 @@ use crate::error::ReadError;
 const NAME: &str = "@sha256";
 
 /// True if the content has a checksum.
+#[cfg(feature = "damage")]
 pub(crate) fn is_sealed(content: &Content) -> bool {
     content.contains_key(NAME)
 }

@@ -146,6 +146,7 @@ pub(crate) enum Values {
     Other(String),
 }
 
+#[cfg(feature = "damage")]
 impl Values {
     /// Number of values; none of a type outside the format.
     pub(crate) fn len(&self) -> usize {

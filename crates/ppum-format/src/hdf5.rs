@@ -11,6 +11,9 @@ mod lookup3;
 mod read;
 mod write;
 
+#[cfg(feature = "damage")]
 pub(crate) use lookup3::lookup3;
 pub(crate) use read::from_bytes;
-pub(crate) use write::{check_texts, to_bytes, to_compressed_bytes};
+#[cfg(feature = "damage")]
+pub(crate) use write::to_compressed_bytes;
+pub(crate) use write::{check_texts, to_bytes};

@@ -10,8 +10,21 @@
 //! [`ReadError`] that names the object at fault, and what is allocated is bounded by the file's size.
 //!
 //! ```
-//! # fn main() -> Result<(), ppum_format::ReadError> {
-//! let error = ppum_format::from_bytes(b"not a dataset".to_vec()).unwrap_err();
+//! use ppum::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+//! let partition = Cover::uniform(domain, 1)?.partition(1.3, WeightFunction::Linear)?;
+//! let mut potential = FieldData::new("potential", &["u"]);
+//! (0..partition.len()).for_each(|_| potential.push_patch(&[(0, 2)]));
+//! let step = Step::new(partition).with_function("one", FunctionKind::One).with_field(potential);
+//! let dataset = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
+//!
+//! let bytes = ppum_format::to_bytes(&dataset)?;
+//! assert_eq!(ppum_format::from_bytes(bytes.clone())?, dataset);
+//!
+//! let half = bytes[..bytes.len() / 2].to_vec();
+//! let error = ppum_format::from_bytes(half).unwrap_err();
 //! assert!(matches!(error, ppum_format::ReadError::Hdf5 { .. }));
 //! # Ok(())
 //! # }
@@ -19,6 +32,7 @@
 
 mod checksum;
 mod content;
+#[cfg(feature = "damage")]
 pub mod damage;
 mod decode;
 mod encode;

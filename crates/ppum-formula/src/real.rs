@@ -8,7 +8,7 @@
 //! not inlined: a call leaves the region compiled for the wider instruction set, which costs a
 //! factor of ten or more and changes no result.
 
-use fearless_simd::{Level, Select as _, Simd, dispatch, f32x16, f64x8, prelude::*};
+use fearless_simd::{Level, Select as _, Simd, f32x16, f64x8, prelude::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::tape::Interpret;
@@ -127,6 +127,39 @@ pub trait Scalar:
     fn dispatch<J: Job<Self>>(job: J) -> J::Output;
 }
 
+/// Runs a job on the widest vectors of the processor. Every instruction set is all kernels compiled once more,
+/// so what has none of the newer ones (x86 before 2013) computes with SSE2 alone, to the same numbers.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+macro_rules! vectors {
+    ($job:expr, $t:ident, $vector:ident) => {{
+        let level = Level::new();
+        if let Some(simd) = level.as_avx512() {
+            return simd.vectorize(
+                #[inline(always)]
+                || $job.run($vector::splat(simd, 0.0)),
+            );
+        }
+        if let Some(simd) = level.as_avx2() {
+            return simd.vectorize(
+                #[inline(always)]
+                || $job.run($vector::splat(simd, 0.0)),
+            );
+        }
+        let Some(simd) = level.as_sse2() else { return $job.run($t::default()) };
+        simd.vectorize(
+            #[inline(always)]
+            || $job.run($vector::splat(simd, 0.0)),
+        )
+    }};
+}
+
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+macro_rules! vectors {
+    ($job:expr, $t:ident, $vector:ident) => {
+        fearless_simd::dispatch!(Level::new(), simd => $job.run($vector::splat(simd, 0.0)))
+    };
+}
+
 macro_rules! scalar {
     ($t:ident, $vector:ident, $lanes:literal) => {
         impl Real for $t {
@@ -211,7 +244,7 @@ macro_rules! scalar {
                 f64::from(self)
             }
             fn dispatch<J: Job<Self>>(job: J) -> J::Output {
-                dispatch!(Level::new(), simd => job.run($vector::splat(simd, 0.0)))
+                vectors!(job, $t, $vector)
             }
         }
 

@@ -1,32 +1,37 @@
-//! What can go wrong on a graphics card. Nothing here panics: a program falls back to the CPU.
+//! Failures of graphics devices. Nothing here panics, so that who draws can fall back to the CPU.
 
 use ppum::formula::WgslError;
+use ppum::progress::Cancelled;
+use ppum::quantity::QuantityError;
 
-/// Why a graphics card could not do what it was asked for.
+use crate::choice::Choice;
+
+/// The reason why a graphics device could not do what it was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
     /// There is no adapter, or none of the wanted kind.
     #[error(
-        "no graphics adapter{wanted}: install a Vulkan driver for the graphics card, or the software \
-         one (on Debian `libvulkan1 mesa-vulkan-drivers`); `--backend cpu` needs none"
+        "no graphics adapter{}: install a Vulkan driver for the graphics card, or the software \
+         one (on Debian `libvulkan1 mesa-vulkan-drivers`)",
+        choice.words()
     )]
     NoAdapter {
-        /// What was asked for beside an adapter, beginning with a space; empty if nothing.
-        wanted: &'static str,
+        /// The adapters that would have done.
+        choice: Choice,
     },
     /// The driver refused to do something.
-    #[error("{what}: the graphics driver says: {message}; `--backend cpu` does without it")]
+    #[error("{what}: the graphics driver says: {message}")]
     Device {
-        /// What was tried.
+        /// The action, as in "open the device".
         what: String,
         /// The driver's words.
         message: String,
     },
-    /// The card's memory is full.
-    #[error("{what}: out of graphics memory; draw fewer pixels or use `--backend cpu`")]
+    /// The device's memory is full.
+    #[error("{what}: out of graphics memory")]
     Memory {
-        /// What was tried.
+        /// The action, as in "draw".
         what: String,
     },
     /// A shader is not accepted.
@@ -39,30 +44,134 @@ pub enum GpuError {
     #[error("the graphics device was lost; open it again")]
     Lost,
     /// Data that do not fit into what the device binds at once.
-    #[error(
-        "{what} need {needed} bytes, and the graphics device takes {most}; use `--backend cpu`"
-    )]
+    #[error("{what} need {needed} bytes, and the graphics device takes {most}")]
     TooLarge {
-        /// What is too large, in the plural.
+        /// The data, in the plural.
         what: String,
         /// Bytes that are needed.
         needed: u64,
         /// Bytes that there can be.
         most: u64,
     },
-    /// Something this device or this crate cannot do; the text says what and what to do instead.
-    #[error("{0}")]
-    Unsupported(String),
+    /// A picture with more pixels than the device draws.
+    #[error(
+        "a picture of {}x{} pixels: this graphics device draws at most {most}x{most}",
+        pixels[0], pixels[1]
+    )]
+    PictureTooLarge {
+        /// Columns and rows.
+        pixels: [u32; 2],
+        /// Most of either.
+        most: u32,
+    },
+    /// More functions or components than the data of a scene can number.
+    #[error("{functions} functions and {components} components are more than shaders tell apart")]
+    TooMany {
+        /// Functions of the step.
+        functions: usize,
+        /// Components of the field.
+        components: usize,
+    },
+    /// A formula that is wrong.
+    #[error("{what}: {message}")]
+    Formula {
+        /// The formula.
+        what: String,
+        /// The mistake.
+        message: String,
+    },
+    /// A formula that is right, but too large for a shader.
+    #[error("{what}: {error}")]
+    FormulaTooLarge {
+        /// The formula.
+        what: String,
+        /// The limit it exceeds.
+        error: WgslError,
+    },
+    /// A quantity that single precision cannot show.
+    #[error(
+        "`{quantity}` is the difference of nearly equal numbers and needs double precision, which the GPU \
+         has not"
+    )]
+    NeedsDouble {
+        /// Name of the quantity.
+        quantity: String,
+    },
+    /// Splatting on a device that does not blend 32-bit floats.
+    #[error(
+        "splatting adds up 32-bit floats while drawing, which {adapter} does not; gather instead"
+    )]
+    NoBlending {
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// Splatting a field of more components than there are textures for.
+    #[error(
+        "splatting holds all components in textures, of which there are too few for this field; \
+         gather instead"
+    )]
+    TooFewTextures {
+        /// Textures that are needed.
+        needed: u32,
+        /// Textures that there can be.
+        most: u32,
+    },
+    /// A component that the field does not have.
+    #[error("there is no component {component}, counted from 0")]
+    Component {
+        /// The component asked for.
+        component: u8,
+        /// Components of the field.
+        count: usize,
+    },
+    /// A field with other patches or blocks than the scene that was uploaded.
+    #[error("the scene was uploaded of another field; upload this one")]
+    OtherField,
 }
 
 impl GpuError {
-    /// That a formula is wrong.
+    /// A wrong formula.
     pub(crate) fn formula(what: &str, error: &dyn std::fmt::Display) -> Self {
-        Self::Unsupported(format!("{what}: {error}"))
+        Self::Formula { what: what.to_owned(), message: error.to_string() }
     }
 
-    /// That formulas are right, but too large for a shader.
+    /// A formula that is right, but too large for a shader.
     pub(crate) fn limit(what: &str, error: &WgslError) -> Self {
-        Self::Unsupported(format!("{what}: {error}; `--backend cpu` has no such limit"))
+        Self::FormulaTooLarge { what: what.to_owned(), error: error.clone() }
+    }
+}
+
+/// The reason why a picture was not drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The graphics device could not.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The quantity has no meaning for the field.
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+    /// The watcher stopped the call.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<GpuError>();
+        check::<RenderError>();
+    }
+
+    #[test]
+    fn a_missing_adapter_says_what_to_install() {
+        let text = GpuError::NoAdapter { choice: Choice::Any }.to_string();
+        for word in ["Vulkan driver", "mesa-vulkan-drivers"] {
+            assert!(text.contains(word), "{text}");
+        }
     }
 }

@@ -103,8 +103,8 @@ pub(crate) fn halves_by(quantum: f64, value: f64) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quads::{QUAD_BYTES, QuadRecord};
-    use crate::seen::ViewRecord;
+    use crate::frame::quads::{QUAD_BYTES, QuadRecord};
+    use crate::frame::view_data::ViewRecord;
 
     /// Vectors of two begin with an even word, so WGSL puts nothing between members.
     #[test]

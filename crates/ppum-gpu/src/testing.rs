@@ -1,26 +1,27 @@
-//! What tests look at without a graphics device.
+//! Texts for tests, which need no graphics device.
 
 use ppum::field::Field;
-use ppum::quantity::Quantity;
 
-use crate::bodies::Bodies;
-use crate::groups::Groups;
-use crate::program::{Method, Output, Program};
-use crate::renderer::RenderError;
+use crate::error::RenderError;
+use crate::program::output::Output;
 use crate::scene::SceneLayout;
+use crate::scene::bodies::Bodies;
+use crate::scene::groups::Groups;
+use crate::shader::compose::ShaderText;
+use crate::shader::passes::Method;
 
-/// The texts of all shaders that draw a quantity of a field.
+/// The texts of all shaders that draw an output of a field.
 ///
 /// # Errors
 /// As [`Renderer::compile`](crate::Renderer::compile).
-pub fn texts(
+pub fn texts<O: Output>(
     field: &Field<'_>,
-    quantity: &Quantity,
+    output: &O,
     method: Method,
-    output: Output,
 ) -> Result<Vec<String>, RenderError> {
-    quantity.check(field)?;
+    output.check(field)?;
     let groups = Groups::new(&field.step.functions);
     let (layout, _) = SceneLayout::of(field, Bodies::new(field, &groups).shape);
-    Ok(Program::new(&groups, field, quantity, method, output)?.texts(layout))
+    let wanted = (&output.quantity(), output.order());
+    Ok(ShaderText::new(&groups, field, wanted, method, O::FINISH)?.all(layout))
 }

@@ -6,13 +6,47 @@
 //! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] encodes the result
 //! together with what it shows. Nothing is resampled, interpolated or triangulated on the way.
 //!
-//! [`reference`](mod@reference) evaluates a picture point by point; the renderer is held to it.
-//! Pictures do not depend on the number of threads.
+//! ```
+//! use ppum::prelude::*;
+//! use ppum::progress::unwatched;
+//! use ppum_render::picture::{Picture, Style};
+//! use ppum_render::{png, scatter::render, view::View};
+//!
+//! // one patch, u = 1 + 2ξ with ξ = x / 1.25
+//! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+//! let partition = Cover::uniform(domain, 0)?.partition(1.25, WeightFunction::Linear)?;
+//! let mut potential = FieldData::new("potential", &["u"]);
+//! potential.push_patch(&[(0, 1)]);
+//! potential.coefficients_mut(0).for_each(|c| c.copy_from_slice(&[1.0, 2.0, 0.0]));
+//! let step = Step::new(partition).with_function("one", FunctionKind::One).with_field(potential);
+//! let dataset = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
+//! let field = Field::new(&dataset, 0)?;
+//!
+//! let view = View::window(-1.0, -1.0, 1.0, 1.0, [4, 4])?;
+//! let raster = render::<f64>(&field, &view, &Quantity::parse("u", &field)?, unwatched())?;
+//! assert!((raster.value(3, 0) - 2.2).abs() < 1e-15); // x = 0.75
+//! let picture = Picture::bare(&raster, &view, &Style::named("viridis")?)?;
+//! let file = png::encode(&picture.image, &picture.description("A slope", "by hand", "u"))?;
+//! assert_eq!(&file[1..4], b"PNG");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Values
+//!
+//! [`reference`](mod@reference) evaluates a picture point by point; the renderer is held to it. Its values are
+//! those of the points, whatever is drawn around them. Those of the renderer are summed tile by tile, in an
+//! order and about a displacement that depend on where in its picture a point lies: a pixel alone, in a row or amid
+//! others agrees to VALUES of the largest value. No value depends on the number of threads. Work runs on the
+//! pool of `rayon` that calls (`ThreadPool::install`), and no other is needed.
+//!
+//! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
 pub mod colormap;
+mod error;
 pub mod figure;
 pub mod image;
 pub mod overlay;
+mod parts;
 pub mod picture;
 pub mod pixels;
 pub mod png;
@@ -24,3 +58,18 @@ pub mod scatter;
 mod text;
 pub mod ticks;
 pub mod view;
+
+pub use error::RenderError;
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<super::RenderError>();
+        check::<super::colormap::ColormapError>();
+        check::<super::figure::FigureError>();
+        check::<super::range::RangeError>();
+        check::<super::view::ViewError>();
+    }
+}

@@ -26,7 +26,7 @@ const BORDER_ALPHA: u8 = 120;
 /// White borders show on all but the lightest colours; black ones begin late, so that few lines change.
 const MOSTLY_LIGHT: f64 = 165.0;
 
-/// How much wider than in a picture of 1024 × 768 pixels lines and letters are; never narrower, lest
+/// Width of lines and letters in units of their width in a picture of 1024 × 768 pixels; never narrower, lest
 /// they be unreadable.
 #[must_use]
 pub(crate) fn line_scale(size: [u32; 2]) -> f64 {

@@ -11,12 +11,12 @@ use crate::raster::{Raster, Sample};
 use crate::scale::{Normalization, Scale};
 use crate::view::View;
 
-/// How values become colours.
+/// The way values become colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// The colours, those for values below and above the range included.
     pub colormap: Colormap,
-    /// How values spread over the colours.
+    /// The way values spread over the colours.
     pub scale: Scale,
     /// The range of values that the colours span.
     pub range: Range,
@@ -47,7 +47,7 @@ impl Default for Style {
 pub struct Picture {
     /// The colours.
     pub image: Image,
-    /// What is seen.
+    /// The view.
     pub view: View,
     /// Position of a value among the colours, the range found.
     pub normalization: Normalization,
@@ -104,7 +104,7 @@ impl Picture {
         })
     }
 
-    /// What the picture shows, for the texts of its file: `Title`, `Software` and `Description`, then
+    /// A description of the picture, for the texts of its file: `Title`, `Software` and `Description`, then
     /// under `ppum:` the dataset, quantity, view (centre, width, pixels: enough to draw it again to
     /// the last bit), meaning of a pixel, range, scale and colour map.
     #[must_use]
@@ -129,7 +129,7 @@ impl Picture {
     }
 }
 
-/// What a value's colour is found with.
+/// The means to find a value's colour.
 struct Shades {
     palette: Vec<Rgba>,
     norm: Normalization,

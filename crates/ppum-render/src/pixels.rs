@@ -1,4 +1,4 @@
-//! Which pixels a box covers.
+//! The pixels that a box covers.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use ppum::vec2::{Rect, Vec2};
 
 use crate::view::View;
 
-/// Which pixels lie in a box.
+/// Finds the pixels that lie in a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixels<'v> {
     view: &'v View,

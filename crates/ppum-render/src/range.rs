@@ -1,4 +1,4 @@
-//! Which values the colours span: chosen, or found from the raster.
+//! The range of values that the colours span: chosen, or found from the raster.
 //!
 //! Stresses grow like r^(−1/2) towards a tip, so the largest value of a raster says how near a pixel's
 //! centre happens to be and nothing about the field. The *automatic range* therefore looks at the
@@ -28,7 +28,7 @@ pub enum Range {
     Fixed(f64, f64),
 }
 
-/// Why a range cannot be used.
+/// The reason why a range cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RangeError {
@@ -100,7 +100,7 @@ impl Range {
 /// Share of the values on each side that may be a peak: a disc around a tip of a twelfth of a square
 /// picture's width.
 const TAIL: f64 = 0.005;
-/// How far outside the quantiles, in parts of their span, an extreme value still bounds the range.
+/// Distance from the quantiles, in parts of their span, up to which an extreme value still bounds the range.
 /// Smooth fields stay below it (a quadratic: 0.01), a tip's r^(−1/2) is far above.
 const SLACK: f64 = 0.2;
 /// A range that starts within this part of its end above zero starts at zero.
@@ -231,7 +231,7 @@ mod tests {
         assert!(bounds(Scale::Linear, &Raster::new([0, 0], vec![])) == (0.0, 1.0));
     }
 
-    /// What a linear system leaves of a constant is no picture of its own.
+    /// The rounding that a linear system leaves of a constant is no picture of its own.
     #[test]
     fn rounding_of_a_constant_is_not_spread_over_the_colours() {
         let noisy: Vec<f64> = (0..1000).map(|k| 4.0 + 1e-13 * f64::from(k % 7)).collect();

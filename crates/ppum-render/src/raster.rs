@@ -1,10 +1,12 @@
 //! Values at the pixel centres of a view.
 
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
 use ppum::real::Scalar;
 use rayon::prelude::*;
 
+use crate::error::RenderError;
 use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
@@ -22,10 +24,11 @@ pub trait Sample: Scalar + Into<f64> {
         field: &Field<'_>,
         view: &View,
         quantity: &Quantity,
-    ) -> Result<Raster<Self>, QuantityError>;
+        watcher: &dyn Watcher,
+    ) -> Result<Raster<Self>, RenderError>;
 }
 
-/// One value a pixel, row by row from the top; NaN where nothing is defined (outside the domain).
+/// One value per pixel, row by row from the top; NaN where nothing is defined (outside the domain).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster<T = f64> {
     /// Columns and rows.
@@ -34,7 +37,7 @@ pub struct Raster<T = f64> {
     pub values: Vec<T>,
 }
 
-/// What a raster holds. Minimum, maximum and mean are those of the finite values.
+/// Statistics of a raster. Minimum, maximum and mean are those of the finite values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of finite values.
@@ -59,7 +62,7 @@ impl<T: Sample> Raster<T> {
     #[must_use]
     pub fn new(size: [u32; 2], values: Vec<T>) -> Self {
         let pixels = size[0] as usize * size[1] as usize;
-        assert_eq!(values.len(), pixels, "a raster needs one value a pixel");
+        assert_eq!(values.len(), pixels, "a raster needs one value per pixel");
         Self { size, values }
     }
 

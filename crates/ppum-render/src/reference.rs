@@ -1,15 +1,20 @@
-//! The reference renderer: one scalar evaluation a pixel, slow and plain.
+//! The reference renderer: one scalar evaluation per pixel, slow and plain.
 
 use ppum::crack::Side;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
 use rayon::prelude::*;
 
+use crate::error::RenderError;
+use crate::parts::Parts;
 use crate::raster::Raster;
 use crate::view::View;
 
 /// The values of a quantity at the pixel centres of a view by [`Quantity::at`], the evaluation all
 /// others are compared with. Arguments and values are those of [`render`](crate::scatter::render).
+///
+/// The watcher hears of every row; the rows are spread over the threads of the pool that calls.
 ///
 /// # Errors
 /// As for [`render`](crate::scatter::render).
@@ -17,13 +22,19 @@ pub fn reference(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
-) -> Result<Raster<f64>, QuantityError> {
+    watcher: &dyn Watcher,
+) -> Result<Raster<f64>, RenderError> {
     quantity.check(field)?;
-    let row = |j| {
+    let [columns, rows] = view.pixels;
+    let parts = Parts::start(watcher, rows as usize)?;
+    let mut values = vec![0.0; columns as usize * rows as usize];
+    let lines = values.par_chunks_mut(columns as usize).enumerate();
+    lines.try_for_each(|(j, line)| {
         let mut local = field.at(view.center);
-        (0..view.pixels[0])
-            .map(|i| quantity.at(&mut local, view.offset(i, j), Side::Above))
-            .collect::<Vec<_>>()
-    };
-    Ok(Raster::new(view.pixels, (0..view.pixels[1]).into_par_iter().flat_map_iter(row).collect()))
+        for (i, value) in (0..).zip(line) {
+            *value = quantity.at(&mut local, view.offset(i, j as u32), Side::Above);
+        }
+        parts.finish_one()
+    })?;
+    Ok(Raster::new(view.pixels, values))
 }

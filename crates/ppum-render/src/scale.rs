@@ -18,7 +18,7 @@ use std::str::FromStr;
 
 use ppum::text::hint;
 
-/// How values spread over the colours.
+/// The way values spread over the colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Equal steps.

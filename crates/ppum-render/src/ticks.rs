@@ -1,4 +1,4 @@
-//! Where axes and colour bars have their ticks, and what is written there.
+//! Ticks of axes and colour bars, and their labels.
 //!
 //! Labels stay short at any zoom: numbers are written relative to a *reference* where their leading
 //! digits are all alike ("x − 0.5"), and in units of a power of ten where they are tiny or huge.
@@ -11,9 +11,9 @@ use crate::scale::{Normalization, Scale};
 /// A labelled mark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where: the offset from the axis' middle, or the position along the colour bar.
+    /// Its place: the offset from the axis' middle, or the position along the colour bar.
     pub at: f64,
-    /// What is written there.
+    /// The label.
     pub label: String,
 }
 
@@ -24,7 +24,7 @@ pub struct Ticks {
     pub major: Vec<Tick>,
     /// Marks without a label.
     pub minor: Vec<f64>,
-    /// What is subtracted from the values.
+    /// The number that is subtracted from the values.
     pub reference: f64,
     /// The power of ten that the labels are multiples of.
     pub exponent: i32,

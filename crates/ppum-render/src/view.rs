@@ -1,4 +1,4 @@
-//! What a picture shows: a window of the plane on a grid of square pixels.
+//! The view of a picture: a window of the plane on a grid of square pixels.
 //!
 //! Positions are formed as `center + offset`, never as absolute coordinates, so a view 1e-12 of the
 //! domain wide is as good as any. Row 0 is at the *top* of the picture while y points up:
@@ -28,7 +28,7 @@ pub struct View {
 /// Most pixels of one picture: a raster of f64 values then takes 2 GiB.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
-/// Why there is no such view.
+/// The reason why there is no such view.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {

@@ -1,5 +1,23 @@
-//! Development tools of `ppum`: exact solutions, synthetic datasets, the corpora of formulas and fields, an
-//! evaluation in extended precision to compare with, and an interpreter of WGSL.
+//! Development tools of `ppum`, for tests only.
+//!
+//! - [`synthetic`] makes datasets that no solver has to make, [`costly`] small ones that ask for much.
+//! - [`exact`] holds exact solutions of fracture mechanics, [`extended`] evaluates with 31 digits.
+//! - [`corpus`] are the cases that every back end of formulas is held to, [`fields`] the pictures that every
+//!   renderer is held to; [`wgsl`] runs shaders without a device.
+//! - [`random`] numbers are the same on every machine.
+//!
+//! ```
+//! use ppum::prelude::*;
+//! use ppum_testkit::random::Random;
+//! use ppum_testkit::synthetic::Recipe;
+//!
+//! let dataset = Recipe::default().dataset();
+//! let field = Field::new(&dataset, 0)?;
+//! let (mut random, mises) = (Random(1), Quantity::parse("von-mises", &field)?);
+//! let point = random.point(&dataset.domain.bounds);
+//! assert!(mises.at(&mut field.at(point), Vec2::ZERO, Side::Above) > 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod corpus;
 pub mod costly;
@@ -7,5 +25,7 @@ pub mod exact;
 pub mod extended;
 pub mod fields;
 pub mod random;
+pub mod rooms;
+pub mod skipped;
 pub mod synthetic;
 pub mod wgsl;

@@ -2,8 +2,8 @@
 
 use crate::domain::Domain;
 use crate::expression::Expression;
-use crate::real::Real;
 use crate::vec2::{Vec2, vec2};
+use ppum_formula::real::Real;
 
 /// Intervals in each direction of the points at which formulas of a material are looked at.
 const LOOKS: u32 = 64;

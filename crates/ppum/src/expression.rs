@@ -2,9 +2,9 @@
 
 use std::str::FromStr;
 
-use crate::formula::{Formula, FormulaError, Scope};
-use crate::real::Real;
 use crate::vec2::{Vec2, vec2};
+use ppum_formula::real::Real;
+use ppum_formula::{Formula, FormulaError, Scope};
 
 /// A scalar given by a number or a formula of x and y.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 //! Operations take the order `D` of derivatives that are kept: 0 value, 1 gradient, 2 Hessian.
 //! Derivatives above `D` are left at zero and cost nothing.
 
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// Value, gradient and Hessian of a function at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,6 +14,7 @@
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
+//! - [`sample`] evaluates along lines and cracks and on grids; [`sides`] knows which points lie on a crack.
 //! - [`progress`] is how long calls are followed and stopped.
 //! - [`printable`](mod@printable) is how texts of files may be shown.
 //! - [`text`] writes numbers and places for people, and finds the words that they meant.
@@ -149,7 +150,9 @@ pub mod prelude;
 pub mod progress;
 pub mod quantity;
 pub mod replace;
+pub mod sample;
 pub mod segment;
+pub mod sides;
 pub mod text;
 pub mod vec2;
 pub mod weight;

@@ -2,7 +2,7 @@
 
 use crate::dataset::monomials;
 use crate::jet::Jet;
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// Σ c_k ξ^a η^b over all monomials of total degree at most `degree`, with derivatives by (ξ, η),
 /// by nested Horner schemes: inner in ξ, outer in η.

@@ -1,16 +1,18 @@
 //! Functions and weights replaced while looking.
 //!
 //! A dataset keeps its coefficients and gets another function: what would the field be with it? The
-//! functions of a step are texts, so a field is compiled anew in no time.
+//! functions of a step are texts, so a field is compiled anew in no time. [`Replacements`] are all changes
+//! of one look: a part that is chosen, functions and the weight that are replaced.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::dataset::Step;
-use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
+use crate::dataset::{Dataset, Step};
+use crate::decompose::{Part, PartError};
 use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
+use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
 /// A text that cannot take the place of a function or of the weight.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -35,6 +37,76 @@ pub enum ReplaceError {
     /// The dataset's tables or parameters have names that formulas cannot use.
     #[error(transparent)]
     Scope(#[from] ScopeError),
+}
+
+/// Changes of a dataset before anything is evaluated. Coefficients stay as they are. Parts are told apart by
+/// the functions of the dataset, not by those that replace them.
+///
+/// ```
+/// use ppum::decompose::Part;
+/// use ppum::replace::Replacements;
+///
+/// let what_if = Replacements {
+///     part: Some(Part::Smooth),
+///     functions: vec![("westergaard 1".into(), "r".into())],
+///     weight: Some("bump".into()),
+/// };
+/// # let _ = what_if;
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Replacements {
+    /// The part of the step's first field that takes its place, see [`FieldData::part`](crate::dataset::FieldData::part).
+    pub part: Option<Part>,
+    /// Functions by name or number, and formulas in their place, see [`Step::replace_function`].
+    pub functions: Vec<(String, String)>,
+    /// The weight, see [`Step::replace_weight`].
+    pub weight: Option<String>,
+}
+
+/// A change that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReplacementsError {
+    /// The part.
+    #[error("part: {0}")]
+    Part(#[source] PartError),
+    /// A function.
+    #[error("function {which}: {error}")]
+    Function {
+        /// Index in [`Replacements::functions`].
+        index: usize,
+        /// The name or number asked for.
+        which: String,
+        /// What is wrong.
+        #[source]
+        error: ReplaceError,
+    },
+    /// The weight.
+    #[error("weight: {0}")]
+    Weight(#[source] ReplaceError),
+}
+
+impl Replacements {
+    /// Makes all changes in a step of the dataset; none where there is no such step.
+    ///
+    /// # Errors
+    /// The first change that cannot be made; those before it are made.
+    pub fn apply(&self, dataset: &mut Dataset, step: usize) -> Result<(), ReplacementsError> {
+        let Dataset { steps, tables, .. } = dataset;
+        let Some(step) = steps.get_mut(step) else { return Ok(()) };
+        if let (Some(part), Some(field)) = (self.part, step.fields.first_mut()) {
+            *field = field.part(part, &step.functions).map_err(ReplacementsError::Part)?;
+        }
+        for (index, (which, text)) in self.functions.iter().enumerate() {
+            step.replace_function(which, text, tables).map_err(|error| {
+                ReplacementsError::Function { index, which: which.clone(), error }
+            })?;
+        }
+        if let Some(text) = &self.weight {
+            step.replace_weight(text, tables).map_err(ReplacementsError::Weight)?;
+        }
+        Ok(())
+    }
 }
 
 impl Step {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 use crate::jet::Jet;
 use crate::library;
-use crate::real::{Real, WIDEST};
+use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
 /// does not see it. The B-splines have w(0) = 1.

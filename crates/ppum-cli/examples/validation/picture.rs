@@ -2,6 +2,7 @@
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Rect;
 use ppum_render::figure::{Labels, figure, plot_area};
@@ -21,7 +22,8 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     let quantity = Quantity::parse(name, &field)?;
     let view = View::hug(window, plot_area(SIZE)?)?;
     let style = Style { scale: Scale::Log, ..Style::default() };
-    let picture = Picture::bare(&render::<f64>(&field, &view, &quantity)?, &view, &style)?;
+    let picture =
+        Picture::bare(&render::<f64>(&field, &view, &quantity, unwatched())?, &view, &style)?;
     let labels = Labels {
         title: dataset.title.clone(),
         quantity: quantity.symbol(&field.data.components),

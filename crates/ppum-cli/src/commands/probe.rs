@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use ppum::crack::{SegmentId, Side};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
+use ppum::sample::Place;
+use ppum::sides::Segments;
 use ppum::vec2::Vec2;
 use serde::Serialize;
 use serde::ser::Serializer;
@@ -14,7 +15,6 @@ use crate::arguments::point;
 use crate::dataset::{field, open, quantities};
 use crate::number::{Number, json};
 use crate::replacements::Replacements;
-use crate::sides::{on_crack, seen};
 
 /// Print exact values at points
 ///
@@ -91,8 +91,10 @@ impl Args {
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
         let quantities = quantities(&field, &self.quantity)?;
-        let rows = self.at.iter().flat_map(|&at| self.rows(&field, &quantities, at));
-        let points: Vec<_> = rows.collect();
+        let segments = Segments::new(&field.step.cracks);
+        let offset = self.offset.unwrap_or_default();
+        let places = self.at.iter().flat_map(|&at| Place::sides(&segments, at, offset));
+        let points: Vec<_> = places.map(|place| self.row(&field, &quantities, &place)).collect();
         if self.json {
             json(out, &Report { points })?;
         } else {
@@ -101,34 +103,19 @@ impl Args {
         Ok(())
     }
 
-    /// One row, on a crack one for each side.
-    fn rows(&self, field: &Field<'_>, quantities: &[(String, Quantity)], at: Vec2) -> Vec<Row> {
-        let on = on_crack(&field.step.cracks, at, self.offset.unwrap_or_default());
-        let row = |side, name| self.row(field, quantities, at, (on, side, name));
-        match on {
-            Some(_) => vec![row(Side::Above, Some("above")), row(Side::Below, Some("below"))],
-            None => vec![row(Side::Above, None)],
-        }
-    }
-
-    fn row(
-        &self,
-        field: &Field<'_>,
-        quantities: &[(String, Quantity)],
-        at: Vec2,
-        (on, side, name): (Option<SegmentId>, Side, Option<&'static str>),
-    ) -> Row {
-        let (mut local, offset) = (seen(field, on, at), self.offset.unwrap_or_default());
+    /// The values at a point on a side.
+    fn row(&self, field: &Field<'_>, quantities: &[(String, Quantity)], place: &Place) -> Row {
+        let mut local = place.seen(field);
         let value = |(name, quantity): &(String, Quantity)| {
-            (name.clone(), Number(quantity.at(&mut local, offset, side)))
+            (name.clone(), Number(quantity.at(&mut local, place.offset, place.side)))
         };
         let values = Values(quantities.iter().map(value).collect());
         Row {
-            at: at.into(),
+            at: place.anchor.into(),
             offset: self.offset.map(Vec2::into),
-            side: name,
+            side: place.on.map(|_| place.side.name()),
             values,
-            is_inside: local.contains(offset),
+            is_inside: local.contains(place.offset),
         }
     }
 }

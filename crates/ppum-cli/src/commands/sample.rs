@@ -1,26 +1,30 @@
 //! `ppum sample`: exact values along lines and cracks, at lists of points and on grids, for plots.
 
 mod along;
-mod places;
+mod points;
 mod table;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{bail, ensure};
 use ppum::field::Field;
+use ppum::progress::{Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
+use ppum::sample::{self, Place};
 use ppum::vec2::Rect;
+use rayon::prelude::*;
 
 use crate::arguments::{corners, ends, size};
 use crate::dataset::{field, open, quantities};
 use crate::given::{self, parts};
 use crate::output::{Output, tell};
+use crate::progress::Bar;
 use crate::replacements::Replacements;
 use crate::standard::is_standard;
 use crate::target;
 use crate::undefined;
-use places::{Place, evaluate};
 use table::{Column, Table};
 
 /// Write exact values along a line or a crack, at points or on a grid
@@ -119,37 +123,60 @@ impl Args {
         }
         if let Some([a, b]) = self.line {
             ensure!(a != b, "--line: its two points are equal");
-            let (lengths, places) = places::line(cracks, a, b, count);
-            let table = listed(field, quantities, &places);
+            let places = sample::line(cracks, a, b, count);
+            let lengths = places.iter().map(|place| (place.point - a).length()).collect();
+            let table = listed(field, quantities, &places)?;
             return Ok(table.with_first(Column::new("s", ""), lengths));
         }
         if let Some(path) = &self.points {
-            let points = places::read(path)?;
-            return Ok(listed(field, quantities, &places::both_sides(cracks, &points)));
+            return listed(field, quantities, &sample::points(cracks, &points::read(path)?));
         }
         let Some([nx, ny]) = self.grid else { bail!("give --line, --points, --grid or --crack") };
         let points = nx as usize * ny as usize;
         ensure!(nx > 0 && ny > 0, "--grid {nx}x{ny}: has no points");
         ensure!(points <= MOST, "--grid {nx}x{ny}: at most {MOST} points at a time");
         let window = self.view.unwrap_or(field.domain.bounds);
-        let places = places::grid(cracks, window, [nx, ny]);
-        Ok(listed(field, quantities, &places).with_shape([ny as usize, nx as usize]))
+        let places = sample::grid(cracks, window, [nx, ny]);
+        Ok(listed(field, quantities, &places)?.with_shape([ny as usize, nx as usize]))
     }
 }
 
-/// A row for each place: position, side, quantities.
-fn listed(field: &Field<'_>, quantities: &[(String, Quantity)], places: &[Place]) -> Table {
-    let values = evaluate(field, quantities, places);
+/// The quantities at all places, one row for each, on all cores.
+fn evaluate(
+    field: &Field<'_>,
+    quantities: &[Quantity],
+    places: &[Place],
+) -> anyhow::Result<Vec<f64>> {
+    let (bar, done, total) = (Bar::new(), AtomicUsize::new(0), places.len());
+    let watcher: &dyn Watcher = &bar;
+    let values = |batch: &&[Place]| {
+        let done = done.fetch_add(batch.len(), Ordering::Relaxed);
+        watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+        Ok(sample::evaluate_batch(field, quantities, batch))
+    };
+    let batches: Vec<_> = sample::batches(places).collect();
+    let rows = batches.par_iter().map(values).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(rows.concat())
+}
+
+/// One row for each place: position, side, quantities.
+fn listed(
+    field: &Field<'_>,
+    quantities: &[(String, Quantity)],
+    places: &[Place],
+) -> anyhow::Result<Table> {
+    let wanted: Vec<_> = quantities.iter().map(|(_, quantity)| quantity.clone()).collect();
+    let values = evaluate(field, &wanted, places)?;
     tell_undefined(field, quantities, places, &values);
     let of = |(name, quantity): &(String, Quantity)| Column::new(name, quantity.unit(field));
     let head = ["x", "y", "side"].map(|name| Column::new(name, ""));
     let columns = head.into_iter().chain(quantities.iter().map(of)).collect();
     let mut rows = Vec::with_capacity(places.len() * (3 + quantities.len()));
     for (place, values) in places.iter().zip(values.chunks(quantities.len())) {
-        rows.extend([place.point.x, place.point.y, place.mark]);
+        rows.extend([place.point.x, place.point.y, place.mark()]);
         rows.extend(values);
     }
-    Table::new(columns, rows)
+    Ok(Table::new(columns, rows))
 }
 
 /// Tells which quantities have no value at places of the plate.

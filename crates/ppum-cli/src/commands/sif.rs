@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
-use ppum::progress::unwatched;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::intensity::Outcome;
@@ -15,6 +14,7 @@ use serde::Serialize;
 
 use crate::dataset::open;
 use crate::number::{json, places};
+use crate::progress::Bar;
 use crate::standard;
 use crate::tips::{Tip, all_tips, table};
 use crate::warnings::{WarningRow, rows, warn};
@@ -126,7 +126,7 @@ fn computed(
     index: usize,
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let (outcomes, warnings) = recompute(dataset, index, problem, unwatched())?;
+    let (outcomes, warnings) = recompute(dataset, index, problem, &Bar::new())?;
     let step = &dataset.steps[index];
     let tip = |outcome: &Outcome| match &outcome.factors {
         Some(factors) => Tip::new(index, step, factors),

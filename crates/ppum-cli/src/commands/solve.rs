@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record};
-use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::report::SolverReport;
 use ppum_solve::solve::Plan;
@@ -19,7 +18,6 @@ use crate::memory;
 use crate::number::{Number, count, json, places};
 use crate::output::Output;
 use crate::progress::Bar;
-use crate::remedy::with_remedy;
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
@@ -76,9 +74,9 @@ impl Args {
             let bar = Bar::new();
             let memory = self.memory();
             let solve = || {
-                let plan = Plan::new(&problem, memory, &bar).map_err(with_remedy)?;
+                let plan = Plan::new(&problem, memory, &bar)?;
                 ppum_format::check(plan.dataset())?;
-                plan.solve(&bar).map_err(with_remedy)
+                anyhow::Ok(plan.solve(&bar)?)
             };
             threads::with(self.threads, solve)??
         };
@@ -123,8 +121,9 @@ impl Args {
     /// Does all but solving: what is refused is told now.
     fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
         let checked = || {
-            let plan = Plan::new(problem, self.memory(), unwatched()).map_err(with_remedy)?;
-            plan.check(unwatched()).map_err(with_remedy)?;
+            let bar = Bar::new();
+            let plan = Plan::new(problem, self.memory(), &bar)?;
+            plan.check(&bar)?;
             ppum_format::check(plan.dataset())?;
             anyhow::Ok(*plan.estimate())
         };

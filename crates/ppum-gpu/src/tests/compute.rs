@@ -3,7 +3,7 @@
 use wgpu::util::DeviceExt;
 use wgpu::{BufferUsages, ComputePipelineDescriptor};
 
-use crate::{Gpu, GpuError, geometry, shader};
+use crate::{Gpu, GpuError, frame::geometry, shader::texts};
 
 /// Words of a work group.
 const GROUP: u32 = 64;
@@ -11,7 +11,7 @@ const GROUP: u32 = 64;
 /// The point functions with what they need, for the highest order. The text of a test defines
 /// `fn row(k: u32)`, which reads `input(k, i)` and writes `put(k, i, value)`, and perhaps `weight`.
 pub(crate) fn point_functions(order: u32, cracks: u32) -> String {
-    let texts: String = shader::POINT_FUNCTIONS.iter().map(|(_, text)| *text).collect();
+    let texts: String = texts::POINT_FUNCTIONS.iter().map(|(_, text)| *text).collect();
     format!(
         "const ORDER = {order}u;\nconst HAS_KINKS = true;\nalias Lanes = vec2<f32>;\nconst LANE_PAIRS = 1u;\n\
          struct View {{ cracks: u32 }}\nconst view = View({cracks}u);\n\
@@ -37,7 +37,7 @@ pub(crate) fn around(text: &str, rows: usize, inputs: usize, outputs: usize) -> 
     )
 }
 
-/// What `row` of a text writes for each row, `outputs` numbers.
+/// The `outputs` numbers that `row` of a text writes for each row.
 pub(crate) fn run<const N: usize>(
     gpu: &Gpu,
     text: &str,

@@ -30,9 +30,10 @@ impl Driver {
         let formulas: Vec<&[&Case]> = single.chunk_by(|a, b| same_formula(a, b)).collect();
         let mut results = BTreeMap::new();
         for batch in formulas.chunks(BATCH) {
-            let rows = (0u8..).zip(batch);
-            let rows = rows.flat_map(|(k, cases)| cases.iter().map(move |case| row(case, k)));
-            let rows: Vec<[f32; NUMBERS]> = rows.collect();
+            let rows: Vec<[f32; NUMBERS]> = (0u8..)
+                .zip(batch)
+                .flat_map(|(k, cases)| cases.iter().map(move |case| row(case, k)))
+                .collect();
             let found = run(gpu, &text(batch, &edit), &[], &rows, OUTPUTS);
             let found = found.unwrap_or_else(|error| panic!("{}: {error}", batch[0][0].place));
             for (case, found) in batch.concat().iter().zip(found) {

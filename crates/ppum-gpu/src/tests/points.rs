@@ -18,7 +18,8 @@ use ppum_testkit::wgsl::Module;
 
 use super::compute::{around, point_functions, run};
 use super::gpu_or_skip;
-use crate::geometry::{Geometry, GroupFrame};
+use crate::frame::geometry::Geometry;
+use crate::scene::groups::GroupFrame;
 
 /// Unit roundoff of single precision.
 const U: f64 = f32::EPSILON as f64 / 2.0;
@@ -26,10 +27,10 @@ const U: f64 = f32::EPSILON as f64 / 2.0;
 /// A weight for the texts that test none.
 const WEIGHT: &str = "fn weight(xi: f32) -> vec3<f32> { return weight_cubic(xi); }\n";
 
-/// Where the cracks are in the view's data of one group of functions.
+/// Place of the cracks in the view's data of one group of functions.
 const CRACKS: u32 = 4;
 
-/// What must come out: a number and the size of what it is a sum of.
+/// The expected result: a number and the size of what it is a sum of.
 type Expected = Vec<(f64, f64)>;
 
 /// Rows that differ from what is expected by more than `units` roundoffs.
@@ -380,18 +381,10 @@ fn cracks() -> Vec<Crack> {
 fn step(cracks: Vec<Crack>) -> Step {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let cover = Cover::uniform(domain, 0).expect("one cell");
-    Step {
-        load: 1.0,
-        partition: cover.partition(1.25, WeightFunction::Linear).expect("one patch"),
-        cracks,
-        functions: Vec::new(),
-        fields: Vec::new(),
-        attributes: Vec::new(),
-        intensities: Vec::new(),
-        history: Vec::new(),
-        warnings: Vec::new(),
-        reactions: Vec::new(),
-    }
+    let partition = cover.partition(1.25, WeightFunction::Linear).expect("one patch");
+    let mut step = Step::new(partition);
+    step.cracks = cracks;
+    step
 }
 
 /// Offsets from the size of a plate down to 10⁻¹⁵, with the centre itself and points on axes.

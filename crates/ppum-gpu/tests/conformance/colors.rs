@@ -1,7 +1,7 @@
 //! Colours on the card against those of the CPU.
 
 use ppum::field::Field;
-use ppum_gpu::{Method, Output, Shading};
+use ppum_gpu::{Colors, Method, Shading, Values};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
@@ -26,17 +26,15 @@ fn colours_are_those_of_the_cpu() {
     let dataset = recipe.dataset();
     let field = good(Field::new(&dataset, 0));
     let window = Window { center: recipe.domain.center(), width: 1.5123, pixels: [83, 61] };
-    let mut scene = good(renderer.upload(&field));
+    let scene = good(renderer.upload(&field));
     for (text, method, scale, map) in [
         ("von-mises", Method::Gather, Scale::Linear, "viridis"),
         ("von-mises", Method::Splat, Scale::Log, "magma_r"),
         ("duy_dx", Method::Gather, Scale::SymLog, "coolwarm"),
     ] {
         let quantity = quantity(text, &field);
-        let mut compile =
-            |output| good(renderer.compile(&scene, &field, &quantity, method, output));
-        let mut programs = [Output::Values, Output::Colors].map(&mut compile);
-        let raster = draw(&mut renderer, &mut scene, &mut programs[0], &field, &window);
+        let mut values = good(renderer.compile(&scene, Values(quantity.clone()), method));
+        let raster = draw(&mut renderer, &mut values, &window);
         let range = middle(&raster);
         let mut style = good(Style::named(map));
         (style.scale, style.range, style.undefined) =
@@ -52,9 +50,8 @@ fn colours_are_those_of_the_cpu() {
             colormap: style.colormap.clone(),
             undefined: style.undefined,
         };
-        let view = view(&window);
-        let drawn = renderer.draw(&mut scene, &mut programs[1], &field, &view, Some(&shading));
-        let found = good(renderer.image(&good(drawn)));
+        let mut colors = good(renderer.compile(&scene, Colors { quantity, shading }, method));
+        let found = good(good(renderer.draw(&mut colors, &view(&window))).read());
         assert_eq!(found.size, expected.image.size);
         compare(&format!("{text}, {scale}"), &found.rgba, &expected.image.rgba, &raster, range);
     }

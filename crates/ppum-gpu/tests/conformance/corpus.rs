@@ -1,8 +1,9 @@
 //! The corpus of fields on the CPU, scalar and in vectors, by gathering and by splatting.
 
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum_gpu::{Method, Output, Renderer, Scene};
+use ppum_gpu::{Method, Renderer, Scene, Values};
 use ppum_render::reference::reference;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
@@ -17,7 +18,7 @@ const RELATIVE: f64 = 1e-5;
 /// Largest share of pixels that may lie in the band.
 const MOST_IN_BAND: f64 = 0.02;
 
-/// What draws.
+/// An evaluator of pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Evaluator {
     Scalar,
@@ -29,13 +30,13 @@ enum Evaluator {
 use Evaluator::{Double, Gpu, Scalar, Single};
 
 const ALL: [Evaluator; 5] = [Scalar, Double, Single, Gpu(Method::Gather), Gpu(Method::Splat)];
-/// Where splatting stands among them.
+/// Index of splatting among them.
 const SPLATTING: usize = 4;
 
 /// A scene and its programs, where there is a graphics device.
-struct OnCard<'r> {
+struct OnCard<'r, 'f> {
     renderer: &'r mut Renderer,
-    scene: Scene,
+    scene: Scene<'f>,
 }
 
 #[derive(Debug, Default)]
@@ -80,31 +81,36 @@ fn agree(group: &str, cases: &[Case], check: impl Fn(&str, Evaluator, &Differenc
 /// Draws the values of a view, row by row from the top.
 type Draw<'a> = Box<dyn FnMut(&View) -> Option<Vec<f64>> + 'a>;
 
-/// How an evaluator draws a view; nothing where there is no device.
+/// The function by which an evaluator draws a view; it gives nothing if there is no device.
 fn drawing<'a>(
     evaluator: Evaluator,
     field: &'a Field<'a>,
     quantity: &'a Quantity,
-    card: Option<&'a mut OnCard<'_>>,
+    card: Option<&'a mut OnCard<'_, '_>>,
 ) -> Draw<'a> {
     match (evaluator, card) {
-        (Scalar, _) => Box::new(|view| Some(values(&good(reference(field, view, quantity))))),
-        (Double, _) => Box::new(|view| Some(values(&good(render::<f64>(field, view, quantity))))),
-        (Single, _) => Box::new(|view| Some(values(&good(render::<f32>(field, view, quantity))))),
+        (Scalar, _) => {
+            Box::new(|view| Some(values(&good(reference(field, view, quantity, unwatched())))))
+        }
+        (Double, _) => {
+            Box::new(|view| Some(values(&good(render::<f64>(field, view, quantity, unwatched())))))
+        }
+        (Single, _) => {
+            Box::new(|view| Some(values(&good(render::<f32>(field, view, quantity, unwatched())))))
+        }
         (Gpu(_), None) => Box::new(|_| None),
         (Gpu(method), Some(OnCard { renderer, scene })) => {
-            let program = renderer.compile(scene, field, quantity, method, Output::Values);
-            let mut program = good(program);
+            let mut program = good(renderer.compile(scene, Values(quantity.clone()), method));
             Box::new(move |view| {
-                let drawn = good(renderer.draw(scene, &mut program, field, view, None));
-                Some(values(&good(renderer.raster(&drawn))))
+                let drawn = good(renderer.draw(&mut program, view));
+                Some(values(&good(drawn.read())))
             })
         }
     }
 }
 
-impl<'r> OnCard<'r> {
-    fn new(renderer: &'r mut Renderer, field: &Field<'_>) -> Self {
+impl<'r, 'f> OnCard<'r, 'f> {
+    fn new(renderer: &'r mut Renderer, field: &'f Field<'f>) -> Self {
         let scene = good(renderer.upload(field));
         Self { renderer, scene }
     }

@@ -1,9 +1,8 @@
 //! Value, gradient and Hessian of components against the scalar evaluation.
 
 use ppum::field::Field;
-use ppum::quantity::Quantity;
 use ppum::weight::WeightFunction;
-use ppum_gpu::{Output, Renderer};
+use ppum_gpu::{Derivatives, Renderer};
 use ppum_testkit::fields::Truth;
 use ppum_testkit::synthetic::Recipe;
 
@@ -27,14 +26,10 @@ fn check(renderer: &mut Renderer, component: u8, recipe: &Recipe) {
     let field = good(Field::new(&dataset, 0));
     let truth = Truth::new(&field, window());
     let expected = truth.component(component.into());
-    let mut scene = good(renderer.upload(&field));
+    let scene = good(renderer.upload(&field));
     for method in METHODS {
-        let output = Output::Component(component);
-        let compiled = renderer.compile(&scene, &field, &Quantity::Overlap, method, output);
-        let mut program = good(compiled);
-        let view = view(&window());
-        let drawn = good(renderer.draw(&mut scene, &mut program, &field, &view, None));
-        let found = good(renderer.component(&drawn));
+        let mut program = good(renderer.compile(&scene, Derivatives(component), method));
+        let found = good(good(renderer.draw(&mut program, &view(&window()))).read());
         for (k, (expected, found)) in expected.iter().zip(&found).enumerate() {
             let found = expected.compare(values(found).into_iter());
             let name = ["v", "x", "y", "xx", "xy", "yy"][k];

@@ -33,10 +33,7 @@ fn what_does_not_fit_is_refused() {
     let GpuError::TooLarge { needed, most, .. } = &error else { panic!("{error}") };
     assert!(*most == 1 << 17 && needed > most, "{needed} {most}");
     let message = error.to_string();
-    assert!(
-        message.contains(&needed.to_string()) && message.contains("--backend cpu"),
-        "{message}"
-    );
+    assert!(message.contains(&needed.to_string()), "{message}");
     let small = uniform(1).dataset();
     let small = good(Field::new(&small, 0));
     let raster = render(&mut renderer, &small, "u", Method::Gather);

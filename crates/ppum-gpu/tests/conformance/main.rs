@@ -1,29 +1,31 @@
 //! All renderers draw the corpus of fields alike.
 //!
-//! Tests need a graphics device, a software one is enough. Where there is none they say visibly that they are
-//! skipped, or fail if `PPUM_REQUIRE_GPU` is set.
+//! Tests need a graphics device, a software one is enough. Where there is none they are
+//! [`skipped`].
 
 mod colors;
 mod control;
 mod corpus;
 mod derivatives;
-mod golden;
 mod large;
 mod lost;
 mod parts;
 mod replaced;
 mod series;
 mod texts;
+mod watched;
 
 use std::fmt::Display;
 
 use ppum::field::Field;
+use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
-use ppum_gpu::{Choice, GpuError, Method, Program, Renderer, Scene};
+use ppum_gpu::{Choice, GpuError, Method, Program, Renderer, Values};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_testkit::fields::{Differences, Truth, Window};
+use ppum_testkit::skipped::skipped;
 use ppum_testkit::synthetic::Recipe;
 
 /// Single precision: 2⁻²⁴ times what a few hundred operations lose, relative to the local scale.
@@ -39,13 +41,12 @@ const METHODS: [Method; 2] = [Method::Gather, Method::Splat];
 /// A renderer, if there is a device.
 ///
 /// # Panics
-/// When one is required and there is none, or when opening it fails.
+/// If one is required and there is none, or if opening it fails.
 fn renderer_or_skip() -> Option<Renderer> {
     match Renderer::open(Choice::Any) {
         Ok(renderer) => Some(renderer),
         Err(error @ GpuError::NoAdapter { .. }) => {
-            assert!(std::env::var_os("PPUM_REQUIRE_GPU").is_none(), "{error}");
-            eprintln!("SKIPPED: no graphics adapter");
+            skipped(&error);
             None
         }
         Err(error) => panic!("{error}"),
@@ -60,7 +61,7 @@ fn quantity(text: &str, field: &Field<'_>) -> Quantity {
     good(Quantity::parse(text, field))
 }
 
-/// What must not fail here.
+/// The value of a result that must not be an error here.
 fn good<T, E: Display>(result: Result<T, E>) -> T {
     result.unwrap_or_else(|error| panic!("{error}"))
 }
@@ -79,18 +80,15 @@ fn window() -> Window {
 /// A program's values of a view.
 fn draw(
     renderer: &mut Renderer,
-    scene: &mut Scene,
-    program: &mut Program,
-    field: &Field<'_>,
+    program: &mut Program<'_, Values>,
     window: &Window,
 ) -> Raster<f32> {
-    let drawn = good(renderer.draw(scene, program, field, &view(window), None));
-    good(renderer.raster(&drawn))
+    good(good(renderer.draw(program, &view(window))).read())
 }
 
 /// The values of a quantity, uploaded and drawn.
 fn render(renderer: &mut Renderer, field: &Field<'_>, text: &str, method: Method) -> Raster<f32> {
-    good(renderer.render(field, &view(&window()), &quantity(text, field), method))
+    good(renderer.render(field, &view(&window()), &quantity(text, field), method, unwatched()))
 }
 
 /// Checks a picture of [`window`] against the evaluation point by point.

@@ -7,7 +7,8 @@ use ppum::decompose::Part;
 use ppum::field::Field;
 use ppum::formula::Table;
 use ppum::function::{Frame, FunctionKind};
-use ppum_gpu::{Method, Output, Renderer, Scene};
+use ppum::progress::unwatched;
+use ppum_gpu::{GpuError, Method, Renderer, Scene, Values};
 use ppum_testkit::synthetic::Recipe;
 
 use crate::{METHODS, bits, check, draw, good, quantity, renderer_or_skip, view, window};
@@ -47,16 +48,17 @@ fn replaced_functions_are_drawn_without_upload() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let old = dataset();
     let field = good(Field::new(&old, 0));
-    let mut scene = good(renderer.upload(&field));
-    let stress = quantity("von-mises", &field);
+    let scene = good(renderer.upload(&field));
+    let stress = Values(quantity("von-mises", &field));
     for (k, (what, new)) in replacements().iter().enumerate() {
         let method = METHODS[k % 2];
         let truth = good(Field::new(new, 0));
         let mut emptied = new.clone();
         emptied.steps[0].fields[0].coefficients.iter_mut().for_each(|c| c.fill(0.0));
         let field = good(Field::new(&emptied, 0));
-        let mut program = good(renderer.compile(&scene, &field, &stress, method, Output::Values));
-        let raster = draw(&mut renderer, &mut scene, &mut program, &field, &window());
+        let scene = good(scene.with_functions_of(&field));
+        let mut program = good(renderer.compile(&scene, stress.clone(), method));
+        let raster = draw(&mut renderer, &mut program, &window());
         check(what, &truth, "von-mises", method, &raster);
     }
 }
@@ -67,19 +69,19 @@ fn replaced_functions_survive_a_loss() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let old = dataset();
     let field = good(Field::new(&old, 0));
-    let mut scene = good(renderer.upload(&field));
-    let stress = quantity("von-mises", &field);
+    let scene = good(renderer.upload(&field));
+    let stress = Values(quantity("von-mises", &field));
     for (what, new) in &replacements()[1..3] {
         let truth = good(Field::new(new, 0));
-        let compiled = renderer.compile(&scene, &truth, &stress, Method::Gather, Output::Values);
-        let mut program = good(compiled);
+        let scene = good(scene.with_functions_of(&truth));
+        let mut program = good(renderer.compile(&scene, stress.clone(), Method::Gather));
         renderer.gpu().lose();
-        let raster = draw(&mut renderer, &mut scene, &mut program, &truth, &window());
+        let raster = draw(&mut renderer, &mut program, &window());
         check(what, &truth, "von-mises", Method::Gather, &raster);
     }
 }
 
-/// Where a function that has taken the place of 1 has no value, patches without a smooth part do not mind.
+/// Patches without a smooth part do not mind that the function in place of 1 has no value.
 #[test]
 fn a_function_is_not_asked_where_it_is_not_used() {
     let Some(mut renderer) = renderer_or_skip() else { return };
@@ -92,7 +94,7 @@ fn a_function_is_not_asked_where_it_is_not_used() {
     let truth = good(Field::new(&dataset, 0));
     let stress = quantity("von-mises", &truth);
     for method in METHODS {
-        let raster = good(renderer.render(&truth, &view(&window()), &stress, method));
+        let raster = good(renderer.render(&truth, &view(&window()), &stress, method, unwatched()));
         check("jumps alone", &truth, "von-mises", method, &raster);
     }
 }
@@ -104,14 +106,13 @@ fn a_broken_formula_leaves_the_old_picture() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let dataset = dataset();
     let field = good(Field::new(&dataset, 0));
-    let stress = quantity("von-mises", &field);
-    let mut scene = good(renderer.upload(&field));
-    let compiled = renderer.compile(&scene, &field, &stress, Method::Gather, Output::Values);
-    let mut program = good(compiled);
-    let before = bits(&draw(&mut renderer, &mut scene, &mut program, &field, &window()));
+    let stress = Values(quantity("von-mises", &field));
+    let scene = good(renderer.upload(&field));
+    let mut program = good(renderer.compile(&scene, stress, Method::Gather));
+    let before = bits(&draw(&mut renderer, &mut program, &window()));
     let message = too_large(&mut renderer, &scene, &dataset);
     assert!(message.contains("2047"), "{message}");
-    let after = bits(&draw(&mut renderer, &mut scene, &mut program, &field, &window()));
+    let after = bits(&draw(&mut renderer, &mut program, &window()));
     assert!(before == after);
     let mut wrong = dataset.clone();
     let error = wrong.steps[0].replace_function("extra", "x*(y", &[]).expect_err("no formula");
@@ -119,8 +120,8 @@ fn a_broken_formula_leaves_the_old_picture() {
     assert_eq!(wrong, dataset);
 }
 
-/// What is said of a table of 3000 knots.
-fn too_large(renderer: &mut Renderer, scene: &Scene, dataset: &Dataset) -> String {
+/// The message about a table of 3000 knots.
+fn too_large(renderer: &mut Renderer, scene: &Scene<'_>, dataset: &Dataset) -> String {
     let x: Vec<f64> = (0..3000).map(f64::from).collect();
     let values = x.iter().map(|x| x.sin()).collect();
     let mut broken = dataset.clone();
@@ -128,7 +129,22 @@ fn too_large(renderer: &mut Renderer, scene: &Scene, dataset: &Dataset) -> Strin
     let tables = broken.tables.clone();
     good(broken.steps[0].replace_function("extra", "table(big, x)", &tables));
     let field = good(Field::new(&broken, 0));
-    let stress = quantity("von-mises", &field);
-    let compiled = renderer.compile(scene, &field, &stress, Method::Gather, Output::Values);
+    let stress = Values(quantity("von-mises", &field));
+    let scene = good(scene.with_functions_of(&field));
+    let compiled = renderer.compile(&scene, stress, Method::Gather);
     compiled.expect_err("no shader holds so large a table").to_string()
+}
+
+/// A field of other patches is not drawn with a scene's data.
+#[test]
+fn another_field_is_refused() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let (uploaded, finer) = (dataset(), Recipe { level: 2, ..Recipe::default() }.dataset());
+    let (field, other) = (good(Field::new(&uploaded, 0)), good(Field::new(&finer, 0)));
+    let scene = good(renderer.upload(&field));
+    assert_eq!(scene.with_functions_of(&other).map(drop), Err(GpuError::OtherField));
+    let mut moved = dataset();
+    moved.steps[0].partition.center[0].x += 0.01;
+    let moved = good(Field::new(&moved, 0));
+    assert_eq!(scene.with_functions_of(&moved).map(drop), Err(GpuError::OtherField));
 }

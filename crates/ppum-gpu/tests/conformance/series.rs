@@ -3,12 +3,12 @@
 use ppum::crack::CrackEnd;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_gpu::{Drawn, Method, Output, Program, Scene};
+use ppum_gpu::{Drawn, Method, Program, Values};
 use ppum_testkit::synthetic::{Recipe, crack, kinked};
 
 use crate::{bits, check, good, quantity, renderer_or_skip, view, window};
 
-/// How each step is drawn.
+/// The method for each step.
 const WAYS: [Method; 3] = [Method::Gather, Method::Splat, Method::Gather];
 
 /// Three steps: without a crack, with one, with another and its tips, on other covers.
@@ -21,7 +21,9 @@ fn series() -> Dataset {
         Recipe { cracks: vec![kinked(), straight], random_rounds: 1, zone: 0.15, ..coarse.clone() },
     ];
     let steps = recipes.iter().map(Recipe::step).collect();
-    Dataset { steps, ..coarse.dataset() }
+    let mut dataset = coarse.dataset();
+    dataset.steps = steps;
+    dataset
 }
 
 /// Pictures are read after the next ones are begun, in another order.
@@ -30,23 +32,21 @@ fn steps_are_drawn_by_turns() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let dataset = series();
     let fields: Vec<_> = (0..3).map(|step| good(Field::new(&dataset, step))).collect();
-    let mut made: Vec<(Scene, Program)> = Vec::new();
+    let mut programs: Vec<Program<'_, Values>> = Vec::new();
     for (field, method) in fields.iter().zip(WAYS) {
         let scene = good(renderer.upload(field));
-        let stress = quantity("von-mises", field);
-        let program = good(renderer.compile(&scene, field, &stress, method, Output::Values));
-        made.push((scene, program));
+        let stress = Values(quantity("von-mises", field));
+        programs.push(good(renderer.compile(&scene, stress, method)));
     }
     let turns = [0, 1, 2, 1, 0, 2, 2, 0];
-    let mut begun: Vec<(usize, Drawn)> = Vec::new();
+    let mut begun: Vec<(usize, Drawn<Values>)> = Vec::new();
     for step in turns {
-        let (scene, program) = &mut made[step];
-        let view = view(&window());
-        begun.push((step, good(renderer.draw(scene, program, &fields[step], &view, None))));
+        let drawn = renderer.draw(&mut programs[step], &view(&window()));
+        begun.push((step, good(drawn)));
     }
     let mut first: [Option<Vec<u32>>; 3] = Default::default();
     for (step, drawn) in begun.iter().rev() {
-        let raster = good(renderer.raster(drawn));
+        let raster = good(drawn.read());
         match &first[*step] {
             Some(known) => assert!(*known == bits(&raster), "step {step} is another each time"),
             None => {

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use ppum::field::Field;
 use ppum_gpu::testing::texts;
-use ppum_gpu::{Method, Output};
+use ppum_gpu::{Colors, Derivatives, Method, Shading, Values};
+use ppum_render::picture::Style;
+use ppum_render::range::Range;
+use ppum_render::raster::Raster;
 use ppum_testkit::fields::{self, Case};
 use ppum_testkit::wgsl::Module;
 
@@ -15,22 +18,31 @@ fn validate(case: &Case, known: &mut BTreeSet<String>) {
     let field = good(Field::new(&case.dataset, 0));
     for (k, text) in case.quantities.iter().enumerate() {
         let quantity = quantity(text, &field);
-        let last = field.components() as u8 - 1;
-        let outputs = [Output::Values, Output::Colors, Output::Component(last)];
-        let outputs = if k == 0 { &outputs[..] } else { &outputs[..1] };
         for method in METHODS {
-            for &output in outputs {
-                let all = good(texts(&field, &quantity, method, output));
-                if method == Method::Splat {
-                    assert_eq!(all.len() > 1, has_field(text));
-                }
-                for shader in all.into_iter().filter(|shader| known.insert(shader.clone())) {
-                    let what = format!("{}: {text}, {method:?}, {output:?}", case.name);
-                    Module::new(&shader).unwrap_or_else(|error| panic!("{what}: {error}"));
-                }
+            let mut all = good(texts(&field, &Values(quantity.clone()), method));
+            if method == Method::Splat {
+                assert_eq!(all.len() > 1, has_field(text));
+            }
+            if k == 0 {
+                let last = Derivatives(field.components() as u8 - 1);
+                let colors = Colors { quantity: quantity.clone(), shading: shading() };
+                all.extend(good(texts(&field, &colors, method)));
+                all.extend(good(texts(&field, &last, method)));
+            }
+            for shader in all.into_iter().filter(|shader| known.insert(shader.clone())) {
+                let what = format!("{}: {text}, {method:?}", case.name);
+                Module::new(&shader).unwrap_or_else(|error| panic!("{what}: {error}"));
             }
         }
     }
+}
+
+/// Some colours.
+fn shading() -> Shading {
+    let Style { colormap, scale, undefined, .. } = Style::default();
+    let nothing = Raster::<f32>::new([0, 0], Vec::new());
+    let normalization = good(Range::Fixed(0.0, 1.0).normalization(scale, false, &nothing));
+    Shading { normalization, colormap, undefined }
 }
 
 /// False for quantities of the partition alone, which need no field to be splatted.

@@ -65,7 +65,7 @@ fn uneven_positions() {
     }
 }
 
-/// Where two positions are equal the map jumps.
+/// The map jumps at two equal positions.
 #[test]
 fn steps() {
     let map = map("0 1 0 0\n0.5 1 0 0\n0.5 0 1 0\n1 0 1 0\n1 0 0 1");

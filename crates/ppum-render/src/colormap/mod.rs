@@ -53,7 +53,7 @@ pub struct Colormap {
     positions: Vec<f64>,
 }
 
-/// Why there is no such colour map.
+/// The reason why there is no such colour map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ColormapError {
@@ -71,7 +71,7 @@ pub enum ColormapError {
         name: String,
         /// Line, column or key.
         place: String,
-        /// What is wrong there, and what to write.
+        /// The mistake, and what to write.
         problem: String,
     },
 }
@@ -117,7 +117,7 @@ impl Colormap {
     /// NaN, which here is outside the domain.
     ///
     /// # Errors
-    /// What is no colour, with its place; fewer than two colours; more than 65,536; a form or a colour
+    /// An entry that is no colour, with its place; fewer than two colours; more than 65,536; a form or a colour
     /// space that is not supported.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
         let found = read(text).and_then(|stops| Ok((stops.entries()?, stops)));

@@ -26,8 +26,8 @@ fn hex(text: &str) -> Option<[f64; 3]> {
 fn function(text: &str) -> Option<[f64; 3]> {
     let inner =
         text.strip_prefix("rgba(").or_else(|| text.strip_prefix("rgb("))?.strip_suffix(')')?;
-    let values: Option<Vec<f64>> = inner.split(',').map(|part| part.trim().parse().ok()).collect();
-    let values = values?;
+    let numbers = inner.split(',').map(|part| part.trim().parse().ok());
+    let values = numbers.collect::<Option<Vec<f64>>>()?;
     let color = [*values.first()?, *values.get(1)?, *values.get(2)?];
     (values.len() <= 4 && color.iter().all(in_range)).then_some(color)
 }

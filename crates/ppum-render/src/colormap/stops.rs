@@ -1,4 +1,4 @@
-//! What files of all forms are read into: colours, with positions where the file gives them.
+//! The contents of files of all forms: colours, with positions where the file gives them.
 
 use super::space::Space;
 use crate::image::Rgba;
@@ -11,7 +11,7 @@ pub(super) const MOST: usize = 1 << 16;
 const SAMPLES: usize = 1024;
 const LEAST_SAMPLES: usize = 8;
 
-/// What is wrong in a file, and where.
+/// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Wrong {
     pub(super) place: String,

@@ -3,7 +3,7 @@
 use super::paint::{numbers, word};
 use super::stops::{MOST, Stop, Wrong, too_many, wrong};
 
-/// Where on a line things stand.
+/// The columns of a line.
 #[derive(Clone, Debug)]
 struct Columns {
     position: Option<usize>,
@@ -56,7 +56,7 @@ fn excerpt(line: &str) -> String {
     line.trim().chars().take(60).collect()
 }
 
-/// What stands on a line before a comment, apart by commas, semicolons or blanks.
+/// The words of a line before a comment, apart by commas, semicolons or blanks.
 fn words(line: &str) -> Vec<&str> {
     let is_gap = |c: char| matches!(c, ',' | ';') || c.is_whitespace();
     let is_comment = |&(at, _): &(usize, &str)| {

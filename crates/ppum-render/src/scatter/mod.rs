@@ -31,32 +31,40 @@ use std::ops::Range;
 
 use ppum::field::Field;
 use ppum::function::LocalFunctions;
-use ppum::quantity::{Quantity, QuantityError, Source};
+use ppum::progress::{Cancelled, Watcher};
+use ppum::quantity::{Quantity, Source};
 use ppum::real::{Real, Scalar};
 use ppum::weight::WeightFunction;
 use rayon::prelude::*;
 
+use crate::error::RenderError;
+use crate::parts::Parts;
 use crate::raster::{Raster, Sample};
 use crate::view::View;
 use collapse::ROWS;
 use plan::{COLUMNS, Plan};
 use tile::{Band, Scratch};
 
-/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 in parallel.
+/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
+/// pool that calls.
 ///
 /// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
 /// the side above is taken. f32 keeps some 5 digits of a stress; a view whose pixels are too small
 /// for squares of f32 is computed in f64.
 ///
+/// The watcher hears of every band of 16 rows.
+///
 /// # Errors
-/// [`QuantityError::Patch`] for the partition function of a patch that does not exist;
-/// [`QuantityError::NoExact`] for the error of a field whose exact solution is not known.
+/// [`RenderError::Cancelled`] if the watcher stops the call;
+/// [`QuantityError::Patch`](ppum::quantity::QuantityError::Patch) for the partition function of a patch that does not exist;
+/// [`QuantityError::NoExact`](ppum::quantity::QuantityError::NoExact) for the error of a field whose exact solution is not known.
 pub fn render<T: Sample>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
-) -> Result<Raster<T>, QuantityError> {
-    T::render(field, view, quantity)
+    watcher: &dyn Watcher,
+) -> Result<Raster<T>, RenderError> {
+    T::render(field, view, quantity, watcher)
 }
 
 macro_rules! sample {
@@ -68,17 +76,18 @@ macro_rules! sample {
                 field: &Field<'_>,
                 view: &View,
                 quantity: &Quantity,
-            ) -> Result<Raster<Self>, QuantityError> {
+                watcher: &dyn Watcher,
+            ) -> Result<Raster<Self>, RenderError> {
                 quantity.check(field)?;
                 if !resolves::<$t>(view.pixel_size()) {
-                    let raster = f64::render(field, view, quantity)?;
+                    let raster = f64::render(field, view, quantity, watcher)?;
                     let values = raster.values.into_iter().map(<$t>::from_f64).collect();
                     return Ok(Raster::new(view.pixels, values));
                 }
                 let scene = Scene::<$t>::new(field, view, quantity);
                 Ok(match quantity.source() {
-                    Source::Gradient => scene.draw::<1>(),
-                    _ => scene.draw::<0>(),
+                    Source::Gradient => scene.draw::<1>(watcher)?,
+                    _ => scene.draw::<0>(watcher)?,
                 })
             }
         }
@@ -127,28 +136,35 @@ impl<'f, T: Sample> Scene<'f, T> {
     }
 
     /// Draws with `D` derivatives, bands of rows in parallel.
-    fn draw<const D: usize>(&self) -> Raster<T> {
+    fn draw<const D: usize>(&self, watcher: &dyn Watcher) -> Result<Raster<T>, Cancelled> {
         let [columns, rows] = self.view.pixels.map(|n| n as usize);
+        let parts = Parts::start(watcher, rows.div_ceil(ROWS))?;
         let mut values = vec![T::default(); columns * rows];
         let mut rest = values.as_mut_slice();
         for bands in self.plan.strips() {
             let pixels = rest.len().min(bands.len() * columns * ROWS);
             let (strip, later) = rest.split_at_mut(pixels);
-            self.draw_strip::<D>(bands, strip);
+            self.draw_strip::<D>(bands, strip, &parts)?;
             rest = later;
         }
-        Raster::new(self.view.pixels, values)
+        Ok(Raster::new(self.view.pixels, values))
     }
 
-    fn draw_strip<const D: usize>(&self, bands: Range<usize>, strip: &mut [T]) {
+    fn draw_strip<const D: usize>(
+        &self,
+        bands: Range<usize>,
+        strip: &mut [T],
+        parts: &Parts<'_>,
+    ) -> Result<(), Cancelled> {
         let tiles = &self.plan.tiles(&bands);
         let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
-        chunks.for_each_init(Scratch::default, |scratch, (k, out)| {
+        chunks.try_for_each_init(Scratch::default, |scratch, (k, out)| {
             let (scene, band) = (self, bands.start + k);
             T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });
             self.clear_outside(band * ROWS, out);
             self.clear_holes(band * ROWS, out);
-        });
+            parts.finish_one()
+        })
     }
 
     /// Sets the pixels outside the domain's box to NaN.

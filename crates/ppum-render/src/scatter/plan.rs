@@ -1,4 +1,4 @@
-//! What one view needs of a field: the patches in sight, their pixels, their blocks, their tiles.
+//! The parts of a field that one view needs: the patches in sight, their pixels, their blocks, their tiles.
 
 use std::ops::Range;
 
@@ -60,7 +60,7 @@ impl Patch {
     }
 }
 
-/// Everything about one view, made once in f64. The anchor is the view's centre.
+/// All data of one view, made once in f64. The anchor is the view's centre.
 #[derive(Debug)]
 pub(super) struct Plan<'f> {
     pub(super) patches: Vec<Patch>,
@@ -125,7 +125,7 @@ impl<'f> Plan<'f> {
         strips
     }
 
-    /// How many patches the tiles of each band have.
+    /// Number of patches of the tiles of each band.
     fn entries_of_bands(&self) -> Vec<usize> {
         let mut changes = vec![0i64; self.tiles[1] + 1];
         for patch in &self.patches {
@@ -186,7 +186,7 @@ impl<'f> Plan<'f> {
     }
 }
 
-/// What is summed: the field's components, the constant 1 of one patch, or nothing.
+/// The summands: the field's components, the constant 1 of one patch, or nothing.
 fn coefficients<'f>(data: &'f FieldData, quantity: &Quantity) -> Vec<&'f [f64]> {
     match quantity {
         Quantity::PartitionFunction(_) => vec![&[1.0]],
@@ -236,7 +236,7 @@ pub(super) struct Tiles {
     first: usize,
     starts: Vec<u32>,
     patches: Vec<u32>,
-    /// Whether patches of the tile have functions.
+    /// True if patches of the tile have functions.
     functions: Vec<bool>,
 }
 

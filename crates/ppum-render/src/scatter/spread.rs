@@ -25,7 +25,7 @@ struct Term {
     degree: usize,
     /// Length of its table.
     len: usize,
-    /// Where its function begins in the basis; none for function 1.
+    /// First number of its function in the basis; none for function 1.
     function: Option<usize>,
 }
 
@@ -156,7 +156,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// What a patch is in x on `V` vectors of columns.
+    /// A patch in x on `V` vectors of columns.
     #[inline(always)]
     fn vectors<R: Real<Scalar = T>, const V: usize>(
         &self,

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use super::{CheckError, Checked, check_names, fail, require};
 use crate::dataset::{Dataset, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step};
-use crate::formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 use crate::function::{CompileError, FunctionTable};
 use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
+use ppum_formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 
 /// Checks names of tables, then all formulas but those of quantities, which need checked fields.
 pub(super) fn check(dataset: &Dataset) -> Checked {

@@ -9,8 +9,8 @@
 
 use super::{Crack, End, Side};
 use crate::compensated::cross;
-use crate::real::Real;
 use crate::vec2::Vec2;
+use ppum_formula::real::Real;
 
 /// Two squared distances closer than this, relatively, count as equal: they belong to the vertex two
 /// segments share, and rounding (of f32 as well) must not choose between them. Elsewhere the two

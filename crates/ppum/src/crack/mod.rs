@@ -70,6 +70,17 @@ pub enum Side {
     Below,
 }
 
+impl Side {
+    /// The side's word: `above` or `below`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Above => "above",
+            Self::Below => "below",
+        }
+    }
+}
+
 impl Crack {
     /// Length along the crack.
     #[must_use]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::crack::Side;
 use crate::function::{GROUP, LocalFunctions, Slot};
 use crate::jet::Jet;
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// Groups that have a place of their own, more than meet in the patches of one point in practice.
 const PLACES: usize = 6;

@@ -3,8 +3,8 @@
 use super::LocalField;
 use crate::crack::Side;
 use crate::jet::Jet;
-use crate::real::{Job, Real, Scalar};
 use crate::vec2::Vec2;
+use ppum_formula::real::{Job, Real, Scalar};
 
 /// [`LocalField::evaluate_into`] on lanes.
 struct Many<'a, 'f, const D: usize> {

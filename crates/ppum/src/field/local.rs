@@ -7,8 +7,8 @@ use crate::domain::LocalDomain;
 use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::polynomial::polynomial;
-use crate::real::Real;
 use crate::vec2::Vec2;
+use ppum_formula::real::Real;
 
 /// A field seen from an anchor.
 #[derive(Clone, Debug)]

@@ -18,10 +18,10 @@ use crate::box_tree::BoxTree;
 use crate::crack::SegmentId;
 use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
 use crate::domain::Domain;
-use crate::formula::{Formula, FormulaError, Scope, ScopeError, Table};
 use crate::function::{FunctionError, FunctionTable};
 use crate::vec2::Vec2;
 pub use local::{Covering, LocalField};
+use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
 /// A field of a dataset at one step, ready to be evaluated.
 #[derive(Debug)]

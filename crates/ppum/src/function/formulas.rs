@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::Frame;
 use super::seen::Seen;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
-use crate::formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 use crate::jet::Jet;
-use crate::real::{Real, WIDEST};
 use crate::vec2::{Vec2, vec2};
+use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 
 use super::table::GROUP;
 

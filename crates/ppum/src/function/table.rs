@@ -10,10 +10,10 @@ use super::formulas::{Formulas, LocalFormulas};
 use super::seen::Seen;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId};
-use crate::formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
 use crate::jet::Jet;
-use crate::real::Real;
 use crate::vec2::Vec2;
+use ppum_formula::real::Real;
+use ppum_formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
 
 /// The place of a function's value in a compiled table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

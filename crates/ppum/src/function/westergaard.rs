@@ -2,7 +2,7 @@
 
 use crate::crack::TipPoint;
 use crate::jet::Jet;
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// The four functions of [`WESTERGAARD`](super::WESTERGAARD) with derivatives in the tip's frame.
 ///

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use crate::dataset::NamedQuantity;
 use crate::equation::Equation;
 use crate::field::Field;
-use crate::formula::{
+use crate::library::{Definition, ELASTICITY, POISSON};
+use ppum_formula::real::Real;
+use ppum_formula::{
     DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
 };
-use crate::library::{Definition, ELASTICITY, POISSON};
-use crate::real::Real;
 
 use super::{Sample, Source};
 

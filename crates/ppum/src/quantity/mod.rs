@@ -16,10 +16,10 @@ use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
-use crate::real::Real;
 use crate::text::hint;
 use crate::vec2::Vec2;
 pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+use ppum_formula::real::Real;
 use tensors::Strain;
 
 /// A scalar made of a field. Made from its name or formula with [`Quantity::parse`].

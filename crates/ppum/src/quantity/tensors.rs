@@ -2,7 +2,7 @@
 
 use crate::equation::Moduli;
 use crate::jet::Jet;
-use crate::real::Real;
+use ppum_formula::real::Real;
 
 /// Strain tensor and rotation.
 pub(super) struct Strain<R> {

@@ -12,5 +12,7 @@ mod library;
 mod partition;
 mod replace;
 mod reproduction;
+mod rooms;
+mod sample;
 mod sides;
 mod support;

@@ -3,8 +3,9 @@
 use crate::support::{compiled, evaluate};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
+use ppum::decompose::{Part, PartError};
 use ppum::function::FunctionKind;
-use ppum::replace::ReplaceError;
+use ppum::replace::{ReplaceError, Replacements, ReplacementsError};
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
@@ -94,4 +95,43 @@ fn what_is_wrong_changes_nothing() {
     let error = step.replace_function("x", "x + thet", &[]).expect_err("an unknown name");
     assert!(error.to_string().contains("^^^^"), "{error}");
     assert_eq!(dataset, original);
+}
+
+/// Parts are told apart by the functions of the dataset: a jump stays one whatever takes its place.
+#[test]
+fn all_changes_at_once() {
+    let original = recipe(["r", "x", "y", "x*y"]).dataset();
+    let replacements = Replacements {
+        part: Some(Part::Tip),
+        functions: vec![("x".into(), "r^2".into()), ("y".into(), "r^3".into())],
+        weight: Some("bump".into()),
+    };
+    let (mut all, mut one_by_one) = (original.clone(), original.clone());
+    assert_eq!(replacements.apply(&mut all, 0), Ok(()));
+    let step = &mut one_by_one.steps[0];
+    step.fields[0] = step.fields[0].part(Part::Tip, &step.functions).expect("it has tips");
+    assert!(step.replace_function("x", "r^2", &[]).is_ok());
+    assert!(step.replace_function("y", "r^3", &[]).is_ok());
+    assert_eq!(step.replace_weight("bump", &[]), Ok(()));
+    assert_same(&all, &one_by_one);
+    let mut untouched = original.clone();
+    assert_eq!(replacements.apply(&mut untouched, 1), Ok(()), "no such step");
+    assert_same(&untouched, &original);
+}
+
+#[test]
+fn errors_say_which_change() {
+    let mut dataset = recipe(["r", "x", "y", "x*y"]).dataset();
+    let mut failing = |replacements: &Replacements| {
+        replacements.apply(&mut dataset, 0).expect_err("it cannot be made")
+    };
+    let part = Replacements { part: Some(Part::Patch(9999)), ..Replacements::default() };
+    let error = failing(&part);
+    assert!(matches!(error, ReplacementsError::Part(PartError::NoPatch { .. })), "{error}");
+    let functions = vec![("x".into(), "r".into()), ("no".into(), "r".into())];
+    let error = failing(&Replacements { functions, ..Replacements::default() });
+    let ReplacementsError::Function { index: 1, which, .. } = &error else { panic!("{error}") };
+    assert_eq!(which, "no");
+    let error = failing(&Replacements { weight: Some("x +".into()), ..Replacements::default() });
+    assert!(matches!(error, ReplacementsError::Weight(_)), "{error}");
 }

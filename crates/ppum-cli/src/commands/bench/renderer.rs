@@ -10,20 +10,20 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::{Phase, Progress, Watcher, unwatched};
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
-use ppum_gpu::{AdapterKind, Choice, Method, Output, Program, Renderer, Scene, Shading};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::raster::Sample;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
 use super::synthetic::{self, DOMAIN};
-use crate::drivers;
+use crate::graphics::{Card, Cards, Method};
+use crate::progress::Bar;
 
 /// What `ppum bench` tells of the renderers.
 #[derive(Debug, Serialize)]
@@ -110,55 +110,48 @@ impl Way {
 /// A cover with all that draws it, and the seconds of its frames, wall and processor.
 struct Subject<'d> {
     cover: &'static str,
-    field: Field<'d>,
-    card: Option<Card>,
+    field: &'d Field<'d>,
+    card: Option<Card<'d>>,
     seconds: [Vec<[f64; 2]>; 4],
-}
-
-/// How values become colours, on the CPU and on the card.
-struct Look {
-    style: Style,
-    shading: Shading,
-}
-
-/// A field on the card.
-struct Card {
-    scene: Scene,
-    gather: Program,
-    splat: Option<Program>,
 }
 
 impl Report {
     /// Measures; `quick` takes small pictures of few patches.
     pub(super) fn new(quick: bool, frames: u32) -> anyhow::Result<Self> {
         let pixels = if quick { [256, 192] } else { [1024, 768] };
-        let (mut renderer, missing) = match drivers::opening(|| Renderer::open(Choice::Any)) {
-            Ok(renderer) => (Some(renderer), None),
-            Err(error) => (None, Some(error.to_string())),
+        let (mut cards, missing) = match Cards::open() {
+            Ok(cards) => (Some(cards), None),
+            Err(reason) => (None, Some(reason)),
         };
         let covers = covers(quick);
         let datasets =
             covers.iter().map(|&(_, [level, tip_level])| synthetic::dataset(level, tip_level));
         let datasets = datasets.collect::<anyhow::Result<Vec<_>>>()?;
-        let named = covers.iter().map(|&(cover, _)| cover).zip(&datasets);
+        let fields = datasets.iter().map(|dataset| Field::new(dataset, 0));
+        let fields = fields.collect::<Result<Vec<_>, _>>()?;
+        let look = Style { range: RANGE, ..Style::default() };
+        let named = covers.iter().map(|&(cover, _)| cover).zip(&fields);
         let subjects =
-            named.map(|(cover, dataset)| Subject::new(cover, dataset, renderer.as_mut()));
+            named.map(|(cover, field)| Subject::new(cover, field, cards.as_mut(), &look));
         let mut subjects = subjects.collect::<anyhow::Result<Vec<_>>>()?;
-        let look = Look::new()?;
         // the first frames are not counted: they find nothing prepared
+        let (bar, total) = (Bar::new(), (frames as usize + 1) * subjects.len());
+        let watcher: &dyn Watcher = &bar;
         for frame in 0..=frames {
             let view = view(frame, pixels)?;
-            for subject in &mut subjects {
-                subject.draw_all((&view, &look), renderer.as_mut(), frame > 0)?;
+            for (k, subject) in subjects.iter_mut().enumerate() {
+                let done = frame as usize * covers.len() + k;
+                watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+                subject.draw_all((&view, &look), cards.as_mut(), frame > 0)?;
             }
         }
-        let info = renderer.as_ref().map(|renderer| renderer.gpu().info());
-        let has_core = info.is_none_or(|info| info.kind == AdapterKind::Software);
+        let has_core = cards.as_ref().is_none_or(Cards::is_software);
         let mut rows: Vec<_> = subjects.iter().map(|subject| subject.row(has_core)).collect();
         if !quick {
             rows.iter_mut().for_each(Row::compare);
         }
-        let adapter = info.map(|info| Adapter { name: info.name.clone(), kind: info.kind.name() });
+        let adapter =
+            cards.as_ref().map(|cards| Adapter { name: cards.name(), kind: cards.kind() });
         let gather_growth = growth(&rows);
         Ok(Self { pixels, frames, adapter, missing, rows, gather_growth })
     }
@@ -183,23 +176,24 @@ fn view(frame: u32, pixels: [u32; 2]) -> anyhow::Result<View> {
 impl<'d> Subject<'d> {
     fn new(
         cover: &'static str,
-        dataset: &'d Dataset,
-        renderer: Option<&mut Renderer>,
+        field: &'d Field<'d>,
+        cards: Option<&mut Cards>,
+        look: &Style,
     ) -> anyhow::Result<Self> {
-        let field = Field::new(dataset, 0)?;
-        let card = renderer.map(|renderer| Card::new(renderer, &field)).transpose()?;
+        let may_splat = field.step.partition.len() <= MOST_SPLATTED;
+        let card = cards.map(|cards| Card::new(cards, field, look, may_splat)).transpose()?;
         Ok(Self { cover, field, card, seconds: Default::default() })
     }
 
     fn draw_all(
         &mut self,
-        (view, look): (&View, &Look),
-        mut renderer: Option<&mut Renderer>,
+        (view, look): (&View, &Style),
+        mut cards: Option<&mut Cards>,
         counts: bool,
     ) -> anyhow::Result<()> {
         for (k, way) in WAYS.into_iter().enumerate() {
             let (wall, core) = (Instant::now(), ProcessTime::now());
-            let drawn = self.draw(way, (view, look), renderer.as_deref_mut())?;
+            let drawn = self.draw(way, (view, look), cards.as_deref_mut())?;
             if drawn && counts {
                 self.seconds[k]
                     .push([wall.elapsed(), core.elapsed()].map(|time| time.as_secs_f64()));
@@ -212,14 +206,15 @@ impl<'d> Subject<'d> {
     fn draw(
         &mut self,
         way: Way,
-        (view, look): (&View, &Look),
-        renderer: Option<&mut Renderer>,
+        (view, look): (&View, &Style),
+        cards: Option<&mut Cards>,
     ) -> anyhow::Result<bool> {
-        match (way, &mut self.card, renderer) {
-            (Way::CpuF64, ..) => on_cpu::<f64>(&self.field, view, look)?,
-            (Way::CpuF32, ..) => on_cpu::<f32>(&self.field, view, look)?,
-            (_, Some(card), Some(renderer)) => {
-                return card.draw(way, renderer, &self.field, (view, look));
+        match (way, &mut self.card, cards) {
+            (Way::CpuF64, ..) => on_cpu::<f64>(self.field, view, look)?,
+            (Way::CpuF32, ..) => on_cpu::<f32>(self.field, view, look)?,
+            (Way::Splat, Some(card), Some(cards)) => return card.draw(cards, Method::Splat, view),
+            (Way::Gather, Some(card), Some(cards)) => {
+                return card.draw(cards, Method::Gather, view);
             }
             _ => return Ok(false),
         }
@@ -243,51 +238,10 @@ impl<'d> Subject<'d> {
 }
 
 /// Draws and colours in `T`.
-fn on_cpu<T: Sample>(field: &Field<'_>, view: &View, look: &Look) -> anyhow::Result<()> {
-    let raster = render::<T>(field, view, &Quantity::VonMises)?;
-    black_box(Picture::bare(&raster, view, &look.style)?);
+fn on_cpu<T: Sample>(field: &Field<'_>, view: &View, look: &Style) -> anyhow::Result<()> {
+    let raster = render::<T>(field, view, &Quantity::VonMises, unwatched())?;
+    black_box(Picture::bare(&raster, view, look)?);
     Ok(())
-}
-
-impl Card {
-    fn new(renderer: &mut Renderer, field: &Field<'_>) -> anyhow::Result<Self> {
-        let scene = renderer.upload(field)?;
-        let few = field.step.partition.len() <= MOST_SPLATTED;
-        let can_splat = renderer.gpu().info().blends_floats && few;
-        let mut compile =
-            |method| renderer.compile(&scene, field, &Quantity::VonMises, method, Output::Colors);
-        let gather = compile(Method::Gather)?;
-        let splat = can_splat.then(|| compile(Method::Splat)).transpose()?;
-        Ok(Self { scene, gather, splat })
-    }
-
-    /// Draws and waits, without reading back.
-    fn draw(
-        &mut self,
-        way: Way,
-        renderer: &mut Renderer,
-        field: &Field<'_>,
-        (view, look): (&View, &Look),
-    ) -> anyhow::Result<bool> {
-        let program = match way {
-            Way::Splat => self.splat.as_mut(),
-            _ => Some(&mut self.gather),
-        };
-        let Some(program) = program else { return Ok(false) };
-        black_box(renderer.draw(&mut self.scene, program, field, view, Some(&look.shading))?);
-        renderer.wait()?;
-        Ok(true)
-    }
-}
-
-impl Look {
-    fn new() -> anyhow::Result<Self> {
-        let style = Style { range: RANGE, ..Style::default() };
-        let Style { colormap, scale, undefined, .. } = style.clone();
-        let nothing = Raster::<f32>::new([0, 0], Vec::new());
-        let normalization = RANGE.normalization(scale, colormap.diverging, &nothing)?;
-        Ok(Self { style, shading: Shading { normalization, colormap, undefined } })
-    }
 }
 
 impl Summary {

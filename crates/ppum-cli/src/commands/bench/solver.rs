@@ -4,11 +4,12 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ppum::progress::unwatched;
 use ppum_solve::problem::{Cells, Problem};
 use ppum_solve::report::SolverReport;
 use ppum_solve::solve::solve;
 use serde::Serialize;
+
+use crate::progress::Bar;
 
 const PROBLEM: &str = include_str!("../../../../../examples/centre-crack.toml");
 
@@ -35,7 +36,7 @@ impl Run {
     pub(super) fn new(level: u32) -> anyhow::Result<Self> {
         let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
         problem.discretization.cells = Cells::Level(level);
-        let dataset = solve(&problem, unwatched())?;
+        let dataset = solve(&problem, &Bar::new())?;
         let report = SolverReport::of(&dataset.steps[0].history);
         let phase = |&(phase, seconds): &(ppum::progress::Phase, f64)| Phase {
             name: phase.name().into(),

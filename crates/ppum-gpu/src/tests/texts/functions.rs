@@ -11,10 +11,10 @@ use std::sync::Arc;
 
 use super::{call, module};
 use crate::error::GpuError;
-use crate::functions::{Surroundings, functions_wgsl};
-use crate::geometry::{Geometry, GroupFrame, constants};
-use crate::groups::Groups;
-use crate::shader::{CRACK, GEOMETRY, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL};
+use crate::frame::geometry::{Geometry, constants};
+use crate::scene::groups::{GroupFrame, Groups};
+use crate::shader::functions::{Surroundings, functions_wgsl};
+use crate::shader::texts::{CRACK, GEOMETRY, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL};
 
 /// The centre of the view.
 const CENTER: Vec2 = vec2(0.8, 0.2);
@@ -23,8 +23,8 @@ const CENTER: Vec2 = vec2(0.8, 0.2);
 fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
     let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0)).into();
     let geometry = Geometry::new(step, &domain, frames, CENTER);
-    let bits = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
-    let bits: Vec<String> = bits.collect();
+    let words = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
+    let bits: Vec<String> = words.collect();
     let (count, bits) = (bits.len(), bits.join(", "));
     format!(
         "struct View {{ cracks: u32 }}
@@ -64,7 +64,8 @@ fn shader(
     let text = functions_wgsl(functions, groups, surroundings).expect("a text");
     let recipe =
         Recipe { level: 0, cells: [1, 1], tip_level: 0, cracks: vec![], ..Recipe::default() };
-    let step = Step { cracks: cracks.to_vec(), ..recipe.step() };
+    let mut step = recipe.step();
+    step.cracks = cracks.to_vec();
     let view = view(&step, &groups.frames(functions), order);
     let parts = [JET, CRACK, TIP, WESTERGAARD_KERNEL, GEOMETRY, &view, &text, NUMBERS];
     (module(&parts), text)
@@ -213,17 +214,18 @@ fn random_recipes_are_valid() {
 fn what_cannot_be_drawn_is_an_error_with_the_functions_name() {
     let knots: Vec<f64> = (0..3000).map(f64::from).collect();
     let long = [Arc::new(Table::curve("long", knots.clone(), knots).expect("a table"))];
-    let message = |text: &str| {
+    let error = |text: &str| {
         let functions =
             [Function { name: "load".into(), kind: FunctionKind::formula(text, Frame::World) }];
         let surroundings = Surroundings { cracks: 0, tables: &long, order: 1 };
-        match functions_wgsl(&functions, &Groups::new(&functions), surroundings) {
-            Err(GpuError::Unsupported(message)) => message,
-            other => panic!("{other:?}"),
-        }
+        functions_wgsl(&functions, &Groups::new(&functions), surroundings).expect_err("no text")
     };
-    let long = message("table(long, x)");
-    assert!(long.contains("`load`") && long.contains("`long`") && long.contains("--backend cpu"));
-    let broken = message("x +* y");
-    assert!(broken.contains("`load`") && !broken.contains("--backend"), "{broken}");
+    let long = error("table(long, x)");
+    assert!(matches!(long, GpuError::FormulaTooLarge { .. }), "{long}");
+    assert!(long.to_string().contains("`load`") && long.to_string().contains("`long`"), "{long}");
+    let broken = error("x +* y");
+    assert!(
+        matches!(&broken, GpuError::Formula { what, .. } if what.contains("`load`")),
+        "{broken}"
+    );
 }

@@ -14,7 +14,7 @@ fn module(texts: &[&str]) -> Module {
     Module::new(&source).unwrap_or_else(|error| panic!("{error}\n{}", texts.concat()))
 }
 
-/// What a function of a module gives, in double precision.
+/// The results of a function of a module, in double precision.
 #[track_caller]
 fn call(module: &Module, function: &str, arguments: &[f32]) -> Vec<f64> {
     let found = module.call(function, arguments).unwrap_or_else(|error| panic!("{error}"));

@@ -6,8 +6,8 @@ use ppum::weight::WeightFunction;
 
 use super::{call, module};
 use crate::error::GpuError;
-use crate::shader::{JET, WEIGHT};
-use crate::weight::weight_wgsl;
+use crate::shader::texts::{JET, WEIGHT};
+use crate::shader::weight::weight_wgsl;
 
 /// The function under test, and the numbers of its vector.
 fn test_module(weight: &WeightFunction) -> ppum_testkit::wgsl::Module {
@@ -72,6 +72,7 @@ fn a_table_too_long_is_an_error() {
     let table = Arc::new(Table::curve("long", knots, values).expect("a table"));
     let scope = Scope::new(&["t"]).expect("a name").with_tables(&[table]).expect("new");
     let weight = WeightFunction::formula("table(long, t)", &scope).expect("a weight");
-    let Err(GpuError::Unsupported(message)) = weight_wgsl(&weight) else { panic!("no error") };
-    assert!(message.contains("`long`") && message.contains("--backend cpu"), "{message}");
+    let error = weight_wgsl(&weight).expect_err("a table too long");
+    assert!(matches!(error, GpuError::FormulaTooLarge { .. }), "{error}");
+    assert!(error.to_string().contains("`long`"), "{error}");
 }

@@ -1,0 +1,156 @@
+//! Drawing on devices, and what devices there are.
+
+use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
+use ppum_render::raster::Raster;
+
+use super::{Adapter, Device, Failure, Method, drivers};
+use crate::backend::{Drawn, Job};
+use crate::progress::Bar;
+
+impl From<Device> for Choice {
+    fn from(device: Device) -> Self {
+        match device {
+            Device::Hardware => Self::Real,
+            Device::Any => Self::Any,
+        }
+    }
+}
+
+impl From<Method> for ppum_gpu::Method {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Gather => Self::Gather,
+            Method::Splat => Self::Splat,
+        }
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        let is_normal = matches!(
+            error,
+            RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_)
+        );
+        Self { message: message(&error), is_normal }
+    }
+}
+
+/// Draws. The outer error is the device's, after which the CPU may try; the inner one is anything else.
+pub(crate) fn draw(
+    job: Job<'_>,
+    device: Device,
+    method: Method,
+) -> Result<anyhow::Result<Drawn>, Failure> {
+    let (renderer, raster) = drawn(job, device.into(), method.into())?;
+    let name = &renderer.gpu().info().name;
+    let by = match method {
+        Method::Gather => format!("gpu f32, {name}"),
+        Method::Splat => format!("gpu splat f32, {name}"),
+    };
+    Ok(Drawn::new(&raster, job, &by))
+}
+
+fn drawn(
+    job: Job<'_>,
+    choice: Choice,
+    method: ppum_gpu::Method,
+) -> Result<(Renderer, Raster<f32>), RenderError> {
+    let mut renderer = drivers::opening(|| Renderer::open(choice))?;
+    // not before: the bar is no word of a driver
+    let raster = renderer.render(job.field, job.view, job.quantity, method, &Bar::new())?;
+    Ok((renderer, raster))
+}
+
+/// The error with the remedy that the options of this program offer.
+pub(super) fn message(error: &RenderError) -> String {
+    let RenderError::Gpu(error) = error else { return error.to_string() };
+    let remedy = match error {
+        GpuError::NoAdapter { .. } => "; `--backend cpu` needs none",
+        GpuError::Device { .. } => "; `--backend cpu` does without it",
+        GpuError::Memory { .. } => "; draw fewer pixels or use `--backend cpu`",
+        GpuError::FormulaTooLarge { .. } => "; `--backend cpu` has no such limit",
+        GpuError::TooLarge { .. }
+        | GpuError::PictureTooLarge { .. }
+        | GpuError::TooMany { .. }
+        | GpuError::NeedsDouble { .. } => "; use `--backend cpu`",
+        _ => "",
+    };
+    format!("{error}{remedy}")
+}
+
+/// What `ppum info --gpu` tells where there is none.
+pub(crate) const MISSING: &str = "\
+no graphics adapter: this machine has no Vulkan, Metal or Direct3D 12 driver that this program can use.
+Pictures are drawn on the CPU, which is exact and quick. For drawing on a graphics card install its driver;
+for trying out --backend gpu without a card a software driver does:
+  Debian, Ubuntu   apt-get install libvulkan1 mesa-vulkan-drivers
+  Fedora           dnf install vulkan-loader mesa-vulkan-drivers
+  Arch             pacman -S vulkan-icd-loader vulkan-swrast";
+
+/// The graphics adapters of this machine; opens what each backend would open.
+pub(crate) fn adapters() -> Vec<Adapter> {
+    drivers::opening(found)
+}
+
+fn found() -> Vec<Adapter> {
+    let taken = [("auto", Choice::Real), ("gpu", Choice::Any), ("splat", Choice::Any)]
+        .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
+    let adapter = |info: AdapterInfo| {
+        let by = |(backend, gpu): &(&'static str, Option<Gpu>)| {
+            let takes = gpu.as_ref().is_some_and(|gpu| *gpu.info() == info);
+            (takes && (*backend != "splat" || info.blends_floats)).then_some(*backend)
+        };
+        Adapter::new(&info, taken.iter().filter_map(by).collect())
+    };
+    ppum_gpu::adapters().into_iter().map(adapter).collect()
+}
+
+impl Adapter {
+    fn new(info: &AdapterInfo, taken_by: Vec<&'static str>) -> Self {
+        const MIB: u64 = 1 << 20;
+        Self {
+            name: info.name.clone(),
+            kind: info.kind.name(),
+            interface: info.backend.clone(),
+            driver: info.driver.clone(),
+            largest_binding_mib: info.largest_storage_binding / MIB,
+            largest_buffer_mib: info.largest_buffer / MIB,
+            largest_texture: info.largest_texture,
+            splat: info.blends_floats,
+            taken_by,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn failures_are_told_in_one_line() {
+        let error = GpuError::Shader { message: "expected `;`\n  at 3:4\n".to_owned() };
+        let note = Failure::from(RenderError::from(error)).note().expect("a failure");
+        assert!(note.starts_with("note: ") && note.ends_with("expected `;` at 3:4"), "{note}");
+        assert_eq!(note.lines().count(), 1);
+        assert!(Failure::from(RenderError::from(GpuError::Lost)).note().is_some());
+    }
+
+    #[test]
+    fn errors_of_devices_name_the_option_that_helps() {
+        let missing = message(&GpuError::NoAdapter { choice: Choice::Any }.into());
+        assert!(
+            missing.ends_with("mesa-vulkan-drivers`); `--backend cpu` needs none"),
+            "{missing}"
+        );
+        let large = GpuError::PictureTooLarge { pixels: [20_000, 10], most: 16_384 };
+        let large = message(&large.into());
+        assert!(large.ends_with("at most 16384x16384; use `--backend cpu`"), "{large}");
+        assert_eq!(message(&GpuError::Lost.into()), GpuError::Lost.to_string());
+    }
+
+    #[test]
+    fn a_machine_without_a_graphics_card_is_no_failure() {
+        let missing = GpuError::NoAdapter { choice: Choice::Real };
+        assert_eq!(Failure::from(RenderError::from(missing)).note(), None);
+    }
+}

@@ -1,0 +1,69 @@
+//! A program that was built without graphics devices: the CPU draws.
+
+use std::marker::PhantomData;
+
+use ppum::field::Field;
+use ppum_render::picture::Style;
+use ppum_render::view::View;
+
+use super::{Adapter, Device, Failure, Method};
+use crate::backend::{Drawn, Job};
+
+/// What `ppum info --gpu` tells.
+pub(crate) const MISSING: &str = "\
+no graphics adapter: this program was built without graphics devices (feature `gpu`).
+Pictures are drawn on the CPU, which is exact and quick.";
+
+/// The reason why no device draws.
+const REASON: &str =
+    "no graphics adapter: this program was built without graphics devices (feature `gpu`)";
+
+pub(crate) fn draw(_: Job<'_>, _: Device, _: Method) -> Result<anyhow::Result<Drawn>, Failure> {
+    Err(Failure { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })
+}
+
+pub(crate) fn adapters() -> Vec<Adapter> {
+    Vec::new()
+}
+
+/// A device; there is none.
+pub(crate) enum Cards {}
+
+/// A field on a device; there is none.
+pub(crate) enum Card<'f> {
+    #[expect(dead_code, reason = "holds the lifetime, and cannot be made")]
+    Never(Cards, PhantomData<&'f ()>),
+}
+
+impl Cards {
+    pub(crate) fn open() -> Result<Self, String> {
+        Err(REASON.to_owned())
+    }
+
+    pub(crate) fn name(&self) -> String {
+        match *self {}
+    }
+
+    pub(crate) fn kind(&self) -> &'static str {
+        match *self {}
+    }
+
+    pub(crate) fn is_software(&self) -> bool {
+        match *self {}
+    }
+}
+
+impl<'f> Card<'f> {
+    pub(crate) fn new(
+        cards: &mut Cards,
+        _: &'f Field<'f>,
+        _: &Style,
+        _: bool,
+    ) -> anyhow::Result<Self> {
+        match *cards {}
+    }
+
+    pub(crate) fn draw(&mut self, cards: &mut Cards, _: Method, _: &View) -> anyhow::Result<bool> {
+        match *cards {}
+    }
+}

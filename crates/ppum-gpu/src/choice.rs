@@ -1,0 +1,81 @@
+//! Kinds of graphics adapters, and which of them are good enough.
+
+use std::fmt;
+
+/// The kind of a graphics adapter, better ones first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A graphics card with its own memory.
+    Discrete,
+    /// A graphics unit that shares the processor's memory.
+    Integrated,
+    /// Part of a graphics card, lent to a virtual machine.
+    Virtual,
+    /// Not known; so are all adapters of browsers.
+    Other,
+    /// A program that runs on the processor.
+    Software,
+}
+
+impl AdapterKind {
+    /// The kind in one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Other => "other",
+            Self::Software => "software",
+        }
+    }
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// The adapters that are good enough. Of several the best [kind](AdapterKind) is taken, and of one kind the
+/// first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Graphics hardware that is known to be such: discrete, integrated or virtual.
+    Real,
+    /// Any adapter, a software one too.
+    Any,
+}
+
+impl Choice {
+    /// True if an adapter of this kind will do.
+    #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a browser chooses by itself"))]
+    pub(crate) fn accepts(self, kind: AdapterKind) -> bool {
+        self == Self::Any || kind <= AdapterKind::Virtual
+    }
+
+    /// The words behind "adapter" in a message.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Real => " of a graphics card",
+            Self::Any => "",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn software_is_no_real_adapter() {
+        use AdapterKind::{Discrete, Integrated, Other, Software, Virtual};
+        let real: Vec<_> = [Other, Software, Virtual, Integrated, Discrete]
+            .into_iter()
+            .filter(|&kind| Choice::Real.accepts(kind))
+            .collect();
+        assert_eq!(real, [Virtual, Integrated, Discrete]);
+        assert!(Choice::Any.accepts(Software) && Choice::Any.accepts(Other));
+        assert_eq!([Software, Virtual, Other, Discrete].into_iter().min(), Some(Discrete));
+    }
+}

@@ -1,0 +1,8 @@
+//! Graphics devices: which there are, an open one, and reading back from it.
+
+pub(crate) mod adapter;
+mod gpu;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod read;
+
+pub use gpu::Gpu;

@@ -1,0 +1,146 @@
+//! Frames of functions, cracks and holes, seen from the view's centre.
+//!
+//! All differences are formed in double precision without cancellation and rounded at last; so a view
+//! 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it in
+//! `shader/wgsl/{geometry,crack,domain}.wgsl`.
+
+use ppum::crack::{Crack, LocalCrack, LocalTip, TipId};
+use ppum::dataset::Step;
+use ppum::domain::{Domain, Hole, LocalRim, LocalSide};
+use ppum::vec2::{Vec2, vec2};
+
+use crate::scene::groups::GroupFrame;
+
+/// Pairs of the frame of a group.
+const FRAME: usize = 4;
+/// Pairs of a segment: tangent; distance; ends.
+const SEGMENT: usize = 3;
+/// Pairs of a circle: 0, excess / 2r; d / r; 1 / 2r.
+const CIRCLE: usize = 3;
+/// Pairs of a polygon's side: its ends, unit direction, distance.
+const SIDE: usize = 4;
+
+/// Stands for an infinite coordinate: shaders may assume that there is none.
+const FAR: f64 = 3e38;
+
+/// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats, exact up to 2²⁴;
+/// that is as many pairs as the 128 MiB that a shader sees at once. (As bit patterns they would be subnormal
+/// numbers, which devices may take for zero.)
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Geometry {
+    /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every crack; the
+    /// segments; the holes.
+    pub(crate) pairs: Vec<[f32; 2]>,
+    /// First pair of the cracks.
+    pub(crate) cracks: u32,
+    /// First pair of the holes.
+    pub(crate) holes: u32,
+    /// Number of holes.
+    pub(crate) n_holes: u32,
+}
+
+impl Geometry {
+    /// Cracks of a step, holes of a domain and the frames of groups of functions seen from `center`. Linear
+    /// in their number.
+    pub(crate) fn new(step: &Step, domain: &Domain, frames: &[GroupFrame], center: Vec2) -> Self {
+        let cracks = FRAME * frames.len();
+        let directory = Directory::new(&step.cracks, cracks, center);
+        let frame = |frame| directory.frame(frame);
+        let mut pairs: Vec<Vec2> = frames.iter().flat_map(frame).collect();
+        pairs.extend(&directory.entries);
+        pairs.extend(directory.cracks.iter().flat_map(segments));
+        let holes = pairs.len();
+        pairs.extend(domain.holes.iter().flat_map(|hole| rim(hole, center)));
+        Self {
+            pairs: pairs.into_iter().map(rounded).collect(),
+            cracks: cracks as u32,
+            holes: holes as u32,
+            n_holes: domain.holes.len() as u32,
+        }
+    }
+}
+
+/// The declarations of the lengths for shaders.
+pub(crate) fn constants() -> String {
+    let lengths = [
+        ("GEOMETRY_PAIRS", FRAME),
+        ("SEGMENT_PAIRS", SEGMENT),
+        ("HOLE_CIRCLE_PAIRS", CIRCLE),
+        ("HOLE_SIDE_PAIRS", SIDE),
+    ];
+    lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n")).collect()
+}
+
+/// The cracks, and where their segments are.
+struct Directory<'a> {
+    center: Vec2,
+    points: &'a [Crack],
+    cracks: Vec<LocalCrack>,
+    /// First segment and number of segments.
+    entries: Vec<Vec2>,
+}
+
+impl<'a> Directory<'a> {
+    /// For a directory that begins at pair `at`, with the segments behind it.
+    fn new(points: &'a [Crack], at: usize, center: Vec2) -> Self {
+        let cracks: Vec<_> = points.iter().map(|crack| LocalCrack::new(crack, center)).collect();
+        let mut next = at + cracks.len();
+        let entry = |crack: &LocalCrack| {
+            let (first, count) = (next, crack.segments().len());
+            next += SEGMENT * count;
+            vec2(first as f64, count as f64)
+        };
+        let entries = cracks.iter().map(entry).collect();
+        Self { center, points, cracks, entries }
+    }
+
+    fn frame(&self, frame: &GroupFrame) -> [Vec2; FRAME] {
+        let zero = Vec2::ZERO;
+        match *frame {
+            GroupFrame::One => [zero; FRAME],
+            GroupFrame::Side(crack) => [self.entries[crack as usize], zero, zero, zero],
+            GroupFrame::World => [self.center, vec2(1.0, 0.0), zero, zero],
+            GroupFrame::Fixed { origin, angle } => {
+                [self.center - origin, vec2(angle.cos(), angle.sin()), zero, zero]
+            }
+            GroupFrame::Tip(TipId { crack, end }) => {
+                let crack = crack as usize;
+                let tip = LocalTip::new(&self.points[crack], end, self.center);
+                let distance = self.cracks[crack].segments()[tip.segment].distance;
+                let at_end = vec2(crack as f64, tip.segment as f64);
+                [tip.from_tip, tip.axis, vec2(distance, tip.orientation), at_end]
+            }
+        }
+    }
+}
+
+fn segments(crack: &LocalCrack) -> impl Iterator<Item = Vec2> + '_ {
+    let pairs = |s: &ppum::crack::LocalSegment| {
+        [s.tangent, vec2(s.distance, 0.0), vec2(s.lo.max(-FAR), s.hi.min(FAR))]
+    };
+    crack.segments().iter().flat_map(pairs)
+}
+
+/// A circle divided by 2r and the lines of a polygon by their lengths: numbers of the size of distances.
+fn rim(hole: &Hole, center: Vec2) -> Vec<Vec2> {
+    match (hole, hole.at(center).rim()) {
+        (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
+            let half = 0.5 / radius;
+            vec![vec2(0.0, excess * half), *d * (2.0 * half), vec2(half, 0.0)]
+        }
+        (_, LocalRim::Polygon(sides)) => {
+            let head = vec2(sides.len() as f64, 0.0);
+            std::iter::once(head).chain(sides.iter().flat_map(side)).collect()
+        }
+        _ => unreachable!("a circle is seen as a circle"),
+    }
+}
+
+fn side(side: &LocalSide) -> [Vec2; SIDE] {
+    let inverse = 1.0 / side.direction.length();
+    [side.a, side.b, side.direction * inverse, vec2(side.cross * inverse, 0.0)]
+}
+
+fn rounded(pair: Vec2) -> [f32; 2] {
+    [pair.x as f32, pair.y as f32]
+}

@@ -1,0 +1,105 @@
+//! A quantity compiled for the card.
+
+pub(crate) mod output;
+mod pipeline;
+pub(crate) mod pipelines;
+
+use std::sync::Arc;
+
+use ppum::quantity::Quantity;
+
+use crate::device::Gpu;
+use crate::error::{GpuError, RenderError};
+use crate::frame::shading::Shading;
+use crate::scene::bodies::Others;
+use crate::scene::{Scene, SceneLayout};
+use crate::shader::compose::ShaderText;
+use crate::shader::passes::Method;
+use output::{Colors, Output};
+use pipelines::Pipelines;
+
+/// A quantity of a scene compiled for the card: what [`Renderer::compile`](crate::Renderer::compile) makes.
+/// It yields `O`: [`Values`](crate::Values), [`Colors`] or [`Derivatives`](crate::Derivatives).
+///
+/// When functions of the dataset are replaced, compile another program for the scene
+/// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
+///
+/// A picture is read as what its program yields and as nothing else:
+///
+/// ```compile_fail
+/// use ppum_gpu::{Colors, Drawn};
+/// use ppum_render::raster::Raster;
+///
+/// fn values(drawn: &Drawn<Colors>) -> Raster<f32> {
+///     drawn.read().unwrap() // an image
+/// }
+/// ```
+#[derive(Debug)]
+pub struct Program<'f, O> {
+    scene: Scene<'f>,
+    output: O,
+    shader: ShaderText,
+    pipelines: Option<Pipelines>,
+}
+
+impl<'f, O: Output> Program<'f, O> {
+    /// Composes the program; pipelines are made when they are needed.
+    pub(crate) fn new(scene: &Scene<'f>, output: O, method: Method) -> Result<Self, RenderError> {
+        let (scene, field) = (scene.clone(), scene.field());
+        output.check(field)?;
+        let wanted = (&output.quantity(), output.order());
+        let shader = ShaderText::new(scene.groups(), field, wanted, method, O::FINISH)?;
+        Ok(Self { scene, output, shader, pipelines: None })
+    }
+
+    /// The scene that is drawn.
+    #[must_use]
+    pub fn scene(&self) -> &Scene<'f> {
+        &self.scene
+    }
+
+    /// The output at a pixel.
+    #[must_use]
+    pub fn output(&self) -> &O {
+        &self.output
+    }
+
+    /// The way patches come together.
+    #[must_use]
+    pub fn method(&self) -> Method {
+        self.shader.method()
+    }
+
+    /// The patch whose φ is drawn.
+    pub(crate) fn chosen(&self) -> Option<u32> {
+        match self.output.quantity() {
+            Quantity::PartitionFunction(patch) => Some(patch),
+            _ => None,
+        }
+    }
+
+    /// The pipelines for the scene as it is, those of some kinds of areas among them: each is made when it is
+    /// needed first.
+    pub(crate) fn pipelines(
+        &mut self,
+        gpu: &Arc<Gpu>,
+        layout: SceneLayout,
+        areas: impl IntoIterator<Item = Others>,
+    ) -> Result<&Pipelines, GpuError> {
+        let pipelines = match self.pipelines.take() {
+            Some(pipelines) if pipelines.fit(gpu, layout) => pipelines,
+            _ => Pipelines::new(gpu, &self.shader, layout)?,
+        };
+        // what is made stays, also if something else cannot be
+        let pipelines = self.pipelines.insert(pipelines);
+        pipelines.make_areas(&self.shader, areas)?;
+        Ok(pipelines)
+    }
+}
+
+impl Program<'_, Colors> {
+    /// Draws with another transfer function from now on. Nothing is compiled.
+    pub fn shade(&mut self, shading: Shading) {
+        self.output.shading = shading;
+    }
+}

@@ -1,0 +1,249 @@
+//! Drawing scenes, and surviving the loss of the device.
+
+pub(crate) mod drawn;
+mod targets;
+
+use std::sync::Arc;
+
+use ppum::field::Field;
+#[cfg(not(target_arch = "wasm32"))]
+use ppum::progress::{Phase, Progress, Watcher};
+#[cfg(not(target_arch = "wasm32"))]
+use ppum::quantity::Quantity;
+#[cfg(not(target_arch = "wasm32"))]
+use ppum_render::raster::Raster;
+use ppum_render::view::View;
+
+use crate::choice::Choice;
+use crate::device::Gpu;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::device::read;
+use crate::error::{GpuError, RenderError};
+use crate::frame::areas::{Area, areas};
+use crate::frame::geometry::Geometry;
+use crate::frame::quads::quads;
+use crate::frame::shading::Shading;
+use crate::frame::view_data::ViewData;
+use crate::program::Program;
+use crate::program::output::Output;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::program::output::Values;
+use crate::scene::card::Card;
+use crate::scene::{OnCard, Scene};
+use crate::shader::passes::Method;
+use drawn::Drawn;
+use targets::Targets;
+
+/// Draws fields on a graphics device.
+///
+/// A [`Scene`] is a field on the card, a [`Program`] a quantity of it compiled, which draws any view. When the
+/// device is lost, the next call opens another one, uploads and compiles anew, and goes on. So it does with
+/// scenes and programs of another renderer.
+#[derive(Debug)]
+#[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
+pub struct Renderer {
+    card: Card,
+    choice: Choice,
+    targets: Targets,
+}
+
+impl Renderer {
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if there is none of the choice; see [`Gpu::open`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn open(choice: Choice) -> Result<Self, GpuError> {
+        Ok(Self::new(Gpu::open(choice)?, choice))
+    }
+
+    /// A renderer on an open device; a choice for the one after its loss.
+    #[must_use]
+    pub fn new(gpu: Gpu, choice: Choice) -> Self {
+        Self { card: Card::new(gpu), choice, targets: Targets::default() }
+    }
+
+    /// The device that draws.
+    #[must_use]
+    pub fn gpu(&self) -> &Gpu {
+        &self.card.gpu
+    }
+
+    /// Takes data of at most this many rows of 128 KiB, so that a test can see too many.
+    #[doc(hidden)]
+    pub fn limit_rows(&mut self, rows: u32) {
+        self.card.rows = rows.min(self.gpu().limits().max_texture_dimension_2d);
+    }
+
+    /// Puts a field on the card. Linear in its coefficients.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] if it does not fit into a texture: 1 GiB on any device, 2 GiB on most.
+    pub fn upload<'f>(&mut self, field: &'f Field<'f>) -> Result<Scene<'f>, GpuError> {
+        self.again(|renderer| Scene::new(&renderer.card, field))
+    }
+
+    /// Compiles an output for a scene. A program compiled before keeps drawing if this one fails. Areas of a
+    /// picture that need less than the whole program get their own when they are seen first.
+    ///
+    /// # Errors
+    /// A formula that is too large for a shader; quantities that single precision cannot show, or that have
+    /// no meaning for the field; splatting on a device that cannot.
+    pub fn compile<'f, O: Output>(
+        &mut self,
+        scene: &Scene<'f>,
+        output: O,
+        method: Method,
+    ) -> Result<Program<'f, O>, RenderError> {
+        let mut program = Program::new(scene, output, method)?;
+        let layout = scene.on_card().layout;
+        self.again(|renderer| {
+            program.pipelines(&renderer.card.gpu, layout, [layout.shape.others]).map(|_| ())
+        })?;
+        Ok(program)
+    }
+
+    /// Draws a view.
+    ///
+    /// # Errors
+    /// See [`GpuError`]. A lost device is replaced; [`GpuError::Lost`] comes only if that fails twice.
+    pub fn draw<O: Output>(
+        &mut self,
+        program: &mut Program<'_, O>,
+        view: &View,
+    ) -> Result<Drawn<O>, GpuError> {
+        self.check_size(view)?;
+        self.again(|renderer| renderer.draw_once(program, view))
+    }
+
+    /// The values of a quantity at the pixel centres of a view: uploads, compiles, draws and reads. The
+    /// watcher is told between these, and can stop the call there.
+    ///
+    /// # Errors
+    /// See [`RenderError`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn render(
+        &mut self,
+        field: &Field<'_>,
+        view: &View,
+        quantity: &Quantity,
+        method: Method,
+        watcher: &dyn Watcher,
+    ) -> Result<Raster<f32>, RenderError> {
+        let report =
+            |done| watcher.report(Progress { phase: Phase::Evaluation, done, total: STAGES });
+        report(0)?;
+        let scene = self.upload(field)?;
+        report(1)?;
+        let mut program = self.compile(&scene, Values(quantity.clone()), method)?;
+        report(2)?;
+        let drawn = self.draw(&mut program, view)?;
+        report(3)?;
+        let raster = drawn.read()?;
+        report(STAGES)?;
+        Ok(raster)
+    }
+
+    /// Waits until everything begun is drawn.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`] for anything that failed meanwhile.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn wait(&self) -> Result<(), GpuError> {
+        read::wait(self.gpu())
+    }
+
+    /// Does something, once more on a new device if the old one turns out to be lost.
+    fn again<T>(
+        &mut self,
+        mut f: impl FnMut(&mut Self) -> Result<T, GpuError>,
+    ) -> Result<T, GpuError> {
+        match f(self) {
+            Err(GpuError::Lost) => {
+                self.reopen()?;
+                f(self)
+            }
+            result => result,
+        }
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn reopen(&mut self) -> Result<(), GpuError> {
+        self.card.gpu = Arc::new(Gpu::open(self.choice)?);
+        self.targets = Targets::default();
+        Ok(())
+    }
+
+    /// A page opens the next device by itself: it has to wait for it.
+    #[cfg(target_arch = "wasm32")]
+    fn reopen(&mut self) -> Result<(), GpuError> {
+        Err(GpuError::Lost)
+    }
+
+    fn check_size(&self, view: &View) -> Result<(), GpuError> {
+        let (pixels, most) = (view.pixels, self.gpu().limits().max_texture_dimension_2d);
+        if pixels[0].max(pixels[1]) > most {
+            return Err(GpuError::PictureTooLarge { pixels, most });
+        }
+        Ok(())
+    }
+
+    fn draw_once<O: Output>(
+        &mut self,
+        program: &mut Program<'_, O>,
+        view: &View,
+    ) -> Result<Drawn<O>, GpuError> {
+        let scene = program.scene().clone();
+        let mut on_card = scene.on_card();
+        on_card.bring(&self.card, &scene, view)?;
+        let layout = on_card.layout;
+        let areas = match program.method() {
+            Method::Gather => areas(view, &on_card.enriched),
+            Method::Splat => vec![Area::whole(view, layout.shape.others)],
+        };
+        let frame = view_data(&scene, &on_card, program, view)?;
+        let palette = program.output().shading().map(Shading::texels);
+        let gpu = &self.card.gpu;
+        let pipelines = program.pipelines(gpu, layout, areas.iter().map(|area| area.others))?;
+        let targets = &mut self.targets;
+        gpu.checked("draw", || {
+            targets.prepare(gpu, view.pixels, pipelines, palette);
+            targets.write(gpu, &frame);
+            let data = targets.data(gpu, &on_card, pipelines)?;
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            if let Some(passes) = &pipelines.splat {
+                let (words, count) = quads(scene.field(), view, &on_card.bodies);
+                targets.splat(gpu, &mut encoder, passes, &data, (&words, count));
+            }
+            let drawn = targets.finish(gpu, &mut encoder, pipelines, (&data, &areas), &O::FINISH);
+            gpu.queue().submit([encoder.finish()]);
+            Ok(Drawn::new(gpu, drawn, view.pixels))
+        })?
+    }
+}
+
+/// Stages of [`Renderer::render`].
+#[cfg(not(target_arch = "wasm32"))]
+const STAGES: usize = 4;
+
+/// A view of a scene as shaders read it.
+fn view_data<O: Output>(
+    scene: &Scene<'_>,
+    on_card: &OnCard,
+    program: &Program<'_, O>,
+    view: &View,
+) -> Result<ViewData, GpuError> {
+    let field = scene.field();
+    let frames = scene.groups().frames(&field.step.functions);
+    let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
+    let region = on_card.region()?;
+    let mut data = ViewData::new(field, view, geometry, region, on_card.lattice.as_ref());
+    data.record.component = program.output().component().into();
+    if let Some(shading) = program.output().shading() {
+        shading.note(&mut data.record);
+    }
+    if let Some(patch) = program.chosen() {
+        data.record.chosen = on_card.bodies[patch as usize];
+    }
+    Ok(data)
+}

@@ -1,0 +1,211 @@
+//! A field on the card: what stays there while views, functions and quantities change.
+//!
+//! ```text
+//! groups ─▶ bodies              coefficients of all patches, function by function
+//! bins, lattice ─▶ region       the patches around a view, and where they are found
+//! bodies, region ─▶ card        words on the device
+//! ```
+
+pub(crate) mod bins;
+pub(crate) mod bodies;
+pub(crate) mod card;
+pub(crate) mod groups;
+pub(crate) mod lattice;
+pub(crate) mod region;
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use ppum::field::Field;
+use ppum::vec2::Rect;
+use ppum_render::view::View;
+use wgpu::TextureView;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use bodies::{Bodies, Components, GROUP_BITS, Others, Shape};
+use card::Card;
+use groups::Groups;
+use lattice::Lattice;
+use region::{Region, RegionWords, has_own_frames};
+
+/// Components of a field: a term of four functions times polynomials of degree 8 then stays below 4096 texels.
+const MOST_COMPONENTS: usize = 64;
+
+/// Patches of a bin that shaders need no loop for.
+const SHORT_LIST: u32 = 32;
+
+/// A field on the card. Made by [`Renderer::upload`](crate::Renderer::upload); one for each step of a
+/// series, say, of which any can be drawn without further ado. Clones share what is on the card.
+#[derive(Clone, Debug)]
+pub struct Scene<'f> {
+    field: &'f Field<'f>,
+    groups: Arc<Groups>,
+    on_card: Arc<Mutex<OnCard>>,
+}
+
+/// The part of a scene that lives on a device. It moves with the views, and to the next device when one is lost.
+#[derive(Debug)]
+pub(crate) struct OnCard {
+    gpu: Arc<Gpu>,
+    pub(crate) layout: SceneLayout,
+    /// The coefficients of the patches, see [`bodies`].
+    pub(crate) data: TextureView,
+    /// The address of each patch's body.
+    pub(crate) bodies: Vec<u32>,
+    pub(crate) lattice: Option<Lattice>,
+    /// Boxes around the patches with more than smooth terms.
+    pub(crate) enriched: Vec<(Rect, Others)>,
+    region: Option<UploadedRegion>,
+}
+
+/// The properties of a scene that shaders are compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SceneLayout {
+    pub(crate) components: Components,
+    pub(crate) shape: Shape,
+    /// Patches lie on a lattice.
+    pub(crate) is_lattice: bool,
+    /// Polynomials have other coordinates than weights.
+    pub(crate) own_frames: bool,
+    pub(crate) has_holes: bool,
+    /// Some crack has several segments.
+    pub(crate) has_kinks: bool,
+    /// Some bin of the region meets more than 32 patches.
+    pub(crate) has_long_lists: bool,
+}
+
+/// A region on the card.
+#[derive(Debug)]
+pub(crate) struct UploadedRegion {
+    pub(crate) region: Region,
+    pub(crate) texture: TextureView,
+    /// First texels of list and records.
+    pub(crate) list: u32,
+    pub(crate) patches: u32,
+}
+
+impl<'f> Scene<'f> {
+    /// Uploads a field.
+    pub(crate) fn new(card: &Card, field: &'f Field<'f>) -> Result<Self, GpuError> {
+        let groups = Groups::new(&field.step.functions);
+        let on_card = Arc::new(Mutex::new(OnCard::new(card, field, &groups)?));
+        Ok(Self { field, groups: Arc::new(groups), on_card })
+    }
+
+    /// The same scene with the functions and the weight of another field, one with [replaced](ppum::replace)
+    /// functions: nothing is uploaded again, and the coefficients are those on the card. Linear in the
+    /// number of patches.
+    ///
+    /// # Errors
+    /// [`GpuError::OtherField`] if the field has other patches, blocks, functions or components.
+    pub fn with_functions_of<'g>(&self, field: &'g Field<'g>) -> Result<Scene<'g>, GpuError> {
+        if !is_alike(self.field, field) {
+            return Err(GpuError::OtherField);
+        }
+        let (groups, on_card) = (Arc::clone(&self.groups), Arc::clone(&self.on_card));
+        Ok(Scene { field, groups, on_card })
+    }
+
+    /// The field whose functions are drawn.
+    #[must_use]
+    pub fn field(&self) -> &'f Field<'f> {
+        self.field
+    }
+
+    /// The groups of functions that the data on the card refer to.
+    pub(crate) fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
+    /// The part on the card; one drawing at a time has it.
+    pub(crate) fn on_card(&self) -> MutexGuard<'_, OnCard> {
+        self.on_card.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl OnCard {
+    fn new(card: &Card, field: &Field<'_>, groups: &Groups) -> Result<Self, GpuError> {
+        check_sizes(field, groups)?;
+        let Bodies { words, patches, shape, enriched } = Bodies::new(field, groups);
+        let data = card.upload("the coefficients", &words)?;
+        let (layout, lattice) = SceneLayout::of(field, shape);
+        let (gpu, bodies, region) = (Arc::clone(&card.gpu), patches, None);
+        Ok(Self { gpu, layout, data, bodies, lattice, enriched, region })
+    }
+
+    /// Sees to it that a scene and the patches of a view are on a device. Its functions may have been replaced
+    /// since it was uploaded: programs know them by the groups they had.
+    pub(crate) fn bring(
+        &mut self,
+        card: &Card,
+        scene: &Scene<'_>,
+        view: &View,
+    ) -> Result<(), GpuError> {
+        let field = scene.field;
+        if !Arc::ptr_eq(&self.gpu, &card.gpu) {
+            *self = Self::new(card, field, &scene.groups)?;
+        }
+        let shows = |place: &UploadedRegion| place.region.shows(field, view);
+        if self.region.as_ref().is_some_and(shows) {
+            return Ok(());
+        }
+        let lattice = self.lattice.as_ref();
+        let region = Region::new(field, view, lattice);
+        let RegionWords { words, list, patches } =
+            region.words(field, self.layout.own_frames, lattice, &self.bodies);
+        let texture = card.upload("the patches in sight", &words)?;
+        // once it is so it stays: a program made for it draws all regions
+        self.layout.has_long_lists |= region.bins.longest() > SHORT_LIST;
+        self.region = Some(UploadedRegion { region, texture, list, patches });
+        Ok(())
+    }
+
+    /// The region on the card, after [`OnCard::bring`].
+    pub(crate) fn region(&self) -> Result<&UploadedRegion, GpuError> {
+        self.region.as_ref().ok_or(GpuError::Lost)
+    }
+}
+
+impl SceneLayout {
+    /// That of a field, with its lattice if it has one.
+    pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>) {
+        let own_frames = has_own_frames(field);
+        let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
+        let layout = Self {
+            components: Components::new(field.components()),
+            shape,
+            is_lattice: lattice.is_some(),
+            own_frames,
+            has_holes: !field.domain.holes.is_empty(),
+            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
+            has_long_lists: false,
+        };
+        (layout, lattice)
+    }
+
+    /// The layout where no other terms than these beside the smooth one are.
+    pub(crate) fn with(self, others: Others) -> Self {
+        Self { shape: Shape { others, ..self.shape }, ..self }
+    }
+}
+
+/// Refuses what the numbers of terms cannot hold.
+fn check_sizes(field: &Field<'_>, groups: &Groups) -> Result<(), GpuError> {
+    let (functions, components) = (groups.functions(), field.components());
+    if groups.count() >= 1 << GROUP_BITS || components > MOST_COMPONENTS {
+        return Err(GpuError::TooMany { functions, components });
+    }
+    Ok(())
+}
+
+/// True if two fields differ in nothing but functions, weight and the values of coefficients.
+fn is_alike(a: &Field<'_>, b: &Field<'_>) -> bool {
+    let ((p, q), (d, e)) = ((&a.step.partition, &b.step.partition), (a.data, b.data));
+    a.step.functions.len() == b.step.functions.len()
+        && a.components() == b.components()
+        && a.domain == b.domain
+        && a.step.cracks == b.step.cracks
+        && (&p.center, &p.half, &p.origin, &p.scale) == (&q.center, &q.half, &q.origin, &q.scale)
+        && (&d.patch_blocks, &d.block_function) == (&e.patch_blocks, &e.block_function)
+        && d.block_degree == e.block_degree
+}

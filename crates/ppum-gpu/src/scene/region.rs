@@ -1,0 +1,166 @@
+//! The patches in a region of the plane, as the card holds them: seen from an anchor, in bins.
+//!
+//! Positions go to the card as `high + low`, two numbers of single precision each, relative to the
+//! anchor: `high` is a multiple of the region's quantum, so that differences of highs are exact. The
+//! difference of a pixel and a centre, formed half by half, then has all the digits of single
+//! precision, however small the patch is beside the region. Views that are too deep for a region, or
+//! leave it, get a new one: the anchor moves into the view, in double precision, and only the patches
+//! around it remain.
+//!
+//! ```text
+//! node of a bin    of a lattice: the addresses of the patches at its four corners, by x + 2 y
+//!                  else two nodes per texel, see bins.rs
+//! list             four patches per texel, by their records
+//! record           origin, high and low · reciprocal half-extents, address of the body
+//!                  the same for the frame of the polynomials, if that is another one
+//! ```
+
+use ppum::field::Field;
+use ppum::vec2::{Rect, Vec2};
+use ppum_render::view::View;
+
+use super::bins::{Bins, Covered};
+use super::lattice::Lattice;
+use crate::layout::halves_by;
+
+/// Width of a new region in widths of the view.
+const AROUND: f64 = 16.0;
+
+/// A view is too deep if its region is more than this wider.
+const DEEPEST: f64 = 1024.0;
+
+/// Part of a region's size by which positions in it may be wrong: single precision.
+const MARGIN: f64 = 1e-6;
+
+/// Patches in a region, ready for upload.
+#[derive(Clone, Debug)]
+pub(crate) struct Region {
+    /// The part of the world that views may show.
+    bounds: Rect,
+    /// The point that positions are relative to.
+    pub(crate) anchor: Vec2,
+    /// The patches' indices in the dataset, ascending; none are listed of a lattice.
+    pub(crate) patches: Vec<u32>,
+    /// The bins that they are found by.
+    pub(crate) bins: Bins,
+}
+
+impl Region {
+    /// The region for a view: all of the domain, or the surroundings of the view.
+    pub(crate) fn new(field: &Field<'_>, view: &View, lattice: Option<&Lattice>) -> Self {
+        let domain = field.domain.bounds;
+        let around = Rect::around(view.center, view.half() * AROUND);
+        let deep = longer(view) * DEEPEST < domain.size().x.max(domain.size().y);
+        let bounds = if deep { around } else { domain };
+        let anchor = if deep { view.center } else { domain.center() };
+        let relative = Rect::new(bounds.min - anchor, bounds.max - anchor);
+        if let Some(lattice) = lattice {
+            let bins = lattice.bins(relative, anchor);
+            return Self { bounds, anchor, patches: Vec::new(), bins };
+        }
+        let mut patches = Vec::new();
+        field.tree.query_box(&bounds, &mut patches);
+        let partition = &field.step.partition;
+        let seen = |&index: &u32| {
+            let support = partition.support(index as usize);
+            let cell = partition.cell[index as usize].size();
+            Covered { support: Rect::new(support.min - anchor, support.max - anchor), cell }
+        };
+        let seen: Vec<_> = patches.iter().map(seen).collect();
+        let size = relative.size();
+        let bins = Bins::new(relative, &seen, MARGIN * size.x.max(size.y));
+        Self { bounds, anchor, patches, bins }
+    }
+
+    /// True if the region can show a view of the field.
+    pub(crate) fn shows(&self, field: &Field<'_>, view: &View) -> bool {
+        let (bounds, domain) = (self.bounds, field.domain.bounds);
+        let size = bounds.size();
+        // Outside the domain there is nothing to show.
+        let seen = view.rect().intersection(&domain);
+        let inside = bounds.contains(seen.min) && bounds.contains(seen.max);
+        let nothing = !view.rect().overlaps(&domain);
+        nothing || (inside && longer(view) * DEEPEST >= size.x.max(size.y))
+    }
+
+    /// The number that positions high are multiples of: 2⁻²² of the region's size, rounded to a power of two.
+    pub(crate) fn quantum(&self) -> f64 {
+        let size = self.bounds.size();
+        let exponent = size.x.max(size.y).log2().ceil() as i32;
+        2f64.powi(exponent - 22)
+    }
+
+    /// A position relative to the anchor, high and low.
+    pub(crate) fn halves(&self, d: Vec2) -> [[f32; 2]; 2] {
+        let ([xh, xl], [yh, yl]) = (halves_by(self.quantum(), d.x), halves_by(self.quantum(), d.y));
+        [[xh, yh], [xl, yl]]
+    }
+
+    /// All that shaders read of a region. `bodies` holds the address of each patch of the dataset.
+    pub(crate) fn words(
+        &self,
+        field: &Field<'_>,
+        own_frames: bool,
+        lattice: Option<&Lattice>,
+        bodies: &[u32],
+    ) -> RegionWords {
+        if let Some(lattice) = lattice {
+            let words = lattice.nodes(&self.bins, self.anchor, bodies);
+            return RegionWords { words, list: 0, patches: 0 };
+        }
+        let mut words: Vec<u32> = self.bins.nodes.as_flattened().to_vec();
+        let list = begin(&mut words);
+        words.extend(&self.bins.list);
+        let patches = begin(&mut words);
+        words.reserve(self.patches.len() * 4 * record_texels(own_frames) as usize);
+        for &index in &self.patches {
+            let (partition, index) = (&field.step.partition, index as usize);
+            let body = bodies[index];
+            self.push_frame(partition.center[index], partition.half[index], body, &mut words);
+            if own_frames {
+                self.push_frame(partition.origin[index], partition.scale[index], 0, &mut words);
+            }
+        }
+        RegionWords { words, list, patches }
+    }
+
+    /// Origin, high and low, reciprocal scale, and a word behind it.
+    fn push_frame(&self, origin: Vec2, scale: Vec2, word: u32, words: &mut Vec<u32>) {
+        let [high, low] = self.halves(origin - self.anchor);
+        let inverse = [(1.0 / scale.x) as f32, (1.0 / scale.y) as f32];
+        words.extend([high, low, inverse].iter().flatten().map(|v| v.to_bits()));
+        words.extend([word, 0]);
+    }
+}
+
+/// The longer side of a view.
+fn longer(view: &View) -> f64 {
+    view.width.max(view.height())
+}
+
+/// Goes to the next texel, whose number this is.
+fn begin(words: &mut Vec<u32>) -> u32 {
+    words.resize(words.len().next_multiple_of(4), 0);
+    (words.len() / 4) as u32
+}
+
+/// A region in texels of four words, and where its parts begin.
+#[derive(Clone, Debug)]
+pub(crate) struct RegionWords {
+    pub(crate) words: Vec<u32>,
+    /// The list of the bins.
+    pub(crate) list: u32,
+    /// The records of the patches.
+    pub(crate) patches: u32,
+}
+
+/// True if polynomials of some patch have other coordinates than its weight.
+pub(crate) fn has_own_frames(field: &Field<'_>) -> bool {
+    let partition = &field.step.partition;
+    partition.origin != partition.center || partition.scale != partition.half
+}
+
+/// Texels of a patch's record.
+pub(crate) fn record_texels(own_frames: bool) -> u32 {
+    if own_frames { 4 } else { 2 }
+}

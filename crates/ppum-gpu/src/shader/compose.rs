@@ -1,0 +1,317 @@
+//! The text of a shader, composed of its parts.
+
+use std::fmt::Write;
+
+use ppum::field::Field;
+use ppum::formula::wgsl_prelude;
+use ppum::quantity::{Quantity, Source};
+
+use super::functions::{Surroundings, functions_wgsl};
+use super::passes::{FieldPass, Finish, Method, Slots};
+use super::quantity::quantity_wgsl;
+use super::smooth::{four_constants, straight_smooth};
+use super::texts;
+use super::weight::weight_wgsl;
+use crate::error::GpuError;
+use crate::frame::geometry;
+use crate::frame::quads::QuadRecord;
+use crate::frame::shading::{self, PALETTE_TEXELS};
+use crate::frame::view_data::ViewRecord;
+use crate::layout::structure;
+use crate::scene::SceneLayout;
+use crate::scene::bins;
+use crate::scene::bodies::{self, Components, Others};
+use crate::scene::card::TEXELS;
+use crate::scene::groups::{Groups, SMOOTH_GROUP};
+use crate::scene::lattice::NO_PATCH;
+use crate::scene::region::record_texels;
+
+/// The shaders of a program, but for the layout of the scene they are for.
+#[derive(Clone, Debug)]
+pub(crate) struct ShaderText {
+    /// Derivatives: 0, 1 or 2.
+    order: u32,
+    /// False for quantities of the partition alone.
+    has_field: bool,
+    /// The step has a smooth part.
+    has_smooth: bool,
+    /// True for the φ of a patch.
+    has_part: bool,
+    /// Weight, functions, quantity.
+    formulas: String,
+    method: Method,
+    last_pass: Finish,
+}
+
+/// Weight, functions and quantity of a field in WGSL.
+fn formulas(
+    groups: &Groups,
+    field: &Field<'_>,
+    quantity: &Quantity,
+    order: u32,
+) -> Result<String, GpuError> {
+    let step = field.step;
+    let surroundings =
+        Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
+    Ok([
+        wgsl_prelude().to_owned(),
+        weight_wgsl(&step.partition.weight)?,
+        functions_wgsl(&step.functions, groups, surroundings)?,
+        quantity_wgsl(field, quantity)?,
+    ]
+    .concat())
+}
+
+impl ShaderText {
+    /// The shaders of a quantity of a field, with derivatives up to an order.
+    pub(crate) fn new(
+        groups: &Groups,
+        field: &Field<'_>,
+        (quantity, order): (&Quantity, u32),
+        method: Method,
+        last_pass: Finish,
+    ) -> Result<Self, GpuError> {
+        Ok(Self {
+            order,
+            has_field: quantity.source() != Source::Partition,
+            has_smooth: groups.has_smooth(),
+            has_part: matches!(quantity, Quantity::PartitionFunction(_)),
+            formulas: formulas(groups, field, quantity, order)?,
+            method,
+            last_pass,
+        })
+    }
+
+    /// The way patches come together.
+    pub(crate) fn method(&self) -> Method {
+        self.method
+    }
+
+    /// The last pass.
+    pub(crate) fn last_pass(&self) -> &Finish {
+        &self.last_pass
+    }
+
+    /// All shaders that a scene may need: those of the last pass, then those of splatting.
+    pub(crate) fn all(&self, layout: SceneLayout) -> Vec<String> {
+        let kinds = self.kinds(layout).into_iter().map(|others| self.finish(layout, others));
+        let passes = self.slots(layout).passes().filter(|_| self.method == Method::Splat);
+        kinds.chain(passes.map(|pass| self.text(layout, pass))).collect()
+    }
+
+    /// The shader of the last pass, in areas with these terms beside the smooth one.
+    pub(crate) fn finish(&self, layout: SceneLayout, others: Others) -> String {
+        self.text(layout.with(others), FieldPass::NONE)
+    }
+
+    /// The kinds of areas that are told apart.
+    fn kinds(&self, layout: SceneLayout) -> Vec<Others> {
+        let all = layout.shape.others;
+        if self.method == Method::Splat {
+            return vec![all];
+        }
+        let both = [false, true];
+        let kinds = both
+            .into_iter()
+            .flat_map(|constants| both.map(|polynomials| Others { constants, polynomials }));
+        kinds.filter(|kind| kind.and(all) == all).collect()
+    }
+
+    /// The textures of splatting.
+    pub(crate) fn slots(&self, layout: SceneLayout) -> Slots {
+        let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
+        let weights = if self.order >= 2 || self.has_part { 2 } else { 1 };
+        Slots { pairs, per_pair: self.order + 1, weights }
+    }
+
+    /// The whole text of a shader; `pass` is what it splats.
+    pub(crate) fn text(&self, layout: SceneLayout, pass: FieldPass) -> String {
+        let mut text = self.constants(layout);
+        text += &types(layout);
+        text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
+        text += BINDINGS;
+        text += &self.smooth(layout);
+        text += &geometry::constants();
+        let parts = [texts::LOAD, texts::PIXEL, texts::PATCH, texts::FINISH];
+        text.extend(texts::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
+        text += &self.formulas;
+        text += self.last_pass.text;
+        text += &match self.method {
+            Method::Gather => gather_text(layout.is_lattice),
+            Method::Splat => self.splat_text(layout, pass),
+        };
+        text + &palette_binding(match self.method {
+            Method::Gather => 0,
+            Method::Splat => self.slots(layout).all(),
+        })
+    }
+
+    /// The code that evaluates smooth terms and reads constants.
+    fn smooth(&self, layout: SceneLayout) -> String {
+        let Components { lanes, groups, .. } = layout.components;
+        let smooth = match layout.shape.degree {
+            Some(degree) if groups == 1 => straight_smooth(degree.into(), lanes, self.order),
+            _ => texts::SMOOTH.to_owned(),
+        };
+        smooth + &four_constants(lanes, groups)
+    }
+
+    fn constants(&self, layout: SceneLayout) -> String {
+        let SceneLayout {
+            components, shape, own_frames, has_holes, has_kinks, has_long_lists, ..
+        } = layout;
+        let mut text = String::new();
+        for (name, value) in [
+            ("ORDER", self.order),
+            ("COMPONENTS", components.count as u32),
+            ("LANES", components.lanes as u32),
+            ("LANE_PAIRS", components.lanes as u32 / 2),
+            ("GROUPS", components.groups as u32),
+            ("RECORD_TEXELS", record_texels(own_frames)),
+            ("TEXELS", TEXELS),
+            ("INNER", bins::INNER),
+            ("NO_PATCH", NO_PATCH),
+            ("SMOOTH_GROUP", SMOOTH_GROUP),
+            ("GROUP_BITS", bodies::GROUP_BITS),
+            ("ABSENT", bodies::ABSENT),
+            ("ALL_ABSENT", u32::MAX),
+            ("PALETTE", PALETTE_TEXELS),
+            ("LOG", shading::LOG),
+            ("SYMLOG", shading::SYMLOG),
+        ] {
+            let _ = writeln!(text, "const {name}: u32 = {value}u;");
+        }
+        for (name, value) in [
+            ("OWN_FRAMES", own_frames),
+            ("HAS_FIELD", self.has_field),
+            ("HAS_SMOOTH", self.has_smooth),
+            ("HAS_PART", self.has_part),
+            ("HAS_HOLES", has_holes),
+            ("HAS_KINKS", has_kinks),
+            ("HAS_LONG_LISTS", has_long_lists),
+            ("HAS_CONSTANTS", shape.others.constants),
+            ("HAS_POLYNOMIALS", shape.others.polynomials),
+        ] {
+            let _ = writeln!(text, "const {name}: bool = {value};");
+        }
+        text
+    }
+
+    /// Declarations of splatting beside its file: targets, slots, textures.
+    fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
+        let slots = self.slots(layout);
+        let mut text = texts::SPLAT.to_owned();
+        let location = |k| format!("@location({k}) ");
+        text += &structure("Instance", QuadRecord::MEMBERS, location);
+        let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
+        let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
+        text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
+        text += &targets("Weights", slots.weights);
+        text += &weights_of(slots.weights);
+        text += &targets("Fields", pass.slots);
+        text += &fields_of(pass, layout.components.lanes);
+        for k in 0..slots.weights {
+            let _ = writeln!(text, "@group(1) @binding({k}) var weights_{k}: texture_2d<f32>;");
+        }
+        for k in 0..slots.count() {
+            let binding = slots.weights + k;
+            let _ = writeln!(text, "@group(1) @binding({binding}) var field_{k}: texture_2d<f32>;");
+        }
+        text + &field_slot(slots.count())
+    }
+}
+
+/// `Lanes` and what belongs to it.
+fn types(layout: SceneLayout) -> String {
+    let lanes = layout.components.lanes;
+    let (of, load, view) = if lanes == 2 {
+        ("a", "lanes_from(load(at / 2u), at % 2u)", "load_view(at)")
+    } else {
+        (
+            "vec4<f32>(a, b)",
+            "bitcast<vec4<f32>>(load(at / 2u))",
+            "vec4<f32>(load_view(at), load_view(at + 1u))",
+        )
+    };
+    format!(
+        "alias Lanes = vec{lanes}<f32>;
+fn lanes_of(a: vec2<f32>, b: vec2<f32>) -> Lanes {{ return {of}; }}
+fn lanes_from(texel: vec4<u32>, odd: u32) -> vec2<f32> {{
+    return bitcast<vec2<f32>>(select(texel.xy, texel.zw, odd == 1u));
+}}
+fn load_lanes(at: u32) -> Lanes {{ return {load}; }}
+fn view_lanes(at: u32) -> Lanes {{ return {view}; }}
+struct Sample {{
+    position: vec2<f32>,
+    u: array<Jets, GROUPS>,
+    weight_sum: f32,
+    overlap: f32,
+    part: f32,
+}}
+"
+    )
+}
+
+/// The view, its data, the dataset's and the region's.
+const BINDINGS: &str = "@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<storage, read> view_data: array<vec2<f32>>;
+@group(0) @binding(2) var data: texture_2d<u32>;
+@group(0) @binding(3) var places: texture_2d<u32>;
+";
+
+fn gather_text(is_lattice: bool) -> String {
+    let bins = if is_lattice { texts::LATTICE } else { texts::BINS };
+    let alias = "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n";
+    [bins, texts::GATHER, alias].concat()
+}
+
+fn palette_binding(binding: u32) -> String {
+    format!("@group(1) @binding({binding}) var palette: texture_2d<f32>;\n")
+}
+
+/// A structure of float targets.
+fn targets(name: &str, count: u32) -> String {
+    let member = |k| format!("    @location({k}) target_{k}: vec4<f32>,\n");
+    let members: String = (0..count).map(member).collect();
+    format!("struct {name} {{\n{members}}}\n")
+}
+
+/// The sums of a weight, with the number of patches and the weight of the chosen one.
+fn weights_of(count: u32) -> String {
+    let (second, read) = if count == 2 {
+        (", vec4<f32>(w.xx, w.xy, w.yy, part)", "textureLoad(weights_1, index, 0)")
+    } else {
+        ("", "vec4<f32>()")
+    };
+    format!(
+        "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {{
+    return Weights(vec4<f32>(w.v, w.x, w.y, overlap){second});
+}}
+fn second_weights(index: vec2<u32>) -> vec4<f32> {{
+    return {read};
+}}
+"
+    )
+}
+
+/// The output of a pass of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
+fn fields_of(pass: FieldPass, lanes: usize) -> String {
+    const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
+    let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };
+    let slot = |k: u32| {
+        let [a, b] = PAIRS[(pass.first + k) as usize];
+        format!("vec4<f32>(u.{a}.{part}, u.{b}.{part})")
+    };
+    let all: Vec<String> = (0..pass.slots).map(slot).collect();
+    format!("fn fields_of(u: Jets) -> Fields {{\n    return Fields({});\n}}\n", all.join(", "))
+}
+
+/// The texture of a slot; 0 for those of components there are not.
+fn field_slot(count: u32) -> String {
+    let mut text = "fn field_slot(slot: u32, index: vec2<u32>) -> vec4<f32> {\n".to_owned();
+    for k in 0..count {
+        let _ =
+            writeln!(text, "    if slot == {k}u {{ return textureLoad(field_{k}, index, 0); }}");
+    }
+    text + "    return vec4<f32>();\n}\n"
+}

@@ -1,0 +1,124 @@
+//! The smooth term of a patch where all patches have the same degree: a shader without loops. And what
+//! else reads texels of coefficients once each.
+//!
+//! `smooth_of` of `wgsl/smooth.wgsl` reads a degree and runs loops over coefficients. Here the
+//! same nested Horner schemes are written out for one degree, and each texel of coefficients is loaded
+//! once.
+
+use std::fmt::Write;
+
+use ppum::dataset::monomials;
+
+/// Numbers of a jet: v, x, y, xx, xy, yy.
+const MEMBERS: [&str; 6] = ["v", "x", "y", "xx", "xy", "yy"];
+
+/// `smooth_of` for a degree, `lanes` components side by side, and derivatives up to an order.
+pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String {
+    let count = monomials(degree);
+    // the head, the coefficients without the constant, high and low
+    let slots = count + 2;
+    let per_texel = 4 / lanes;
+    let mut text = "fn smooth_of(address: u32, place: Place) -> Smooth {\n".to_owned();
+    for texel in 0..slots.div_ceil(per_texel) {
+        let _ = writeln!(text, "    let q{texel} = load(address + {texel}u);");
+    }
+    let slot = |k: usize| slot(k, lanes);
+    text += "    let xi = place.xi;\n";
+    let mut lines = Lines { text, order, count: 0 };
+    let sums = lines.polynomial(degree, |k| (k + 1 < count).then(|| slot(k + 1)));
+    let mut text = lines.text;
+    text += "    var out: Smooth;\n";
+    for (member, sum) in MEMBERS.iter().zip(&sums) {
+        if let Some(sum) = sum {
+            let factor = if *member == "yy" { "2.0 * " } else { "" };
+            let _ = writeln!(text, "    out.v[0].{member} = {factor}{sum}{};", slopes(member));
+        }
+    }
+    let _ = writeln!(text, "    out.high[0] = {};", slot(count));
+    let _ = writeln!(text, "    out.low[0] = {};", slot(count + 1));
+    text + "    out.present = true;\n    out.terms = q0.x;\n    out.others = address + (q0.y >> 8u);\n    return out;\n}\n"
+}
+
+/// The function that reads the constants of four functions, each texel of them once.
+pub(crate) fn four_constants(lanes: usize, groups: usize) -> String {
+    let count = 4 * groups;
+    let mut text = format!("fn four_constants(address: u32) -> array<Lanes, {count}> {{\n");
+    // the head is the first in the room of all lanes
+    let (per_texel, slots) = (4 / lanes, count + 1);
+    for texel in 0..slots.div_ceil(per_texel) {
+        let _ = writeln!(text, "    let q{texel} = load(address + {texel}u);");
+    }
+    let all: Vec<String> = (1..slots).map(|k| slot(k, lanes)).collect();
+    let _ = writeln!(text, "    return array<Lanes, {count}>({});\n}}", all.join(", "));
+    text
+}
+
+/// The numbers of all lanes in the texels `q0`, `q1`, ….
+fn slot(k: usize, lanes: usize) -> String {
+    match lanes {
+        2 => format!("bitcast<vec2<f32>>(q{}.{})", k / 2, ["xy", "zw"][k % 2]),
+        _ => format!("bitcast<vec4<f32>>(q{k})"),
+    }
+}
+
+/// The chain rule for ξ.
+fn slopes(member: &str) -> String {
+    let axes = member.chars().filter(|axis| *axis != 'v');
+    axes.map(|axis| format!(" * place.inverse.{axis}")).collect()
+}
+
+/// A sum that may be zero, for which there is no name then.
+type Term = Option<String>;
+
+/// Lines of the function so far.
+struct Lines {
+    text: String,
+    order: u32,
+    count: usize,
+}
+
+impl Lines {
+    /// The sums over η of sums over ξ, in the order of [`MEMBERS`]; half the last. `coefficient` gives none
+    /// for the constant.
+    fn polynomial(&mut self, degree: usize, coefficient: impl Fn(usize) -> Term) -> [Term; 6] {
+        let mut sum: [Term; 6] = Default::default();
+        let mut next = 0;
+        for row in 0..=degree {
+            let [mut p, mut px, mut pxx]: [Term; 3] = Default::default();
+            for _ in 0..=row {
+                if self.order >= 2 {
+                    let twice = px.as_ref().map(|px| format!("2.0 * {px}"));
+                    pxx = self.step(pxx, "xi.x", twice);
+                }
+                if self.order >= 1 {
+                    px = self.step(px, "xi.x", p.clone());
+                }
+                p = self.step(p, "xi.x", coefficient(next));
+                next += 1;
+            }
+            let [v, x, y, xx, xy, yy] = sum;
+            let higher = self.order >= 2;
+            let yy = if higher { self.step(yy, "xi.y", y.clone()) } else { None };
+            let xy = if higher { self.step(xy, "xi.y", x.clone()) } else { None };
+            let xx = if higher { self.step(xx, "xi.y", pxx) } else { None };
+            let y = if self.order >= 1 { self.step(y, "xi.y", v.clone()) } else { None };
+            let x = if self.order >= 1 { self.step(x, "xi.y", px) } else { None };
+            sum = [self.step(v, "xi.y", p), x, y, xx, xy, yy];
+        }
+        sum
+    }
+
+    /// A step of Horner's scheme, sum · factor + term.
+    fn step(&mut self, sum: Term, factor: &str, term: Term) -> Term {
+        let value = match (sum, term) {
+            (None, None) => return None,
+            (None, Some(term)) => term,
+            (Some(sum), None) => format!("{sum} * {factor}"),
+            (Some(sum), Some(term)) => format!("{sum} * {factor} + {term}"),
+        };
+        let name = format!("t{}", self.count);
+        self.count += 1;
+        let _ = writeln!(self.text, "    let {name} = {value};");
+        Some(name)
+    }
+}

@@ -1,0 +1,16 @@
+//! The failures of renderers.
+
+use ppum::progress::Cancelled;
+use ppum::quantity::QuantityError;
+
+/// The reason why a view was not evaluated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The quantity has no meaning for the field.
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+    /// The watcher stopped the call.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

@@ -1,0 +1,144 @@
+//! Axes, and what is written along them.
+
+use ppum::crack::{Crack, tips};
+use ppum::vec2::Vec2;
+
+use super::Labels;
+use super::sheet::TICK_TEXT;
+use crate::picture::Picture;
+use crate::text;
+use crate::ticks::{self, Step, Ticks, power_of_ten};
+
+/// Least distances of labelled ticks, across and along the direction of reading.
+pub(super) const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
+/// An axis or the bar: its ticks, what is written along it, and how wide its tick labels are.
+pub(super) struct Axis {
+    pub(super) ticks: Ticks,
+    pub(super) label: String,
+    /// Bytes of the label that are the name; the rest is a number and units, which stay whole.
+    name: usize,
+    pub(super) widest: f64,
+}
+
+impl Axis {
+    fn new(ticks: Ticks, name: &str, unit: &str, scale: f64) -> Self {
+        let widths = ticks.major.iter().map(|t| text::width(&t.label, TICK_TEXT * scale));
+        let widest = widths.fold(0.0, f64::max);
+        Self { label: axis_label(name, &ticks, unit), name: name.len(), widest, ticks }
+    }
+
+    /// The label, with its name shortened if there is less room \[pixels\].
+    pub(super) fn fitted(&self, size: f64, room: f64) -> String {
+        let (name, rest) = self.label.split_at(self.name);
+        let name = text::fitted(name, size, (room - text::width(rest, size)).max(0.0));
+        text::fitted(&format!("{name}{rest}"), size, room)
+    }
+}
+
+/// The colour bar; where one value alone is seen it says so.
+pub(super) fn bar(picture: &Picture, labels: &Labels, most: usize, scale: f64) -> Axis {
+    let (norm, Labels { quantity, unit, .. }) = (&picture.normalization, labels);
+    match picture.one_value {
+        Some(value) => {
+            let name = format!("{quantity}, one value").trim_start_matches(", ").to_owned();
+            Axis::new(ticks::of_one_value(norm, value), &name, unit, scale)
+        }
+        None => Axis::new(ticks::bar(norm, most), quantity, unit, scale),
+    }
+}
+
+/// The axes x and y, with the same step where that leaves y two ticks at least.
+pub(super) fn axes(picture: &Picture, labels: &Labels, cracks: &[Crack], scale: f64) -> [Axis; 2] {
+    let view = &picture.view;
+    let half = view.half();
+    let step = |distance: f64| Step::at_least(distance * scale * view.pixel_size());
+    let [across, along] = TICK_DISTANCE.map(step);
+    let (x_step, y_step) = (across, if half.y > across.size() { across } else { along });
+    let tip = nearest_tip(picture, cracks);
+    let x = ticks::axis(view.center.x, half.x, x_step, tip.map(|t| t.x));
+    let y = ticks::axis(view.center.y, half.y, y_step, tip.map(|t| t.y));
+    [Axis::new(x, "x", &labels.length_unit, scale), Axis::new(y, "y", &labels.length_unit, scale)]
+}
+
+/// The tip in the view that is nearest to its centre.
+fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
+    let view = &picture.view;
+    let offset = |p: Vec2| p - view.center;
+    let is_seen =
+        |p: &Vec2| offset(*p).x.abs() <= view.half().x && offset(*p).y.abs() <= view.half().y;
+    tips(cracks)
+        .map(|tip| cracks[tip.crack as usize].end_point(tip.end))
+        .filter(is_seen)
+        .min_by(|&a, &b| offset(a).length().total_cmp(&offset(b).length()))
+}
+
+/// "name − reference [×10ᵏ unit]", each part where it is needed.
+fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
+    let mut label = name.to_owned();
+    if ticks.reference != 0.0 {
+        let sign = if ticks.reference > 0.0 { '−' } else { '+' };
+        label = format!("{name} {sign} {}", ticks.reference.abs());
+    }
+    let power = match ticks.exponent {
+        0 => String::new(),
+        k => format!("×{}", power_of_ten(k)),
+    };
+    let parts = [power.as_str(), unit].into_iter().filter(|part| !part.is_empty());
+    let measure = parts.collect::<Vec<_>>().join(" ");
+    if measure.is_empty() { label } else { format!("{label} [{measure}]").trim_start().to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Style;
+    use crate::raster::Raster;
+    use crate::view::View;
+    use ppum::crack::CrackEnd;
+    use ppum::vec2::vec2;
+
+    fn labels() -> Labels {
+        Labels { length_unit: "mm".to_owned(), ..Labels::default() }
+    }
+
+    #[test]
+    fn deep_axes_count_from_the_nearest_tip_in_view() {
+        let tip = vec2(0.3, -0.7);
+        let crack = |tip: Vec2| Crack {
+            points: vec![tip + vec2(-0.1, 0.0), tip],
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
+        };
+        let cracks = [crack(tip + vec2(3e-10, 0.0)), crack(tip), crack(tip + vec2(1e-8, 0.0))];
+        let view = View::new(tip, 1e-9, [300, 300]).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, _| f64::from(i));
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = axes(&picture, &labels(), &cracks, 1.0);
+        assert_eq!(
+            (x.label.as_str(), y.label.as_str()),
+            ("x − 0.3 [×10⁻¹⁰ mm]", "y + 0.7 [×10⁻¹⁰ mm]")
+        );
+        assert!(x.ticks.major.iter().any(|t| t.at == 0.0 && t.label == "0"));
+    }
+
+    #[test]
+    fn labels_have_only_the_parts_they_need() {
+        let ticks = |reference, exponent| Ticks { reference, exponent, ..Ticks::default() };
+        assert_eq!(axis_label("x", &ticks(0.0, 0), ""), "x");
+        assert_eq!(axis_label("x", &ticks(0.0, 0), "mm"), "x [mm]");
+        assert_eq!(axis_label("u", &ticks(0.0, -4), ""), "u [×10⁻⁴]");
+        assert_eq!(axis_label("", &ticks(0.0, 3), "MPa"), "[×10³ MPa]");
+        assert_eq!(axis_label("x", &ticks(0.25, 0), ""), "x − 0.25");
+    }
+
+    /// A name that is too long gives way to the power of ten and the unit.
+    #[test]
+    fn shortened_labels_keep_their_units() {
+        let axis =
+            Axis::new(Ticks { exponent: -4, ..Ticks::default() }, &"x + ".repeat(99), "mm", 1.0);
+        let label = axis.fitted(12.0, 200.0);
+        assert!(label.starts_with("x + x") && label.ends_with("… [×10⁻⁴ mm]"), "{label}");
+        assert!(text::width(&label, 12.0) <= 200.0, "{label}");
+        assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
+        assert_eq!(axis.fitted(12.0, 1e6), axis.label);
+    }
+}

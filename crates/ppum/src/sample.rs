@@ -1,0 +1,276 @@
+//! Sampling: quantities at many places, along lines and cracks, on grids, at points.
+//!
+//! A [`Place`] is a point with the side of a crack that is meant. [`line`], [`grid`], [`points`] and
+//! [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two sides and
+//! two places. Who has threads takes the [`batches`] one by one, in any order: values do not depend on it.
+//!
+//! ```
+//! # use ppum::dataset::Dataset;
+//! use ppum::field::Field;
+//! use ppum::progress::unwatched;
+//! use ppum::quantity::Quantity;
+//! use ppum::sample;
+//! use ppum::vec2::vec2;
+//!
+//! # fn sampled(dataset: &Dataset) -> Result<(), Box<dyn std::error::Error>> {
+//! let field = Field::new(dataset, 0)?;
+//! let places = sample::line(&field.step.cracks, vec2(-1.0, 0.1), vec2(1.0, 0.1), 201);
+//! let quantities = [Quantity::parse("uy", &field)?, Quantity::parse("von-mises", &field)?];
+//! let rows = sample::evaluate(&field, &quantities, &places, unwatched())?;
+//! for (place, row) in places.iter().zip(rows.chunks(quantities.len())) {
+//!     println!("{} {} {:?}", place.point.x, place.point.y, row);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+
+use crate::crack::{Crack, SegmentId, Side};
+use crate::field::{Field, LocalField};
+use crate::progress::{Cancelled, Phase, Progress, Watcher};
+use crate::quantity::Quantity;
+use crate::sides::Segments;
+use crate::vec2::{Rect, Vec2, vec2};
+
+/// A point with the side of a crack that is meant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The point as it was meant: `anchor + offset` may round to its neighbour.
+    pub point: Vec2,
+    /// The anchor that the field is seen from; places near each other share theirs.
+    pub anchor: Vec2,
+    /// The way from the anchor.
+    pub offset: Vec2,
+    /// The segment that the point lies on, if it lies on a crack.
+    pub on: Option<SegmentId>,
+    /// The side of that crack; `Above` on none.
+    pub side: Side,
+}
+
+impl Place {
+    /// The places of the point `anchor + offset`: above and below where it lies on a crack, else one alone.
+    #[must_use]
+    pub fn sides(segments: &Segments<'_>, anchor: Vec2, offset: Vec2) -> Vec<Self> {
+        let on = segments.at(anchor, offset);
+        let on_side = |side| Self { point: anchor + offset, anchor, offset, on, side };
+        let sides = if on.is_some() { &[Side::Above, Side::Below][..] } else { &[Side::Above] };
+        sides.iter().map(|&side| on_side(side)).collect()
+    }
+
+    /// The field as seen from the anchor, on the segment if the place lies on one.
+    #[must_use]
+    pub fn seen<'f>(&self, field: &'f Field<'_>) -> LocalField<'f> {
+        match self.on {
+            Some(segment) => field.on(segment, self.anchor),
+            None => field.at(self.anchor),
+        }
+    }
+
+    /// 1 above a crack, −1 below, 0 if the point is on none.
+    #[must_use]
+    pub fn mark(&self) -> f64 {
+        match (self.on, self.side) {
+            (None, _) => 0.0,
+            (Some(_), Side::Above) => 1.0,
+            (Some(_), Side::Below) => -1.0,
+        }
+    }
+}
+
+/// Points that share an anchor: near each other, and few enough to be work for one thread.
+const BLOCK: usize = 256;
+
+/// Most places of a batch.
+const BATCH: usize = 4 * BLOCK;
+
+/// Groups of consecutive places that can be evaluated at once, in their order. They are non-empty, no longer
+/// than some thousand places, and together they are all of them.
+pub fn batches(places: &[Place]) -> impl Iterator<Item = &[Place]> {
+    let seat = |place: &Place| (place.anchor, place.on, place.side);
+    places.chunk_by(move |a, b| seat(a) == seat(b)).flat_map(|run| run.chunks(BATCH))
+}
+
+/// The quantities at the places of one of the [`batches`], one row for each place; NaN outside the domain
+/// and where a quantity has no value.
+#[must_use]
+pub fn evaluate_batch(field: &Field<'_>, quantities: &[Quantity], batch: &[Place]) -> Vec<f64> {
+    let Some(first) = batch.first() else { return Vec::new() };
+    let offsets: Vec<Vec2> = batch.iter().map(|place| place.offset).collect();
+    Quantity::at_many(quantities, &mut first.seen(field), &offsets, first.side)
+}
+
+/// The quantities at all places, one row for each: shape (places, quantities), flattened; NaN outside the
+/// domain and where a quantity has no value. The values are those of [`Quantity::at`] up to rounding.
+///
+/// # Errors
+/// The watcher, told after each batch, stops the call.
+pub fn evaluate(
+    field: &Field<'_>,
+    quantities: &[Quantity],
+    places: &[Place],
+    watcher: &dyn Watcher,
+) -> Result<Vec<f64>, Cancelled> {
+    let total = places.len();
+    let mut rows = Vec::with_capacity(total * quantities.len());
+    let mut done = 0;
+    for batch in batches(places) {
+        watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+        rows.extend(evaluate_batch(field, quantities, batch));
+        done += batch.len();
+    }
+    Ok(rows)
+}
+
+/// Places at points, on both sides where one lies on a crack: above, then below.
+#[must_use]
+pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
+    sided(&Segments::new(cracks), points).flatten().collect()
+}
+
+/// Places at `count` points at equal distances from a to b, both included exactly; the middle if there is
+/// one alone. On both sides where one lies on a crack.
+#[must_use]
+pub fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
+    let all: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
+    points(cracks, &all)
+}
+
+/// Places at the points of a grid of nx columns and ny rows that includes the borders of the window, in rows
+/// of constant y, the lowest first. Of points on cracks the upper side alone.
+#[must_use]
+pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
+    let (Rect { min, max }, segments) = (window, Segments::new(cracks));
+    let row = |j: u32| {
+        let y = between(min, max, j as usize, ny as usize).y;
+        let x = |i: u32| between(min, max, i as usize, nx as usize).x;
+        let points: Vec<Vec2> = (0..nx).map(|i| vec2(x(i), y)).collect();
+        sided(&segments, &points).map(|places| places[0]).collect::<Vec<_>>()
+    };
+    (0..ny).flat_map(row).collect()
+}
+
+/// One place for each point, two on a crack.
+fn sided(segments: &Segments<'_>, points: &[Vec2]) -> impl Iterator<Item = Vec<Place>> {
+    points
+        .chunks(BLOCK)
+        .flat_map(|block| block.iter().map(|&point| places(segments, block[0], point)))
+}
+
+/// The places of a point; seen from the anchor unless it lies on a crack.
+fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<Place> {
+    let mut places = Place::sides(segments, point, Vec2::ZERO);
+    if let [Place { on: None, anchor: seat, offset, .. }] = &mut places[..] {
+        (*seat, *offset) = (anchor, point - anchor);
+    }
+    places
+}
+
+/// Point k of `count` from a to b, both included exactly; the middle if there is one alone.
+fn between(a: Vec2, b: Vec2, k: usize, count: usize) -> Vec2 {
+    match (k, count) {
+        (_, 1) => (a + b) * 0.5,
+        (0, _) => a,
+        (k, n) if k + 1 == n => b,
+        (k, n) => a + (b - a) * (k as f64 / (n - 1) as f64),
+    }
+}
+
+/// Points at equal distances along a crack, to be seen from both of its sides.
+///
+/// Each is seen from the nearer end of its segment, so that what is near a tip keeps its digits.
+#[derive(Clone, Debug)]
+pub struct Stations(Vec<Station>);
+
+/// A point of a crack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// Arc length from the crack's start.
+    pub s: f64,
+    /// Unit direction of the segment.
+    pub tangent: Vec2,
+    anchor: Vec2,
+    offset: Vec2,
+    segment: SegmentId,
+}
+
+impl Stations {
+    /// `count` points at equal distances along the crack of this index, its ends included; the last one if
+    /// there is one alone. None if there is no such crack.
+    #[must_use]
+    pub fn along(cracks: &[Crack], index: u32, count: usize) -> Option<Self> {
+        let crack = cracks.get(index as usize)?;
+        let mut starts = vec![0.0];
+        for p in crack.points.windows(2) {
+            starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
+        }
+        let total = starts[starts.len() - 1];
+        let s = |k: usize| {
+            if k + 1 == count { total } else { total * (k as f64 / (count - 1) as f64) }
+        };
+        Some(Self((0..count).map(|k| Station::new(crack, index, &starts, s(k))).collect()))
+    }
+
+    /// The points, from the crack's start.
+    #[must_use]
+    pub fn all(&self) -> &[Station] {
+        &self.0
+    }
+
+    /// The places above at all points, then those below.
+    #[must_use]
+    pub fn places(&self) -> Vec<Place> {
+        let on = |side| self.0.iter().map(move |station| station.place(side));
+        on(Side::Above).chain(on(Side::Below)).collect()
+    }
+}
+
+impl Station {
+    /// The point at arc length s; `starts` are those of the vertices.
+    fn new(crack: &Crack, index: u32, starts: &[f64], s: f64) -> Self {
+        let last = crack.points.len() - 2;
+        let segment = starts.partition_point(|&start| start <= s).saturating_sub(1).min(last);
+        let [a, b] = [crack.points[segment], crack.points[segment + 1]];
+        let (tangent, inner) = ((b - a).unit(), s - starts[segment]);
+        let beyond = starts[segment + 1] - s;
+        let (anchor, way) = if inner <= beyond { (a, inner) } else { (b, -beyond) };
+        let segment = SegmentId { crack: index, segment: segment as u32 };
+        Self { s, tangent, anchor, offset: tangent * way, segment }
+    }
+
+    /// The point.
+    #[must_use]
+    pub fn point(&self) -> Vec2 {
+        self.anchor + self.offset
+    }
+
+    /// The point on a side.
+    #[must_use]
+    pub fn place(&self, side: Side) -> Place {
+        let Self { anchor, offset, segment, .. } = *self;
+        Place { point: self.point(), anchor, offset, on: Some(segment), side }
+    }
+
+    /// Opening and sliding: a jump \[u\] = u above − u below, normal to the crack and along it.
+    #[must_use]
+    pub fn opening(&self, jump: Vec2) -> [f64; 2] {
+        [jump.dot(self.tangent.left()), jump.dot(self.tangent)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_exact() {
+        let (a, b) = (vec2(0.1, 0.2), vec2(0.7, -0.3));
+        for n in [2, 3, 7, 1000] {
+            assert_eq!((between(a, b, 0, n), between(a, b, n - 1, n)), (a, b));
+        }
+        assert_eq!(between(a, b, 0, 1), (a + b) * 0.5);
+        let places = line(&[], a, b, 7);
+        assert_eq!((places[0].point, places[6].point), (a, b));
+        let bounds = Rect::new(vec2(-1.1, 0.1), vec2(0.7, 1.3));
+        let corners = grid(&[], bounds, [7, 9]);
+        assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
+    }
+}
