@@ -1,5 +1,6 @@
-//! Errors of the solver with what to change in a problem file.
+//! Errors of the libraries with what to change in a problem file.
 
+use ppum_format::WriteError;
 use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
 
@@ -19,6 +20,16 @@ fn remedy(error: &SolveError) -> Option<&'static str> {
             Some("give it a larger `radius`, or a condition in `where` that holds somewhere")
         }
         _ => None,
+    }
+}
+
+/// The same for a dataset that is not written.
+pub(crate) fn with_smaller(error: WriteError) -> anyhow::Error {
+    match error {
+        WriteError::TooLong { .. } => {
+            anyhow::anyhow!("{error}; choose fewer cells or a lower order")
+        }
+        error => error.into(),
     }
 }
 
@@ -59,5 +70,9 @@ mod tests {
         ] {
             assert_eq!(with_remedy(error).to_string(), said);
         }
+        assert_eq!(
+            with_smaller(WriteError::TooLong { length: 5_000_000_000 }).to_string(),
+            "the file would have 5000000000 bytes, at most 4294967296 are read; choose fewer cells or a lower order"
+        );
     }
 }

@@ -18,7 +18,7 @@ use crate::memory;
 use crate::number::{Number, count, json, places};
 use crate::output::Output;
 use crate::progress::Bar;
-use crate::remedy::with_remedy;
+use crate::remedy::{with_remedy, with_smaller};
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
@@ -86,7 +86,7 @@ impl Args {
             out.exact().write_all(&ppum_format::to_bytes(&dataset)?)?;
             return report.write(&mut Output::stderr(), &dataset);
         }
-        ppum_format::write(&dataset, &target)?;
+        ppum_format::write(&dataset, &target).map_err(with_smaller)?;
         if self.json {
             warn(&report.warnings);
             return Ok(json(out, &report)?);
