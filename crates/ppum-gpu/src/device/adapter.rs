@@ -57,7 +57,7 @@ pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
     }
     let mut adapters = enumerate().await;
     adapters.retain(|adapter| choice.accepts(kind(adapter)) && is_complete(adapter));
-    adapters.into_iter().min_by_key(kind).ok_or_else(|| GpuError::NoAdapter { choice })
+    adapters.into_iter().min_by_key(kind).ok_or(GpuError::NoAdapter { choice })
 }
 
 /// False if this machine has no graphics card for sure: drivers need not be opened to find none then, which takes
