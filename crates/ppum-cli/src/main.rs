@@ -77,7 +77,7 @@ fn report(error: &anyhow::Error) {
 fn message(error: &anyhow::Error) -> String {
     error
         .chain()
-        .map(ToString::to_string)
+        .map(|cause| remedy::told(cause))
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
 }

@@ -1,18 +1,37 @@
-//! Errors of the libraries with what to change in a problem file.
+//! Errors of the libraries with their remedies in the words of problem files, which libraries do not know.
 
+use std::error::Error;
+
+use ppum::quantity::QuantityError;
 use ppum_format::WriteError;
+use ppum_render::RenderError;
 use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
 
-/// The error, and its remedy in the words of problem files where the solver does not know one.
-pub(crate) fn with_remedy(error: SolveError) -> anyhow::Error {
-    match remedy(&error) {
-        Some(remedy) => anyhow::anyhow!("{error}; {remedy}"),
-        None => error.into(),
-    }
+/// The text of an error, with its remedy if there is one.
+pub(crate) fn told(error: &(dyn Error + 'static)) -> String {
+    let remedy = match error.downcast_ref() {
+        Some(error) => of_solution(error),
+        None => of_quantity(error).or_else(|| of_file(error)),
+    };
+    remedy.map_or_else(|| error.to_string(), |remedy| format!("{error}; {remedy}"))
 }
 
-fn remedy(error: &SolveError) -> Option<&'static str> {
+fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
+    let quantity = match error.downcast_ref() {
+        Some(RenderError::Quantity(quantity)) => quantity,
+        _ => error.downcast_ref()?,
+    };
+    matches!(quantity, QuantityError::NoExact(_))
+        .then_some("give it as [exact] in the problem file")
+}
+
+fn of_file(error: &(dyn Error + 'static)) -> Option<&'static str> {
+    matches!(error.downcast_ref()?, WriteError::TooLong { .. })
+        .then_some("choose fewer cells or a lower order")
+}
+
+fn of_solution(error: &SolveError) -> Option<&'static str> {
     match error {
         SolveError::Basis(_) => Some("look at the formulas of [[enrichment]]"),
         SolveError::Singular { error, .. } | SolveError::Factor(error) => of_system(error),
@@ -20,16 +39,6 @@ fn remedy(error: &SolveError) -> Option<&'static str> {
             Some("give it a larger `radius`, or a condition in `where` that holds somewhere")
         }
         _ => None,
-    }
-}
-
-/// The same for a dataset that is not written.
-pub(crate) fn with_smaller(error: WriteError) -> anyhow::Error {
-    match error {
-        WriteError::TooLong { .. } => {
-            anyhow::anyhow!("{error}; choose fewer cells or a lower order")
-        }
-        error => error.into(),
     }
 }
 
@@ -68,10 +77,18 @@ mod tests {
             ),
             (SpaceError::Nothing.into(), "the holes swallow the whole domain; make them smaller"),
         ] {
-            assert_eq!(with_remedy(error).to_string(), said);
+            assert_eq!(told(&error), said);
+        }
+        let error = QuantityError::NoExact("error".into());
+        for error in [&error as &dyn Error, &RenderError::Quantity(error.clone())] {
+            assert_eq!(
+                told(error),
+                "`error` needs the exact solution, which this dataset does not hold; give it as [exact] in the \
+                 problem file"
+            );
         }
         assert_eq!(
-            with_smaller(WriteError::TooLong { length: 5_000_000_000 }).to_string(),
+            told(&WriteError::TooLong { length: 5_000_000_000 }),
             "the file would have 5000000000 bytes, at most 4294967296 are read; choose fewer cells or a lower order"
         );
     }

@@ -46,7 +46,7 @@ fn digest(content: &Content) -> Result<String, ReadError> {
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
         let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
         hash.update(header.as_bytes());
-        update(&mut hash, &array.values).map_err(|problem| ReadError::object(name, problem))?;
+        update(&mut hash, &array.values).map_err(|mistake| ReadError::object(name, mistake))?;
     }
     Ok(hash.finalize().iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");

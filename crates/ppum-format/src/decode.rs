@@ -44,16 +44,16 @@ pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
     let mut root = Group { path: String::new(), content: &mut content };
     let tables = tables(&mut root)?;
     let scopes = Scopes::new(&tables)?;
-    Ok(Dataset {
-        title: root.attribute("title")?,
-        program: root.attribute("program")?,
-        problem: problem(&mut root)?,
-        domain: domain(&mut root.group("domain")?)?,
-        equation: equation(&mut root.group("equation")?, &scopes)?,
-        quantities: optional(&mut root, "quantities", quantities)?,
-        steps: numbered(&mut root, "steps", |group| step(group, &scopes))?,
-        tables,
-    })
+    let title = root.attribute("title")?;
+    let program = root.attribute("program")?;
+    let problem = problem(&mut root)?;
+    let domain = domain(&mut root.group("domain")?)?;
+    let mut dataset = Dataset::new(domain, equation(&mut root.group("equation")?, &scopes)?);
+    (dataset.title, dataset.program, dataset.problem) = (title, program, problem);
+    dataset.quantities = optional(&mut root, "quantities", quantities)?;
+    dataset.steps = numbered(&mut root, "steps", |group| step(group, &scopes))?;
+    dataset.tables = tables;
+    Ok(dataset)
 }
 
 fn problem(root: &mut Group) -> Read<Option<String>> {
@@ -139,18 +139,18 @@ fn quantities(group: &mut Group) -> Read<Vec<NamedQuantity>> {
 }
 
 fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
-    Ok(Step {
-        load: group.attribute("load")?,
-        partition: partition(&mut group.group("partition")?, scopes)?,
-        cracks: cracks(&mut group.group("cracks")?)?,
-        functions: functions(&mut group.group("functions")?)?,
-        fields: numbered(group, "fields", field)?,
-        attributes: optional(group, "attributes", attributes)?,
-        intensities: optional(group, "intensities", intensities)?,
-        history: optional(group, "history", history)?,
-        warnings: optional(group, "warnings", warnings)?,
-        reactions: optional(group, "reactions", reactions)?,
-    })
+    let load = group.attribute("load")?;
+    let mut step = Step::new(partition(&mut group.group("partition")?, scopes)?);
+    step.load = load;
+    step.cracks = cracks(&mut group.group("cracks")?)?;
+    step.functions = functions(&mut group.group("functions")?)?;
+    step.fields = numbered(group, "fields", field)?;
+    step.attributes = optional(group, "attributes", attributes)?;
+    step.intensities = optional(group, "intensities", intensities)?;
+    step.history = optional(group, "history", history)?;
+    step.warnings = optional(group, "warnings", warnings)?;
+    step.reactions = optional(group, "reactions", reactions)?;
+    Ok(step)
 }
 
 fn partition(group: &mut Group, scopes: &Scopes) -> Read<Partition> {
@@ -225,17 +225,16 @@ fn cracks(group: &mut Group) -> Read<Vec<Crack>> {
 
 fn field(group: &mut Group) -> Read<FieldData> {
     let components = group.vector::<String>("components")?;
-    Ok(FieldData {
-        name: group.attribute("name")?,
-        unit: group.attribute("unit")?,
-        exact: exact(group)?,
-        patch_blocks: group.vector("patch_blocks")?,
-        block_function: group.vector("block_function")?,
-        block_degree: group.vector("block_degree")?,
-        block_offset: group.vector("block_offset")?,
-        coefficients: group.matrix("coefficients", components.len())?,
-        components,
-    })
+    let mut data = FieldData::new(&group.attribute::<String>("name")?, &[]);
+    data.unit = group.attribute("unit")?;
+    data.exact = exact(group)?;
+    data.patch_blocks = group.vector("patch_blocks")?;
+    data.block_function = group.vector("block_function")?;
+    data.block_degree = group.vector("block_degree")?;
+    data.block_offset = group.vector("block_offset")?;
+    data.coefficients = group.matrix("coefficients", components.len())?;
+    data.components = components;
+    Ok(data)
 }
 
 fn exact(group: &mut Group) -> Read<Vec<String>> {

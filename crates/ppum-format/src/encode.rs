@@ -143,8 +143,8 @@ fn tables(root: &mut Group, tables: &[Arc<Table>]) -> Written {
     }
     let total: usize = tables.iter().map(|table| table.values().len()).sum();
     if total > MAX_TABLE_VALUES {
-        let problem = format!("have {total} values together; at most {MAX_TABLE_VALUES} may be");
-        return Err(WriteError::object("tables", problem));
+        let mistake = format!("have {total} values together; at most {MAX_TABLE_VALUES} may be");
+        return Err(WriteError::object("tables", mistake));
     }
     Ok(())
 }

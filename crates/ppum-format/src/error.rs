@@ -50,12 +50,12 @@ pub enum ReadError {
         source: Box<ReadError>,
     },
     /// An object of the file is missing or not what it should be.
-    #[error("{object}: {problem}")]
+    #[error("{object}: {mistake}")]
     Object {
         /// Path in the file; attributes are written `group@attribute`.
         object: String,
         /// The mistake.
-        problem: String,
+        mistake: String,
     },
     /// The content is not what was written.
     #[error(
@@ -78,17 +78,17 @@ impl ReadError {
         Self::Io { path: path.to_owned(), source }
     }
 
-    pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
-        Self::Object { object: object.to_owned(), problem: problem.into() }
+    pub(crate) fn object(object: &str, mistake: impl Into<String>) -> Self {
+        Self::Object { object: object.to_owned(), mistake: mistake.into() }
     }
 
     /// The same with the texts of the file that it quotes cut: they may be of any length.
     pub(crate) fn shortened(mut self) -> Self {
         match &mut self {
-            Self::Object { object, problem } => [object, problem].into_iter().for_each(shorten),
+            Self::Object { object, mistake } => [object, mistake].into_iter().for_each(shorten),
             Self::Checksum { stored, .. } => shorten(stored),
-            Self::Invalid(CheckError { place, problem, .. }) => {
-                [place, problem].into_iter().for_each(shorten);
+            Self::Invalid(CheckError { place, mistake, .. }) => {
+                [place, mistake].into_iter().for_each(shorten);
             }
             Self::Hdf5 { message } => shorten(message),
             Self::Newer { source, .. } => {
@@ -135,12 +135,12 @@ pub enum WriteError {
     #[error("the dataset is inconsistent: {0}")]
     Invalid(#[from] CheckError),
     /// The format cannot express something.
-    #[error("{object}: {problem}")]
+    #[error("{object}: {mistake}")]
     Object {
         /// Path it would have in the file.
         object: String,
         /// The mistake.
-        problem: String,
+        mistake: String,
     },
     /// The HDF5 library refused.
     #[error("cannot make an HDF5 file of it: {message}")]
@@ -151,7 +151,7 @@ pub enum WriteError {
 }
 
 impl WriteError {
-    pub(crate) fn object(object: &str, problem: impl Into<String>) -> Self {
-        Self::Object { object: object.to_owned(), problem: problem.into() }
+    pub(crate) fn object(object: &str, mistake: impl Into<String>) -> Self {
+        Self::Object { object: object.to_owned(), mistake: mistake.into() }
     }
 }

@@ -1,9 +1,9 @@
 //! Blocks: evaluation of [`FormulaJets`] at many points at once, on lanes.
 
-use crate::FormulaJets;
-use crate::real::Scalar;
-use crate::tape::Tape;
-use crate::tape::VECTORS;
+use crate::jets::FormulaJets;
+use crate::lanes::Tape;
+use crate::lanes::VECTORS;
+use crate::lanes::real::Scalar;
 
 /// Memory for [`Block`]s, best kept from block to block.
 #[derive(Clone, Debug, Default)]

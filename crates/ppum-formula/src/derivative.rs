@@ -4,12 +4,35 @@
 //! point, and if that is undecided, of the piece above it (for further variables likewise): u = 0
 //! counts as positive if u grows with x, or does not change with x and grows with y.
 
-use crate::ast::Ast;
 use crate::graph::{Graph, NodeId, Op};
-use crate::lower::lower;
+use crate::language::ast::Ast;
+use crate::language::lower::lower;
+use crate::language::scope::Scope;
+use crate::limits::MAX_NODES;
 use crate::operation::{Binary, Comparison, Unary};
-use crate::scope::Scope;
-use crate::{DerivativeError, MAX_NODES};
+
+/// A derivative that cannot be formed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DerivativeError {
+    /// Derivatives are with respect to independent variables only.
+    #[error("no derivative with respect to `{name}`; independent variables are {known}")]
+    NotIndependent {
+        /// The name asked for.
+        name: String,
+        /// The independent variables.
+        known: String,
+    },
+    /// The derivatives have more than [`MAX_NODES`] operations.
+    #[error("the derivatives have more than {MAX_NODES} operations; simplify the formula")]
+    TooLarge,
+    /// [`FormulaJets`] know derivatives with respect to one or two variables.
+    #[error("derivatives of functions of one or two variables only; here are {variables}")]
+    Variables {
+        /// Number of independent variables.
+        variables: usize,
+    },
+}
 
 /// For each root its partial derivatives with respect to the independent variables, in order.
 pub(crate) fn gradients(

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use crate::limits::{MAX_DEPTH, MAX_LENGTH};
 use crate::printable::is_printable;
-use crate::{MAX_DEPTH, MAX_LENGTH};
 
 /// A mistake in the text of a formula.
 ///
-/// Displayed as place and problem, then the source line with the place marked:
+/// Displayed as place and mistake, then the source line with the place marked:
 ///
 /// ```text
 /// line 1, column 13: unknown name `thet`; did you mean `theta`?
@@ -15,10 +15,10 @@ use crate::{MAX_DEPTH, MAX_LENGTH};
 ///               ^^^^
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("line {line}, column {column}: {}\n{excerpt}", .problem.message(.found))]
+#[error("line {line}, column {column}: {}\n{excerpt}", .mistake.message(.found))]
 pub struct FormulaError {
     /// The mistake.
-    pub problem: Problem,
+    pub mistake: Mistake,
     /// Line of the offending text, from 1.
     pub line: usize,
     /// Column of its first character, from 1, counted in characters.
@@ -32,7 +32,7 @@ pub struct FormulaError {
 /// The kinds of mistakes in a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Problem {
+pub enum Mistake {
     /// The grammar wants something else here.
     Unexpected {
         /// The expectation.
@@ -108,7 +108,7 @@ pub enum Problem {
     InvalidOrder,
 }
 
-impl Problem {
+impl Mistake {
     /// The message without the place; `found` is the offending text.
     fn message(&self, found: &str) -> String {
         let quoted = if found.is_empty() { "the end".to_owned() } else { format!("`{found}`") };
@@ -202,7 +202,7 @@ impl Span {
 
 impl FormulaError {
     /// The error at a place of `source`.
-    pub(crate) fn new(source: &str, span: Span, problem: Problem) -> Self {
+    pub(crate) fn new(source: &str, span: Span, mistake: Mistake) -> Self {
         let before = &source[..span.start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         let rest = &source[line_start..];
@@ -210,7 +210,7 @@ impl FormulaError {
         let column = source[line_start..span.start].chars().count();
         let found = &source[span.range()];
         Self {
-            problem,
+            mistake,
             line: before.matches('\n').count() + 1,
             column: column + 1,
             found: shorten(found),

@@ -3,12 +3,13 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::derivative::gradients;
+use crate::derivative::{DerivativeError, gradients};
 use crate::error::FormulaError;
 use crate::graph::{self, Graph, NodeId};
+use crate::language::scope::Scope;
+use crate::language::{lower, parser};
+use crate::print;
 use crate::program::Program;
-use crate::scope::Scope;
-use crate::{MAX_NODES, lower, parser, print};
 
 /// A formula of the variables of a [`Scope`], ready for evaluation.
 ///
@@ -25,29 +26,6 @@ pub struct Formula {
     pub(crate) text: String,
     pub(crate) scope: Arc<Scope>,
     pub(crate) program: Program,
-}
-
-/// A derivative that cannot be formed.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DerivativeError {
-    /// Derivatives are with respect to independent variables only.
-    #[error("no derivative with respect to `{name}`; independent variables are {known}")]
-    NotIndependent {
-        /// The name asked for.
-        name: String,
-        /// The independent variables.
-        known: String,
-    },
-    /// The derivatives have more than [`MAX_NODES`] operations.
-    #[error("the derivatives have more than {MAX_NODES} operations; simplify the formula")]
-    TooLarge,
-    /// [`FormulaJets`] know derivatives with respect to one or two variables.
-    #[error("derivatives of functions of one or two variables only; here are {variables}")]
-    Variables {
-        /// Number of independent variables.
-        variables: usize,
-    },
 }
 
 impl Formula {

@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use crate::Table;
 use crate::operation::{Binary, Comparison, Unary, power};
+use crate::table::Table;
 
 /// Index of a node; an operand's is smaller than that of its user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

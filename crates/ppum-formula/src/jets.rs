@@ -19,13 +19,17 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use crate::derivative::DerivativeError;
 use crate::derivative::gradients;
+use crate::formula::Formula;
 use crate::formula::check_inputs;
 use crate::graph::{Graph, NodeId, Op};
+use crate::lanes::Tape;
+use crate::language::scope::Scope;
 use crate::program::Program;
 use crate::reciprocal::share_reciprocals;
-use crate::tape::Tape;
-use crate::{DerivativeError, Formula, Scope, WgslError, wgsl};
+use crate::wgsl;
+use crate::wgsl::WgslError;
 
 /// Values and derivatives of formulas of one scope.
 ///

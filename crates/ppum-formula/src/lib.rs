@@ -89,52 +89,37 @@
 //! [`MAX_NODES`] operations; anything beyond is an error. No text makes the parser crash or recurse
 //! without bound.
 
-mod ast;
 mod block;
 mod derivative;
 mod error;
 mod formula;
 mod graph;
-mod half_angle;
 mod jets;
 mod kinks;
-
-mod lexer;
+mod lanes;
+mod language;
 mod library;
-mod lower;
+mod limits;
 mod operation;
-mod parser;
 mod print;
 pub mod printable;
 mod program;
-pub mod real;
 mod reciprocal;
-mod roots;
-mod scope;
 pub mod spelling;
 mod substitute;
 mod table;
-mod tape;
 #[cfg(test)]
 mod tests;
 mod wgsl;
 
 pub use block::{Block, Scratch};
-pub use error::{FormulaError, Problem};
-pub use formula::{DerivativeError, Formula, one_line};
+pub use derivative::DerivativeError;
+pub use error::{FormulaError, Mistake};
+pub use formula::{Formula, one_line};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
-pub use scope::{Scope, ScopeError, VARIABLES};
+pub use lanes::real;
+pub use language::scope::{Scope, ScopeError, VARIABLES};
+pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_NODES};
 pub use table::{Table, TableError};
 pub use wgsl::{WgslError, wgsl_prelude};
-
-/// Deepest nesting of parentheses, calls, signs and powers. Deeper ones are machine-made or
-/// malicious; the parser needs up to 0.7 MiB of stack at this depth, a third of what a thread has.
-pub const MAX_DEPTH: usize = 200;
-
-/// Longest text of a formula, in bytes.
-pub const MAX_LENGTH: usize = 1 << 16;
-
-/// Most operations of a formula with its derivatives. Hand-written formulas have a hundred; this
-/// many still fit in some tens of megabytes and are made within a second.
-pub const MAX_NODES: usize = 1 << 18;

@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use crate::ast::precedence;
 use crate::graph::{NodeId, Op};
+use crate::language::ast::precedence;
+use crate::language::scope::Scope;
 use crate::library::{Function, name_of};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::program::Program;
-use crate::scope::Scope;
 
 /// Longer or deeper pieces of text get a name by `let`, as shared ones do: it keeps the text
 /// readable, and within the parser's limit of nesting.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::Table;
 use crate::graph::{Graph, NodeId, Op};
+use crate::table::Table;
 
 /// A list of operations, each the operand of later ones only, and the operations whose results
 /// are wanted. It is the common form from which every back end starts; here is the scalar one.

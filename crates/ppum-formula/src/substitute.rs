@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::derivative::DerivativeError;
+use crate::formula::Formula;
 use crate::graph::Graph;
+use crate::limits::MAX_NODES;
 use crate::program::Program;
-use crate::{DerivativeError, Formula, MAX_NODES};
 
 impl Formula {
     /// The formula with definitions in place of some of its inputs: pairs of an input's name and a

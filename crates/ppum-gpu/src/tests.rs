@@ -18,8 +18,8 @@ use crate::{Choice, Gpu, GpuError};
 pub(crate) fn gpu_or_skip() -> Option<Gpu> {
     match Gpu::open(Choice::Any) {
         Ok(gpu) => Some(gpu),
-        Err(error @ GpuError::NoAdapter { .. }) => {
-            skipped(&error);
+        Err(GpuError::NoAdapter { .. }) => {
+            skipped("no graphics adapter");
             None
         }
         Err(error) => panic!("{error}"),

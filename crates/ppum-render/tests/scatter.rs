@@ -262,9 +262,9 @@ fn infinite_at_a_tip() {
 /// A view in `T`, in f64, and by the reference, as bits.
 fn bits(field: &Field, view: &View) -> [Vec<u64>; 3] {
     let quantity = &Quantity::VonMises;
-    let wide = render::<f64>(field, view, quantity, unwatched()).unwrap();
-    let narrow = render::<f32>(field, view, quantity, unwatched()).unwrap();
-    let slow = reference(field, view, quantity, unwatched()).unwrap();
+    let wide = render::<f64>(field, view, quantity, unwatched()).expect("a picture");
+    let narrow = render::<f32>(field, view, quantity, unwatched()).expect("a picture");
+    let slow = reference(field, view, quantity, unwatched()).expect("a picture");
     let of = |raster: Raster<f64>| raster.values.into_iter().map(f64::to_bits).collect();
     let narrow = narrow.values.into_iter().map(|value| value.to_bits().into()).collect();
     [of(wide), narrow, of(slow)]
@@ -359,9 +359,9 @@ fn a_value_depends_on_its_picture_in_the_last_digits_only() {
 /// The value of the pixel in the middle: in f64, in f32, by the reference.
 fn values_at_center(field: &Field, view: &View) -> [f64; 3] {
     let (quantity, [i, j]) = (&Quantity::VonMises, view.pixels.map(|n| n / 2));
-    let wide = render::<f64>(field, view, quantity, unwatched()).unwrap();
-    let narrow = render::<f32>(field, view, quantity, unwatched()).unwrap();
-    let slow = reference(field, view, quantity, unwatched()).unwrap();
+    let wide = render::<f64>(field, view, quantity, unwatched()).expect("a picture");
+    let narrow = render::<f32>(field, view, quantity, unwatched()).expect("a picture");
+    let slow = reference(field, view, quantity, unwatched()).expect("a picture");
     [wide.value(i, j), narrow.value(i, j).into(), slow.value(i, j)]
 }
 

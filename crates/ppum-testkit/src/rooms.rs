@@ -32,6 +32,27 @@ pub fn check(sources: &Path, floors: Floors<'_>) {
     assert!(gone.is_empty(), "no rooms: {gone:?}");
 }
 
+/// Checks that ARCHITECTURE.md, in a parent folder of the sources, has the row of a crate: its rooms from the
+/// ground floor up.
+///
+/// # Panics
+/// If it has not; the message holds the row.
+pub fn check_page(sources: &Path, name: &str, floors: Floors<'_>) {
+    let page = sources.ancestors().map(|folder| folder.join("ARCHITECTURE.md"));
+    let page = page.map(std::fs::read_to_string).find_map(Result::ok).expect("the page is there");
+    let row = row(name, floors);
+    assert!(page.lines().any(|line| line == row), "the page lacks\n{row}");
+}
+
+/// `| name | ground floor · … · top floor |`.
+fn row(name: &str, floors: Floors<'_>) -> String {
+    let names = |floor: &&[(&str, &[&str])]| {
+        floor.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(" ")
+    };
+    let floors: Vec<_> = floors.iter().map(names).collect();
+    format!("| `{name}` | {} |", floors.join(" · "))
+}
+
 fn arrows_lead_down(floors: Floors<'_>) {
     let mut below = BTreeSet::new();
     for floor in floors {
@@ -126,6 +147,12 @@ mod tests {
             std::fs::write(sources.join(name), code).expect("a file");
         }
         sources
+    }
+
+    #[test]
+    fn rows_go_up() {
+        let floors: Floors<'_> = &[&[("a", &[]), ("b", &[])], &[("c", &["a"])]];
+        assert_eq!(row("house", floors), "| `house` | a b · c |");
     }
 
     #[test]

@@ -21,13 +21,13 @@ use crate::vec2::{Rect, Vec2};
 
 /// The first thing found wrong in a dataset.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {problem}")]
+#[error("{place}: {mistake}")]
 #[non_exhaustive]
 pub struct CheckError {
     /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
     pub place: String,
     /// The mistake, and what was expected.
-    pub problem: String,
+    pub mistake: String,
 }
 
 type Checked = Result<(), CheckError>;
@@ -46,8 +46,8 @@ impl Dataset {
     pub fn check(&self) -> Checked {
         domain::check(&self.domain)?;
         formulas::check(self)?;
-        if let Some((name, problem)) = self.equation.mistake(&self.domain) {
-            return fail(&format!("equation.{name}"), problem);
+        if let Some((name, mistake)) = self.equation.mistake(&self.domain) {
+            return fail(&format!("equation.{name}"), mistake);
         }
         require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
         for (k, step) in self.steps.iter().enumerate() {
@@ -70,12 +70,12 @@ impl CheckError {
     }
 }
 
-fn fail(place: &str, problem: String) -> Checked {
-    Err(CheckError { place: place.to_owned(), problem })
+fn fail(place: &str, mistake: String) -> Checked {
+    Err(CheckError { place: place.to_owned(), mistake })
 }
 
-fn require(condition: bool, place: &str, problem: impl FnOnce() -> String) -> Checked {
-    if condition { Ok(()) } else { fail(place, problem()) }
+fn require(condition: bool, place: &str, mistake: impl FnOnce() -> String) -> Checked {
+    if condition { Ok(()) } else { fail(place, mistake()) }
 }
 
 /// Checks every entry of an array; the place names the first that fails.
@@ -83,11 +83,11 @@ fn check_all<T>(
     name: &str,
     values: &[T],
     good: impl Fn(&T) -> bool,
-    problem: impl Fn(&T) -> String,
+    mistake: impl Fn(&T) -> String,
 ) -> Checked {
     match values.iter().position(|v| !good(v)) {
         None => Ok(()),
-        Some(k) => fail(&format!("{name}[{k}]"), problem(&values[k])),
+        Some(k) => fail(&format!("{name}[{k}]"), mistake(&values[k])),
     }
 }
 

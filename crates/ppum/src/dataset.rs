@@ -23,6 +23,7 @@ use ppum_formula::Table;
 
 /// A solved problem, or a field from elsewhere in the same representation.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Dataset {
     /// One line that names the problem.
     pub title: String,
@@ -68,6 +69,7 @@ impl Dataset {
 
 /// One state of a quasi-static series.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Step {
     /// Load factor or pseudo-time of the step.
     pub load: f64,
@@ -186,6 +188,7 @@ impl Partition {
 /// `block_offset[b]` in each component's array. Monomials are ordered by total degree, then by
 /// descending power of x: 1, ξ, η, ξ², ξη, η², …
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FieldData {
     /// Name, e.g. `displacement`.
     pub name: String,

@@ -6,9 +6,9 @@
 //! exactly what they say, and are on a crack only up to the rounding of the offset.
 //!
 //! ```
-//! use crate::crack::{Crack, CrackEnd, SegmentId};
-//! use crate::sides::Segments;
-//! use crate::vec2::{Vec2, vec2};
+//! use ppum::crack::{Crack, CrackEnd, SegmentId};
+//! use ppum::sides::Segments;
+//! use ppum::vec2::{Vec2, vec2};
 //!
 //! let points = vec![vec2(-1.0, -0.3), vec2(1.0, 0.4)];
 //! let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];

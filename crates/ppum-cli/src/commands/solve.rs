@@ -18,7 +18,6 @@ use crate::memory;
 use crate::number::{Number, count, json, places};
 use crate::output::Output;
 use crate::progress::Bar;
-use crate::remedy::{with_remedy, with_smaller};
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
@@ -75,9 +74,9 @@ impl Args {
             let bar = Bar::new();
             let memory = self.memory();
             let solve = || {
-                let plan = Plan::new(&problem, memory, &bar).map_err(with_remedy)?;
+                let plan = Plan::new(&problem, memory, &bar)?;
                 ppum_format::check(plan.dataset())?;
-                plan.solve(&bar).map_err(with_remedy)
+                anyhow::Ok(plan.solve(&bar)?)
             };
             threads::with(self.threads, solve)??
         };
@@ -86,7 +85,7 @@ impl Args {
             out.exact().write_all(&ppum_format::to_bytes(&dataset)?)?;
             return report.write(&mut Output::stderr(), &dataset);
         }
-        ppum_format::write(&dataset, &target).map_err(with_smaller)?;
+        ppum_format::write(&dataset, &target)?;
         if self.json {
             warn(&report.warnings);
             return Ok(json(out, &report)?);
@@ -123,8 +122,8 @@ impl Args {
     fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
         let checked = || {
             let bar = Bar::new();
-            let plan = Plan::new(problem, self.memory(), &bar).map_err(with_remedy)?;
-            plan.check(&bar).map_err(with_remedy)?;
+            let plan = Plan::new(problem, self.memory(), &bar)?;
+            plan.check(&bar)?;
             ppum_format::check(plan.dataset())?;
             anyhow::Ok(*plan.estimate())
         };

@@ -14,7 +14,7 @@ fn has_adapter(lab: &Lab) -> bool {
     let adapters = report["adapters"].as_array().unwrap();
     let found = adapters.iter().any(|row| row["splat"] == true);
     if !found {
-        skipped(&"no graphics adapter");
+        skipped("no graphics adapter");
     }
     found
 }

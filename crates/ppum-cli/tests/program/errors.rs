@@ -30,7 +30,10 @@ fn unknown_quantities_list_the_known() {
             assert!(complaint.contains(known), "{known}: {complaint}");
         }
     }
-    assert!(lab.fail("probe plate.h5 --at 0,0 -q error").contains("exact solution"));
+    assert!(
+        lab.fail("probe plate.h5 --at 0,0 -q error")
+            .contains("; give it as [exact] in the problem file")
+    );
     assert!(lab.fail("probe plate.h5 --at 0,0 -q phi:99999").contains("no patch 99999"));
     let lab = Lab::solved(LINEAR);
     assert!(!lab.fail("probe plate.h5 --at 0,0 -q sxx").contains("von-mises"));

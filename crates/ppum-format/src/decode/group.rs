@@ -41,8 +41,8 @@ impl Group<'_> {
         Err(ReadError::object(&key, format!("does not belong to `{word}`; leave it out")))
     }
 
-    pub(super) fn error(&self, name: &str, problem: impl Into<String>) -> ReadError {
-        ReadError::object(&self.path_of(name), problem)
+    pub(super) fn error(&self, name: &str, mistake: impl Into<String>) -> ReadError {
+        ReadError::object(&self.path_of(name), mistake)
     }
 
     /// The values of an array or attribute of the given shape.
@@ -142,7 +142,7 @@ impl Group<'_> {
     }
 
     pub(super) fn word<T: Copy>(&self, words: &Words<T>, word: &str, name: &str) -> Read<T> {
-        value(words, word).map_err(|problem| self.error(name, problem))
+        value(words, word).map_err(|mistake| self.error(name, mistake))
     }
 }
 
@@ -186,11 +186,11 @@ pub(super) fn numbered<T>(
     for number in 0..count {
         let number = format!("{number:04}");
         if !list.holds(&number, Form::Group)? {
-            let problem = format!(
+            let mistake = format!(
                 "is missing: the {count} numbered groups here must be 0000, 0001, …, of four digits \
                  at least and without gaps"
             );
-            return Err(list.error(&number, problem));
+            return Err(list.error(&number, mistake));
         }
         items.push(item(&mut list.group(&number)?)?);
     }

@@ -43,8 +43,8 @@ fn table(group: &mut Group, left: &mut usize) -> Read<Table> {
     let shape: Vec<Extent> = rows.chain([Extent::Is(x.len() as u64)]).collect();
     let values = group.array::<f64>("values", &shape)?;
     *left = left.checked_sub(values.len()).ok_or_else(|| {
-        let problem = format!("the tables have more than {MAX_TABLE_VALUES} values together");
-        group.error("values", problem)
+        let mistake = format!("the tables have more than {MAX_TABLE_VALUES} values together");
+        group.error("values", mistake)
     })?;
     let table = match y {
         Some(y) => Table::surface(&name, x, y, values),

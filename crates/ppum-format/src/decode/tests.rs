@@ -132,10 +132,10 @@ fn tables_are_checked() {
         ("tables/0002/values", Array::vector([0.0; 12]), "expected [3, 4]"),
         ("tables/0001/y", Array::vector([0.0; 0]), "expected [0, 2]"),
     ];
-    for (key, array, problem) in cases {
+    for (key, array, mistake) in cases {
         let message = with(key, array);
         let object = key.replace("0001/y", "0001/values");
-        assert!(message.starts_with(&object) && message.contains(problem), "{message}");
+        assert!(message.starts_with(&object) && message.contains(mistake), "{message}");
     }
     let none = complaint_after(|c| {
         put(c, "tables/0002/y", Array::vector([0.0; 0]));

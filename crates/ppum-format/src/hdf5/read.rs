@@ -22,7 +22,7 @@ use crate::content::{Array, Content, Values, join};
 use crate::error::ReadError;
 use header::{DATASPACE, DATATYPE, GROUP_INFO, Header, LAYOUT, LINK, LINK_INFO, SYMBOL_TABLE};
 use links::{Target, links};
-use source::{Parsed, Problem, Source, fail};
+use source::{Mistake, Parsed, Source, fail};
 use storage::elements;
 use texts::Texts;
 use types::{Kind, Space, Type};
@@ -37,7 +37,7 @@ const DEPTH: usize = 8;
 pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Content, ReadError> {
     let account = Account::for_file(bytes.len() as u64);
     let (source, root) = superblock::open(bytes, &account)
-        .map_err(|Problem(message)| ReadError::Hdf5 { message: message.into() })?;
+        .map_err(|Mistake(message)| ReadError::Hdf5 { message: message.into() })?;
     let mut walk = Walk { content: Content::new(), source, texts: Texts::new(source) };
     let header = walk.header(root, "")?;
     walk.group(&header, "", DEPTH)?;
@@ -148,13 +148,13 @@ fn form(header: &Header) -> Form {
 }
 
 /// An error at an object; the root is `/`.
-fn error(path: &str, problem: impl Into<Problem>) -> ReadError {
-    let Problem(problem) = problem.into();
-    ReadError::object(if path.is_empty() { "/" } else { path }, problem)
+fn error(path: &str, mistake: impl Into<Mistake>) -> ReadError {
+    let Mistake(mistake) = mistake.into();
+    ReadError::object(if path.is_empty() { "/" } else { path }, mistake)
 }
 
 fn elsewhere(path: &str) -> ReadError {
-    let problem = "leads to no group or dataset of this file: soft and external links and named types \
+    let mistake = "leads to no group or dataset of this file: soft and external links and named types \
                    are not read; copy into the file what it leads to, or leave it out";
-    error(path, problem)
+    error(path, mistake)
 }

@@ -6,7 +6,7 @@ use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, LocalCrack, Side, TipId};
 use ppum::dataset::{Dataset, Equation, FieldData, Step};
 use ppum::field::Field;
-use ppum::function::{Frame, Function, FunctionKind};
+use ppum::function::{Frame, FunctionKind};
 use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -21,44 +21,20 @@ fn sum(functions: &[(f64, &str, Frame)], cracks: Vec<Crack>) -> Dataset {
     let domain = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
     let cover = Cover::grid(domain, [3, 3]).expect("a cover");
     let partition = cover.partition(1.5, WeightFunction::Linear).expect("a partition");
-    let (n, f) = (partition.len() as u32, functions.len() as u32);
-    let named = |(_, text, frame): &(f64, &str, Frame)| Function {
-        name: String::new(),
-        kind: FunctionKind::formula(text, *frame),
-    };
-    let field = FieldData {
-        name: "potential".into(),
-        unit: String::new(),
-        components: vec!["u".into()],
-        patch_blocks: (0..=n).map(|k| k * f).collect(),
-        block_function: (0..n).flat_map(|_| 0..f).collect(),
-        block_degree: vec![0; (n * f) as usize],
-        block_offset: (0..u64::from(n * f)).collect(),
-        coefficients: vec![(0..n).flat_map(|_| functions.iter().map(|f| f.0)).collect()],
-        exact: vec![],
-    };
-    let step = Step {
-        load: 1.0,
-        partition,
-        cracks,
-        functions: functions.iter().map(named).collect(),
-        fields: vec![field],
-        attributes: vec![],
-        intensities: vec![],
-        history: vec![],
-        warnings: vec![],
-        reactions: vec![],
-    };
-    let data = Dataset {
-        title: String::new(),
-        program: "test".into(),
-        problem: None,
-        domain: domain.into(),
-        equation: Equation::poisson(1.0),
-        quantities: vec![],
-        tables: vec![],
-        steps: vec![step],
-    };
+    let mut field = FieldData::new("potential", &["u"]);
+    let blocks: Vec<_> = (0..functions.len() as u32).map(|function| (function, 0)).collect();
+    for patch in 0..partition.len() {
+        field.push_patch(&blocks);
+        let values = field.coefficients_mut(patch).flatten();
+        values.zip(functions).for_each(|(value, function)| *value = function.0);
+    }
+    let mut step = Step::new(partition).with_field(field);
+    step.cracks = cracks;
+    for (_, text, frame) in functions {
+        step = step.with_function("", FunctionKind::formula(text, *frame));
+    }
+    let mut data = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
+    data.program = "test".into();
     // as from a file
     let bytes = ppum_format::to_bytes(&data).expect("a dataset");
     ppum_format::from_bytes(bytes).expect("a file")

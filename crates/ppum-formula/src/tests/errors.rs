@@ -1,6 +1,6 @@
 //! Places and wording of errors.
 
-use crate::{DerivativeError, Formula, FormulaError, Problem, Scope};
+use crate::{DerivativeError, Formula, FormulaError, Mistake, Scope};
 
 use super::parse;
 
@@ -8,12 +8,12 @@ fn error(text: &str) -> FormulaError {
     Formula::parse(text, &Scope::polar()).expect_err(text)
 }
 
-fn unexpected(expected: &'static str) -> Problem {
-    Problem::Unexpected { expected }
+fn unexpected(expected: &'static str) -> Mistake {
+    Mistake::Unexpected { expected }
 }
 
-fn arguments(expected: usize, given: usize, suggestion: Option<&'static str>) -> Problem {
-    Problem::ArgumentCount { expected, given, suggestion }
+fn arguments(expected: usize, given: usize, suggestion: Option<&'static str>) -> Mistake {
+    Mistake::ArgumentCount { expected, given, suggestion }
 }
 
 fn similar(name: &str) -> Option<String> {
@@ -22,7 +22,7 @@ fn similar(name: &str) -> Option<String> {
 
 #[test]
 fn places_and_problems() {
-    let cases: Vec<(&str, usize, usize, &str, Problem)> = vec![
+    let cases: Vec<(&str, usize, usize, &str, Mistake)> = vec![
         ("", 1, 1, "", unexpected("a number, a name or `(`")),
         ("# only a comment", 1, 17, "", unexpected("a number, a name or `(`")),
         ("x +", 1, 4, "", unexpected("a number, a name or `(`")),
@@ -44,49 +44,49 @@ fn places_and_problems() {
             1,
             13,
             "thet",
-            Problem::UnknownName { suggestion: similar("theta") },
+            Mistake::UnknownName { suggestion: similar("theta") },
         ),
-        ("velocity", 1, 1, "velocity", Problem::UnknownName { suggestion: None }),
-        ("let size = 1; sze", 1, 15, "sze", Problem::UnknownName { suggestion: similar("size") }),
-        ("PI*x", 1, 1, "PI", Problem::UnknownName { suggestion: similar("pi") }),
-        ("(let a = 1; a) + a", 1, 18, "a", Problem::UnknownName { suggestion: None }),
-        ("1 + snh(x)", 1, 5, "snh", Problem::UnknownFunction { suggestion: similar("sinh") }),
-        ("ln(x)", 1, 1, "ln", Problem::UnknownFunction { suggestion: similar("log") }),
-        ("POW(x, 2)", 1, 1, "POW", Problem::UnknownFunction { suggestion: similar("^") }),
-        ("sitn(x)", 1, 1, "sitn", Problem::UnknownFunction { suggestion: similar("sin") }),
-        ("tehta/2", 1, 1, "tehta", Problem::UnknownName { suggestion: similar("theta") }),
+        ("velocity", 1, 1, "velocity", Mistake::UnknownName { suggestion: None }),
+        ("let size = 1; sze", 1, 15, "sze", Mistake::UnknownName { suggestion: similar("size") }),
+        ("PI*x", 1, 1, "PI", Mistake::UnknownName { suggestion: similar("pi") }),
+        ("(let a = 1; a) + a", 1, 18, "a", Mistake::UnknownName { suggestion: None }),
+        ("1 + snh(x)", 1, 5, "snh", Mistake::UnknownFunction { suggestion: similar("sinh") }),
+        ("ln(x)", 1, 1, "ln", Mistake::UnknownFunction { suggestion: similar("log") }),
+        ("POW(x, 2)", 1, 1, "POW", Mistake::UnknownFunction { suggestion: similar("^") }),
+        ("sitn(x)", 1, 1, "sitn", Mistake::UnknownFunction { suggestion: similar("sin") }),
+        ("tehta/2", 1, 1, "tehta", Mistake::UnknownName { suggestion: similar("theta") }),
         ("x > 0 ? 1 : 2", 1, 7, "?", unexpected("`if(condition, a, b)`")),
         ("x² + 1", 1, 2, "²", unexpected("`^2`")),
         ("if(x ≤ y, 1, 2)", 1, 6, "≤", unexpected("`<=`")),
-        ("x(y)", 1, 1, "x", Problem::NotAFunction),
-        ("pi(y)", 1, 1, "pi", Problem::NotAFunction),
-        ("sin + 1", 1, 1, "sin", Problem::MissingArguments),
+        ("x(y)", 1, 1, "x", Mistake::NotAFunction),
+        ("pi(y)", 1, 1, "pi", Mistake::NotAFunction),
+        ("sin + 1", 1, 1, "sin", Mistake::MissingArguments),
         ("x +\n  atan2(y)", 2, 3, "atan2", arguments(2, 1, Some("atan"))),
         ("sin()", 1, 1, "sin", arguments(1, 0, None)),
         ("atan(y, x)", 1, 1, "atan", arguments(1, 2, Some("atan2"))),
         ("max(x, y, r)", 1, 1, "max", arguments(2, 3, None)),
         ("clamp(x, y)", 1, 1, "clamp", arguments(3, 2, None)),
-        ("a = 2; a*x", 1, 1, "a", Problem::MissingLet),
+        ("a = 2; a*x", 1, 1, "a", Mistake::MissingLet),
         ("if(x = 1, 2, 3)", 1, 6, "=", unexpected("`==` to compare")),
         ("x = 1", 1, 3, "=", unexpected("`==` to compare")),
-        ("let x = 1; x", 1, 5, "x", Problem::NameTaken),
-        ("let pi = 3; pi", 1, 5, "pi", Problem::NameTaken),
-        ("let a = 1; let a = 2; a", 1, 16, "a", Problem::NameTaken),
-        ("let a = a + 1; a", 1, 9, "a", Problem::SelfReference),
-        ("1e + x", 1, 1, "1e", Problem::InvalidNumber),
-        ("x + 1e999", 1, 5, "1e999", Problem::InvalidNumber),
-        ("if(0 < x < 1, 1, 0)", 1, 10, "<", Problem::ChainedComparison),
-        ("x + (y < 1)", 1, 6, "y < 1", Problem::ConditionForNumber),
-        ("x < y", 1, 1, "x < y", Problem::ConditionForNumber),
-        ("if(x, 1, 0)", 1, 4, "x", Problem::NumberForCondition),
-        ("if(x > 0 and y, 1, 0)", 1, 14, "y", Problem::NumberForCondition),
-        ("not x", 1, 5, "x", Problem::NumberForCondition),
-        ("2*table(kc, x)", 1, 9, "kc", Problem::NoTables),
+        ("let x = 1; x", 1, 5, "x", Mistake::NameTaken),
+        ("let pi = 3; pi", 1, 5, "pi", Mistake::NameTaken),
+        ("let a = 1; let a = 2; a", 1, 16, "a", Mistake::NameTaken),
+        ("let a = a + 1; a", 1, 9, "a", Mistake::SelfReference),
+        ("1e + x", 1, 1, "1e", Mistake::InvalidNumber),
+        ("x + 1e999", 1, 5, "1e999", Mistake::InvalidNumber),
+        ("if(0 < x < 1, 1, 0)", 1, 10, "<", Mistake::ChainedComparison),
+        ("x + (y < 1)", 1, 6, "y < 1", Mistake::ConditionForNumber),
+        ("x < y", 1, 1, "x < y", Mistake::ConditionForNumber),
+        ("if(x, 1, 0)", 1, 4, "x", Mistake::NumberForCondition),
+        ("if(x > 0 and y, 1, 0)", 1, 14, "y", Mistake::NumberForCondition),
+        ("not x", 1, 5, "x", Mistake::NumberForCondition),
+        ("2*table(kc, x)", 1, 9, "kc", Mistake::NoTables),
         ("äö + x", 1, 1, "ä", unexpected("a number, a name or an operator")),
     ];
-    for (text, line, column, found, problem) in cases {
+    for (text, line, column, found, mistake) in cases {
         let error = error(text);
-        assert_eq!(error.problem, problem, "{text}");
+        assert_eq!(error.mistake, mistake, "{text}");
         assert_eq!((error.line, error.column), (line, column), "{text}");
         assert_eq!(error.found, found, "{text}");
     }

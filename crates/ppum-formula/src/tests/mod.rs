@@ -9,6 +9,7 @@ mod kinks;
 mod lanes;
 mod language;
 mod random;
+mod rooms;
 mod sides;
 mod tables;
 mod westergaard;

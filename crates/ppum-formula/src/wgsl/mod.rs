@@ -12,10 +12,11 @@ mod table;
 use std::sync::Arc;
 
 use crate::graph::{NodeId, Op};
+use crate::language::scope::{Scope, VARIABLES};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::program::Program;
+use crate::table::Table;
 use crate::wgsl::table::{MAX_ELEMENTS, elements};
-use crate::{Scope, Table, VARIABLES};
 
 /// The functions that the texts of [`FormulaJets::wgsl`](crate::FormulaJets::wgsl) call. A module needs
 /// them once. Their names begin with `ppum_`.

@@ -5,7 +5,7 @@
 //! the innermost blocks the coefficients of one cell.
 
 use super::number;
-use crate::Table;
+use crate::table::Table;
 
 /// Most knots or cubics of a table. The text grows with them, and so does the time to compile it: a software
 /// driver needs two seconds for so many.

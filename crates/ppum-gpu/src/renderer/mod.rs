@@ -3,6 +3,7 @@
 pub(crate) mod drawn;
 mod targets;
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::Arc;
 
 use ppum::field::Field;

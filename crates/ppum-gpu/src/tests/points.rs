@@ -381,18 +381,10 @@ fn cracks() -> Vec<Crack> {
 fn step(cracks: Vec<Crack>) -> Step {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let cover = Cover::uniform(domain, 0).expect("one cell");
-    Step {
-        load: 1.0,
-        partition: cover.partition(1.25, WeightFunction::Linear).expect("one patch"),
-        cracks,
-        functions: Vec::new(),
-        fields: Vec::new(),
-        attributes: Vec::new(),
-        intensities: Vec::new(),
-        history: Vec::new(),
-        warnings: Vec::new(),
-        reactions: Vec::new(),
-    }
+    let partition = cover.partition(1.25, WeightFunction::Linear).expect("one patch");
+    let mut step = Step::new(partition);
+    step.cracks = cracks;
+    step
 }
 
 /// Offsets from the size of a plate down to 10⁻¹⁵, with the centre itself and points on axes.

@@ -45,8 +45,8 @@ const METHODS: [Method; 2] = [Method::Gather, Method::Splat];
 fn renderer_or_skip() -> Option<Renderer> {
     match Renderer::open(Choice::Any) {
         Ok(renderer) => Some(renderer),
-        Err(error @ GpuError::NoAdapter { .. }) => {
-            skipped(&error);
+        Err(GpuError::NoAdapter { .. }) => {
+            skipped("no graphics adapter");
             None
         }
         Err(error) => panic!("{error}"),

@@ -21,7 +21,9 @@ fn series() -> Dataset {
         Recipe { cracks: vec![kinked(), straight], random_rounds: 1, zone: 0.15, ..coarse.clone() },
     ];
     let steps = recipes.iter().map(Recipe::step).collect();
-    Dataset { steps, ..coarse.dataset() }
+    let mut dataset = coarse.dataset();
+    dataset.steps = steps;
+    dataset
 }
 
 /// Pictures are read after the next ones are begun, in another order.

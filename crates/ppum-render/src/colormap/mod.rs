@@ -23,7 +23,7 @@ mod table;
 use crate::image::Rgba;
 use ppum::text::hint;
 use space::Space;
-use stops::{Stops, Wrong, wrong};
+use stops::{Mistake, Stops};
 
 /// Names of the built-in maps.
 pub const NAMES: [&str; 7] =
@@ -65,14 +65,14 @@ pub enum ColormapError {
         name: String,
     },
     /// A file that is not understood.
-    #[error("colour map '{name}', {place}: {problem}")]
+    #[error("colour map '{name}', {place}: {mistake}")]
     File {
         /// Name of the map.
         name: String,
         /// Line, column or key.
         place: String,
         /// The mistake, and what to write.
-        problem: String,
+        mistake: String,
     },
 }
 
@@ -121,8 +121,8 @@ impl Colormap {
     /// space that is not supported.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
         let found = read(text).and_then(|stops| Ok((stops.entries()?, stops)));
-        let ((positions, entries), stops) = found.map_err(|Wrong { place, problem }| {
-            ColormapError::File { name: name.to_owned(), place, problem }
+        let ((positions, entries), stops) = found.map_err(|Mistake { place, text: mistake }| {
+            ColormapError::File { name: name.to_owned(), place, mistake }
         })?;
         Ok(Self {
             name: name.to_owned(),
@@ -180,10 +180,10 @@ impl Colormap {
 }
 
 /// Reads a file of any form.
-fn read(text: &str) -> Result<Stops, Wrong> {
+fn read(text: &str) -> Result<Stops, Mistake> {
     let text = text.trim_start_matches('\u{feff}');
     if text.len() as u64 > LONGEST {
-        return Err(wrong(
+        return Err(Mistake::new(
             "the whole file",
             "has more than 16 MiB; a colour map has some thousand colours",
         ));
@@ -191,8 +191,8 @@ fn read(text: &str) -> Result<Stops, Wrong> {
     match text.trim_start().chars().next() {
         Some('[' | '{') => json::read(text),
         Some('<') => {
-            let problem = "XML is not supported; ParaView reads it and exports it as JSON";
-            Err(wrong("the whole file", problem))
+            let mistake = "XML is not supported; ParaView reads it and exports it as JSON";
+            Err(Mistake::new("the whole file", mistake))
         }
         _ => table::read(text).map(Stops::from),
     }

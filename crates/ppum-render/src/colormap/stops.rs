@@ -13,13 +13,15 @@ const LEAST_SAMPLES: usize = 8;
 
 /// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wrong {
+pub(super) struct Mistake {
     pub(super) place: String,
-    pub(super) problem: String,
+    pub(super) text: String,
 }
 
-pub(super) fn wrong(place: impl Into<String>, problem: impl Into<String>) -> Wrong {
-    Wrong { place: place.into(), problem: problem.into() }
+impl Mistake {
+    pub(super) fn new(place: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { place: place.into(), text: text.into() }
+    }
 }
 
 /// A colour as a file gives it.
@@ -59,12 +61,15 @@ pub(super) type Entries = (Vec<f64>, Vec<[f64; 3]>);
 
 impl Stops {
     /// Colours and positions, checked and scaled.
-    pub(super) fn entries(&self) -> Result<Entries, Wrong> {
+    pub(super) fn entries(&self) -> Result<Entries, Mistake> {
         if self.stops.len() < 2 {
-            return Err(wrong("the whole file", "has fewer than two colours; give at least two"));
+            return Err(Mistake::new(
+                "the whole file",
+                "has fewer than two colours; give at least two",
+            ));
         }
         if self.stops.len() > MOST {
-            return Err(wrong(&self.stops[MOST].place, too_many()));
+            return Err(Mistake::new(&self.stops[MOST].place, too_many()));
         }
         let (positions, colors) = (self.positions()?, self.colors());
         Ok(match self.space {
@@ -85,25 +90,28 @@ impl Stops {
     }
 
     /// Positions scaled to 0 … 1; none if the file gives none.
-    fn positions(&self) -> Result<Vec<f64>, Wrong> {
+    fn positions(&self) -> Result<Vec<f64>, Mistake> {
         let given: Vec<f64> = self.stops.iter().filter_map(|stop| stop.at).collect();
         if given.is_empty() {
             return Ok(given);
         }
         if let Some(stop) = self.stops.iter().find(|stop| stop.at.is_none()) {
-            return Err(wrong(&stop.place, "has no position, but others have; give all or none"));
+            return Err(Mistake::new(
+                &stop.place,
+                "has no position, but others have; give all or none",
+            ));
         }
         for (pair, stop) in given.windows(2).zip(&self.stops[1..]) {
             if pair[1] < pair[0] {
-                let problem =
+                let mistake =
                     format!("position {:?} follows {:?}; positions must grow", pair[1], pair[0]);
-                return Err(wrong(&stop.place, problem));
+                return Err(Mistake::new(&stop.place, mistake));
             }
         }
         let (first, last) = (given[0], given[given.len() - 1]);
         if !(last - first).is_finite() || last == first {
-            let problem = format!("run from {first:?} to {last:?}; they must span a finite range");
-            return Err(wrong("positions", problem));
+            let mistake = format!("run from {first:?} to {last:?}; they must span a finite range");
+            return Err(Mistake::new("positions", mistake));
         }
         Ok(given.iter().map(|at| (at - first) / (last - first)).collect())
     }

@@ -32,7 +32,8 @@ const PLACES: [[f64; 2]; 5] =
 /// # Errors
 /// Functions that do not compile.
 pub fn rounding(dataset: &Dataset, step: usize) -> Result<(f64, Vec2), FieldError> {
-    let noise = Dataset { steps: vec![with_noise(&dataset.steps[step])], ..dataset.clone() };
+    let mut noise = dataset.clone();
+    noise.steps = vec![with_noise(&dataset.steps[step])];
     let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
     let cells = &dataset.steps[step].partition.cell;
     let gradients: Vec<[f64; 2]> =

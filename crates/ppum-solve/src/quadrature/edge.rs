@@ -20,6 +20,9 @@ const ZERO: f64 = 1e-14;
 /// Distances from the line of a segment below this part of its length count as zero.
 const ON_LINE: f64 = 1e-14;
 
+/// Rounding of coordinates, as a part of them.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// Distance behind a border, in units of a cell, at which it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
 
@@ -117,8 +120,7 @@ impl Quadrature<'_> {
         normal: Vec2,
     ) -> Vec<EdgeRule> {
         let line = Line::new(cell.center(), [from, to], normal);
-        let inside =
-            line.inside(cell, line.ends, TOLERANCE).filter(|part| line.belongs_to(cell, *part));
+        let inside = line.inside(cell, line.ends, line.slack).filter(|_| line.belongs_to(cell));
         let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
         let left = Cell::new(self.divisions);
@@ -137,6 +139,9 @@ struct Line {
     /// The segment that the points are on, and s at its ends.
     segment: [Vec2; 2],
     ends: [f64; 2],
+    /// Distances that are rounding. They are those of the segment, not of a cell: cells of several sizes on both
+    /// sides of it must agree whose it is.
+    slack: f64,
 }
 
 impl Line {
@@ -147,18 +152,19 @@ impl Line {
         let near = if from.length() < to.length() { from } else { to };
         let foot = tangent.left() * tangent.left().dot(near);
         let ends = [tangent.dot(from), tangent.dot(to)];
-        Self { anchor, tangent, normal, foot, segment, ends }
+        let largest = segment.iter().fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+        let slack = TOLERANCE * (segment[1] - segment[0]).length() + ROUNDING * largest;
+        Self { anchor, tangent, normal, foot, segment, ends, slack }
     }
 
     /// The part of \[ends\] inside a box, if it has a length. A line along a border is inside for a
-    /// positive `slack`, a part of the box's size.
+    /// positive `slack`, a distance.
     fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
         let [mut lo, mut hi] = ends;
         let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
         for axis in [main, 1 - main] {
             let (min, max) = self.borders(rect, axis);
-            if let Some(at) = self.level(rect, axis, (lo, hi)) {
-                let slack = slack * (max - min);
+            if let Some(at) = self.level(axis) {
                 if at < min - slack || at > max + slack {
                     return None;
                 }
@@ -175,20 +181,19 @@ impl Line {
         (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
     }
 
-    /// Coordinate of a part of the line along an axis, if that is one place but for rounding.
-    fn level(&self, rect: &Rect, axis: usize, (lo, hi): (f64, f64)) -> Option<f64> {
-        let slope = component(self.tangent, axis);
-        let middle = component(self.foot, axis) + slope * (0.5 * (lo + hi));
-        (slope.abs() * (hi - lo) <= TOLERANCE * component(rect.size(), axis)).then_some(middle)
+    /// Coordinate of the segment along an axis, relative to the anchor, if that is one place but for rounding.
+    fn level(&self, axis: usize) -> Option<f64> {
+        let [from, to] = self.segment.map(|p| component(p, axis));
+        let middle = 0.5 * (from + to) - component(self.anchor, axis);
+        ((to - from).abs() <= self.slack).then_some(middle)
     }
 
-    /// False if this part of the line runs along a border of the box and the normal points into it.
-    fn belongs_to(&self, rect: &Rect, part: (f64, f64)) -> bool {
+    /// False if the line runs along a border of the box and the normal points into it.
+    fn belongs_to(&self, rect: &Rect) -> bool {
         let points_in = |axis: usize| {
-            let Some(at) = self.level(rect, axis, part) else { return false };
+            let Some(at) = self.level(axis) else { return false };
             let ((min, max), normal) = (self.borders(rect, axis), component(self.normal, axis));
-            let slack = TOLERANCE * (max - min);
-            (at <= min + slack && normal > 0.0) || (at >= max - slack && normal < 0.0)
+            (at <= min + self.slack && normal > 0.0) || (at >= max - self.slack && normal < 0.0)
         };
         !points_in(0) && !points_in(1)
     }
@@ -230,7 +235,8 @@ impl Run<'_> {
         let covered: Vec<(u32, (f64, f64))> = coverers
             .iter()
             .filter_map(|&i| {
-                Some((i, self.line.inside(&partition.support(i as usize), [lo, hi], -TOLERANCE)?))
+                let support = partition.support(i as usize);
+                Some((i, self.line.inside(&support, [lo, hi], -self.line.slack)?))
             })
             .collect();
         let borders = covered.iter().flat_map(|&(_, (a, b))| [a, b]).collect();

@@ -187,14 +187,12 @@ fn fits(needs: Estimate, memory: Option<u64>) -> Result<Estimate, SolveError> {
 }
 
 fn dataset(problem: &Problem, step: Step) -> Dataset {
-    Dataset {
-        title: problem.title.clone(),
-        program: concat!("ppum ", env!("CARGO_PKG_VERSION")).into(),
-        problem: problem.text.clone(),
-        domain: problem.domain.clone(),
-        equation: problem.equation.clone(),
-        quantities: problem.quantities.clone(),
-        tables: problem.tables.clone(),
-        steps: vec![step],
-    }
+    let mut dataset =
+        Dataset::new(problem.domain.clone(), problem.equation.clone()).with_step(step);
+    dataset.title.clone_from(&problem.title);
+    dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).into();
+    dataset.problem.clone_from(&problem.text);
+    dataset.quantities.clone_from(&problem.quantities);
+    dataset.tables.clone_from(&problem.tables);
+    dataset
 }

@@ -163,16 +163,11 @@ impl Solution {
 /// Writes coefficients that stand patch by patch and in each patch component by component.
 fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
     let mut rest = coefficients;
-    let mut starts = data.patch_blocks.iter().map(|&b| data.block_offset.get(b as usize).copied());
-    let mut first = starts.next().flatten().unwrap_or(0) as usize;
-    let all = data.coefficients[0].len();
-    for next in starts {
-        let next = next.map_or(all, |offset| offset as usize);
-        for component in &mut data.coefficients {
-            let (part, tail) = rest.split_at(next - first);
-            component[first..next].copy_from_slice(part);
+    for patch in 0..data.patch_blocks.len() - 1 {
+        for component in data.coefficients_mut(patch) {
+            let (part, tail) = rest.split_at(component.len());
+            component.copy_from_slice(part);
             rest = tail;
         }
-        first = next;
     }
 }

@@ -74,18 +74,10 @@ pub(crate) fn discretise_within(
         let degree = set.order.at(partition.center[patch])? as u8;
         blocks.push(enrichments.blocks(&partition, patch, degree));
     }
-    let step = Step {
-        load: 1.0,
-        cracks: problem.cracks.clone(),
-        attributes: attributes(&blocks),
-        fields: vec![field(problem, &blocks)],
-        functions: enrichments.table,
-        partition,
-        intensities: Vec::new(),
-        history: Vec::new(),
-        warnings: Vec::new(),
-        reactions: Vec::new(),
-    };
+    let mut step = Step::new(partition).with_field(field(problem, &blocks));
+    step.cracks.clone_from(&problem.cracks);
+    step.functions = enrichments.table;
+    step.attributes = attributes(&blocks);
     inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)
 }
@@ -161,27 +153,8 @@ fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
 
 fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
     let (name, components) = field_names(&problem.equation);
-    let mut data = FieldData {
-        name: name.into(),
-        unit: String::new(),
-        components: components.iter().map(|&c| c.to_owned()).collect(),
-        patch_blocks: vec![0],
-        block_function: Vec::new(),
-        block_degree: Vec::new(),
-        block_offset: Vec::new(),
-        coefficients: Vec::new(),
-        exact: problem.exact.iter().map(|e| e.text().to_owned()).collect(),
-    };
-    let mut offset = 0;
-    for patch in blocks {
-        for &(function, degree) in patch {
-            data.block_function.push(function);
-            data.block_degree.push(degree);
-            data.block_offset.push(offset);
-            offset += monomials(degree as usize) as u64;
-        }
-        data.patch_blocks.push(data.block_function.len() as u32);
-    }
-    data.coefficients = vec![vec![0.0; offset as usize]; components.len()];
+    let mut data = FieldData::new(name, components);
+    data.exact = problem.exact.iter().map(|e| e.text().to_owned()).collect();
+    blocks.iter().for_each(|blocks| data.push_patch(blocks));
     data
 }

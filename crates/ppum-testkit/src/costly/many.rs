@@ -2,7 +2,7 @@
 
 use super::{Maker, displacement, middle, piled, plate, straight, with_functions};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
-use ppum::dataset::{Attribute, Dataset, FieldData, Ring, TipIntensity};
+use ppum::dataset::{Attribute, Dataset, Ring, TipIntensity};
 use ppum::domain::Hole;
 use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::vec2;
@@ -95,8 +95,10 @@ fn fields() -> Dataset {
     let mut dataset = plate(1, 0, Vec::new());
     let step = &mut dataset.steps[0];
     let field = step.fields[0].clone();
-    let named = |k| FieldData { name: format!("field {k}"), ..field.clone() };
-    step.fields.extend((0..50).map(named));
+    for k in 0..50 {
+        step.fields.push(field.clone());
+        step.fields[k + 1].name = format!("field {k}");
+    }
     dataset
 }
 

@@ -10,9 +10,7 @@ mod stored;
 
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd};
-use ppum::dataset::{
-    Dataset, Equation, FieldData, Material, Partition, Record, Step, StressState, monomials,
-};
+use ppum::dataset::{Dataset, Equation, FieldData, Material, Partition, Record, Step, StressState};
 use ppum::function::{Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
@@ -55,54 +53,23 @@ fn plate(cells: u32, order: u8, cracks: Vec<Crack>) -> Dataset {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
     let cover = Cover::grid(domain, [cells, cells]).expect("a cover");
     let partition = cover.partition(1.3, WeightFunction::Linear).expect("a partition");
-    let functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
     let blocks = vec![vec![(0, order)]; partition.len()];
-    let step = Step {
-        load: 1.0,
-        fields: vec![displacement(&blocks)],
-        partition,
-        cracks,
-        functions,
-        attributes: Vec::new(),
-        intensities: Vec::new(),
-        history: vec![Record { name: "energy".into(), value: 1.0, unit: String::new() }],
-        warnings: Vec::new(),
-        reactions: Vec::new(),
-    };
+    let one = FunctionKind::One;
+    let mut step = Step::new(partition).with_function("one", one).with_field(displacement(&blocks));
+    step.cracks = cracks;
+    step.history = vec![Record { name: "energy".into(), value: 1.0, unit: String::new() }];
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    Dataset {
-        title: "costly".into(),
-        program: "ppum".into(),
-        problem: None,
-        domain: domain.into(),
-        equation: Equation::elasticity(material),
-        quantities: Vec::new(),
-        tables: Vec::new(),
-        steps: vec![step],
-    }
+    let mut dataset = Dataset::new(domain, Equation::elasticity(material)).with_step(step);
+    (dataset.title, dataset.program) = ("costly".into(), "ppum".into());
+    dataset
 }
 
 /// A displacement whose patches have blocks of these functions and degrees, all coefficients alike.
 fn displacement(patches: &[Vec<(u32, u8)>]) -> FieldData {
-    let (mut rows, mut offsets, mut end) = (vec![0], Vec::new(), 0);
-    for blocks in patches {
-        rows.push(rows[rows.len() - 1] + blocks.len() as u32);
-        for &(_, degree) in blocks {
-            offsets.push(end);
-            end += monomials(degree.into()) as u64;
-        }
-    }
-    FieldData {
-        name: "displacement".into(),
-        unit: String::new(),
-        components: ["ux", "uy"].map(str::to_owned).into(),
-        patch_blocks: rows,
-        block_function: patches.iter().flatten().map(|block| block.0).collect(),
-        block_degree: patches.iter().flatten().map(|block| block.1).collect(),
-        block_offset: offsets,
-        coefficients: vec![vec![0.5; end as usize]; 2],
-        exact: Vec::new(),
-    }
+    let mut data = FieldData::new("displacement", &["ux", "uy"]);
+    patches.iter().for_each(|blocks| data.push_patch(blocks));
+    data.coefficients.iter_mut().for_each(|component| component.fill(0.5));
+    data
 }
 
 /// A partition of patches that all lie over the whole plate, their cells strips of it.

@@ -58,17 +58,8 @@ pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
 pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Function]) -> FieldData {
     let all = ["ux", "uy", "uz", "uw", "up", "uq"];
     let names = if recipe.components == 1 { &["u"][..] } else { &all };
-    let data = FieldData {
-        name: if recipe.components == 1 { "potential" } else { "displacement" }.into(),
-        unit: String::new(),
-        components: names[..recipe.components].iter().map(|&name| name.into()).collect(),
-        patch_blocks: vec![0],
-        block_function: Vec::new(),
-        block_degree: Vec::new(),
-        block_offset: Vec::new(),
-        coefficients: vec![Vec::new(); recipe.components],
-        exact: Vec::new(),
-    };
+    let name = if recipe.components == 1 { "potential" } else { "displacement" };
+    let data = FieldData::new(name, &names[..recipe.components]);
     let table =
         FunctionTable::new(functions, recipe.cracks.len(), &[]).expect("functions of a recipe");
     let random = Random(recipe.seed ^ 0xc0ef);

@@ -144,16 +144,10 @@ impl Recipe {
             1 => Equation::poisson(1.0),
             _ => Equation::elasticity(material),
         };
-        Dataset {
-            title: "synthetic".into(),
-            program: "ppum-testkit".into(),
-            problem: None,
-            domain: self.domain.into(),
-            equation,
-            quantities: Vec::new(),
-            tables: Vec::new(),
-            steps: vec![self.step()],
-        }
+        let mut dataset = Dataset::new(self.domain, equation).with_step(self.step());
+        dataset.title = "synthetic".into();
+        dataset.program = "ppum-testkit".into();
+        dataset
     }
 
     /// One step with one field.
@@ -161,18 +155,10 @@ impl Recipe {
     pub fn step(&self) -> Step {
         let (partition, functions) = (self.partition(), self.functions());
         let fields = vec![self.field(&partition, &functions)];
-        Step {
-            load: 1.0,
-            partition,
-            cracks: self.cracks.clone(),
-            functions,
-            fields,
-            attributes: Vec::new(),
-            intensities: Vec::new(),
-            history: Vec::new(),
-            warnings: Vec::new(),
-            reactions: Vec::new(),
-        }
+        let mut step = Step::new(partition);
+        step.cracks.clone_from(&self.cracks);
+        (step.functions, step.fields) = (functions, fields);
+        step
     }
 
     /// The partition of unity.

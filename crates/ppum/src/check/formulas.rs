@@ -35,8 +35,8 @@ fn with_tables(variables: &[&str], tables: &[Arc<Table>]) -> Result<Scope, Scope
     Scope::new(variables)?.with_tables(tables)
 }
 
-fn mistake(place: &str, problem: &dyn Display) -> CheckError {
-    CheckError { place: place.to_owned(), problem: problem.to_string() }
+fn mistake(place: &str, mistake: &dyn Display) -> CheckError {
+    CheckError { place: place.to_owned(), mistake: mistake.to_string() }
 }
 
 fn parse(place: &str, text: &str, scope: &Scope) -> Checked {
@@ -207,7 +207,7 @@ mod tests {
                 d.tables.clear();
             });
             assert_eq!(error.place, place);
-            assert!(error.problem.contains("there are no tables here"), "{error}");
+            assert!(error.mistake.contains("there are no tables here"), "{error}");
         }
     }
 
@@ -215,7 +215,7 @@ mod tests {
     fn mistakes_point_at_the_text() {
         let error = error_after(|d| d.steps[0].functions[1].kind = function("x +\n  b*y"));
         assert_eq!(error.place, "steps[0].functions[1].formula");
-        assert!(error.problem.contains("line 2, column 3: unknown name `b`"), "{error}");
+        assert!(error.mistake.contains("line 2, column 3: unknown name `b`"), "{error}");
         let error = error_after(|d| d.steps[0].fields[0].exact[1] = "r".into());
         assert_eq!(error.place, "steps[0].fields[0].exact[1]");
         let error = error_after(|d| d.steps[0].functions[1].kind = function(" "));
@@ -284,13 +284,13 @@ mod tests {
             let function = |k| Function { name: "f".into(), kind: function(&long(k)) };
             d.steps[0].functions.extend((0..200).map(function));
         });
-        assert!(error.problem.contains("operations together"), "{error}");
+        assert!(error.mistake.contains("operations together"), "{error}");
         let error = error_after(|d| {
             let crack = d.steps[0].cracks[0].clone();
             d.steps[0].cracks = vec![crack; 2000];
             let function = |_| Function { name: "f".into(), kind: function("x") };
             d.steps[0].functions.extend((0..600).map(function));
         });
-        assert!(error.problem.contains("cracks, tables and parameters"), "{error}");
+        assert!(error.mistake.contains("cracks, tables and parameters"), "{error}");
     }
 }

@@ -58,8 +58,8 @@ pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
     check_gaps(gaps.map(rect).collect(), &domain.holes)
 }
 
-fn wrong(index: usize, cell: &Rect, problem: &str) -> Checked {
-    fail(&format!("cell[{index}]"), format!("{} {problem}", corners(cell)))
+fn wrong(index: usize, cell: &Rect, mistake: &str) -> Checked {
+    fail(&format!("cell[{index}]"), format!("{} {mistake}", corners(cell)))
 }
 
 fn corners(b: &Rect) -> String {
@@ -172,14 +172,14 @@ fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> Checked {
     let looks = rims * PLACES.len() * PLACES.len();
     for gap in gaps.iter().take(LOOKS / looks.max(1)) {
         if let Some(p) = place_beside(gap, holes) {
-            let problem = format!(
+            let mistake = format!(
                 "none covers {}, where ({}, {}) is in no hole; cells tile the domain's box, but for \
                  those in holes",
                 corners(gap),
                 p.x,
                 p.y
             );
-            return fail("cell", problem);
+            return fail("cell", mistake);
         }
     }
     Ok(())
@@ -213,7 +213,7 @@ mod tests {
         cover.partition(1.3, WeightFunction::Linear).expect("an overlap")
     }
 
-    fn problem(partition: &Partition, holes: Vec<Hole>) -> Option<String> {
+    fn mistake(partition: &Partition, holes: Vec<Hole>) -> Option<String> {
         check(partition, &Domain { bounds: BOX, holes }).err().map(|error| error.to_string())
     }
 
@@ -226,13 +226,13 @@ mod tests {
     fn covers_tile() {
         for seed in 0..50 {
             let mut partition = cover(seed);
-            assert_eq!(problem(&partition, vec![]), None, "seed {seed}");
+            assert_eq!(mistake(&partition, vec![]), None, "seed {seed}");
             partition.cell.reverse();
             let ulp = |x: f64| x + f64::EPSILON * x;
             for cell in partition.cell.iter_mut().step_by(2) {
                 *cell = Rect::new(cell.min, vec2(ulp(cell.max.x), ulp(cell.max.y)));
             }
-            assert_eq!(problem(&partition, vec![]), None, "rounded, seed {seed}");
+            assert_eq!(mistake(&partition, vec![]), None, "rounded, seed {seed}");
         }
     }
 
@@ -246,28 +246,28 @@ mod tests {
             let changed = |change: fn(&mut Rect, Vec2)| {
                 let mut partition = good.clone();
                 change(&mut partition.cell[k], quarter);
-                problem(&partition, vec![]).expect("found")
+                mistake(&partition, vec![]).expect("found")
             };
-            let gone = problem(&without(good.clone(), k), vec![]).expect("found");
+            let gone = mistake(&without(good.clone(), k), vec![]).expect("found");
             let numbers = gone.split(['(', ',', ')']).filter_map(|part| part.trim().parse().ok());
             let found: Vec<f64> = numbers.collect();
             // the gap, or a part of it beside a smaller neighbour, and a place in it
             let places: Vec<Vec2> = found.as_chunks::<2>().0.iter().map(|&p| p.into()).collect();
             let inside = places.iter().all(|&p| cell.distance(p) < 1e-9);
             assert!(gone.starts_with("cell: none covers") && places.len() == 3 && inside, "{gone}");
-            for (problem, text) in [
+            for (mistake, text) in [
                 (changed(|c, q| c.max.x -= q.x), "none covers"),
                 (changed(|c, q| c.min.y += q.y), "none covers"),
                 (changed(|c, _| *c = Rect::new(c.min + BOX.size(), c.max + BOX.size())), "out of"),
                 (changed(|c, _| c.max.x = c.min.x + 1e-14), "thinner"),
             ] {
-                assert!(problem.contains(text), "{problem}");
+                assert!(mistake.contains(text), "{mistake}");
             }
             let larger = changed(|c, q| c.max.y += q.y);
             assert!(larger.contains("overlaps") || larger.contains("out of"), "{larger}");
             let mut twice = good.clone();
             twice.cell.push(cell);
-            assert!(problem(&twice, vec![]).expect("found").contains("overlaps"));
+            assert!(mistake(&twice, vec![]).expect("found").contains("overlaps"));
         }
     }
 
@@ -281,15 +281,15 @@ mod tests {
                 let (center, half) = (cell.center(), cell.size() * 0.5);
                 let partition = without(good.clone(), k);
                 let round = |radius| vec![Hole::Circle { center, radius }];
-                assert_eq!(problem(&partition, round(half.length())), None);
-                assert!(problem(&partition, round(0.8 * half.x.min(half.y))).is_some());
+                assert_eq!(mistake(&partition, round(half.length())), None);
+                assert!(mistake(&partition, round(0.8 * half.x.min(half.y))).is_some());
                 let [left, right] = [-1.0, 1.0].map(|side| {
                     let corners = [[0.0, -1.0], [side, -1.0], [side, 1.0], [0.0, 1.0]];
                     let points = corners.map(|[x, y]| center + vec2(x * half.x, y * half.y));
                     Hole::Polygon { points: points.to_vec() }
                 });
-                assert_eq!(problem(&partition, vec![left.clone(), right]), None, "two halves");
-                assert!(problem(&partition, vec![left]).is_some(), "one half");
+                assert_eq!(mistake(&partition, vec![left.clone(), right]), None, "two halves");
+                assert!(mistake(&partition, vec![left]).is_some(), "one half");
             }
         }
     }

@@ -29,13 +29,13 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
         for (f, field) in step.fields.iter().enumerate() {
             let Some(at) = too_much(&works(step, field, &table)) else { continue };
             let place = format!("steps[{k}].fields[{f}]");
-            let problem = format!(
+            let mistake = format!(
                 "an evaluation at a point near ({}, {}) takes more than {MOST_WORK} coefficients of the patches that \
                  cover it, operations of their functions, and segments of cracks; let fewer patches overlap there, or \
                  give them fewer functions",
                 at.x, at.y
             );
-            return fail(&place, problem);
+            return fail(&place, mistake);
         }
     }
     Ok(())
@@ -251,6 +251,6 @@ mod tests {
         assert_eq!(piled(1000), Ok(()));
         let error = piled(1 << 15).expect_err("too many");
         assert_eq!(error.place, "steps[0].fields[0]");
-        assert!(error.problem.contains("let fewer patches overlap there"), "{error}");
+        assert!(error.mistake.contains("let fewer patches overlap there"), "{error}");
     }
 }

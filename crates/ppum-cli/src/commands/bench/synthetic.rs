@@ -47,49 +47,25 @@ pub(super) fn dataset(level: u8, tip_level: u8) -> anyhow::Result<Dataset> {
     let crack = Crack { points: TIPS.to_vec(), ends: [CrackEnd::Tip; 2] };
     let functions = functions();
     let table = FunctionTable::new(&functions, 1, &[])?;
-    let mut maker = Maker { cracks: [crack], table, partition, data: no_data() };
+    let mut maker = Maker {
+        cracks: [crack],
+        table,
+        partition,
+        data: FieldData::new("displacement", &["ux", "uy"]),
+    };
     maker.fill();
     let Maker { cracks, partition, data, .. } = maker;
-    Ok(wrap(Step {
-        load: 1.0,
-        partition,
-        cracks: cracks.into(),
-        functions,
-        fields: vec![data],
-        attributes: Vec::new(),
-        intensities: Vec::new(),
-        history: Vec::new(),
-        warnings: Vec::new(),
-        reactions: Vec::new(),
-    }))
+    let mut step = Step::new(partition).with_field(data);
+    (step.cracks, step.functions) = (cracks.into(), functions);
+    Ok(wrap(step))
 }
 
 fn wrap(step: Step) -> Dataset {
     let material = Material { young: 1.0, poisson: POISSON, state: StressState::PlaneStrain };
-    Dataset {
-        title: "Centre crack in an infinite plate".to_owned(),
-        program: concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned(),
-        problem: None,
-        domain: DOMAIN.into(),
-        equation: Equation::elasticity(material),
-        quantities: Vec::new(),
-        tables: Vec::new(),
-        steps: vec![step],
-    }
-}
-
-fn no_data() -> FieldData {
-    FieldData {
-        name: "displacement".to_owned(),
-        unit: String::new(),
-        components: vec!["ux".to_owned(), "uy".to_owned()],
-        patch_blocks: vec![0],
-        block_function: Vec::new(),
-        block_degree: Vec::new(),
-        block_offset: Vec::new(),
-        coefficients: vec![Vec::new(); 2],
-        exact: Vec::new(),
-    }
+    let mut dataset = Dataset::new(DOMAIN, Equation::elasticity(material)).with_step(step);
+    dataset.title = "Centre crack in an infinite plate".to_owned();
+    dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned();
+    dataset
 }
 
 fn functions() -> Vec<Function> {

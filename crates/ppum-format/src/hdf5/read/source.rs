@@ -7,24 +7,24 @@ use super::super::lookup3::lookup3;
 
 /// The reason why a part of a file cannot be read.
 #[derive(Debug)]
-pub(super) struct Problem(pub(super) Cow<'static, str>);
+pub(super) struct Mistake(pub(super) Cow<'static, str>);
 
-pub(super) type Parsed<T> = Result<T, Problem>;
+pub(super) type Parsed<T> = Result<T, Mistake>;
 
-impl From<&'static str> for Problem {
+impl From<&'static str> for Mistake {
     fn from(text: &'static str) -> Self {
         Self(text.into())
     }
 }
 
-impl From<String> for Problem {
+impl From<String> for Mistake {
     fn from(text: String) -> Self {
         Self(text.into())
     }
 }
 
-pub(super) fn fail<T>(problem: impl Into<Problem>) -> Parsed<T> {
-    Err(problem.into())
+pub(super) fn fail<T>(mistake: impl Into<Mistake>) -> Parsed<T> {
+    Err(mistake.into())
 }
 
 /// A file, with the widths of addresses and lengths in it.

@@ -6,7 +6,7 @@ use super::super::account::Account;
 use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
-use super::source::{Parsed, Problem, Source};
+use super::source::{Mistake, Parsed, Source};
 use super::trees::{CHUNKS, entries};
 use super::types::{Kind, Padding, Type};
 use super::{Texts, arrays, from_bytes};
@@ -21,9 +21,9 @@ fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()>) -> String {
     let account = Account::for_file(bytes.len() as u64);
     let Ok(source) = Source::new(bytes, (8, 8), &account) else { panic!("the widths are known") };
     let start = Instant::now();
-    let Err(Problem(problem)) = read(source) else { panic!("it is not refused") };
-    assert!(start.elapsed() < Duration::from_secs(5), "{problem}: {:?}", start.elapsed());
-    problem.into()
+    let Err(Mistake(mistake)) = read(source) else { panic!("it is not refused") };
+    assert!(start.elapsed() < Duration::from_secs(5), "{mistake}: {:?}", start.elapsed());
+    mistake.into()
 }
 
 /// A header of version 1 with one message: there is more of it, at its own start.
@@ -31,8 +31,8 @@ fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()>) -> String {
 fn a_header_that_continues_in_itself() {
     let mut header = vec![1, 0, 1, 0, 1, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0];
     header.extend([0x10, 0, 16, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0]);
-    let problem = refusal(&header, |source| Header::read(source, 0).map(drop));
-    assert!(problem.contains("circle"), "{problem}");
+    let mistake = refusal(&header, |source| Header::read(source, 0).map(drop));
+    assert!(mistake.contains("circle"), "{mistake}");
 }
 
 /// A node of an index whose only child is itself.
@@ -40,8 +40,8 @@ fn a_header_that_continues_in_itself() {
 fn a_tree_that_is_its_own_branch() {
     let mut node = b"TREE\x01\x05\x01\0".to_vec();
     node.resize(200, 0);
-    let problem = refusal(&node, |source| entries(source, 0, CHUNKS, 24).map(drop));
-    assert!(problem.contains("levels"), "{problem}");
+    let mistake = refusal(&node, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(mistake.contains("levels"), "{mistake}");
 }
 
 /// A node with as many children as it can have, all of them the same leaf, on many levels.
@@ -59,8 +59,8 @@ fn a_tree_whose_branches_are_all_the_same() {
         file.resize(1360 * usize::from(9 - level), 0);
     }
     file.resize(1 << 16, 0);
-    let problem = refusal(&file, |source| entries(source, 0, CHUNKS, 24).map(drop));
-    assert!(problem.contains("larger than the file"), "{problem}");
+    let mistake = refusal(&file, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(mistake.contains("larger than the file"), "{mistake}");
 }
 
 /// A file with one part changed by somebody who means it.
@@ -101,9 +101,9 @@ fn an_entry_far_out() {
     let parts = sealed_parts(&bytes);
     let header = parts.iter().find(|part| bytes[part.start..].starts_with(b"FAHD")).expect("there");
     let at = header.start as u64;
-    let problem =
+    let mistake =
         refusal(&bytes, |source| arrays::Fixed::open(source, at)?.entry((1 << 60) - 1).map(drop));
-    assert!(problem.contains("beyond the end"), "{problem}");
+    assert!(mistake.contains("beyond the end"), "{mistake}");
 }
 
 /// Filters of a chunk, in the second version of their message.
@@ -123,8 +123,8 @@ fn pipeline<'f>(source: Source<'f>, ids: &[u8], bytes: u64) -> Parsed<Pipeline<'
 fn bombs() {
     for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
         let undone = |source: Source| pipeline(source, ids, bytes)?.undo(&[0; 100], 0, 5).map(drop);
-        let problem = refusal(&[0; 1000], undone);
-        assert!(problem.contains("too large"), "{ids:?} {bytes}: {problem}");
+        let mistake = refusal(&[0; 1000], undone);
+        assert!(mistake.contains("too large"), "{ids:?} {bytes}: {mistake}");
     }
     // two of 3 GiB are together too much, though each is not; neither can be decompressed
     let undone = |source: Source| {

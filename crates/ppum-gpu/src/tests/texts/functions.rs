@@ -64,7 +64,8 @@ fn shader(
     let text = functions_wgsl(functions, groups, surroundings).expect("a text");
     let recipe =
         Recipe { level: 0, cells: [1, 1], tip_level: 0, cracks: vec![], ..Recipe::default() };
-    let step = Step { cracks: cracks.to_vec(), ..recipe.step() };
+    let mut step = recipe.step();
+    step.cracks = cracks.to_vec();
     let view = view(&step, &groups.frames(functions), order);
     let parts = [JET, CRACK, TIP, WESTERGAARD_KERNEL, GEOMETRY, &view, &text, NUMBERS];
     (module(&parts), text)

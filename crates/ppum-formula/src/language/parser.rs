@@ -1,17 +1,17 @@
 //! Tokens → syntax tree, by precedence climbing. Names are resolved on the way.
 
-use crate::MAX_DEPTH;
-use crate::MAX_LENGTH;
-use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
-use crate::error::{FormulaError, Problem, Span, nearest};
-use crate::lexer::{Token, TokenKind, tokens};
+use crate::error::{FormulaError, Mistake, Span, nearest};
+use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
+use crate::language::lexer::{Token, TokenKind, tokens};
+use crate::language::scope::{Meaning, Scope};
 use crate::library::{self, Function};
-use crate::scope::{Meaning, Scope};
+use crate::limits::MAX_DEPTH;
+use crate::limits::MAX_LENGTH;
 
 /// Parses a formula whose names are those of `scope`.
 pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     if source.len() > MAX_LENGTH {
-        return Err(FormulaError::new(source, Span { start: 0, end: 0 }, Problem::TooLong));
+        return Err(FormulaError::new(source, Span { start: 0, end: 0 }, Mistake::TooLong));
     }
     let tokens = tokens(source)?;
     let mut parser =
@@ -51,7 +51,7 @@ impl<'a> Parser<'a> {
         let span = self.expect(TokenKind::Name, "a new name")?.span;
         let name = self.text(span);
         if library::is_reserved(name) || self.scope.meaning(name).is_some() || self.is_local(name) {
-            return Err(self.error(span, Problem::NameTaken));
+            return Err(self.error(span, Mistake::NameTaken));
         }
         self.expect(TokenKind::Assign, "`=`")?;
         self.locals.push((name, None));
@@ -88,7 +88,7 @@ impl<'a> Parser<'a> {
     fn refuse_comparison(&self) -> Result<(), FormulaError> {
         match infix(self.peek().kind) {
             Some(next) if next.is_comparison() => {
-                Err(self.error(self.peek().span, Problem::ChainedComparison))
+                Err(self.error(self.peek().span, Mistake::ChainedComparison))
             }
             _ => Ok(()),
         }
@@ -133,7 +133,7 @@ impl<'a> Parser<'a> {
             }
             _ => {
                 let expected = "a number, a name or `(`";
-                Err(self.error(token.span, Problem::Unexpected { expected }))
+                Err(self.error(token.span, Mistake::Unexpected { expected }))
             }
         }
     }
@@ -141,11 +141,11 @@ impl<'a> Parser<'a> {
     fn name(&mut self, span: Span) -> Parsed {
         let name = self.text(span);
         if let Some(&(_, value)) = self.locals.iter().rev().find(|(local, _)| *local == name) {
-            return value.ok_or_else(|| self.error(span, Problem::SelfReference));
+            return value.ok_or_else(|| self.error(span, Mistake::SelfReference));
         }
         let kind = match (self.scope.meaning(name), library::constant(name)) {
             (Some(Meaning::Input(index)), _) => ExprKind::Input(index),
-            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Problem::TableForNumber)),
+            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Mistake::TableForNumber)),
             (Some(Meaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
             (None, None) => return Err(self.error(span, self.unknown_name(name))),
         };
@@ -171,7 +171,7 @@ impl<'a> Parser<'a> {
         let given = arguments.len();
         if given != expected {
             let suggestion = self.with_arguments(name, given);
-            return Err(self.error(name, Problem::ArgumentCount { expected, given, suggestion }));
+            return Err(self.error(name, Mistake::ArgumentCount { expected, given, suggestion }));
         }
         Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
     }
@@ -197,7 +197,7 @@ impl<'a> Parser<'a> {
         if arguments.len() != expected {
             let given = arguments.len() + 1;
             let form = table_form(self.text(name), n, derivative).into();
-            return Err(self.error(function, Problem::TableArguments { form, given }));
+            return Err(self.error(function, Mistake::TableArguments { form, given }));
         }
         let mut orders = [0; 2];
         for (order, &argument) in orders.iter_mut().zip(&arguments[..expected - n]) {
@@ -211,11 +211,11 @@ impl<'a> Parser<'a> {
     fn side(&mut self, function: Span) -> Parsed {
         let cracks = self.scope.n_sides();
         if cracks == 0 {
-            return Err(self.error(function, Problem::NoCracks));
+            return Err(self.error(function, Mistake::NoCracks));
         }
         if self.peek().kind == TokenKind::Close {
             let expected = "the number of a crack";
-            return Err(self.error(self.peek().span, Problem::Unexpected { expected }));
+            return Err(self.error(self.peek().span, Mistake::Unexpected { expected }));
         }
         let argument = self.nested(Self::block)?;
         let close = self.expect(TokenKind::Close, "an operator or `)`")?;
@@ -225,7 +225,7 @@ impl<'a> Parser<'a> {
         };
         match input {
             Some(input) => Ok(self.push(ExprKind::Input(input), function.to(close.span))),
-            None => Err(self.error(self.span(argument), Problem::UnknownCrack { cracks })),
+            None => Err(self.error(self.span(argument), Mistake::UnknownCrack { cracks })),
         }
     }
 
@@ -235,13 +235,13 @@ impl<'a> Parser<'a> {
             return Ok(table);
         }
         let names: Vec<&str> = self.scope.table_names().collect();
-        let problem = if names.is_empty() {
-            Problem::NoTables
+        let mistake = if names.is_empty() {
+            Mistake::NoTables
         } else {
             let suggestion = nearest(name, names.iter().copied()).map(String::into_boxed_str);
-            Problem::UnknownTable { suggestion, known: names.join(", ").into() }
+            Mistake::UnknownTable { suggestion, known: names.join(", ").into() }
         };
-        Err(self.error(span, problem))
+        Err(self.error(span, mistake))
     }
 
     /// The order of a derivative; beyond the third they are 0, but may be asked for.
@@ -250,23 +250,23 @@ impl<'a> Parser<'a> {
             ExprKind::Number(order) if (0.0..=9.0).contains(&order) && order.fract() == 0.0 => {
                 Ok(order as u8)
             }
-            _ => Err(self.error(self.span(argument), Problem::InvalidOrder)),
+            _ => Err(self.error(self.span(argument), Mistake::InvalidOrder)),
         }
     }
 
     fn function(&self, span: Span) -> Result<Function, FormulaError> {
         let name = self.text(span);
-        let problem = match Function::named(name) {
+        let mistake = match Function::named(name) {
             Some(function) => return Ok(function),
-            None if self.scope.table_names().any(|known| known == name) => Problem::TableForNumber,
-            None if self.known_names().any(|known| known == name) => Problem::NotAFunction,
+            None if self.scope.table_names().any(|known| known == name) => Mistake::TableForNumber,
+            None if self.known_names().any(|known| known == name) => Mistake::NotAFunction,
             None => {
                 let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
                 let foreign = library::foreign(name).map(str::to_owned);
-                Problem::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
+                Mistake::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
             }
         };
-        Err(self.error(span, problem))
+        Err(self.error(span, mistake))
     }
 
     /// The function of a similar name that takes this many arguments.
@@ -277,16 +277,16 @@ impl<'a> Parser<'a> {
         library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
     }
 
-    fn unknown_name(&self, name: &str) -> Problem {
+    fn unknown_name(&self, name: &str) -> Mistake {
         if Function::named(name).is_some() {
-            return Problem::MissingArguments;
+            return Mistake::MissingArguments;
         }
         if self.peek().kind == TokenKind::Assign {
-            return Problem::MissingLet;
+            return Mistake::MissingLet;
         }
         let table =
             || nearest(name, self.scope.table_names()).map(|name| format!("table({name}, …)"));
-        Problem::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
+        Mistake::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
     }
 
     /// Every name that stands for a value here.
@@ -306,7 +306,7 @@ impl<'a> Parser<'a> {
     /// levels of precedence.
     fn nested(&mut self, inner: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == MAX_DEPTH {
-            return Err(self.error(self.peek().span, Problem::TooDeep));
+            return Err(self.error(self.peek().span, Mistake::TooDeep));
         }
         self.depth += 1;
         let value = inner(self)?;
@@ -350,13 +350,13 @@ impl<'a> Parser<'a> {
         if !self.accept(kind) {
             let compares = token.kind == TokenKind::Assign && expected.starts_with("an operator");
             let expected = if compares { "`==` to compare" } else { expected };
-            return Err(self.error(token.span, Problem::Unexpected { expected }));
+            return Err(self.error(token.span, Mistake::Unexpected { expected }));
         }
         Ok(token)
     }
 
-    fn error(&self, span: Span, problem: Problem) -> FormulaError {
-        FormulaError::new(self.source, span, problem)
+    fn error(&self, span: Span, mistake: Mistake) -> FormulaError {
+        FormulaError::new(self.source, span, mistake)
     }
 }
 

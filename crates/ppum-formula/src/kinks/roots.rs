@@ -1,6 +1,6 @@
 //! Zeros of formulas of one variable.
 
-use crate::Formula;
+use crate::formula::Formula;
 
 /// Intervals among which zeros are searched.
 const INTERVALS: u32 = 4096;

@@ -1,13 +1,13 @@
 //! Syntax tree → expression graph: types are checked, functions become operations.
 
-use crate::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
-use crate::error::{FormulaError, Problem};
+use crate::error::{FormulaError, Mistake};
 use crate::graph::{Graph, NodeId};
-use crate::half_angle::{self, Multiple};
+use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
+use crate::language::half_angle::{self, Multiple};
+use crate::language::parser::parse;
+use crate::language::scope::Scope;
 use crate::library::Function;
 use crate::operation::{Binary, Comparison};
-use crate::parser::parse;
-use crate::scope::Scope;
 
 /// Parses a formula and makes sure that it is a number.
 pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
@@ -20,20 +20,20 @@ pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> 
 
 /// A node of the wrong type.
 #[derive(Debug)]
-pub(crate) struct Mistake {
+pub(crate) struct MistakeAt {
     expr: ExprId,
-    problem: Problem,
+    mistake: Mistake,
 }
 
-impl Mistake {
+impl MistakeAt {
     /// The mistake as an error in the text.
     pub(crate) fn locate(self, source: &str, ast: &Ast) -> FormulaError {
-        FormulaError::new(source, ast.nodes[self.expr.index()].span, self.problem)
+        FormulaError::new(source, ast.nodes[self.expr.index()].span, self.mistake)
     }
 }
 
 /// Adds a formula of a scope to a graph; gives the node of its value.
-pub(crate) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, Mistake> {
+pub(crate) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, MistakeAt> {
     Lowering::new(ast, scope, graph)?.number(ast.root)
 }
 
@@ -42,7 +42,7 @@ pub(crate) fn lower_condition(
     ast: &Ast,
     scope: &Scope,
     graph: &mut Graph,
-) -> Result<NodeId, Mistake> {
+) -> Result<NodeId, MistakeAt> {
     let condition = Lowering::new(ast, scope, graph)?.condition(ast.root)?;
     let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
     Ok(graph.select(condition, one, zero))
@@ -60,7 +60,7 @@ struct Lowering<'a> {
 }
 
 impl<'a> Lowering<'a> {
-    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, Mistake> {
+    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, MistakeAt> {
         let theta = scope.half_angles().and_then(|_| scope.input("theta"));
         let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
         let mut lowering = Self { graph, scope, theta, nodes, multiples };
@@ -73,7 +73,7 @@ impl<'a> Lowering<'a> {
         Ok(lowering)
     }
 
-    fn expr(&mut self, expr: &Expr) -> Result<NodeId, Mistake> {
+    fn expr(&mut self, expr: &Expr) -> Result<NodeId, MistakeAt> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(self.graph.constant(*value)),
             ExprKind::Input(index) => Ok(self.graph.input(*index)),
@@ -95,24 +95,24 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn number(&self, expr: ExprId) -> Result<NodeId, Mistake> {
-        self.typed(expr, false, Problem::ConditionForNumber)
+    fn number(&self, expr: ExprId) -> Result<NodeId, MistakeAt> {
+        self.typed(expr, false, Mistake::ConditionForNumber)
     }
 
-    fn condition(&self, expr: ExprId) -> Result<NodeId, Mistake> {
-        self.typed(expr, true, Problem::NumberForCondition)
+    fn condition(&self, expr: ExprId) -> Result<NodeId, MistakeAt> {
+        self.typed(expr, true, Mistake::NumberForCondition)
     }
 
-    fn typed(&self, expr: ExprId, condition: bool, problem: Problem) -> Result<NodeId, Mistake> {
+    fn typed(&self, expr: ExprId, condition: bool, mistake: Mistake) -> Result<NodeId, MistakeAt> {
         let node = self.nodes[expr.index()];
         if self.graph.op(node).is_condition() == condition {
             Ok(node)
         } else {
-            Err(Mistake { expr, problem })
+            Err(MistakeAt { expr, mistake })
         }
     }
 
-    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, Mistake> {
+    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, MistakeAt> {
         match prefix {
             Prefix::Plus => self.number(a),
             Prefix::Minus => self.number(a).map(|a| self.graph.neg(a)),
@@ -120,7 +120,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, Mistake> {
+    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, MistakeAt> {
         if let Infix::And | Infix::Or = infix {
             let (a, b) = (self.condition(a)?, self.condition(b)?);
             let joined =
@@ -147,7 +147,7 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, Mistake> {
+    fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, MistakeAt> {
         match (function, arguments) {
             (Function::Unary(op), &[argument]) => {
                 let a = self.number(argument)?;

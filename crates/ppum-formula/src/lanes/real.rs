@@ -11,7 +11,7 @@
 use fearless_simd::{Level, Select as _, Simd, f32x16, f64x8, prelude::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::tape::Interpret;
+use super::interpret::Interpret;
 
 /// Lanes of the widest vector there is: f32 on 512 bits.
 pub const WIDEST: usize = 16;

@@ -7,9 +7,9 @@
 //! precision. Nothing is fused: in double precision each result is that of the scalar back end to the
 //! last bit.
 
-use super::{Step, Tape};
+use super::real::{Job, Real, Scalar};
+use super::tape::{Step, Tape};
 use crate::operation::{Binary, Unary};
-use crate::real::{Job, Real, Scalar};
 
 /// Vectors of a block: enough that a step's work outweighs its start.
 pub(crate) const VECTORS: usize = 8;

@@ -11,10 +11,10 @@
 //! by repeated squaring. There is no arc tangent, which would lose the digits of a small cos(θ/2)
 //! near θ = ±π to the rounding of θ; there each product adds terms of equal sign.
 
-use crate::ast::{ExprId, ExprKind, Infix, Prefix};
 use crate::graph::{Graph, NodeId};
+use crate::language::ast::{ExprId, ExprKind, Infix, Prefix};
+use crate::language::scope::Scope;
 use crate::operation::{Binary, Unary};
-use crate::scope::Scope;
 
 /// Largest multiple of θ/2 that becomes products; their error grows with it.
 const MAX_MULTIPLE: f64 = 64.0;

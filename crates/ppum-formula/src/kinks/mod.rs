@@ -6,15 +6,18 @@
 //! bases', positive functions have none, |u| = c where u = ±c, and max(a, b) = c only where a = c or
 //! b = c. So sets may be larger than the kinks, but most are lines.
 
+mod roots;
+
 use std::collections::HashSet;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use crate::formula::Formula;
 use crate::graph::{Graph, NodeId, Op};
 use crate::operation::{Binary, Comparison, Unary};
+use crate::print;
 use crate::program::Program;
-use crate::roots::Scan;
-use crate::{Formula, print};
+use roots::Scan;
 
 /// Most kinks of a formula that are looked for, and most operations of all together. What has more
 /// is not drawn by hand, and no quadrature could follow it.

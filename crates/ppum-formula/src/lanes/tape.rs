@@ -4,16 +4,13 @@
 //! are *slots*, used again when their number has had its last use. Constants need none. Products that are used once, by a sum, a difference, a product or
 //! a quotient, become one step with it: that saves the way through memory, and rounds as before.
 
-mod lanes;
-
 use std::sync::Arc;
 
-use crate::Table;
+use super::interpret::Action;
 use crate::graph::{NodeId, Op};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::program::Program;
-use lanes::Action;
-pub(crate) use lanes::{Interpret, VECTORS};
+use crate::table::Table;
 
 /// A program for blocks of points.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Text → tokens.
 
-use crate::error::{FormulaError, Problem, Span};
+use crate::error::{FormulaError, Mistake, Span};
 
 /// A piece of the text that the grammar knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,7 +159,7 @@ impl Lexer<'_> {
         }
         match text[..length].parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(self.take(Kind::Number(value), length)),
-            _ => Err(self.error(length, Problem::InvalidNumber)),
+            _ => Err(self.error(length, Mistake::InvalidNumber)),
         }
     }
 
@@ -173,19 +173,19 @@ impl Lexer<'_> {
                 Ok(self.take(*kind, sign.len()))
             }
             (_, Some((sign, instead))) => {
-                Err(self.error(sign.len(), Problem::Unexpected { expected: instead }))
+                Err(self.error(sign.len(), Mistake::Unexpected { expected: instead }))
             }
             _ => {
                 let length = text.chars().next().map_or(0, char::len_utf8);
                 let expected = "a number, a name or an operator";
-                Err(self.error(length, Problem::Unexpected { expected }))
+                Err(self.error(length, Mistake::Unexpected { expected }))
             }
         }
     }
 
-    fn error(&self, length: usize, problem: Problem) -> FormulaError {
+    fn error(&self, length: usize, mistake: Mistake) -> FormulaError {
         let span = Span { start: self.position, end: self.position + length };
-        FormulaError::new(self.source, span, problem)
+        FormulaError::new(self.source, span, mistake)
     }
 }
 
@@ -220,7 +220,7 @@ mod tests {
             assert_eq!(kinds(text), [Kind::Number(value), Kind::End], "{text}");
         }
         for text in ["1e", "1e+", ".", "1e999"] {
-            assert_eq!(tokens(text).expect_err(text).problem, Problem::InvalidNumber);
+            assert_eq!(tokens(text).expect_err(text).mistake, Mistake::InvalidNumber);
         }
     }
 
@@ -261,7 +261,7 @@ mod tests {
         ] {
             let error = tokens(text).expect_err(text);
             assert_eq!(error.found, found);
-            assert_eq!(error.problem, Problem::Unexpected { expected: remedy });
+            assert_eq!(error.mistake, Mistake::Unexpected { expected: remedy });
         }
     }
 }

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::{Arc, LazyLock};
 
-use crate::Table;
-use crate::ast::Ast;
 use crate::error::FormulaError;
 use crate::graph::{Graph, NodeId};
-use crate::{library, lower};
+use crate::language::ast::Ast;
+use crate::language::lower;
+use crate::library;
+use crate::table::Table;
 
 /// The variables of a dataset's formulas. No table may be called like one of them: it could not be
 /// read where the variable is known.

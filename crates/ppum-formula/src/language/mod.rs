@@ -1,0 +1,8 @@
+//! The language: from a text to operations in a graph, by the names of a scope.
+
+pub(crate) mod ast;
+mod half_angle;
+mod lexer;
+pub(crate) mod lower;
+pub(crate) mod parser;
+pub(crate) mod scope;
