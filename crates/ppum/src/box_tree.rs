@@ -19,7 +19,7 @@ pub struct BoxTree {
 }
 
 impl BoxTree {
-    /// The tree over `boxes`, which keep their indices.
+    /// The tree over `boxes`, which keep their indices. Boxes that are empty or undefined are found nowhere.
     ///
     /// # Panics
     /// If there are more than `u32::MAX` boxes.
@@ -27,7 +27,9 @@ impl BoxTree {
     pub fn new(boxes: &[Rect]) -> Self {
         assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
         let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
-        for Rect { min, max } in boxes {
+        for b in boxes {
+            // the library asks for boxes with min ≤ max
+            let Rect { min, max } = if is_a_box(b) { *b } else { Rect::new(Vec2::ZERO, Vec2::ZERO) };
             builder.add(min.x, min.y, max.x, max.y);
         }
         let tree = builder.build().expect("as many boxes as were announced");
@@ -52,7 +54,7 @@ impl BoxTree {
         let start = out.len();
         let Rect { min, max } = *query;
         self.tree.visit_query(min.x, min.y, max.x, max.y, &mut |index: usize| {
-            if test(&self.boxes[index]) {
+            if is_a_box(&self.boxes[index]) && test(&self.boxes[index]) {
                 out.push(index as u32);
             }
         });
@@ -60,9 +62,26 @@ impl BoxTree {
     }
 }
 
+/// False for boxes with their borders in the wrong order, or undefined.
+fn is_a_box(b: &Rect) -> bool {
+    b.min.x <= b.max.x && b.min.y <= b.max.y
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Problem files that are wrong have holes of negative radii; their boxes harm nobody.
+    #[test]
+    fn empty_and_undefined_boxes_are_found_nowhere() {
+        let [unit, nan] = [vec2(1.0, 1.0), vec2(f64::NAN, 0.0)];
+        let all = Rect::new(vec2(-1.0, -1.0), unit);
+        let tree = BoxTree::new(&[Rect::new(unit, -unit), all, Rect::new(nan, nan)]);
+        let mut found = Vec::new();
+        tree.query_box(&Rect::new(vec2(-3.0, -3.0), vec2(3.0, 3.0)), &mut found);
+        tree.query_point(Vec2::ZERO, &mut found);
+        assert_eq!(found, [1, 1]);
+    }
     use crate::vec2::vec2;
     use ppum_testkit::random::Random;
 
