@@ -29,7 +29,8 @@ impl BoxTree {
         let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
         for b in boxes {
             // the library asks for boxes with min ≤ max
-            let Rect { min, max } = if is_a_box(b) { *b } else { Rect::new(Vec2::ZERO, Vec2::ZERO) };
+            let Rect { min, max } =
+                if is_a_box(b) { *b } else { Rect::new(Vec2::ZERO, Vec2::ZERO) };
             builder.add(min.x, min.y, max.x, max.y);
         }
         let tree = builder.build().expect("as many boxes as were announced");
