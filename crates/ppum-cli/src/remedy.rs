@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use ppum::quantity::QuantityError;
+use ppum_format::WriteError;
 use ppum_render::RenderError;
 use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
@@ -11,7 +12,7 @@ use ppum_solve::space::{InspectError, SpaceError};
 pub(crate) fn told(error: &(dyn Error + 'static)) -> String {
     let remedy = match error.downcast_ref() {
         Some(error) => of_solution(error),
-        None => of_quantity(error),
+        None => of_quantity(error).or_else(|| of_file(error)),
     };
     remedy.map_or_else(|| error.to_string(), |remedy| format!("{error}; {remedy}"))
 }
@@ -23,6 +24,11 @@ fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
     };
     matches!(quantity, QuantityError::NoExact(_))
         .then_some("give it as [exact] in the problem file")
+}
+
+fn of_file(error: &(dyn Error + 'static)) -> Option<&'static str> {
+    matches!(error.downcast_ref()?, WriteError::TooLong { .. })
+        .then_some("choose fewer cells or a lower order")
 }
 
 fn of_solution(error: &SolveError) -> Option<&'static str> {
@@ -81,5 +87,9 @@ mod tests {
                  problem file"
             );
         }
+        assert_eq!(
+            told(&WriteError::TooLong { length: 5_000_000_000 }),
+            "the file would have 5000000000 bytes, at most 4294967296 are read; choose fewer cells or a lower order"
+        );
     }
 }

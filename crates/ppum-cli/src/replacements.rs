@@ -41,7 +41,7 @@ impl Replacements {
         match (error, &weight) {
             (ReplacementsError::Part(error), _) => Err(error).context("--part"),
             (ReplacementsError::Function { index, which, error }, _) => {
-                functions[index].explain(Err(error)).with_context(|| format!("--function {which}"))
+                functions[index].explain(Err(*error)).with_context(|| format!("--function {which}"))
             }
             (ReplacementsError::Weight(error), Some(given)) => {
                 given.explain(Err(error)).context("--weight")

@@ -126,10 +126,7 @@ pub enum WriteError {
         source: std::io::Error,
     },
     /// Longer than what is read.
-    #[error(
-        "the file would have {length} bytes, at most {} are read; choose fewer cells or a lower order",
-        crate::MAX_LENGTH
-    )]
+    #[error("the file would have {length} bytes, at most {} are read", crate::MAX_LENGTH)]
     TooLong {
         /// Length in bytes.
         length: u64,

@@ -65,7 +65,7 @@ pub use error::RenderError;
 mod tests {
     use std::path::Path;
 
-    use ppum_testkit::rooms::{Floors, check};
+    use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
         &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
@@ -89,7 +89,9 @@ mod tests {
 
     #[test]
     fn arrows_lead_down() {
-        check(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), FLOORS);
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
     }
 
     #[test]

@@ -79,7 +79,7 @@ pub enum ReplacementsError {
         which: String,
         /// What is wrong.
         #[source]
-        error: ReplaceError,
+        error: Box<ReplaceError>,
     },
     /// The weight.
     #[error("weight: {0}")]
@@ -99,6 +99,7 @@ impl Replacements {
         }
         for (index, (which, text)) in self.functions.iter().enumerate() {
             step.replace_function(which, text, tables).map_err(|error| {
+                let error = Box::new(error);
                 ReplacementsError::Function { index, which: which.clone(), error }
             })?;
         }

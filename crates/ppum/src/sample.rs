@@ -1,6 +1,6 @@
 //! Sampling: quantities at many places, along lines and cracks, on grids, at points.
 //!
-//! A [`Place`] is a point with the side of a crack that is meant. [`line`], [`grid`], [`points`] and
+//! A [`Place`] is a point with the side of a crack that is meant. [`line()`], [`grid`], [`points`] and
 //! [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two sides and
 //! two places. Who has threads takes the [`batches`] one by one, in any order: values do not depend on it.
 //!

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ppum_testkit::rooms::{Floors, check};
+use ppum_testkit::rooms::{Floors, check, check_page};
 
 const FLOORS: Floors<'_> = &[
     &[("choice", &[]), ("layout", &[])],
@@ -20,5 +20,7 @@ const FLOORS: Floors<'_> = &[
 
 #[test]
 fn arrows_lead_down() {
-    check(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), FLOORS);
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    check(&sources, FLOORS);
+    check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
 }
