@@ -87,7 +87,7 @@ pub struct Step {
     pub intensities: Vec<TipIntensity>,
     /// The report of the solver: residual, unknowns, functions cut off, seconds per phase.
     pub history: Vec<Record>,
-    /// Findings of the diagnostics.
+    /// Warnings of the diagnostics.
     pub warnings: Vec<Warning>,
     /// Resultants of the forces the supports exert on the plate, one per boundary condition that gives values.
     pub reactions: Vec<Reaction>,

@@ -29,14 +29,14 @@ const MAX_CELLS: u64 = 1 << (2 * MAX_LEVEL);
 const ORDER_SAMPLES: u32 = 16;
 
 /// A rule that is broken.
-pub(super) struct Violation {
+pub(super) struct MistakeAt {
     pub(super) key: Key,
     pub(super) message: String,
     /// The other of two values that contradict each other.
     pub(super) other: Option<Key>,
 }
 
-impl Violation {
+impl MistakeAt {
     pub(super) fn new(key: Key, message: impl Into<String>) -> Self {
         Self { key, message: message.into(), other: None }
     }
@@ -47,7 +47,7 @@ impl Violation {
 }
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
-pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
+pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     let mut found = check_equation(&problem.equation, &problem.domain);
     found.extend(check_components(problem));
     found.extend(check_discretization(problem));
@@ -68,11 +68,11 @@ pub(super) fn violations(problem: &Problem) -> Vec<Violation> {
 }
 
 /// No zone of the built-in functions of tips may reach too far.
-fn check_zone(problem: &Problem) -> Option<Violation> {
+fn check_zone(problem: &Problem) -> Option<MistakeAt> {
     let radius = problem.discretization.enrichment_radius?;
     let message = too_wide(problem, radius)?;
     let key = Key::new("discretization").name("enrichment_radius");
-    Some(Violation::new(key, format!("`enrichment_radius` {message}")))
+    Some(MistakeAt::new(key, format!("`enrichment_radius` {message}")))
 }
 
 /// The mistake of the radius of a zone around all tips, if it is too large: the functions of a tip
@@ -92,7 +92,7 @@ pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
 /// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-fn check_domain(domain: &Domain) -> Vec<Violation> {
+fn check_domain(domain: &Domain) -> Vec<MistakeAt> {
     let size = domain.bounds.size();
     let axes = [("x", size.x), ("y", size.y)];
     let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
@@ -107,30 +107,30 @@ fn check_domain(domain: &Domain) -> Vec<Violation> {
         } else {
             format!("`max` must exceed `min` in {axis}; give two opposite corners of a box")
         };
-        Violation::new(Key::new("domain").name("max"), message)
+        MistakeAt::new(Key::new("domain").name("max"), message)
     };
     let box_is_wrong: Vec<_> = wrong.map(message).collect();
     if box_is_wrong.is_empty() { check_holes(domain) } else { box_is_wrong }
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
-fn check_tables(problem: &Problem) -> Option<Violation> {
+fn check_tables(problem: &Problem) -> Option<MistakeAt> {
     let broken =
         |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
     let count = (1..=problem.tables.len()).find(broken)?;
     let error = scopes::check(&problem.tables[..count], &problem.equation).err()?;
-    Some(Violation::new(Key::new("table").index(count - 1).name("name"), error.to_string()))
+    Some(MistakeAt::new(Key::new("table").index(count - 1).name("name"), error.to_string()))
 }
 
-fn check_equation(equation: &Equation, domain: &Domain) -> Vec<Violation> {
+fn check_equation(equation: &Equation, domain: &Domain) -> Vec<MistakeAt> {
     let mistake = equation.mistake(domain).map(|(name, message)| {
-        Violation::new(Key::new("material").name(name), format!("`{name}` {message}"))
+        MistakeAt::new(Key::new("material").name(name), format!("`{name}` {message}"))
     });
     mistake.into_iter().collect()
 }
 
 /// One value per component everywhere; files cannot break this, code can.
-fn check_components(problem: &Problem) -> Vec<Violation> {
+fn check_components(problem: &Problem) -> Vec<MistakeAt> {
     let expected = problem.components();
     let boundary = (0..)
         .zip(&problem.boundary)
@@ -140,7 +140,7 @@ fn check_components(problem: &Problem) -> Vec<Violation> {
     let wrong = lists.filter(|(_, given)| *given != expected);
     wrong
         .map(|(key, given)| {
-            Violation::new(
+            MistakeAt::new(
                 key,
                 format!("there are {given} components, but the field has {expected}"),
             )
@@ -148,13 +148,13 @@ fn check_components(problem: &Problem) -> Vec<Violation> {
         .collect()
 }
 
-fn check_discretization(problem: &Problem) -> Vec<Violation> {
+fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
     let discretization = &problem.discretization;
     let Discretization { overlap, enrichment, enrichment_radius, tip_degree, .. } = *discretization;
     let mut found: Vec<_> = check_cells(&discretization.cells).into_iter().collect();
     let mut rule = |holds: bool, name, message: String| {
         if !holds {
-            found.push(Violation::new(Key::new("discretization").name(name), message));
+            found.push(MistakeAt::new(Key::new("discretization").name(name), message));
         }
     };
     rule(
@@ -191,30 +191,30 @@ fn check_discretization(problem: &Problem) -> Vec<Violation> {
     found
 }
 
-fn check_cells(cells: &Cells) -> Option<Violation> {
+fn check_cells(cells: &Cells) -> Option<MistakeAt> {
     let key = Key::new("discretization");
     match *cells {
         Cells::Level(level) if level > MAX_LEVEL => {
             let message = format!("`level` is {level}, but must be 0 to {MAX_LEVEL}");
-            Some(Violation::new(key.name("level"), message))
+            Some(MistakeAt::new(key.name("level"), message))
         }
         Cells::Grid([nx, ny]) if nx == 0 || ny == 0 => {
             let message = "`cells` must be at least 1 in each direction";
-            Some(Violation::new(key.name("cells"), message))
+            Some(MistakeAt::new(key.name("cells"), message))
         }
         Cells::Grid([nx, ny]) if u64::from(nx) * u64::from(ny) > MAX_CELLS => {
             let message = format!("`cells` are {nx} × {ny}, but at most {MAX_CELLS} in all");
-            Some(Violation::new(key.name("cells"), message))
+            Some(MistakeAt::new(key.name("cells"), message))
         }
         _ => None,
     }
 }
 
-fn check_points(cells: &Cells, domain: &Rect) -> Option<Violation> {
+fn check_points(cells: &Cells, domain: &Rect) -> Option<MistakeAt> {
     let Cells::Points(points) = cells else { return None };
     let key = Key::new("discretization").name("points");
     if points.is_empty() {
-        return Some(Violation::new(key, "there are no points; at least one is needed"));
+        return Some(MistakeAt::new(key, "there are no points; at least one is needed"));
     }
     let outside: Vec<_> = points.iter().filter(|p| !domain.contains(**p)).collect();
     let first = outside.first()?;
@@ -225,10 +225,10 @@ fn check_points(cells: &Cells, domain: &Rect) -> Option<Violation> {
         first.x,
         first.y
     );
-    Some(Violation::new(key, message))
+    Some(MistakeAt::new(key, message))
 }
 
-fn check_order(order: &Order, domain: &Rect) -> Option<Violation> {
+fn check_order(order: &Order, domain: &Rect) -> Option<MistakeAt> {
     let key = Key::new("discretization").name("order");
     let steps = f64::from(ORDER_SAMPLES);
     let samples = (0..ORDER_SAMPLES * ORDER_SAMPLES).map(|k| {
@@ -237,10 +237,10 @@ fn check_order(order: &Order, domain: &Rect) -> Option<Violation> {
         domain.min + ppum::vec2::vec2(size.x * i, size.y * j)
     });
     let mut wrong = samples.filter_map(|p| order.at(p).err());
-    wrong.next().map(|error| Violation::new(key, error.to_string()))
+    wrong.next().map(|error| MistakeAt::new(key, error.to_string()))
 }
 
-fn check_boundary(problem: &Problem) -> Vec<Violation> {
+fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
     let parts = problem.boundary.iter().enumerate();
     let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
     found.extend(check_contradictions(&problem.boundary));
@@ -275,7 +275,7 @@ fn claims(index: usize, condition: &BoundaryCondition) -> Vec<Claim> {
 }
 
 /// No component is given twice at a place. Of the conditions that an earlier one contradicts each is told once.
-fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<Violation> {
+fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<MistakeAt> {
     let mut all: Vec<_> =
         boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part)).collect();
     all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
@@ -292,18 +292,18 @@ fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<Violation> {
             farthest = claim;
         }
     }
-    let violation = |(later, earlier): (usize, usize)| {
+    let mistake = |(later, earlier): (usize, usize)| {
         let message = contradiction(&boundary[earlier], &boundary[later])?;
-        Some(Violation::new(on(later), message).with_other(on(earlier)))
+        Some(MistakeAt::new(on(later), message).with_other(on(earlier)))
     };
-    pairs.into_iter().filter_map(violation).collect()
+    pairs.into_iter().filter_map(mistake).collect()
 }
 
 fn on(index: usize) -> Key {
     Key::new("boundary").index(index).name("on")
 }
 
-fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<Violation> {
+fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<MistakeAt> {
     let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
     let message = match condition.on {
         BorderPart::Edge { edge, from, to } => bad_range(edge, [from, to], &problem.domain.bounds)?,
@@ -318,7 +318,7 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
         }
         _ => return None,
     };
-    Some(Violation::new(on(index), message))
+    Some(MistakeAt::new(on(index), message))
 }
 
 /// A number of things in words.

@@ -8,7 +8,7 @@ use ppum::segment::{self, Segment};
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
-use super::check::Violation;
+use super::check::MistakeAt;
 use super::key::Key;
 use super::nearby::{Nearby, TooDense, first_pair};
 use crate::geometry::{Placed, wider};
@@ -74,7 +74,7 @@ fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge
 }
 
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
-pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<Violation> {
+pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
     let mut found = Vec::new();
@@ -98,7 +98,7 @@ fn points_of(crack: usize) -> Key {
 const MOST_CONTACTS: usize = 100;
 
 /// No two of the cracks touch.
-fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Violation> {
+fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<MistakeAt> {
     let of_crack = |&crack: &usize| {
         let segments = cracks[crack].points.windows(2).enumerate();
         segments.map(move |(k, pair)| (crack, k, [pair[0], pair[1]]))
@@ -109,7 +109,7 @@ fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Viola
     let mut contacts = BTreeMap::new();
     for &(crack, k, segment) in &pieces {
         let Ok(near) = nearby.of(segment) else {
-            return vec![Violation::new(Key::new("crack"), TooDense::message("the cracks"))];
+            return vec![MistakeAt::new(Key::new("crack"), TooDense::message("the cracks"))];
         };
         let earlier = near.into_iter().take_while(|&other| pieces[other].0 < crack);
         for other in earlier.filter(|&other| distance(segment, segments[other]) <= touch) {
@@ -123,26 +123,26 @@ fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<Viola
 }
 
 /// The mistake of a crack that touches another one at its segment `k`.
-fn contact(((crack, other), k): ((usize, usize), usize)) -> Violation {
+fn contact(((crack, other), k): ((usize, usize), usize)) -> MistakeAt {
     let message = "the crack crosses or touches another one, which is not supported yet in this version; \
                    move them apart";
-    Violation::new(points_of(crack).index(k), message).with_other(points_of(other))
+    MistakeAt::new(points_of(crack).index(k), message).with_other(points_of(other))
 }
 
 /// Some of the crack lies in the material, and no tip too near to a rim to be meant.
-fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<Violation> {
+fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<MistakeAt> {
     let lost = |hole: &Hole| crack.points.iter().all(|p| reaches(hole, *p, touch));
     let convex = |hole: &Hole| matches!(hole, Hole::Circle { .. });
     let first = *crack.points.first()?;
     let hole = holes_at(holes, first).find(|(_, hole)| convex(hole) && lost(hole))?.0;
     let message = format!("the crack lies in hole {hole}; move it out, or leave it out");
-    Some(Violation::new(key.clone(), message))
+    Some(MistakeAt::new(key.clone(), message))
 }
 
-fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Violation> {
+fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
     if points.len() < 2 {
         let message = "a crack needs at least two points; add `[x, y]`";
-        return vec![Violation::new(key.clone(), message)];
+        return vec![MistakeAt::new(key.clone(), message)];
     }
     let mut found = check_places(points, domain, touch, key);
     found.extend(check_segments(points, domain, touch, key));
@@ -153,7 +153,7 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Vio
 }
 
 /// Each point inside the closed box; on its border only the ends, and then exactly.
-fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Violation> {
+fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();
         let near = edges_at(*p, domain, touch).next();
@@ -173,13 +173,13 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Vi
             ),
             _ => return None,
         };
-        Some(Violation::new(key.clone().index(index), message))
+        Some(MistakeAt::new(key.clone().index(index), message))
     };
     points.iter().enumerate().filter_map(place).collect()
 }
 
 /// Each segment of positive length, and not along the border.
-fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Violation> {
+fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
     let segment = |(index, pair): (usize, &[Vec2])| {
         let [a, b] = [pair[0], pair[1]];
         let along = edges_at(a, domain, touch)
@@ -194,15 +194,15 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
             ),
             None => return None,
         };
-        Some(Violation::new(key.clone().index(at), message))
+        Some(MistakeAt::new(key.clone().index(at), message))
     };
     points.windows(2).enumerate().filter_map(segment).collect()
 }
 
 /// No crossing with itself, and no hook.
-fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<Violation> {
+fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
     let Ok(touching) = self_touch(points, touch) else {
-        return Some(Violation::new(key.clone(), TooDense::message("parts of the crack")));
+        return Some(MistakeAt::new(key.clone(), TooDense::message("parts of the crack")));
     };
     if let Some((first, second)) = touching {
         let message = format!(
@@ -211,13 +211,13 @@ fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<
             first + 1,
             second + 1
         );
-        return Some(Violation::new(key.clone().index(second), message));
+        return Some(MistakeAt::new(key.clone().index(second), message));
     }
     hook(points, domain, touch).map(|segment| {
         let message = "the straight extension of an end of the crack meets the crack itself, and such \
                        hooks are not supported yet in this version: the side of the crack would be \
                        wrong beyond the end; straighten it";
-        Violation::new(key.clone().index(segment), message)
+        MistakeAt::new(key.clone().index(segment), message)
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::error::{Finding, Place};
+use super::error::{Mistake, Place};
 
 /// A line that says something.
 pub(super) struct Line<'t> {
@@ -55,22 +55,22 @@ const LONGEST: u64 = 64 << 20;
 pub(super) const MOST_FINDINGS: usize = 100;
 
 /// The text of a file, or what to say of it: `what` cannot be read.
-pub(super) fn read(path: &Path, what: &str) -> Result<String, Finding> {
+pub(super) fn read(path: &Path, what: &str) -> Result<String, Mistake> {
     ppum_file::text(path, LONGEST)
         .map_err(|error| of_file(path, format!("cannot read the {what}: {error}")))
 }
 
-/// True if no more findings need to be looked for.
-pub(super) fn is_enough(findings: &[Finding]) -> bool {
-    findings.len() >= MOST_FINDINGS
+/// True if no more mistakes need to be looked for.
+pub(super) fn is_enough(mistakes: &[Mistake]) -> bool {
+    mistakes.len() >= MOST_FINDINGS
 }
 
-/// A finding about a file as a whole.
-pub(super) fn of_file(path: &Path, message: String) -> Finding {
-    Finding { place: Place::File(path.display().to_string()), message }
+/// A mistake about a file as a whole.
+pub(super) fn of_file(path: &Path, message: String) -> Mistake {
+    Mistake { place: Place::File(path.display().to_string()), message }
 }
 
-/// A finding at a place of a file.
-pub(super) fn finding(file: &str, line: usize, column: usize, message: String) -> Finding {
-    Finding { place: Place::Text { file: file.to_owned(), line, column }, message }
+/// A mistake at a place of a file.
+pub(super) fn mistake(file: &str, line: usize, column: usize, message: String) -> Mistake {
+    Mistake { place: Place::Text { file: file.to_owned(), line, column }, message }
 }

@@ -7,7 +7,7 @@ use ppum::formula::{Formula, FormulaJets};
 use ppum::function::{Declared, function_scope};
 use ppum::vec2::{Rect, Vec2};
 
-use super::check::{Violation, too_wide};
+use super::check::{MistakeAt, too_wide};
 use super::key::Key;
 use super::{Problem, expression};
 use crate::geometry::meets;
@@ -105,7 +105,7 @@ impl LocalEnrichment {
 }
 
 /// All rules broken by the enrichments.
-pub(super) fn check_enrichments(problem: &Problem) -> Vec<Violation> {
+pub(super) fn check_enrichments(problem: &Problem) -> Vec<MistakeAt> {
     let check = |(index, new): (usize, &LocalEnrichment)| {
         let found = [
             bad_functions(new, problem),
@@ -115,7 +115,7 @@ pub(super) fn check_enrichments(problem: &Problem) -> Vec<Violation> {
             bad_declaration(new),
         ];
         let at = move |(name, message)| {
-            Violation::new(Key::new("enrichment").index(index).name(name), message)
+            MistakeAt::new(Key::new("enrichment").index(index).name(name), message)
         };
         found.into_iter().flatten().map(at)
     };

@@ -4,24 +4,24 @@ use std::fmt;
 
 /// Everything found wrong with a problem, in the order of the file.
 ///
-/// Renders one finding per line, the first hundred of them, e.g.
+/// Renders one mistake per line, the first hundred of them, e.g.
 /// ``plate.toml:12:1: unknown key `yong` in [material]; did you mean `young`?``
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}", lines(.findings))]
+#[error("{}", lines(.mistakes))]
 pub struct ProblemError {
-    findings: Vec<Finding>,
+    mistakes: Vec<Mistake>,
 }
 
 /// One thing that is wrong, with its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct Mistake {
     /// Its place.
     pub place: Place,
     /// The mistake and its remedy, lower-case, without the place.
     pub message: String,
 }
 
-/// The place of a [`Finding`].
+/// The place of a [`Mistake`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A file as a whole, e.g. one that cannot be read.
@@ -40,26 +40,26 @@ pub enum Place {
 }
 
 impl ProblemError {
-    /// An error of the given findings, of which there is at least one.
-    pub(super) fn new(findings: Vec<Finding>) -> Self {
-        debug_assert!(!findings.is_empty(), "an error without a finding");
-        Self { findings }
+    /// An error of the given mistakes, of which there is at least one.
+    pub(super) fn new(mistakes: Vec<Mistake>) -> Self {
+        debug_assert!(!mistakes.is_empty(), "an error without a mistake");
+        Self { mistakes }
     }
 
-    /// The findings, at least one.
+    /// The mistakes, at least one.
     #[must_use]
-    pub fn findings(&self) -> &[Finding] {
-        &self.findings
+    pub fn mistakes(&self) -> &[Mistake] {
+        &self.mistakes
     }
 }
 
-impl From<Finding> for ProblemError {
-    fn from(finding: Finding) -> Self {
-        Self::new(vec![finding])
+impl From<Mistake> for ProblemError {
+    fn from(mistake: Mistake) -> Self {
+        Self::new(vec![mistake])
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.place, self.message)
     }
@@ -78,9 +78,9 @@ impl fmt::Display for Place {
 /// Findings that are shown; nobody reads more of them at a time.
 const SHOWN: usize = 100;
 
-fn lines(findings: &[Finding]) -> String {
-    let mut lines: Vec<_> = findings.iter().take(SHOWN).map(Finding::to_string).collect();
-    match findings.len().saturating_sub(SHOWN) {
+fn lines(mistakes: &[Mistake]) -> String {
+    let mut lines: Vec<_> = mistakes.iter().take(SHOWN).map(Mistake::to_string).collect();
+    match mistakes.len().saturating_sub(SHOWN) {
         0 => {}
         1 => lines.push("… and one mistake more".to_owned()),
         more => lines.push(format!("… and {more} mistakes more")),

@@ -3,7 +3,7 @@
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::check::Violation;
+use super::check::MistakeAt;
 use super::cracks::{TOUCH, crosses_itself};
 use super::key::Key;
 use super::nearby::TooDense;
@@ -13,7 +13,7 @@ use crate::geometry::meets;
 const MAX_RIMS: usize = 1 << 14;
 
 /// All rules broken by the holes of a domain whose box is in order.
-pub(super) fn check_holes(domain: &Domain) -> Vec<Violation> {
+pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
     let size = domain.bounds.size();
     let touch = TOUCH * size.x.max(size.y);
     let rims = domain.holes.iter().map(|hole| hole.sides().count().max(1));
@@ -21,7 +21,7 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<Violation> {
         let message = format!(
             "the holes have more than {MAX_RIMS} circles and corners together; leave some out"
         );
-        return vec![Violation::new(Key::new("hole"), message)];
+        return vec![MistakeAt::new(Key::new("hole"), message)];
     }
     let check = |(index, hole): (usize, &Hole)| {
         let (key, message) = match hole {
@@ -30,7 +30,7 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<Violation> {
                 ("points", bad_polygon(points, hole, &domain.bounds, touch)?)
             }
         };
-        Some(Violation::new(Key::new("hole").index(index).name(key), message))
+        Some(MistakeAt::new(Key::new("hole").index(index).name(key), message))
     };
     domain.holes.iter().enumerate().filter_map(check).collect()
 }

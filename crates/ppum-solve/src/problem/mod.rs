@@ -62,7 +62,7 @@ pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
-pub use error::{Finding, Place, ProblemError};
+pub use error::{Mistake, Place, ProblemError};
 pub use ppum::expression::Expression;
 pub use restraint::restraint_center;
 pub(crate) use restraint::restraint_words;
@@ -142,7 +142,7 @@ impl Problem {
     /// mistakes; or that the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
-        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Finding {
+        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Mistake {
             place: Place::File(file.clone()),
             message: format!("cannot read the problem file: {error}"),
         })?;
@@ -272,15 +272,15 @@ impl Problem {
     /// # Errors
     /// Everything that is wrong, each named by its key.
     pub fn check(&self) -> Result<(), ProblemError> {
-        let violations = check::violations(self);
-        if violations.is_empty() {
+        let mistakes = check::mistakes(self);
+        if mistakes.is_empty() {
             return Ok(());
         }
-        let finding = |violation: check::Violation| {
-            let other = violation.other.map_or(String::new(), |key| format!(" (see {key})"));
-            let place = Place::Key(violation.key.to_string());
-            Finding { place, message: violation.message + &other }
+        let mistake = |mistake: check::MistakeAt| {
+            let other = mistake.other.map_or(String::new(), |key| format!(" (see {key})"));
+            let place = Place::Key(mistake.key.to_string());
+            Mistake { place, message: mistake.message + &other }
         };
-        Err(ProblemError::new(violations.into_iter().map(finding).collect()))
+        Err(ProblemError::new(mistakes.into_iter().map(mistake).collect()))
     }
 }

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use ppum::vec2::Vec2;
 
-use super::csv::{self, Line, finding};
-use super::error::Finding;
+use super::csv::{self, Line, mistake};
+use super::error::Mistake;
 
 /// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
 ///
 /// # Errors
-/// One finding per line that is not a finite `x,y`, or equals an earlier one; or one for the file.
-pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Finding>> {
-    let text = csv::read(path, "points").map_err(|finding| vec![finding])?;
+/// One mistake per line that is not a finite `x,y`, or equals an earlier one; or one for the file.
+pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Mistake>> {
+    let text = csv::read(path, "points").map_err(|mistake| vec![mistake])?;
     let points = parse(&text, &path.display().to_string())?;
     if points.is_empty() {
         let message = "there are no points; write one `x,y` a line".to_owned();
@@ -21,22 +21,22 @@ pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Finding>> {
     Ok(points)
 }
 
-fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Finding>> {
-    let (mut points, mut findings) = (Vec::new(), Vec::new());
+fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Mistake>> {
+    let (mut points, mut mistakes) = (Vec::new(), Vec::new());
     for line in csv::lines(text) {
         match point(&line) {
             Ok(point) => points.push((line.number, point)),
-            Err((column, message)) => findings.push(finding(file, line.number, column, message)),
+            Err((column, message)) => mistakes.push(mistake(file, line.number, column, message)),
         }
-        if csv::is_enough(&findings) {
-            return Err(findings);
+        if csv::is_enough(&mistakes) {
+            return Err(mistakes);
         }
     }
-    findings.extend(duplicates(&points, file));
-    if findings.is_empty() {
+    mistakes.extend(duplicates(&points, file));
+    if mistakes.is_empty() {
         Ok(points.into_iter().map(|(_, p)| p).collect())
     } else {
-        Err(findings)
+        Err(mistakes)
     }
 }
 
@@ -54,7 +54,7 @@ fn point(line: &Line<'_>) -> Result<Vec2, (usize, String)> {
 }
 
 /// Points that equal an earlier one: no cell can hold at most one of them.
-fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Finding> {
+fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Mistake> {
     let mut sorted: Vec<_> = points.iter().collect();
     sorted.sort_by(|(m, a), (n, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(m.cmp(n)));
     let equal = sorted.windows(2).filter(|pair| pair[0].1 == pair[1].1);
@@ -62,7 +62,7 @@ fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Finding> {
     lines.sort_unstable();
     let message = |first| format!("the same point as on line {first}; remove one of them");
     lines.truncate(csv::MOST_FINDINGS);
-    lines.into_iter().map(|(second, first)| finding(file, second, 1, message(first))).collect()
+    lines.into_iter().map(|(second, first)| mistake(file, second, 1, message(first))).collect()
 }
 
 #[cfg(test)]
@@ -72,8 +72,8 @@ mod tests {
     use super::*;
 
     fn wrong(text: &str) -> Vec<String> {
-        let findings = parse(text, "p.csv").expect_err("should be wrong");
-        findings.iter().map(Finding::to_string).collect()
+        let mistakes = parse(text, "p.csv").expect_err("should be wrong");
+        mistakes.iter().map(Mistake::to_string).collect()
     }
 
     #[test]

@@ -6,7 +6,7 @@ use ppum::dataset::{Equation, NamedQuantity};
 use ppum::formula::Table;
 use ppum::quantity::{QuantityFormula, QuantityFormulaError, Vocabulary, names};
 
-use super::check::Violation;
+use super::check::MistakeAt;
 use super::key::Key;
 use super::{Problem, expression};
 
@@ -34,11 +34,11 @@ pub(super) fn parse(
 }
 
 /// All rules broken by the quantities.
-pub(super) fn check_quantities(problem: &Problem) -> Vec<Violation> {
+pub(super) fn check_quantities(problem: &Problem) -> Vec<MistakeAt> {
     let rule = |index| {
         let key = Key::new("quantity").index(index);
         let (name, message) = broken(problem, index)?;
-        Some(Violation::new(key.name(name), message))
+        Some(MistakeAt::new(key.name(name), message))
     };
     (0..problem.quantities.len()).filter_map(rule).collect()
 }

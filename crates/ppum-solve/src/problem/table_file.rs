@@ -8,8 +8,8 @@ use std::path::Path;
 
 use ppum::formula::{Table, TableError};
 
-use super::csv::{self, Line, finding};
-use super::error::{Finding, ProblemError};
+use super::csv::{self, Line, mistake};
+use super::error::{Mistake, ProblemError};
 
 /// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,10 +22,10 @@ pub(super) struct Data {
 /// Reads a file.
 ///
 /// # Errors
-/// One finding per line that has the wrong number of entries, an entry that is not a finite number, or
+/// One mistake per line that has the wrong number of entries, an entry that is not a finite number, or
 /// a knot that does not exceed the one before; or one for the file.
-pub(super) fn read(path: &Path) -> Result<Data, Vec<Finding>> {
-    let text = csv::read(path, "table").map_err(|finding| vec![finding])?;
+pub(super) fn read(path: &Path) -> Result<Data, Vec<Mistake>> {
+    let text = csv::read(path, "table").map_err(|mistake| vec![mistake])?;
     let data = parse(&text, &path.display().to_string())?;
     if data.values.is_empty() {
         let message = "there are no values; write one `x,value` a line".to_owned();
@@ -56,27 +56,27 @@ impl Data {
     }
 }
 
-fn parse(text: &str, file: &str) -> Result<Data, Vec<Finding>> {
+fn parse(text: &str, file: &str) -> Result<Data, Vec<Mistake>> {
     let mut lines = csv::lines(text).peekable();
-    let mut reader = Reader { file, data: Data::default(), findings: Vec::new() };
+    let mut reader = Reader { file, data: Data::default(), mistakes: Vec::new() };
     match lines.next_if(|first| first.words[0].text.is_empty()) {
         Some(first) => reader.grid(&first, lines),
         None => reader.knots(lines),
     }
-    if reader.findings.is_empty() { Ok(reader.data) } else { Err(reader.findings) }
+    if reader.mistakes.is_empty() { Ok(reader.data) } else { Err(reader.mistakes) }
 }
 
 struct Reader<'f> {
     file: &'f str,
     data: Data,
-    findings: Vec<Finding>,
+    mistakes: Vec<Mistake>,
 }
 
 impl Reader<'_> {
     fn grid<'t>(&mut self, first: &Line<'_>, rest: impl Iterator<Item = Line<'t>>) {
         let count = first.words.len();
         for place in 1..count {
-            if csv::is_enough(&self.findings) {
+            if csv::is_enough(&self.mistakes) {
                 return;
             }
             if let Some(knot) = self.number(first, place) {
@@ -86,7 +86,7 @@ impl Reader<'_> {
             }
         }
         for line in rest {
-            if csv::is_enough(&self.findings) {
+            if csv::is_enough(&self.mistakes) {
                 return;
             }
             if let Some([knot, values @ ..]) = self.numbers(&line, count).as_deref() {
@@ -101,7 +101,7 @@ impl Reader<'_> {
     /// The lines of a curve.
     fn knots<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>) {
         for line in lines {
-            if csv::is_enough(&self.findings) {
+            if csv::is_enough(&self.mistakes) {
                 return;
             }
             if let Some(&[knot, value]) = self.numbers(&line, 2).as_deref() {
@@ -120,7 +120,7 @@ impl Reader<'_> {
                 2 => format!("expected two numbers `x,value`, found {found}"),
                 _ => format!("expected {count} numbers as on the first line, found {found}"),
             };
-            self.findings.push(finding(self.file, line.number, 1, message));
+            self.mistakes.push(mistake(self.file, line.number, 1, message));
             return None;
         }
         (0..count).map(|place| self.number(line, place)).collect()
@@ -131,7 +131,7 @@ impl Reader<'_> {
         let number = word.number();
         if number.is_none() {
             let message = format!("`{}` is not a finite number", word.text);
-            self.findings.push(finding(self.file, line.number, word.column, message));
+            self.mistakes.push(mistake(self.file, line.number, word.column, message));
         }
         number
     }
@@ -139,7 +139,7 @@ impl Reader<'_> {
     fn increases(&mut self, before: Option<f64>, knot: f64, line: usize, column: usize) {
         if let Some(before) = before.filter(|before| knot <= *before) {
             let message = format!("{knot} follows {before}, but knots must increase; sort them");
-            self.findings.push(finding(self.file, line, column, message));
+            self.mistakes.push(mistake(self.file, line, column, message));
         }
     }
 }
@@ -149,8 +149,8 @@ mod tests {
     use super::*;
 
     fn wrong(text: &str) -> Vec<String> {
-        let findings = parse(text, "t.csv").expect_err("should be wrong");
-        findings.iter().map(Finding::to_string).collect()
+        let mistakes = parse(text, "t.csv").expect_err("should be wrong");
+        mistakes.iter().map(Mistake::to_string).collect()
     }
 
     #[test]

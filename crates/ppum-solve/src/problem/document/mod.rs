@@ -8,18 +8,18 @@ use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Finding, Place};
+use super::error::{Mistake, Place};
 pub(super) use ppum::text::nearest;
 pub(super) use value::Value;
 
-/// Collects findings; shared by all sections and values of a document.
+/// Collects mistakes; shared by all sections and values of a document.
 pub(super) struct Report<'a> {
     file: &'a str,
     text: &'a str,
     /// Bytes at which the lines of the text begin: files may have as many mistakes as lines.
     lines: Vec<usize>,
     /// With the offset in the text, by which they are sorted in the end.
-    findings: RefCell<Vec<(usize, Finding)>>,
+    mistakes: RefCell<Vec<(usize, Mistake)>>,
     /// Files that the text names, as far as they were asked for.
     files: RefCell<Vec<PathBuf>>,
 }
@@ -31,7 +31,7 @@ impl<'a> Report<'a> {
             file,
             text,
             lines: iter::once(0).chain(starts).collect(),
-            findings: RefCell::default(),
+            mistakes: RefCell::default(),
             files: RefCell::default(),
         }
     }
@@ -40,12 +40,12 @@ impl<'a> Report<'a> {
     pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
         let (line, column) = self.position(offset);
         let place = Place::Text { file: self.file.to_owned(), line, column };
-        self.add(offset, Finding { place, message: message.into() });
+        self.add(offset, Mistake { place, message: message.into() });
     }
 
-    /// Reports a finding in another file, named at a byte of this text.
-    pub(super) fn add(&self, offset: usize, finding: Finding) {
-        self.findings.borrow_mut().push((offset, finding));
+    /// Reports a mistake in another file, named at a byte of this text.
+    pub(super) fn add(&self, offset: usize, mistake: Mistake) {
+        self.mistakes.borrow_mut().push((offset, mistake));
     }
 
     /// Line and column in characters, from 1, of a byte of the text.
@@ -60,11 +60,11 @@ impl<'a> Report<'a> {
         self.files.borrow().clone()
     }
 
-    /// The findings in the order of the text.
-    pub(super) fn into_findings(self) -> Vec<Finding> {
-        let mut findings = self.findings.into_inner();
-        findings.sort_by_key(|(offset, _)| *offset);
-        findings.into_iter().map(|(_, finding)| finding).collect()
+    /// The mistakes in the order of the text.
+    pub(super) fn into_findings(self) -> Vec<Mistake> {
+        let mut mistakes = self.mistakes.into_inner();
+        mistakes.sort_by_key(|(offset, _)| *offset);
+        mistakes.into_iter().map(|(_, mistake)| mistake).collect()
     }
 }
 

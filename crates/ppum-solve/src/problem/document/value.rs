@@ -8,7 +8,7 @@ use ppum::vec2::{Vec2, vec2};
 use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeValue};
 
-use super::super::error::Finding;
+use super::super::error::Mistake;
 use super::super::expression;
 use super::{Report, Section, nearest};
 use ppum::expression::Expression;
@@ -34,9 +34,9 @@ impl<'a> Value<'a> {
         self.report.at(self.offset(), message);
     }
 
-    /// Reports a finding in a file that the value names.
-    pub(in super::super) fn add(&self, finding: Finding) {
-        self.report.add(self.offset(), finding);
+    /// Reports a mistake in a file that the value names.
+    pub(in super::super) fn add(&self, mistake: Mistake) {
+        self.report.add(self.offset(), mistake);
     }
 
     fn offset(&self) -> usize {

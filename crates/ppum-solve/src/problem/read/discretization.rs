@@ -123,6 +123,6 @@ fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
 
 fn point_file(value: &Value<'_>, folder: &Path) -> Option<Cells> {
     let found = points::read(&value.file(folder)?);
-    let report = |findings: Vec<_>| findings.into_iter().for_each(|finding| value.add(finding));
+    let report = |mistakes: Vec<_>| mistakes.into_iter().for_each(|mistake| value.add(mistake));
     found.map(Cells::Points).map_err(report).ok()
 }

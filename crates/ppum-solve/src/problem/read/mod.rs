@@ -19,7 +19,7 @@ use ppum::formula::Scope;
 use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
 
-use super::check::violations;
+use super::check::mistakes;
 use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
@@ -55,10 +55,10 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
         report_violations(&report, document.get_ref(), problem);
     }
     let files = report.files();
-    let findings = report.into_findings();
+    let mistakes = report.into_findings();
     let problem = match problem {
-        Some(problem) if findings.is_empty() => problem,
-        _ => return Err(ProblemError::new(findings)),
+        Some(problem) if mistakes.is_empty() => problem,
+        _ => return Err(ProblemError::new(mistakes)),
     };
     let title = match problem.title.as_str() {
         "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
@@ -87,12 +87,12 @@ fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
 }
 
 fn report_violations(report: &Report<'_>, document: &DeTable<'_>, problem: &Problem) {
-    for violation in violations(problem) {
-        let other = violation.other.map_or(String::new(), |key| {
+    for mistake in mistakes(problem) {
+        let other = mistake.other.map_or(String::new(), |key| {
             let (line, _) = report.position(key.span(document).start);
             format!(" (the other is on line {line})")
         });
-        report.at(violation.key.span(document).start, violation.message + &other);
+        report.at(mistake.key.span(document).start, mistake.message + &other);
     }
 }
 

@@ -52,7 +52,7 @@ fn data(section: &Section<'_>, folder: &Path) -> Option<Data> {
         (Some(_), Some(own)) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
             let found = table_file::read(&file.file(folder)?);
-            found.map_err(|findings| findings.into_iter().for_each(|new| file.add(new))).ok()
+            found.map_err(|mistakes| mistakes.into_iter().for_each(|new| file.add(new))).ok()
         }
         (None, Some(_)) => inline(section),
         (None, None) => {

@@ -13,7 +13,7 @@ struct Case {
     expected: Vec<String>,
 }
 
-/// Cases begin with `==`; in each, lines with `-` are replaced by those with `+`, the others are findings.
+/// Cases begin with `==`; in each, lines with `-` are replaced by those with `+`, the others are mistakes.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for text in CASES.split("== ").skip(1) {
@@ -42,7 +42,7 @@ fn every_mistake_is_told_in_full() {
     let wrong_answer = |case: &Case| {
         let text = edited(PLATE, &case.old.join("\n"), &case.new.join("\n"));
         let error = parse(&text).err();
-        let found = error.iter().flat_map(ProblemError::findings);
+        let found = error.iter().flat_map(ProblemError::mistakes);
         let found: Vec<_> = found.map(|f| f.to_string().replace("dir/plate.toml:", "")).collect();
         (found != case.expected).then(|| format!("== {}\n{}\n", case.title, found.join("\n")))
     };

@@ -175,7 +175,7 @@ fn the_radius_of_the_zone_serves_own_functions() {
     let text = edited(FORMULAS, "radius = 0\n", "");
     good(&edited(&text, "\"jumps\"", "\"jumps\"\nenrichment_radius = 0.3"));
     let text = edited(FORMULAS, "\"jumps\"", "\"jumps\"\nenrichment_radius = 0.3");
-    let found = findings(&text);
+    let found = mistakes(&text);
     assert!(found.len() == 1 && found[0].contains("has no meaning with enrichment = \"jumps\""));
 }
 
@@ -454,14 +454,14 @@ fn tips_that_are_missing_or_too_near() {
     let text = edited(FORMULAS, "radius = 0\n", "radius = 0.5\n");
     let text = edited(&text, "[[-1.0, 0.0], [0.0, 0.0]]", "[[-0.2, 0.0], [0.2, 0.0]]");
     assert_eq!(
-        findings(&text),
+        mistakes(&text),
         [
             "dir/plate.toml:41:10: `radius` is 0.5, but the tips of a crack are only 0.4 apart; give less \
           than half of that"
         ]
     );
     let text = edited(FORMULAS, "[[crack]]\npoints = [[-1.0, 0.0], [0.0, 0.0]]\n", "");
-    let found = findings(&text);
+    let found = mistakes(&text);
     assert!(
         found.len() == 1 && found[0].contains("38:6: there is no tip; add a [[crack]]"),
         "{found:?}"
@@ -544,7 +544,7 @@ fn nothing_is_refused_without_a_reason() {
             let text = [&lines[..place], &[new], &lines[place + 1..]].concat().join("\n");
             match parse(&text) {
                 Ok(problem) => assert_eq!(problem.check(), Ok(()), "{text}"),
-                Err(error) => assert!(!error.findings().is_empty(), "{text}"),
+                Err(error) => assert!(!error.mistakes().is_empty(), "{text}"),
             }
         };
         with("");
@@ -561,7 +561,7 @@ fn enrichments_built_in_code_are_checked_alike() {
     problem.quantities[0].text = "young*z".to_owned();
     problem.tables.push(Arc::clone(&problem.tables[1]));
     let error = problem.check().expect_err("much is wrong");
-    let keys: Vec<_> = error.findings().iter().map(|finding| finding.to_string()).collect();
+    let keys: Vec<_> = error.mistakes().iter().map(|mistake| mistake.to_string()).collect();
     for (key, part) in [
         ("table[2].name: ", "the name `g` already has a meaning"),
         ("quantity[0].formula: ", ""),

@@ -13,10 +13,10 @@ fn plate_with(entry: impl Fn(usize) -> String) -> String {
     (0..MANY).fold(head, |text, k| text + &entry(k))
 }
 
-/// The messages about a file: lines shown, findings.
+/// The messages about a file: lines shown, mistakes.
 fn told(text: &str) -> (usize, usize) {
     let error = parse(text).expect_err("mistakes");
-    (error.to_string().lines().count(), error.findings().len())
+    (error.to_string().lines().count(), error.mistakes().len())
 }
 
 #[test]
@@ -59,12 +59,12 @@ fn what_no_dataset_can_hold_is_counted_before_it_is_read() {
     let quantity = |k: usize| format!("[[quantity]]\nname = \"q{k}\"\nformula = \"ux\"\n");
     let table = |k: usize| format!("[[table]]\nname = \"t{k}\"\nx = [0, 1]\nvalues = [0, 1]\n");
     for text in [plate_with(quantity), plate_with(table)] {
-        let found = findings(&text);
+        let found = mistakes(&text);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].contains("at most 256"), "{found:?}");
     }
     let long = format!("[[quantity]]\nname = \"q\"\nformula = \"{}1\"\n", "1 + ".repeat(20_000));
-    let found = findings(&format!("{PLATE}\n{long}"));
+    let found = mistakes(&format!("{PLATE}\n{long}"));
     assert!(found.len() == 1 && found[0].contains("65536 bytes"), "{found:?}");
 }
 

@@ -312,7 +312,7 @@ fn what_is_missing_altogether() {
         "the table [discretization] is missing; add it with e.g. `level = 5`",
         "the table [material] is missing; add it with its keys `young`, `poisson`, `state`",
     ];
-    assert_eq!(findings(""), expected.map(|message| format!("dir/plate.toml:1:1: {message}")));
+    assert_eq!(mistakes(""), expected.map(|message| format!("dir/plate.toml:1:1: {message}")));
 }
 
 #[test]
@@ -322,7 +322,7 @@ fn all_mistakes_at_once_in_the_order_of_the_file() {
     let text = edited(&text, "[[-0.5, 0.0], [0.5, 0.0]]", "[[-0.5, 0.0], [5, 0.0]]");
     let text = edited(&text, "\"top\"", "\"bottom\"");
     let text = edited(&text, "level = 4", "level = 40\noverlap = \"1.3\"");
-    let places: Vec<_> = findings(&text)
+    let places: Vec<_> = mistakes(&text)
         .iter()
         .map(|found| found.split(": ").next().unwrap_or_default().to_owned())
         .collect();
@@ -338,7 +338,7 @@ fn no_toml() {
         ("a = 1\na = 2\n", vec!["2:1"]),
     ] {
         let expected = |place| format!("dir/plate.toml:{place}: the file is no valid TOML here: ");
-        let found = findings(text);
+        let found = mistakes(text);
         assert_eq!(found.len(), places.len(), "{found:?}");
         for (found, place) in found.iter().zip(places) {
             assert!(found.starts_with(&expected(place)), "{found}");

@@ -73,20 +73,20 @@ fn good(text: &str) -> Problem {
     parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-fn findings(text: &str) -> Vec<String> {
+fn mistakes(text: &str) -> Vec<String> {
     match parse(text) {
         Ok(_) => panic!("nothing was found wrong:\n{text}"),
-        Err(error) => error.findings().iter().map(Finding::to_string).collect(),
+        Err(error) => error.mistakes().iter().map(Mistake::to_string).collect(),
     }
 }
 
 /// A rule: what is replaced in a good file, by what, and where and how that is found wrong.
 type Bad = (&'static str, &'static str, usize, usize, &'static str);
 
-/// Each edit must give one finding, no more, at the place and with the message expected.
+/// Each edit must give one mistake, no more, at the place and with the message expected.
 fn check_all(text: &str, cases: &[Bad]) {
     let wrong = |&(old, new, line, column, part): &Bad| {
-        let found = findings(&edited(text, old, new));
+        let found = mistakes(&edited(text, old, new));
         let place = format!("dir/plate.toml:{line}:{column}: ");
         let good = found.len() == 1 && found[0].starts_with(&place) && found[0].contains(part);
         let message = || {
@@ -275,7 +275,7 @@ fn problems_built_in_code_are_checked_alike() {
         .with_crack(&[[0.5, 0.5], [2.0, 0.5]])
         .with_boundary(Edge::Top, vec![Condition::Free; 2]);
     let error = problem.check().expect_err("much is wrong");
-    let keys: Vec<_> = error.findings().iter().map(|finding| finding.place.to_string()).collect();
+    let keys: Vec<_> = error.mistakes().iter().map(|mistake| mistake.place.to_string()).collect();
     let expected =
         ["material.conductivity", "boundary[0]", "discretization.level", "crack[0].points[1]"];
     assert_eq!(keys, expected);
@@ -328,7 +328,7 @@ fn nothing_is_refused_without_a_reason() {
     ];
     let check = |lines: &[&str]| match parse(&lines.join("\n")) {
         Ok(problem) => assert_eq!(problem.check(), Ok(()), "{}", lines.join("\n")),
-        Err(error) => assert!(!error.findings().is_empty(), "{}", lines.join("\n")),
+        Err(error) => assert!(!error.mistakes().is_empty(), "{}", lines.join("\n")),
     };
     for text in [PLATE, MEMBRANE] {
         let lines: Vec<_> = text.lines().collect();
