@@ -179,7 +179,7 @@ class Field:
         self.quantities = {k: self.formula(v, ()) for k, v in (library | own).items()}
 
     def evaluate(self, x, y, side=1):
-        """[(value, d/dx, d/dy), …], one a component; `side` is +1 or -1 and decides on a crack."""
+        """[(value, d/dx, d/dy), …], one per component; `side` is +1 or -1 and decides on a crack."""
         p = self.real(x), self.real(y)
         if not self.contains(p):
             return [(math.nan,) * 3] * len(self.components)

@@ -77,7 +77,7 @@ fn report(error: &anyhow::Error) {
 fn message(error: &anyhow::Error) -> String {
     error
         .chain()
-        .map(|cause| remedy::told(cause))
+        .map(remedy::told)
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
 }

@@ -63,7 +63,7 @@ struct Pass<'a> {
     zero: NodeId,
     /// Functions with derivative rules of their own.
     defined: Vec<NodeId>,
-    /// Derivatives of the nodes so far, one a variable.
+    /// Derivatives of the nodes so far, one per variable.
     partials: Vec<Vec<NodeId>>,
 }
 

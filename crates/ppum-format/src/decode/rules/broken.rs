@@ -314,7 +314,7 @@ pub(super) const RULES: &[Rule] = &[
         "exact solutions have all components or none",
         FULL,
         |c| put(c, "steps/0000/fields/0000/exact", texts(&["x"])),
-        &["fields[0].exact", "one a component, or none"],
+        &["fields[0].exact", "one per component, or none"],
     ),
     // results
     (

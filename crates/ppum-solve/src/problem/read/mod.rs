@@ -316,7 +316,7 @@ fn exact(root: &Section<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression
 /// One value per component: those of an array, or the value itself if there is but one.
 fn components<'a>(value: &Value<'a>, kind: Kind) -> Option<Vec<Value<'a>>> {
     match kind {
-        Kind::Elasticity => value.pair("an array of two, one a component").map(Vec::from),
+        Kind::Elasticity => value.pair("an array of two, one per component").map(Vec::from),
         Kind::Poisson => Some(vec![value.clone()]),
     }
 }
