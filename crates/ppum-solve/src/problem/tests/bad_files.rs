@@ -2,8 +2,18 @@
 
 use super::*;
 
-const PLATE: &str = include_str!("../../../tests/bad_files/plate.toml");
-const CASES: &str = include_str!("../../../tests/bad_files/cases.txt");
+/// A good file and the mistakes made in it: `NAME.toml` and `NAME.txt`.
+macro_rules! files {
+    ($($name:literal),*) => {
+        [$((
+            $name,
+            include_str!(concat!("../../../tests/bad_files/", $name, ".toml")),
+            include_str!(concat!("../../../tests/bad_files/", $name, ".txt")),
+        )),*]
+    };
+}
+const FILES: [(&str, &str, &str); 6] =
+    files!["centre_crack", "formulas", "holes", "membrane", "plate", "table"];
 
 /// One case: a part of the good file, what replaces it, and what is then found wrong.
 struct Case {
@@ -13,39 +23,46 @@ struct Case {
     expected: Vec<String>,
 }
 
-/// Cases begin with `==`; in each, lines with `-` are replaced by those with `+`, the others are mistakes.
-fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
-    for text in CASES.split("== ").skip(1) {
-        let mut lines = text.lines().map(str::to_owned);
-        let title = lines.next().expect("a title");
-        let of = |sign: char, line: &String| line.strip_prefix(sign).map(str::to_owned);
-        let (old, rest): (Vec<_>, Vec<_>) = lines.partition(|line| line.starts_with('-'));
-        let (new, expected): (Vec<_>, Vec<_>) = rest.into_iter().partition(|l| l.starts_with('+'));
-        let old = old.iter().filter_map(|line| of('-', line)).collect();
-        let new = new.iter().filter_map(|line| of('+', line)).collect();
-        let expected = expected.into_iter().filter(|line| !line.is_empty()).collect();
-        cases.push(Case { title, old, new, expected });
+impl Case {
+    /// Lines with `-` are replaced by those with `+`, the others are mistakes.
+    fn read(text: &str) -> Self {
+        let mut lines = text.lines();
+        let title = lines.next().expect("a title").to_owned();
+        let lines: Vec<_> = lines.filter(|line| !line.is_empty()).collect();
+        let of = |sign: char| -> Vec<_> {
+            lines.iter().filter_map(|line| line.strip_prefix(sign)).map(str::to_owned).collect()
+        };
+        let is_mistake = |line: &&&str| !line.starts_with(['-', '+']);
+        let expected = lines.iter().filter(is_mistake).map(|&line| line.to_owned()).collect();
+        Self { title, old: of('-'), new: of('+'), expected }
     }
-    cases
+
+    /// The case with the mistakes that are found instead of those expected, if they differ.
+    fn wrong_answer(&self, name: &str, good: &str) -> Option<String> {
+        let text = edited(good, &self.old.join("\n"), &self.new.join("\n"));
+        let error = parse(&text).err();
+        let mistakes = error.iter().flat_map(ProblemError::mistakes);
+        let found: Vec<_> =
+            mistakes.map(|m| m.to_string().replace("dir/plate.toml:", "")).collect();
+        (found != self.expected)
+            .then(|| format!("{name} == {}\n{}\n", self.title, found.join("\n")))
+    }
 }
 
 #[test]
-fn the_plate_is_in_order() {
-    assert_eq!(good(PLATE).check(), Ok(()));
+fn the_files_themselves_are_in_order() {
+    for (name, text, _) in FILES {
+        assert_eq!(good(text).check(), Ok(()), "{name}");
+    }
 }
 
 #[test]
 fn every_mistake_is_told_in_full() {
-    let cases = cases();
-    assert!(cases.len() >= 60, "{} cases", cases.len());
-    let wrong_answer = |case: &Case| {
-        let text = edited(PLATE, &case.old.join("\n"), &case.new.join("\n"));
-        let error = parse(&text).err();
-        let found = error.iter().flat_map(ProblemError::mistakes);
-        let found: Vec<_> = found.map(|f| f.to_string().replace("dir/plate.toml:", "")).collect();
-        (found != case.expected).then(|| format!("== {}\n{}\n", case.title, found.join("\n")))
-    };
-    let wrong: Vec<_> = cases.iter().filter_map(wrong_answer).collect();
+    let mut wrong = Vec::new();
+    for (name, good, cases) in FILES {
+        let cases: Vec<_> = cases.split("\n== ").skip(1).map(Case::read).collect();
+        assert!(cases.len() >= 8, "{name}: {} cases", cases.len());
+        wrong.extend(cases.iter().filter_map(|case| case.wrong_answer(name, good)));
+    }
     assert!(wrong.is_empty(), "found instead:\n{}", wrong.join("\n"));
 }

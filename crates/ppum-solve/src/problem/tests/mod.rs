@@ -17,48 +17,11 @@ use super::*;
 
 /// A good file; the tests replace parts of it. Line numbers: 1 title, 2 domain, 5 material, 9 crack,
 /// 11 and 14 boundary, 17 discretization.
-const PLATE: &str = r#"title = "Centre crack"
-[domain]
-min = [-1.0, -1.0]
-max = [1.0, 1.0]
-[material]
-young = 2.5
-poisson = 0.3
-state = "plane-strain"
-[[crack]]
-points = [[-0.5, 0.0], [0.5, 0.0]]
-[[boundary]]
-on = "bottom"
-displacement = [0.0, "free"]
-[[boundary]]
-on = "top"
-traction = [0.0, "1 + x^2"]
-[discretization]
-level = 4
-"#;
+const PLATE: &str = include_str!("../../../tests/bad_files/centre_crack.toml");
 
 /// The same for Poisson. Line numbers: 1 domain, 4 equation, 6 material, 8 and 11 boundary,
 /// 14 source, 16 exact, 18 discretization.
-const MEMBRANE: &str = r#"[domain]
-min = [0, 0]
-max = [2, 1]
-[equation]
-kind = "poisson"
-[material]
-conductivity = 2
-[[boundary]]
-on = "left"
-value = "exact"
-[[boundary]]
-on = { edge = "top", from = 0.5 }
-flux = "sin(x)"
-[source]
-value = "x*y"
-[exact]
-value = "x + y"
-[discretization]
-cells = [8, 4]
-"#;
+const MEMBRANE: &str = include_str!("../../../tests/bad_files/membrane.toml");
 
 fn parse(text: &str) -> Result<Problem, ProblemError> {
     Problem::parse(text, "dir/plate.toml", Path::new("no/such/folder"))
@@ -78,25 +41,6 @@ fn mistakes(text: &str) -> Vec<String> {
         Ok(_) => panic!("nothing was found wrong:\n{text}"),
         Err(error) => error.mistakes().iter().map(Mistake::to_string).collect(),
     }
-}
-
-/// A rule: what is replaced in a good file, by what, and where and how that is found wrong.
-type Bad = (&'static str, &'static str, usize, usize, &'static str);
-
-/// Each edit must give one mistake, no more, at the place and with the message expected.
-fn check_all(text: &str, cases: &[Bad]) {
-    let wrong = |&(old, new, line, column, part): &Bad| {
-        let found = mistakes(&edited(text, old, new));
-        let place = format!("dir/plate.toml:{line}:{column}: ");
-        let good = found.len() == 1 && found[0].starts_with(&place) && found[0].contains(part);
-        let message = || {
-            let found = found.join("\n");
-            format!("`{old}` → `{new}`: expected\n{place}… {part} …, found\n{found}\n\n")
-        };
-        (!good).then(message)
-    };
-    let wrong: String = cases.iter().filter_map(wrong).collect();
-    assert!(wrong.is_empty(), "{wrong}");
 }
 
 #[test]
