@@ -26,7 +26,7 @@ pub enum DerivativeError {
     /// The derivatives have more than [`MAX_NODES`] operations.
     #[error("the derivatives have more than {MAX_NODES} operations; simplify the formula")]
     TooLarge,
-    /// [`FormulaJets`] know derivatives with respect to one or two variables.
+    /// [`FormulaJets`](crate::FormulaJets) know derivatives with respect to one or two variables.
     #[error("derivatives of functions of one or two variables only; here are {variables}")]
     Variables {
         /// Number of independent variables.

@@ -258,7 +258,7 @@ fn excerpt(line: &str, column: usize, length: usize) -> String {
     format!("  {lead}{}{tail}\n  {indent}{carets}", shown.trim_end())
 }
 
-/// The known name that was meant, see [`nearest`](crate::text::nearest).
+/// The known name that was meant, see [`nearest`](crate::spelling::nearest).
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     crate::spelling::nearest(name, known).map(str::to_owned)
 }
