@@ -84,15 +84,16 @@ fn is_ours(name: &str) -> bool {
     name == "ppum" || name.starts_with("ppum-")
 }
 
-/// The table of ARCHITECTURE.md: rows whose first cell is a crate, the last what it depends on.
+/// The table of ARCHITECTURE.md: rows of three cells, the first a crate, the last what it depends on.
 fn documented() -> Arrows {
     let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the page is there");
     let quoted = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect();
     let row = |line: &str| -> Option<(String, BTreeSet<String>)> {
         let cells: Vec<_> =
             line.strip_prefix('|')?.trim_end().strip_suffix('|')?.split('|').collect();
-        let first = cells.first()?.trim().strip_prefix('`')?.strip_suffix('`')?;
-        is_ours(first).then(|| (first.to_owned(), quoted(cells[cells.len() - 1])))
+        let [first, _, to] = cells[..] else { return None };
+        let first = first.trim().strip_prefix('`')?.strip_suffix('`')?;
+        is_ours(first).then(|| (first.to_owned(), quoted(to)))
     };
     page.lines().filter_map(row).collect()
 }
