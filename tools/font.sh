@@ -1,12 +1,12 @@
 #!/bin/sh
-# Writes crates/ppum-render/data/DejaVuSans-subset.ttf: Latin, Greek, super- and subscripts and
+# Writes crates/ppum-figure/data/DejaVuSans-subset.ttf: Latin, Greek, super- and subscripts and
 # mathematical signs of DejaVu Sans, without hinting and layout tables, which figures do not use.
 # Needs a virtual environment with matplotlib (it carries the font) and fonttools:
 #     python3 -m venv venv && venv/bin/pip install matplotlib fonttools
 #     tools/font.sh venv/bin
 set -eu
 bin=$1
-data=$(dirname "$0")/../crates/ppum-render/data
+data=$(dirname "$0")/../crates/ppum-figure/data
 fonts=$("$bin/python" -c 'import matplotlib; print(matplotlib.get_data_path())')/fonts/ttf
 latin=U+0020-007E,U+00A0-017F,U+2010-2015,U+2018-201D,U+2026,U+FFFD
 greek=U+0391-03A9,U+03B1-03C9,U+03D1,U+03D5,U+03F5

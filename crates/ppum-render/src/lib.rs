@@ -2,9 +2,8 @@
 //!
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
-//! [`Raster`](raster::Raster), [`Picture`](picture::Picture) gives its values colours, and
-//! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] encodes the result
-//! together with what it shows. Nothing is resampled, interpolated or triangulated on the way.
+//! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
+//! encodes the result together with what it shows; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -43,9 +42,7 @@
 
 pub mod colormap;
 mod error;
-pub mod figure;
 pub mod image;
-pub mod overlay;
 mod parts;
 pub mod picture;
 pub mod pixels;
@@ -55,8 +52,6 @@ pub mod raster;
 pub mod reference;
 pub mod scale;
 pub mod scatter;
-mod text;
-pub mod ticks;
 pub mod view;
 
 pub use error::RenderError;
@@ -71,12 +66,9 @@ mod tests {
         &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
         &[
             ("colormap", &["image"]),
-            ("overlay", &["image", "view"]),
             ("pixels", &["view"]),
             ("png", &["image"]),
             ("raster", &["error", "view"]),
-            ("text", &["image"]),
-            ("ticks", &["scale"]),
         ],
         &[
             ("range", &["raster", "scale"]),
@@ -84,7 +76,6 @@ mod tests {
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
-        &[("figure", &["image", "overlay", "picture", "text", "ticks"])],
     ];
 
     #[test]
@@ -99,7 +90,6 @@ mod tests {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
         check::<super::RenderError>();
         check::<super::colormap::ColormapError>();
-        check::<super::figure::FigureError>();
         check::<super::range::RangeError>();
         check::<super::view::ViewError>();
     }

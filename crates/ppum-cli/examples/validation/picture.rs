@@ -5,7 +5,7 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Rect;
-use ppum_render::figure::{Labels, figure, plot_area};
+use ppum_figure::figure::{Labels, figure, plot_area};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::scale::Scale;

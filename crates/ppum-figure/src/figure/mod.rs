@@ -19,9 +19,9 @@ mod sheet;
 
 use ppum::crack::Crack;
 
-use crate::image::{Image, Mask, Rgba};
 use crate::overlay::{self, line_scale};
-use crate::picture::Picture;
+use ppum_render::image::{Image, Mask, Rgba};
+use ppum_render::picture::Picture;
 use sheet::Sheet;
 
 /// The words of a figure; empty ones are left out. `_{…}` sets a subscript: `σ_{yy}`. Characters are
@@ -138,11 +138,11 @@ mod tests {
     use super::color_bar::{ARROW, BAR};
     use super::sheet::BAR_GAP;
     use super::*;
-    use crate::picture::Style;
-    use crate::range::Range;
-    use crate::raster::Raster;
-    use crate::view::View;
     use ppum::vec2::{Rect, Vec2, vec2};
+    use ppum_render::picture::Style;
+    use ppum_render::range::Range;
+    use ppum_render::raster::Raster;
+    use ppum_render::view::View;
 
     const SIZE: [u32; 2] = [640, 480];
 

@@ -6,10 +6,10 @@ use ppum::vec2::{Vec2, vec2};
 use super::Labels;
 use super::axis::{Axis, TICK_DISTANCE, axes, bar};
 use super::color_bar::BAR;
-use crate::image::Mask;
 use crate::overlay::line_scale;
-use crate::picture::Picture;
 use crate::text::{self, CAP_HEIGHT};
+use ppum_render::image::Mask;
+use ppum_render::picture::Picture;
 
 // Lengths in pixels of a figure of 1024 × 768; others are scaled.
 pub(super) const TICK_TEXT: f64 = 13.0;

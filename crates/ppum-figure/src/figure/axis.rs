@@ -5,9 +5,9 @@ use ppum::vec2::Vec2;
 
 use super::Labels;
 use super::sheet::TICK_TEXT;
-use crate::picture::Picture;
 use crate::text;
 use crate::ticks::{self, Step, Ticks, power_of_ten};
+use ppum_render::picture::Picture;
 
 /// Least distances of labelled ticks, across and along the direction of reading.
 pub(super) const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
@@ -91,11 +91,11 @@ fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Style;
-    use crate::raster::Raster;
-    use crate::view::View;
     use ppum::crack::CrackEnd;
     use ppum::vec2::vec2;
+    use ppum_render::picture::Style;
+    use ppum_render::raster::Raster;
+    use ppum_render::view::View;
 
     fn labels() -> Labels {
         Labels { length_unit: "mm".to_owned(), ..Labels::default() }

@@ -6,7 +6,7 @@
 
 use ppum::text::trimmed;
 
-use crate::scale::{Normalization, Scale};
+use ppum_render::scale::{Normalization, Scale};
 
 /// A labelled mark.
 #[derive(Clone, Debug, PartialEq)]
@@ -235,8 +235,8 @@ fn round_to(x: f64, k: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::range::Range;
-    use crate::raster::Raster;
+    use ppum_render::range::Range;
+    use ppum_render::raster::Raster;
 
     fn labels(ticks: &Ticks) -> Vec<&str> {
         ticks.major.iter().map(|t| t.label.as_str()).collect()
@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn one_value_has_one_tick() {
-        let norm = Normalization::new(Scale::Linear, -6.0, -2.0);
+        let norm = norm(Scale::Linear, -6.0, -2.0);
         let ticks = of_one_value(&norm, -4.0);
         assert_eq!(labels(&ticks), ["−4"]);
         assert!((ticks.major[0].at - 0.5).abs() < 1e-15 && ticks.minor.is_empty());

@@ -7,7 +7,7 @@ use ab_glyph::{Font as _, FontRef, Glyph, Point, PxScale, ScaleFont as _, point}
 use ppum::printable::printable;
 use ppum::vec2::{Vec2, vec2};
 
-use crate::image::Mask;
+use ppum_render::image::Mask;
 
 static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
     let data = include_bytes!("../data/DejaVuSans-subset.ttf");

@@ -4,8 +4,8 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::PAGE;
 use super::sheet::{BAR_GAP, GAP, LABEL_GAP, LABEL_TEXT, Sheet, TICK, outline, snapped};
-use crate::image::{Image, Mask, Rgba};
 use crate::text::CAP_HEIGHT;
+use ppum_render::image::{Image, Mask, Rgba};
 
 /// Width of the bar.
 pub(super) const BAR: f64 = 18.0;

@@ -9,8 +9,8 @@ use ppum::dataset::Partition;
 use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 
-use crate::image::{Image, Mask, Rgba};
-use crate::view::View;
+use ppum_render::image::{Image, Mask, Rgba};
+use ppum_render::view::View;
 
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 const CRACK: Rgba = [16, 16, 20, 255];

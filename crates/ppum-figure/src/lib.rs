@@ -1,0 +1,34 @@
+//! Figures: everything that is drawn on and around a picture of a field.
+//!
+//! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its cracks,
+//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)).
+
+pub mod figure;
+pub mod overlay;
+mod text;
+pub mod ticks;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[("overlay", &[]), ("text", &[]), ("ticks", &[])],
+        &[("figure", &["overlay", "text", "ticks"])],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
+
+    #[test]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<super::figure::FigureError>();
+    }
+}
