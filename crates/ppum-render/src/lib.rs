@@ -50,6 +50,7 @@ pub mod png;
 pub mod range;
 pub mod raster;
 pub mod reference;
+pub mod resample;
 pub mod scale;
 pub mod scatter;
 pub mod view;
@@ -73,6 +74,7 @@ mod tests {
         &[
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
+            ("resample", &["error", "parts", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
