@@ -10,6 +10,7 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
+mod drawing;
 mod families;
 mod given;
 mod graphics;
@@ -27,6 +28,7 @@ mod threads;
 mod tips;
 mod undefined;
 mod warnings;
+mod window;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
