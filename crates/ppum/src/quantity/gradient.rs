@@ -74,7 +74,7 @@ enum Rule {
     /// The norm of what they are less the exact solution, given by formulas with their derivatives.
     Error(Vec<FormulaJets>),
     /// The chain rule.
-    Chain(Chain),
+    Chain(Box<Chain>),
 }
 
 /// A formula with its derivatives with respect to its inputs.
@@ -202,10 +202,10 @@ impl Rule {
                 let exact: Result<_, _> = field.exact_formulas().iter().map(compile).collect();
                 Self::Error(exact.map_err(QuantityFormulaError::from)?)
             }
-            Quantity::Formula(formula) => Self::Chain(Chain::new(formula, field)?),
+            Quantity::Formula(formula) => Self::Chain(Box::new(Chain::new(formula, field)?)),
             built_in => {
                 let formula = text(built_in, field.equation, field.components())?;
-                Self::Chain(Chain::new(&formula, field)?)
+                Self::Chain(Box::new(Chain::new(&formula, field)?))
             }
         })
     }
