@@ -45,6 +45,7 @@ mod error;
 pub mod image;
 mod parts;
 pub mod picture;
+pub mod pieces;
 pub mod pixels;
 pub mod png;
 pub mod range;
@@ -64,7 +65,14 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
+        &[
+            ("error", &[]),
+            ("image", &[]),
+            ("parts", &[]),
+            ("pieces", &[]),
+            ("scale", &[]),
+            ("view", &[]),
+        ],
         &[
             ("colormap", &["image"]),
             ("pixels", &["view"]),
