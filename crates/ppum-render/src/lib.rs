@@ -41,6 +41,7 @@
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
 pub mod colormap;
+pub mod deform;
 mod error;
 pub mod image;
 mod parts;
@@ -80,6 +81,7 @@ mod tests {
             ("raster", &["error", "view"]),
         ],
         &[
+            ("deform", &["parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
