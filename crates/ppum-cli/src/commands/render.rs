@@ -11,10 +11,10 @@ use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum::text::{apart, trimmed};
-use ppum_figure::figure::{Labels, figure, plot_area};
+use ppum_figure::canvas::{Canvas, Item};
+use ppum_figure::figure::{Labels, bare, figure, plot_area};
 use ppum_figure::overlay;
 use ppum_render::colormap::{Colormap, LONGEST, NAMES};
-use ppum_render::image::Image;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::range::Range;
@@ -125,9 +125,9 @@ impl Args {
             "the view shows nothing of the domain; `ppum info` says where that is"
         );
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { mut picture, by, undefined, is_finite } = self.engine.draw(job)?;
+        let Drawn { picture, by, undefined, is_finite } = self.engine.draw(job)?;
         let title = self.replacements.title(&dataset.title);
-        let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
+        let image = self.page(&picture, &field, &labels(title, &field, &quantity))?.image();
         let mut texts = picture.description(&dataset.title, &self.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
@@ -177,27 +177,31 @@ impl Args {
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
-    fn image(
+    fn page(
         &self,
-        picture: &mut Picture,
+        picture: &Picture,
         field: &Field<'_>,
         labels: &Labels,
-    ) -> anyhow::Result<Image> {
-        let view = picture.view;
+    ) -> anyhow::Result<Canvas> {
+        let (layers, cracks) = (self.layers(picture, field), &field.step.cracks);
+        if !self.figure {
+            return Ok(bare(picture, layers));
+        }
+        Ok(figure(picture, layers, labels, cracks, self.size.unwrap_or(DEFAULT_SIZE))?)
+    }
+
+    /// What is drawn over the colours.
+    fn layers(&self, picture: &Picture, field: &Field<'_>) -> Vec<Item> {
+        let view = &picture.view;
+        let mut layers = Vec::new();
         if self.overlay.contains(&Overlay::Patches) {
-            overlay::patches(&mut picture.image, &view, &field.step.partition);
+            layers.extend(overlay::cells(view, &field.step.partition));
         }
         if self.figure || self.overlay.contains(&Overlay::Cracks) {
-            overlay::rims(&mut picture.image, &view, &field.domain.holes);
+            layers.extend(overlay::rims(view, &field.domain.holes));
+            layers.extend(overlay::cracks(view, &field.step.cracks));
         }
-        if self.figure {
-            let size = self.size.unwrap_or(DEFAULT_SIZE);
-            return Ok(figure(picture, labels, &field.step.cracks, size)?);
-        }
-        if self.overlay.contains(&Overlay::Cracks) {
-            overlay::cracks(&mut picture.image, &view, &field.step.cracks);
-        }
-        Ok(picture.image.clone())
+        layers
     }
 }
 
