@@ -1,31 +1,36 @@
-//! Lines over a picture: cracks, rims of holes and the cells of the cover.
+//! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration discs,
+//! supports and loads.
 //!
 //! Each gives what is to be drawn on a page of the view's pixels. Lines are placed through offsets from the
 //! view's centre, so they are where the field has them at any zoom: an oblique line through a view 1e-12 of
 //! the domain wide is drawn by its distance from the centre and its direction, not between end points that
 //! lie 10^15 pixels away. A line has one colour throughout, and a seam that parts it from its own colour.
 
+mod cover;
+mod legend;
+mod rings;
+mod supports;
+
 use ppum::crack::{Crack, tips};
-use ppum::dataset::Partition;
 use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
+pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
+pub use legend::{Entry, Symbol, legend};
+pub use rings::rings;
+pub use supports::{Load, Support, loads, supports};
 
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 const CRACK: Rgba = [16, 16, 20, 255];
 const SEAM: Rgba = [255, 255, 255, 150];
-/// Lines of the cover, and their seam.
-const CELL: Rgba = [24, 24, 30, 190];
-const CELL_SEAM: Rgba = [255, 255, 255, 110];
 /// Widths and radii in pixels of a picture 768 pixels high.
 const CRACK_WIDTH: f64 = 1.8;
 const TIP_RADIUS: f64 = 3.0;
 const RIM_WIDTH: f64 = 1.0;
 const SEAM_WIDTH: f64 = 1.0;
-const BORDER_WIDTH: f64 = 1.0;
 
 /// Width of lines and letters in units of their width in a picture of 1024 × 768 pixels; never narrower, lest
 /// they be unreadable.
@@ -90,23 +95,6 @@ fn arc(view: &View, center: Vec2, radius: f64) -> Vec<Vec2> {
     (-count..=count).map(at).collect()
 }
 
-/// The borders of the cover's cells.
-#[must_use]
-pub fn cells(view: &View, partition: &Partition) -> Vec<Item> {
-    let width = BORDER_WIDTH * line_scale(view.pixels);
-    let around = view.half() + vec2(view.pixel_size(), view.pixel_size()) * (1.0 + width);
-    let mut path = Path::default();
-    for cell in &partition.cell {
-        let (min, max) = (cell.min - view.center, cell.max - view.center);
-        if max.x < -around.x || min.x > around.x || max.y < -around.y || min.y > around.y {
-            continue;
-        }
-        let corner = |p: Vec2| view.pixel_of_offset(p.max(-around).min(around));
-        path.rect(corner(min), corner(max));
-    }
-    vec![Item::Line { path, pen: Pen::new(CELL, width).with_halo(CELL_SEAM, 0.6 * width) }]
-}
-
 /// The part of a segment in or near the view, in continuous pixel coordinates.
 fn visible_part(view: &View, a: Vec2, b: Vec2) -> Option<[Vec2; 2]> {
     let (from, to) = (a - view.center, b - view.center);
@@ -132,8 +120,6 @@ mod tests {
     use super::*;
     use crate::canvas::Canvas;
     use ppum::crack::CrackEnd;
-    use ppum::vec2::Rect;
-    use ppum::weight::WeightFunction;
     use ppum_render::image::Image;
 
     const GREY: Rgba = [128, 128, 128, 255];
@@ -143,7 +129,7 @@ mod tests {
     }
 
     /// The items on a page of one colour.
-    fn on(color: Rgba, view: &View, items: Vec<Item>) -> Image {
+    pub(super) fn on(color: Rgba, view: &View, items: Vec<Item>) -> Image {
         Canvas { size: view.pixels, paper: color, items }.image()
     }
 
@@ -227,52 +213,5 @@ mod tests {
         {
             assert_eq!(draw(&view, crack), Image::filled([32, 32], GREY));
         }
-    }
-
-    fn cover(cell: Vec<Rect>) -> Partition {
-        let n = cell.len();
-        Partition {
-            weight: WeightFunction::Linear,
-            center: cell.iter().map(Rect::center).collect(),
-            half: cell.iter().map(|c| c.size() * 0.65).collect(),
-            origin: cell.iter().map(Rect::center).collect(),
-            scale: cell.iter().map(|c| c.size() * 0.65).collect(),
-            cell,
-            level: vec![1; n],
-            point: vec![None; n],
-            points: vec![],
-        }
-    }
-
-    /// Darker than a light ground, lighter than a dark one: by the line or by its seam; the same line on both.
-    #[test]
-    fn cell_borders_show_on_any_colour_and_do_not_add_up() {
-        let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
-        let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
-        let cover = cover(vec![unit, next]);
-        let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
-        for color in [[0, 0, 0, 255], [128, 128, 128, 255], [255, 255, 255, 255]] {
-            let image = on(color, &view, cells(&view, &cover));
-            let seen =
-                |i: u32| (0..3).map(|k| image.pixel(i, 50)[k].abs_diff(color[k])).max().unwrap();
-            assert!(seen(100).max(seen(99)) > 40, "{color:?}");
-            assert_eq!(image.pixel(50, 50), color);
-            let alone =
-                on(color, &view, cells(&view, &Partition { cell: vec![unit], ..cover.clone() }));
-            assert_eq!(image.pixel(100, 50), alone.pixel(100, 50), "the shared border, drawn once");
-        }
-    }
-
-    #[test]
-    fn cell_borders_are_in_place_at_a_width_of_1e_12() {
-        let corner = vec2(0.3, 0.7);
-        let cover = cover(vec![Rect::new(Vec2::ZERO, corner), Rect::new(corner, vec2(1.0, 1.0))]);
-        let view = View::new(corner, 1e-12, [101, 101]).unwrap();
-        let image = on([255; 4], &view, cells(&view, &cover));
-        // The first cell lies left of and below its corner, the second right of and above it.
-        for (column, row) in [(50, 80), (20, 50), (50, 20), (80, 50)] {
-            assert!(image.pixel(column, row)[0] < 120, "{column} {row}");
-        }
-        assert_eq!(image.pixel(20, 20)[0], 255);
     }
 }
