@@ -19,7 +19,7 @@ mod tests {
     const FLOORS: Floors<'_> = &[
         &[("text", &[]), ("ticks", &[])],
         &[("canvas", &["text"])],
-        &[("overlay", &["canvas"])],
+        &[("overlay", &["canvas", "text"])],
         &[("figure", &["canvas", "overlay", "text", "ticks"])],
     ];
 
