@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    bench, completions, demo, formula, info, man, probe, render, sample, sif, solve,
+    bench, compare, completions, demo, formula, info, man, probe, render, sample, sif, solve,
 };
 use crate::output::Output;
 
@@ -37,6 +37,7 @@ pub(crate) enum Command {
     Probe(probe::Args),
     Sample(sample::Args),
     Render(render::Args),
+    Compare(compare::Args),
     Formula(formula::Args),
     Bench(bench::Args),
     Completions(completions::Args),
@@ -54,6 +55,7 @@ impl Command {
             Self::Probe(args) => args.run(out),
             Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),
+            Self::Compare(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out),

@@ -45,11 +45,13 @@ mod error;
 pub mod image;
 mod parts;
 pub mod picture;
+pub mod pieces;
 pub mod pixels;
 pub mod png;
 pub mod range;
 pub mod raster;
 pub mod reference;
+pub mod resample;
 pub mod scale;
 pub mod scatter;
 pub mod view;
@@ -63,7 +65,14 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
+        &[
+            ("error", &[]),
+            ("image", &[]),
+            ("parts", &[]),
+            ("pieces", &[]),
+            ("scale", &[]),
+            ("view", &[]),
+        ],
         &[
             ("colormap", &["image"]),
             ("pixels", &["view"]),
@@ -73,6 +82,7 @@ mod tests {
         &[
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
+            ("resample", &["error", "parts", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],

@@ -6,7 +6,9 @@
 //! Quantities have names, or are [formulas](QuantityFormula) of those that have.
 
 mod formula;
+mod gradient;
 mod many;
+mod material;
 mod tensors;
 
 use std::sync::Arc;
@@ -19,6 +21,7 @@ use crate::jet::Jet;
 use crate::text::hint;
 use crate::vec2::Vec2;
 pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use gradient::{QuantityGradient, Slope};
 use ppum_formula::real::Real;
 use tensors::Strain;
 
