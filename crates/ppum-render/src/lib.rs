@@ -40,6 +40,7 @@
 //!
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
+pub mod cells;
 pub mod colormap;
 mod error;
 pub mod image;
@@ -80,6 +81,7 @@ mod tests {
             ("raster", &["error", "view"]),
         ],
         &[
+            ("cells", &["raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
