@@ -7,6 +7,7 @@
 pub mod canvas;
 pub mod figure;
 pub mod overlay;
+pub mod plot;
 mod text;
 pub mod ticks;
 
@@ -20,7 +21,10 @@ mod tests {
         &[("text", &[]), ("ticks", &[])],
         &[("canvas", &["text"])],
         &[("overlay", &["canvas", "text"])],
-        &[("figure", &["canvas", "overlay", "text", "ticks"])],
+        &[
+            ("figure", &["canvas", "overlay", "text", "ticks"]),
+            ("plot", &["canvas", "overlay", "text", "ticks"]),
+        ],
     ];
 
     #[test]

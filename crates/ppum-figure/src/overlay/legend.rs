@@ -46,17 +46,21 @@ const INK: Rgba = [38, 38, 42, 255];
 /// A box in the upper right corner of a view with a line for each entry; nothing without entries.
 #[must_use]
 pub fn legend(view: &View, entries: &[Entry]) -> Vec<Item> {
+    legend_in(view.pixels, entries, line_scale(view.pixels))
+}
+
+/// A box in the upper right corner of a page of some size.
+pub(crate) fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<Item> {
     if entries.is_empty() {
         return Vec::new();
     }
-    let scale = line_scale(view.pixels);
     let letter = |entry: &Entry| Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
     let widest = entries.iter().map(|entry| letter(entry).width()).fold(0.0, f64::max);
     let size = vec2(
         (3.0 * MARGIN + MARK) * scale + widest,
         (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
     );
-    let right = f64::from(view.pixels[0]) - MARGIN * scale;
+    let right = f64::from(pixels[0]) - MARGIN * scale;
     let corner = vec2((right - size.x).max(0.0), MARGIN * scale);
     let mut outline = Path::default();
     outline.rect(corner, corner + size);

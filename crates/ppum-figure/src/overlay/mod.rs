@@ -19,6 +19,7 @@ use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
+pub(crate) use legend::legend_in;
 pub use legend::{Entry, Symbol, legend};
 pub use rings::rings;
 pub use supports::{Load, Support, loads, supports};
