@@ -44,6 +44,7 @@ pub mod cells;
 pub mod colormap;
 mod error;
 pub mod image;
+pub mod isoline;
 mod parts;
 pub mod picture;
 pub mod pieces;
@@ -85,6 +86,7 @@ mod tests {
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
+            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
