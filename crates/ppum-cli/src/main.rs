@@ -17,6 +17,7 @@ mod graphics;
 mod memory;
 mod number;
 mod output;
+mod overlays;
 mod panics;
 mod progress;
 mod remedy;

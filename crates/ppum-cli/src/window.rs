@@ -3,7 +3,7 @@
 use anyhow::{Context as _, ensure};
 use ppum::crack::tips;
 use ppum::field::Field;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::arguments::{corners, point, positive};
@@ -36,13 +36,15 @@ pub(crate) struct Frame {
     pub(crate) pixels: [u32; 2],
     /// A picture of the whole domain takes no more pixels than that has.
     pub(crate) may_shrink: bool,
+    /// Room around the domain in a picture of all of it, in parts of its larger side.
+    pub(crate) margin: f64,
 }
 
 const DEFAULT_ZOOM: f64 = 10.0;
 
 impl Window {
     fn view(&self, field: &Field<'_>, frame: Frame) -> anyhow::Result<View> {
-        let Frame { pixels, may_shrink } = frame;
+        let Frame { pixels, may_shrink, margin } = frame;
         if let Some(Rect { min, max }) = self.view {
             return Ok(View::window(min.x, min.y, max.x, max.y, pixels)?);
         }
@@ -55,7 +57,10 @@ impl Window {
             return Ok(View::new(tip_position(field, tip)?, width, pixels)?);
         }
         let whole = if may_shrink { View::hug } else { View::fit };
-        Ok(whole(field.domain.bounds, pixels)?)
+        let Rect { min, max } = field.domain.bounds;
+        let room = margin * (max.x - min.x).max(max.y - min.y);
+        let room = vec2(room, room);
+        Ok(whole(Rect::new(min - room, max + room), pixels)?)
     }
 
     /// The view, which must show some of the domain.

@@ -1,10 +1,13 @@
 //! Figures: everything that is drawn on and around a picture of a field.
 //!
 //! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its cracks,
-//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)).
+//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)). All of it is
+//! first put on a [`Canvas`](canvas::Canvas), which is then drawn as pixels.
 
+pub mod canvas;
 pub mod figure;
 pub mod overlay;
+pub mod plot;
 mod text;
 pub mod ticks;
 
@@ -15,8 +18,13 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("overlay", &[]), ("text", &[]), ("ticks", &[])],
-        &[("figure", &["overlay", "text", "ticks"])],
+        &[("text", &[]), ("ticks", &[])],
+        &[("canvas", &["text"])],
+        &[("overlay", &["canvas", "text"])],
+        &[
+            ("figure", &["canvas", "overlay", "text", "ticks"]),
+            ("plot", &["canvas", "overlay", "text", "ticks"]),
+        ],
     ];
 
     #[test]

@@ -40,10 +40,12 @@
 //!
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
+pub mod cells;
 pub mod colormap;
 pub mod deform;
 mod error;
 pub mod image;
+pub mod isoline;
 mod parts;
 pub mod picture;
 pub mod pieces;
@@ -81,10 +83,12 @@ mod tests {
             ("raster", &["error", "view"]),
         ],
         &[
+            ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
+            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],

@@ -6,6 +6,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Rect;
 use ppum_figure::figure::{Labels, figure, plot_area};
+use ppum_figure::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::scale::Scale;
@@ -30,7 +31,9 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
         ..Labels::default()
     };
     let texts = picture.description(&dataset.title, "", name);
-    let image = figure(&picture, &labels, &field.step.cracks, SIZE)?;
+    let cracks = &field.step.cracks;
+    let layers = [overlay::rims(&view, &field.domain.holes), overlay::cracks(&view, cracks)];
+    let image = figure(&picture, layers.concat(), &labels, cracks, SIZE)?.image();
     std::fs::write(path, png::encode(&image, &texts)?)?;
     Ok(())
 }

@@ -4,12 +4,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use clap::ValueEnum;
 use ppum::field::Field;
 use ppum::text::{apart, trimmed};
-use ppum_figure::figure::{Labels, figure, plot_area};
-use ppum_figure::overlay;
-use ppum_render::image::Image;
+use ppum_figure::canvas::{Canvas, Item};
+use ppum_figure::figure::{Labels, bare, figure, plot_area};
 use ppum_render::picture::Picture;
 use ppum_render::png;
 use ppum_render::view::View;
@@ -18,6 +16,7 @@ use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
 use crate::drawing::{Colours, Subject, labels};
 use crate::output::{Output, tell};
+use crate::overlays::Overlays;
 use crate::standard::is_standard;
 use crate::target;
 use crate::undefined;
@@ -43,9 +42,8 @@ pub(crate) struct Args {
     window: Window,
     #[command(flatten)]
     colours: Colours,
-    /// What is drawn over the colours; a figure always shows the cracks
-    #[arg(long, value_enum, value_delimiter = ',')]
-    overlay: Vec<Overlay>,
+    #[command(flatten)]
+    overlays: Overlays,
     /// Add axes, a colour bar, a title and the cracks
     #[arg(long)]
     figure: bool,
@@ -66,14 +64,6 @@ Examples:
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Overlay {
-    /// Cracks and their tips
-    Cracks,
-    /// Borders of the cover's cells
-    Patches,
-}
-
 const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 
 impl Args {
@@ -86,9 +76,10 @@ impl Args {
         let view = self.view(&field)?;
         let style = self.colours.style()?;
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { mut picture, by, undefined, is_finite } = self.engine.draw(job)?;
+        let Drawn { picture, by, undefined, is_finite } = self.engine.draw(job)?;
         let title = self.subject.replacements.title(&dataset.title);
-        let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
+        let layers = self.overlays.items(&view, &dataset, &field, self.figure);
+        let image = self.page(&picture, layers, &field, &labels(title, &field, &quantity))?.image();
         let mut texts = picture.description(&dataset.title, &self.subject.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.subject.notes(&quantity));
@@ -123,32 +114,24 @@ impl Args {
             pixels: if self.figure { plot_area(size)? } else { size },
             // A figure centres what it is given; a bare picture has the size that was asked for.
             may_shrink: self.figure || self.size.is_none(),
+            margin: self.overlays.margin(),
         };
         self.window.seen(field, frame)
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
-    fn image(
+    fn page(
         &self,
-        picture: &mut Picture,
+        picture: &Picture,
+        layers: Vec<Item>,
         field: &Field<'_>,
         labels: &Labels,
-    ) -> anyhow::Result<Image> {
-        let view = picture.view;
-        if self.overlay.contains(&Overlay::Patches) {
-            overlay::patches(&mut picture.image, &view, &field.step.partition);
+    ) -> anyhow::Result<Canvas> {
+        if !self.figure {
+            return Ok(bare(picture, layers));
         }
-        if self.figure || self.overlay.contains(&Overlay::Cracks) {
-            overlay::rims(&mut picture.image, &view, &field.domain.holes);
-        }
-        if self.figure {
-            let size = self.size.unwrap_or(DEFAULT_SIZE);
-            return Ok(figure(picture, labels, &field.step.cracks, size)?);
-        }
-        if self.overlay.contains(&Overlay::Cracks) {
-            overlay::cracks(&mut picture.image, &view, &field.step.cracks);
-        }
-        Ok(picture.image.clone())
+        let size = self.size.unwrap_or(DEFAULT_SIZE);
+        Ok(figure(picture, layers, labels, &field.step.cracks, size)?)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::PAGE;
-use super::sheet::{BAR_GAP, GAP, LABEL_GAP, LABEL_TEXT, Sheet, TICK, outline, snapped};
+use super::sheet::{BAR_GAP, GAP, LABEL_GAP, LABEL_TEXT, Sheet, TICK, outline, rect, snapped};
+use super::{INK, PAGE};
+use crate::canvas::{Canvas, Item, Path, Pen};
 use crate::text::CAP_HEIGHT;
-use ppum_render::image::{Image, Mask, Rgba};
+use ppum_render::image::{Image, Rgba};
 
 /// Width of the bar.
 pub(super) const BAR: f64 = 18.0;
@@ -28,7 +29,7 @@ impl Sheet<'_> {
     }
 
     /// The colours of the bar and its arrows.
-    pub(super) fn paint_bar(&self, page: &mut Image) {
+    pub(super) fn paint_bar(&self, page: &mut Canvas) {
         let (left, [low, high]) = self.bar_place();
         let map = &self.picture.colormap;
         let rows = (low - high) as u32;
@@ -39,11 +40,10 @@ impl Sheet<'_> {
             let t = 1.0 - (f64::from(row) + 0.5) / f64::from(rows);
             pixels.as_chunks_mut().0.fill(map.color(t));
         }
-        page.paste(&colors, [left as u32, high as u32]);
+        page.items.push(Item::Picture { image: colors, corner: [left as u32, high as u32] });
         for (corners, color) in self.arrows() {
-            let mut mask = Mask::new(self.size);
-            mask.triangle(corners);
-            page.paint(&mask, color);
+            let outline = Path::through(corners.to_vec());
+            page.items.push(Item::Fill { outline, color });
         }
     }
 
@@ -65,21 +65,21 @@ impl Sheet<'_> {
         arrows
     }
 
-    pub(super) fn draw_bar(&self, ink: &mut Mask) {
+    pub(super) fn draw_bar(&self, page: &mut Canvas) {
         let Self { scale, stroke, .. } = *self;
         let (left, [low, high]) = self.bar_place();
         let right = left + self.bar_width();
-        outline(ink, vec2(left, high), vec2(right, low), stroke);
+        outline(page, vec2(left, high), vec2(right, low), stroke);
         for ([a, tip, b], _) in self.arrows() {
-            ink.line(a, tip, stroke);
-            ink.line(tip, b, stroke);
+            let path = Path::through(vec![a, tip, b]);
+            page.items.push(Item::Line { path, pen: Pen::new(INK, stroke) });
         }
         let middle = 0.5 * (low + high);
         let mut mark = |position: f64, length: f64| {
             let at = low + position * (high - low);
             let top = snapped(at, stroke, middle);
             let from = right + stroke;
-            ink.rect(vec2(from, top), vec2(from + (length * scale).round(), top + stroke));
+            rect(page, vec2(from, top), vec2(from + (length * scale).round(), top + stroke));
             at
         };
         for &position in &self.bar.ticks.minor {
@@ -88,9 +88,9 @@ impl Sheet<'_> {
         let heights: Vec<f64> = self.bar.ticks.major.iter().map(|t| mark(t.at, TICK)).collect();
         let start = right + stroke + (TICK + GAP) * scale;
         for (tick, height) in self.bar.ticks.major.iter().zip(heights) {
-            self.at_height(ink, &tick.label, vec2(start, height));
+            self.at_height(page, &tick.label, vec2(start, height));
         }
-        self.upwards(ink, &self.bar, self.bar_label_base());
+        self.upwards(page, &self.bar, self.bar_label_base());
     }
 
     /// Base line of the bar's label.

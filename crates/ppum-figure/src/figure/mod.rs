@@ -19,8 +19,9 @@ mod sheet;
 
 use ppum::crack::Crack;
 
-use crate::overlay::{self, line_scale};
-use ppum_render::image::{Image, Mask, Rgba};
+use crate::canvas::{Canvas, Item};
+use crate::overlay::line_scale;
+use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
 use sheet::Sheet;
 
@@ -88,35 +89,41 @@ pub fn plot_area(size: [u32; 2]) -> Result<[u32; 2], FigureError> {
     Ok([size[0] - rooms[0], size[1] - rooms[1]])
 }
 
-/// Draws a figure of `size` pixels around a picture of at most [`plot_area`], in the middle.
+/// A figure of `size` pixels around a picture of at most [`plot_area`], in the middle: over it the layers,
+/// whose positions are pixels of the picture. Axes count from the tips of the cracks at deep zoom.
 ///
 /// # Errors
 /// A size without room for the picture.
 pub fn figure(
     picture: &Picture,
+    layers: Vec<Item>,
     labels: &Labels,
     cracks: &[Crack],
     size: [u32; 2],
-) -> Result<Image, FigureError> {
+) -> Result<Canvas, FigureError> {
     let (plot, room) = (picture.image.size, plot_area(size)?);
     if plot[0] > room[0] || plot[1] > room[1] {
         return Err(FigureError::TooLarge { plot, room });
     }
     let sheet = Sheet::new(picture, labels, cracks, size);
-    let mut page = Image::filled(size, PAGE);
-    page.paste(&hatched(plot), sheet.plot_min.map(|c| c as u32));
-    let mut shown = picture.image.clone();
-    overlay::cracks(&mut shown, &picture.view, cracks);
-    page.paste(&shown, sheet.plot_min.map(|c| c as u32));
+    let mut page = Canvas::new(size, PAGE);
+    page.items.push(sheet.plot(layers));
     sheet.paint_bar(&mut page);
-    let mut ink = Mask::new(size);
-    sheet.draw_frame(&mut ink);
-    sheet.draw_x_axis(&mut ink);
-    sheet.draw_y_axis(&mut ink);
-    sheet.draw_bar(&mut ink);
-    sheet.draw_title(&mut ink, &labels.title);
-    page.paint(&ink, INK);
+    sheet.draw_frame(&mut page);
+    sheet.draw_x_axis(&mut page);
+    sheet.draw_y_axis(&mut page);
+    sheet.draw_bar(&mut page);
+    sheet.draw_title(&mut page, &labels.title);
     Ok(page)
+}
+
+/// A picture with layers over it, and nothing around it.
+#[must_use]
+pub fn bare(picture: &Picture, layers: Vec<Item>) -> Canvas {
+    let mut page = Canvas::new(picture.image.size, [0; 4]);
+    page.items.push(Item::Picture { image: picture.image.clone(), corner: [0, 0] });
+    page.items.extend(layers);
+    page
 }
 
 /// A page with diagonal lines: what shows where the picture has no values.
@@ -171,6 +178,10 @@ mod tests {
         Picture::bare(&raster, &view, &Style { range, ..Style::default() }).unwrap()
     }
 
+    fn drawn(picture: &Picture) -> Image {
+        figure(picture, vec![], &labels(), &[], SIZE).unwrap().image()
+    }
+
     /// The corner of the plot, found as the first place with the picture's last row of colours.
     fn plot_corner(page: &Image, picture: &Picture) -> [u32; 2] {
         let [columns, rows] = picture.image.size;
@@ -185,7 +196,7 @@ mod tests {
     #[test]
     fn the_picture_is_shown_pixel_for_pixel() {
         let picture = picture(1.0, Range::Auto);
-        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let page = drawn(&picture);
         let [x, y] = plot_corner(&page, &picture);
         let [columns, rows] = picture.image.size;
         assert_eq!(page.size, SIZE);
@@ -206,7 +217,7 @@ mod tests {
     #[test]
     fn ticks_are_at_their_values() {
         let picture = picture(1.0, Range::Auto);
-        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let page = drawn(&picture);
         let [x, y] = plot_corner(&page, &picture);
         let [columns, rows] = picture.image.size;
         let below = y + rows + 3;
@@ -222,7 +233,7 @@ mod tests {
     #[test]
     fn the_bar_runs_from_low_to_high_and_ends_in_arrows() {
         let picture = picture(1.0, Range::Fixed(-0.5, 0.5));
-        let page = figure(&picture, &labels(), &[], SIZE).unwrap();
+        let page = drawn(&picture);
         let [x, y] = plot_corner(&page, &picture);
         let [columns, rows] = picture.image.size;
         let column = x + columns + (BAR_GAP + BAR / 2.0) as u32;
@@ -238,7 +249,7 @@ mod tests {
     #[test]
     fn long_words_stay_on_the_page() {
         for half in [1.0, 1e-5, 3e7] {
-            let page = figure(&picture(half, Range::Auto), &labels(), &[], SIZE).unwrap();
+            let page = drawn(&picture(half, Range::Auto));
             let [right, bottom] = SIZE.map(|n| n - 1);
             for (i, j) in (0..SIZE[0]).flat_map(|i| (0..SIZE[1]).map(move |j| (i, j))) {
                 let is_margin = i < 2 || j < 2 || i + 1 >= right || j + 1 >= bottom;
@@ -250,7 +261,7 @@ mod tests {
     #[test]
     fn figures_without_room_are_refused() {
         let picture = picture(1.0, Range::Auto);
-        let refused = |size| figure(&picture, &labels(), &[], size).unwrap_err();
+        let refused = |size| figure(&picture, vec![], &labels(), &[], size).unwrap_err();
         assert!(matches!(refused([200, 480]), FigureError::TooSmall { .. }));
         assert!(matches!(refused([500, 400]), FigureError::TooLarge { .. }));
         let FigureError::TooSmall { least, .. } = refused([10, 10]) else { unreachable!() };

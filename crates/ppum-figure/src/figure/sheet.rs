@@ -6,9 +6,10 @@ use ppum::vec2::{Vec2, vec2};
 use super::Labels;
 use super::axis::{Axis, TICK_DISTANCE, axes, bar};
 use super::color_bar::BAR;
+use super::{INK, bare, hatched};
+use crate::canvas::{Align, Canvas, Item, Lettering, Path};
 use crate::overlay::line_scale;
 use crate::text::{self, CAP_HEIGHT};
-use ppum_render::image::Mask;
 use ppum_render::picture::Picture;
 
 // Lengths in pixels of a figure of 1024 × 768; others are scaled.
@@ -68,12 +69,20 @@ impl<'a> Sheet<'a> {
         Self { picture, size, scale, stroke: scale.round().max(1.0), plot_min, plot_max, x, y, bar }
     }
 
-    /// A frame around the plot, just outside its pixels.
-    pub(super) fn draw_frame(&self, ink: &mut Mask) {
-        outline(ink, self.plot_min.into(), self.plot_max.into(), self.stroke);
+    /// The picture on its hatched ground, under the layers.
+    pub(super) fn plot(&self, layers: Vec<Item>) -> Item {
+        let mut canvas = bare(self.picture, layers);
+        let (corner, ground) = ([0, 0], hatched(canvas.size));
+        canvas.items.insert(0, Item::Picture { image: ground, corner });
+        Item::Inset { corner: self.plot_min.map(|c| c as u32), canvas }
     }
 
-    pub(super) fn draw_x_axis(&self, ink: &mut Mask) {
+    /// A frame around the plot, just outside its pixels.
+    pub(super) fn draw_frame(&self, page: &mut Canvas) {
+        outline(page, self.plot_min.into(), self.plot_max.into(), self.stroke);
+    }
+
+    pub(super) fn draw_x_axis(&self, page: &mut Canvas) {
         let Self { scale, stroke, .. } = *self;
         let top = self.plot_max[1] + stroke;
         let base = top + (TICK + GAP + TICK_TEXT * CAP_HEIGHT) * scale;
@@ -81,16 +90,16 @@ impl<'a> Sheet<'a> {
         for tick in &self.x.ticks.major {
             let at = self.plot_min[0] + self.picture.view.pixel_of_offset(vec2(tick.at, 0.0)).x;
             let left = snapped(at, stroke, middle);
-            ink.rect(vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
-            self.centred(ink, &tick.label, TICK_TEXT * scale, vec2(at, base));
+            rect(page, vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
+            centred(page, &tick.label, TICK_TEXT * scale, vec2(at, base));
         }
         let room = self.plot_max[0] - self.plot_min[0];
         let label = self.x.fitted(LABEL_TEXT * scale, room);
         let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
-        self.centred(ink, &label, LABEL_TEXT * scale, at);
+        centred(page, &label, LABEL_TEXT * scale, at);
     }
 
-    pub(super) fn draw_y_axis(&self, ink: &mut Mask) {
+    pub(super) fn draw_y_axis(&self, page: &mut Canvas) {
         let Self { scale, stroke, .. } = *self;
         let right = self.plot_min[0] - stroke;
         let end = right - (TICK + GAP) * scale;
@@ -98,54 +107,66 @@ impl<'a> Sheet<'a> {
         for tick in &self.y.ticks.major {
             let at = self.plot_min[1] + self.picture.view.pixel_of_offset(vec2(0.0, tick.at)).y;
             let top = snapped(at, stroke, middle);
-            ink.rect(vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
+            rect(page, vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
             let length = text::width(&tick.label, TICK_TEXT * scale);
-            self.at_height(ink, &tick.label, vec2(end - length, at));
+            self.at_height(page, &tick.label, vec2(end - length, at));
         }
         let base = end - self.y.widest - LABEL_GAP * scale;
-        self.upwards(ink, &self.y, base);
+        self.upwards(page, &self.y, base);
     }
 
     /// The title, cut where the bar's label could reach up to it.
-    pub(super) fn draw_title(&self, ink: &mut Mask, title: &str) {
+    pub(super) fn draw_title(&self, page: &mut Canvas, title: &str) {
         let size = TITLE_TEXT * self.scale;
         let start = vec2(self.plot_min[0], self.plot_min[1] - TITLE_GAP * self.scale);
         let end = self.bar_label_base() - (LABEL_TEXT + GAP) * self.scale;
-        text::draw(ink, &text::fitted(title, size, end - start.x), size, start);
-    }
-
-    /// Text centred on a point of its base line.
-    fn centred(&self, ink: &mut Mask, line: &str, size: f64, at: Vec2) {
-        let start = vec2(at.x - 0.5 * text::width(line, size), at.y.round());
-        text::draw(ink, line, size, start);
+        let title = text::fitted(title, size, end - start.x);
+        page.items.push(Item::Text(Lettering::new(title, size, start, INK)));
     }
 
     /// A tick's label whose digits are centred on a height, starting at `at.x`.
-    pub(super) fn at_height(&self, ink: &mut Mask, line: &str, at: Vec2) {
+    pub(super) fn at_height(&self, page: &mut Canvas, line: &str, at: Vec2) {
         let size = TICK_TEXT * self.scale;
-        text::draw(ink, line, size, vec2(at.x, (at.y + 0.5 * CAP_HEIGHT * size).round()));
+        let at = vec2(at.x, (at.y + 0.5 * CAP_HEIGHT * size).round());
+        page.items.push(Item::Text(Lettering::new(line, size, at, INK)));
     }
 
     /// An axis' label that reads upwards beside the plot.
-    pub(super) fn upwards(&self, ink: &mut Mask, axis: &Axis, base: f64) {
+    pub(super) fn upwards(&self, page: &mut Canvas, axis: &Axis, base: f64) {
         let size = LABEL_TEXT * self.scale;
         let label = axis.fitted(size, f64::from(self.size[1]) - 2.0 * GAP);
         let half = 0.5 * text::width(&label, size);
         // A label longer than the picture stays on the page.
         let (least, most) = (half + GAP, f64::from(self.size[1]) - half - GAP);
         let middle = (0.5 * (self.plot_min[1] + self.plot_max[1])).min(most).max(least);
-        text::draw_upwards(ink, &label, size, vec2(base, middle));
+        let line = Lettering::new(label, size, vec2(base, middle), INK);
+        page.items.push(Item::Text(line.aligned(Align::Middle).upwards()));
     }
 }
 
+/// Text centred on a point of its base line.
+fn centred(page: &mut Canvas, line: &str, size: f64, at: Vec2) {
+    let line = Lettering::new(line, size, vec2(at.x, at.y.round()), INK);
+    page.items.push(Item::Text(line.aligned(Align::Middle)));
+}
+
+/// A box filled with ink.
+pub(super) fn rect(page: &mut Canvas, a: Vec2, b: Vec2) {
+    let mut outline = Path::default();
+    outline.rect(a, b);
+    page.items.push(Item::Fill { outline, color: INK });
+}
+
 /// A box's outline of some width, outside of it.
-pub(super) fn outline(ink: &mut Mask, min: Vec2, max: Vec2, stroke: f64) {
+pub(super) fn outline(page: &mut Canvas, min: Vec2, max: Vec2, stroke: f64) {
     let out = vec2(stroke, stroke);
     let (min_out, max_out) = (min - out, max + out);
-    ink.rect(min_out, vec2(max_out.x, min.y));
-    ink.rect(vec2(min_out.x, max.y), max_out);
-    ink.rect(min_out, vec2(min.x, max_out.y));
-    ink.rect(vec2(max.x, min_out.y), max_out);
+    let mut outline = Path::default();
+    outline.rect(min_out, vec2(max_out.x, min.y));
+    outline.rect(vec2(min_out.x, max.y), max_out);
+    outline.rect(min_out, vec2(min.x, max_out.y));
+    outline.rect(vec2(max.x, min_out.y), max_out);
+    page.items.push(Item::Fill { outline, color: INK });
 }
 
 /// The start of a line of whole pixels around `at`; halves are rounded away from the middle, so that

@@ -3,10 +3,13 @@
 use super::cut::{Cut, Polygon};
 use super::{SAGITTA, centroid};
 use ppum::formula::Formula;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Bisections of a change of sign, to rounding.
 const BISECTIONS: usize = 50;
+
+/// Samples in each direction of a rectangle that tell whether a curve may be near.
+const SAMPLES: usize = 4;
 
 /// Most divisions in four, one inside the other.
 const DEPTH: usize = 4;
@@ -23,6 +26,22 @@ impl Curve {
     fn is_positive(&self, offset: Vec2) -> bool {
         let p = self.anchor + offset;
         self.level.evaluate(&[p.x, p.y]) > 0.0
+    }
+
+    /// False if samples say that the curve stays away from a rectangle: their least value is more than neighbours differ.
+    pub(super) fn may_meet(&self, rect: &Rect) -> bool {
+        let step = rect.size() / (SAMPLES - 1) as f64;
+        let value = |k: usize| {
+            let (i, j) = (k % SAMPLES, k / SAMPLES);
+            let p = self.anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
+            self.level.evaluate(&[p.x, p.y])
+        };
+        let values: Vec<f64> = (0..SAMPLES * SAMPLES).map(value).collect();
+        let least = values.iter().fold(f64::INFINITY, |a, v| a.min(v.abs()));
+        let right =
+            (0..values.len()).filter(|k| k % SAMPLES > 0).map(|k| [values[k - 1], values[k]]);
+        let up = (SAMPLES..values.len()).map(|k| [values[k - SAMPLES], values[k]]);
+        right.chain(up).any(|[a, b]| (a > 0.0) != (b > 0.0) || (a - b).abs() >= least)
     }
 
     /// The parts of a polygon on both sides.

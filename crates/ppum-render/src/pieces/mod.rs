@@ -123,12 +123,12 @@ impl<'f> Pieces<'f> {
     }
 
     /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies in the domain then, or in one
-    /// hole.
+    /// hole. Of curved interfaces samples tell.
     #[must_use]
     pub fn may_cut(&self, rect: &Rect) -> bool {
         let is_inside = self.bounds.contains(rect.min) && self.bounds.contains(rect.max);
         !is_inside
-            || !self.curves.is_empty()
+            || self.curves.iter().any(|curve| curve.may_meet(rect))
             || self.interfaces.iter().any(|cut| cut.meets(rect))
             || !self.lines_in(rect).is_empty()
             || self.rounds_in(rect).next().is_some()

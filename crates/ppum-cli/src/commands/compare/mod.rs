@@ -124,7 +124,7 @@ impl Args {
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
         let (quantity, name) = self.subject.quantity(&field)?;
-        let frame = Frame { pixels: plot_area(self.size)?, may_shrink: true };
+        let frame = Frame { pixels: plot_area(self.size)?, may_shrink: true, margin: 0.0 };
         let view = self.window.seen(&field, frame)?;
         let style = self.colours.style()?;
         let job = measure::Job { field: &field, view, quantity: &quantity, args: self };
@@ -152,7 +152,7 @@ impl Args {
         name: &str,
     ) -> anyhow::Result<Vec<u8>> {
         let (dataset, title) = (self.subject.file_name(), look.labels.title.clone());
-        let (image, direct) = look.sheet(found, self.size)?;
+        let (page, direct) = look.sheet(found, self.size)?;
         let mut texts = direct.description(&title, &dataset, name);
         for (key, text) in &mut texts {
             if key == "Description" {
@@ -161,7 +161,7 @@ impl Args {
         }
         let methods = found.resampled.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
         texts.extend(methods.chain(self.subject.replacements.notes()));
-        png::encode(&image, &texts).context("cannot encode the picture")
+        png::encode(&page.image(), &texts).context("cannot encode the picture")
     }
 
     /// Numbers on standard output, unless the picture goes there.

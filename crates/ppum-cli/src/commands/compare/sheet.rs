@@ -1,8 +1,9 @@
 //! The figure of a comparison.
 
 use ppum::field::Field;
+use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Labels, figure};
-use ppum_render::image::Image;
+use ppum_figure::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
@@ -28,12 +29,12 @@ impl Look<'_> {
         self,
         found: &Measurements,
         size: [u32; 2],
-    ) -> anyhow::Result<(Image, Picture)> {
+    ) -> anyhow::Result<(Canvas, Picture)> {
         let direct = Picture::bare(&found.direct, &self.view, &self.style)?;
         let norm = &direct.normalization;
         let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..self.style.clone() };
         let mut first = vec![self.panel(&found.direct, &self.style, "direct", size)?];
-        let mut second = vec![Image::filled([0, 0], [0; 4])];
+        let mut second = vec![Canvas::new([0, 0], [0; 4])];
         for one in &found.resampled {
             first.push(self.panel(&one.raster, &fixed, &one.name(), size)?);
             let apart = difference(&found.direct, &one.raster);
@@ -53,14 +54,17 @@ impl Look<'_> {
         style: &Style,
         title: &str,
         size: [u32; 2],
-    ) -> anyhow::Result<Image> {
+    ) -> anyhow::Result<Canvas> {
         let picture = Picture::bare(raster, &self.view, style)?;
         let title = match self.labels.title.as_str() {
             "" => title.to_owned(),
             name => format!("{name}: {title}"),
         };
         let labels = Labels { title, ..self.labels.clone() };
-        Ok(figure(&picture, &labels, &self.field.step.cracks, size)?)
+        let cracks = &self.field.step.cracks;
+        let rims = overlay::rims(&self.view, &self.field.domain.holes);
+        let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
+        Ok(figure(&picture, layers, &labels, cracks, size)?)
     }
 }
 
@@ -70,12 +74,13 @@ fn signed() -> anyhow::Result<Style> {
 }
 
 /// Panels of one size in rows.
-fn side_by_side(rows: &[Vec<Image>], size: [u32; 2]) -> Image {
+fn side_by_side(rows: &[Vec<Canvas>], size: [u32; 2]) -> Canvas {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0) as u32;
-    let mut page = Image::filled([columns * size[0], rows.len() as u32 * size[1]], [255; 4]);
+    let mut page = Canvas::new([columns * size[0], rows.len() as u32 * size[1]], [255; 4]);
     for (j, row) in (0..).zip(rows) {
         for (i, panel) in (0..).zip(row) {
-            page.paste(panel, [i * size[0], j * size[1]]);
+            let (corner, canvas) = ([i * size[0], j * size[1]], panel.clone());
+            page.items.push(Item::Inset { corner, canvas });
         }
     }
     page
