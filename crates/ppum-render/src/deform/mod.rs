@@ -32,7 +32,7 @@ mod points;
 #[cfg(test)]
 mod tests;
 
-use ppum::crack::{Side, tips};
+use ppum::crack::{Crack, Side, tips};
 use ppum::field::Field;
 use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError;
@@ -194,6 +194,16 @@ impl<'f> DeformedView<'f> {
     #[must_use]
     pub fn factor(&self) -> f64 {
         self.deformation.factor
+    }
+
+    /// The cracks with their vertices where they have moved to, those of the side above.
+    #[must_use]
+    pub fn moved_cracks(&self) -> Vec<Crack> {
+        let mut cracks = self.field().step.cracks.clone();
+        for point in cracks.iter_mut().flat_map(|crack| &mut crack.points) {
+            *point = self.deformation.place(*point);
+        }
+        cracks
     }
 
     /// A rectangle of offsets from the anchor that holds the plate, symmetric about the anchor.

@@ -9,8 +9,10 @@ use super::map::Map;
 
 /// Largest distance of a path from the curve that it stands for \[pixels\].
 const CHORD: f64 = 0.1;
-/// Parts of a line that are looked at, however straight it seems.
+/// Parts of a curve that are looked at, however straight it seems; fewer of one that is short in the picture.
 const PARTS: usize = 16;
+/// Least length of such a part in pixels.
+const PART: f64 = 8.0;
 /// Most halvings of a part; f64 has no more numbers beside those that are not small.
 const HALVINGS: usize = 200;
 /// Most points of a part: no curve that a screen shows has as many, but one that jumps everywhere would.
@@ -26,15 +28,25 @@ impl DeformedView<'_> {
     /// It is interrupted outside the plate and where it crosses a crack that has opened.
     #[must_use]
     pub fn path(&self, points: &[Vec2]) -> Paths {
-        let (mut map, domain) =
-            (Map::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
-        let mut paths = Joined::new(self);
-        for line in points.windows(2) {
-            let mut place =
-                |o: Vec2| domain.contains(o).then(|| map.place(self, o, Side::Above)).flatten();
-            paths.add(self.line([line[0], line[1]], &mut place));
+        self.paths(std::slice::from_ref(&points))
+    }
+
+    /// The images of several polylines, as [`path`](Self::path) has them, one after the other.
+    #[must_use]
+    pub fn paths(&self, polylines: &[impl AsRef<[Vec2]>]) -> Paths {
+        let domain = self.field().domain.at(self.anchor);
+        let mut map = Map::new(self.field(), self.anchor);
+        let mut all = Vec::new();
+        for points in polylines {
+            let mut paths = Joined::new(self);
+            for line in points.as_ref().windows(2) {
+                let mut place =
+                    |o: Vec2| domain.contains(o).then(|| map.place(self, o, Side::Above)).flatten();
+                paths.add(self.line([line[0], line[1]], &mut place));
+            }
+            all.extend(paths.all);
         }
-        paths.all
+        all
     }
 
     /// The images of a crack's faces, above and below.
@@ -76,18 +88,20 @@ impl DeformedView<'_> {
 
     /// The image of a segment.
     fn line(&self, [a, b]: [Vec2; 2], place: &mut dyn FnMut(Vec2) -> Option<Vec2>) -> Paths {
-        self.trace([a, b], |a: Vec2, b: Vec2| (a + b) * 0.5, place)
+        let parts = ((b - a).length() / (PART * self.view.pixel_size())).min(PARTS as f64) as usize;
+        self.trace([a, b], parts.max(1), |a: Vec2, b: Vec2| (a + b) * 0.5, place)
     }
 
-    /// The image of a curve between two parameters that can be halved.
+    /// The image of a curve between two parameters that can be halved, in so many parts at least.
     fn trace<P: Copy + PartialEq>(
         &self,
         ends: [P; 2],
+        least: usize,
         half: impl Fn(P, P) -> P,
         place: &mut dyn FnMut(P) -> Option<Vec2>,
     ) -> Paths {
         let mut parts = vec![ends];
-        while parts.len() < PARTS {
+        while parts.len() < least {
             parts = parts.iter().flat_map(|&[a, b]| [[a, half(a, b)], [half(a, b), b]]).collect();
         }
         let mut paths = Joined::new(self);
@@ -205,7 +219,7 @@ impl<'a, 'f> Border<'a, 'f> {
         };
         let mut paths = Joined::new(view);
         for ends in [[-std::f64::consts::PI, 0.0], [0.0, std::f64::consts::PI]] {
-            paths.add(view.trace(ends, |a, b| 0.5 * (a + b), &mut place));
+            paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut place));
         }
         paths.all
     }
