@@ -10,6 +10,8 @@ use super::{DeformedView, TOLERANCE};
 /// Most steps of Newton's method, and most halvings of one.
 const STEPS: usize = 40;
 const HALVINGS: usize = 8;
+/// Where det F is smaller than this part of |F|² the plate may fold inside a leaf.
+const THIN: f64 = 0.1;
 /// Between leaves, as seen from inside, there is less than this part of a pixel.
 const GAP: f64 = 1e-3;
 /// Rims of round holes lie behind the sides of pieces by less than this part of a pixel.
@@ -58,11 +60,19 @@ impl Inverse<'_, '_> {
         })
     }
 
-    /// The point that moves to a place, if it lies in the leaf.
+    /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's method is started at the corners too.
     pub(super) fn find(&self, map: &mut Map<'_>, place: Vec2) -> Option<Found> {
+        let Leaf { corners, center, image, .. } = self.leaf;
+        let start = image.pulled_back(place - image.at);
+        let start = if start.is_finite() { *center + start } else { *center };
+        let [a, b] = image.gradient;
+        let is_thin = image.determinant().abs() < THIN * (a.dot(a) + b.dot(b));
+        let more = corners.iter().filter(|_| is_thin);
+        std::iter::once(&start).chain(more).find_map(|start| self.newton(map, *start, place))
+    }
+
+    fn newton(&self, map: &mut Map<'_>, start: Vec2, place: Vec2) -> Option<Found> {
         let pixel = self.view.view.pixel_size();
-        let start = self.leaf.image.pulled_back(place - self.leaf.image.at);
-        let start = if start.is_finite() { self.leaf.center + start } else { self.leaf.center };
         let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
         for _ in 0..STEPS {
             let miss = place - here.image.at;
@@ -81,7 +91,8 @@ impl Inverse<'_, '_> {
             let Some(nearer) = self.step(map, here, step, place) else { break };
             here = nearer;
         }
-        self.behind_rim(map, here, place)
+        let is_near = (place - here.image.at).length() <= TOLERANCE * pixel;
+        if is_near { Some(here) } else { self.behind_rim(map, here, place) }
     }
 
     /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place; none if it cannot.

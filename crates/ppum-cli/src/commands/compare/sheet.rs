@@ -56,11 +56,7 @@ impl Look<'_> {
         size: [u32; 2],
     ) -> anyhow::Result<Canvas> {
         let picture = Picture::bare(raster, &self.view, style)?;
-        let title = match self.labels.title.as_str() {
-            "" => title.to_owned(),
-            name => format!("{name}: {title}"),
-        };
-        let labels = Labels { title, ..self.labels.clone() };
+        let labels = Labels { title: title.to_owned(), ..self.labels.clone() };
         let cracks = &self.field.step.cracks;
         let rims = overlay::rims(&self.view, &self.field.domain.holes);
         let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
