@@ -19,6 +19,7 @@ mod number;
 mod output;
 mod overlays;
 mod panics;
+mod profile;
 mod progress;
 mod remedy;
 mod replacements;

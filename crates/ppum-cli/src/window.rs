@@ -1,13 +1,12 @@
 //! Which part of the plane is drawn.
 
-use anyhow::{Context as _, ensure};
-use ppum::crack::tips;
+use anyhow::ensure;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::arguments::{corners, point, positive};
-use crate::number::count;
+use crate::tips;
 
 /// The window: one way of giving it, or none for the whole domain.
 #[derive(Debug, clap::Args)]
@@ -54,7 +53,9 @@ impl Window {
         if let Some(tip) = self.tip {
             let whole = View::fit(field.domain.bounds, pixels)?;
             let width = whole.width / self.zoom.unwrap_or(DEFAULT_ZOOM);
-            return Ok(View::new(tip_position(field, tip)?, width, pixels)?);
+            let tip = tips::numbered(field, tip)?;
+            let center = field.step.cracks[tip.crack as usize].end_point(tip.end);
+            return Ok(View::new(center, width, pixels)?);
         }
         let whole = if may_shrink { View::hug } else { View::fit };
         let Rect { min, max } = field.domain.bounds;
@@ -72,14 +73,4 @@ impl Window {
         );
         Ok(view)
     }
-}
-
-fn tip_position(field: &Field<'_>, number: usize) -> anyhow::Result<Vec2> {
-    let cracks = &field.step.cracks;
-    let n_tips = tips(cracks).count();
-    ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
-    let tip = tips(cracks).nth(number).with_context(|| {
-        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
-    })?;
-    Ok(cracks[tip.crack as usize].end_point(tip.end))
 }
