@@ -7,7 +7,7 @@
 pub mod canvas;
 pub mod figure;
 pub mod overlay;
-mod text;
+pub mod text;
 pub mod ticks;
 
 #[cfg(test)]
