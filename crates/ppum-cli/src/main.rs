@@ -18,6 +18,7 @@ mod memory;
 mod number;
 mod output;
 mod overlays;
+mod page;
 mod panics;
 mod profile;
 mod progress;

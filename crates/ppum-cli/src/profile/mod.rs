@@ -89,6 +89,11 @@ impl Profile {
         self.line.is_some() || self.crack.is_some() || self.circle.is_some() || self.tip.is_some()
     }
 
+    /// True if the curve is a crack, seen from both sides.
+    pub(crate) fn is_crack(&self) -> bool {
+        self.crack.is_some()
+    }
+
     /// The variable of the curve that was asked for.
     pub(crate) fn variable(&self) -> Variable {
         match (self.tip.is_some(), self.angle.is_some(), self.circle.is_some()) {

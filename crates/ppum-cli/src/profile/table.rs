@@ -57,6 +57,17 @@ impl Table {
         Self { shape: vec![rows, columns], ..self }
     }
 
+    /// The names of the columns.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// The numbers of a column.
+    pub(crate) fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let at = self.names().position(|known| known == name)?;
+        Some(self.values.chunks(self.columns.len()).map(|row| row[at]).collect())
+    }
+
     /// Fields of arrays have names of their own.
     pub(crate) fn check_names(&self) -> anyhow::Result<()> {
         let mut seen = BTreeSet::new();
