@@ -48,7 +48,7 @@ impl Frame {
         let widest = widths.fold(0.0, f64::max);
         let below = TICK + GAP + TICK_TEXT + GAP + 1.3 * LABEL_TEXT + MARGIN;
         let above = if plot.title.is_empty() { MARGIN } else { TITLE_TEXT + 2.0 * MARGIN };
-        let left = MARGIN + 1.3 * LABEL_TEXT + GAP + GAP + TICK;
+        let left = MARGIN + 1.3 * LABEL_TEXT + 2.0 * GAP + TICK;
         let min = [(left * scale + widest).round(), (above * scale).round()];
         let [columns, rows] = size.map(f64::from);
         let max = [
@@ -142,7 +142,7 @@ impl Frame {
         };
         let middle = [0, 1].map(|k| 0.5 * (self.min[k] + self.max[k]));
         let below = self.max[1] + (TICK + 2.0 * GAP + TICK_TEXT + 0.8 * LABEL_TEXT) * scale;
-        let beside = self.min[0] - self.widest - (TICK + 2.0 * GAP) * scale;
+        let beside = self.min[0] - self.widest - (TICK + 2.0 * GAP + 0.3 * LABEL_TEXT) * scale;
         let title = text::fitted(&plot.title, TITLE_TEXT * scale, wide);
         let above = self.min[1] - 0.6 * MARGIN * scale;
         vec![

@@ -83,7 +83,10 @@ fn columns(table: &Table, variable: Variable, jumps: bool) -> Vec<(String, Vec<[
     names.iter().filter(is_wanted).filter_map(points).collect()
 }
 
-/// A curve; away from a tip with the exponent of its power law, and by its magnitude: on logarithmic axes a
+/// The part of a ray, one in so many of its points, that is near enough to the tip for the exponent there.
+const NEAR: usize = 3;
+
+/// A curve; away from a tip with the exponent of its power law near it, and by its magnitude: on logarithmic axes a
 /// negative quantity has no other place.
 fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
     if variable != Variable::Distance {
@@ -92,7 +95,7 @@ fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
     let is_negative = points.iter().any(|p| p[1] < 0.0);
     let points: Vec<_> = points.into_iter().map(|[r, v]| [r, v.abs()]).collect();
     let shown = if is_negative { format!("|{name}|") } else { name };
-    let text = match slope(&points) {
+    let text = match slope(&points[..points.len() / NEAR]) {
         Some(slope) => format!("{shown}, slope {slope:.3}").replace("slope -", "slope −"),
         None => shown,
     };
