@@ -10,6 +10,7 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
+mod deformed;
 mod drawing;
 mod families;
 mod given;

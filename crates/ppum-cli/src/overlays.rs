@@ -1,11 +1,13 @@
 //! What is drawn over the colours of a picture.
 
+use anyhow::bail;
 use clap::ValueEnum;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::Item;
 use ppum_figure::overlay::{self, Load, Support};
+use ppum_render::deform::DeformedView;
 use ppum_render::view::View;
 use ppum_solve::problem::{Problem, Station};
 
@@ -83,6 +85,36 @@ impl Overlays {
         }
         items.extend(overlay::legend(view, &legend));
         items
+    }
+
+    /// Draws them over the deformed plate, which has its border and the faces of its cracks whatever is asked for in a figure; with
+    /// the border of the undeformed plate if that is wanted.
+    pub(crate) fn deformed_items(
+        &self,
+        view: &DeformedView<'_>,
+        is_figure: bool,
+        with_outline: bool,
+    ) -> anyhow::Result<Vec<Item>> {
+        let has = |wanted: Overlay| self.overlay.contains(&wanted);
+        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
+        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
+            bail!(
+                "--overlay {}: the deformed plate is drawn with cells and cracks alone",
+                other.get_name()
+            );
+        }
+        let mut items = Vec::new();
+        if with_outline {
+            items.extend(overlay::undeformed_outline(view)?);
+        }
+        if has(Overlay::Cells) {
+            items.extend(overlay::deformed_cells(view));
+        }
+        if is_figure || has(Overlay::Cracks) {
+            items.extend(overlay::deformed_outline(view));
+            items.extend(overlay::faces(view));
+        }
+        Ok(items)
     }
 
     /// Room around the plate for what stands outside of it, in parts of the plate's larger side.

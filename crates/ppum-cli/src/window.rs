@@ -42,7 +42,13 @@ pub(crate) struct Frame {
 const DEFAULT_ZOOM: f64 = 10.0;
 
 impl Window {
-    fn view(&self, field: &Field<'_>, frame: Frame) -> anyhow::Result<View> {
+    /// The view; of the whole picture that of a box.
+    pub(crate) fn over(
+        &self,
+        whole: Rect,
+        field: &Field<'_>,
+        frame: Frame,
+    ) -> anyhow::Result<View> {
         let Frame { pixels, may_shrink, margin } = frame;
         if let Some(Rect { min, max }) = self.view {
             return Ok(View::window(min.x, min.y, max.x, max.y, pixels)?);
@@ -50,23 +56,30 @@ impl Window {
         if let (Some(center), Some(width)) = (self.center, self.width) {
             return Ok(View::new(center, width, pixels)?);
         }
-        if let Some(tip) = self.tip {
-            let whole = View::fit(field.domain.bounds, pixels)?;
-            let width = whole.width / self.zoom.unwrap_or(DEFAULT_ZOOM);
-            let tip = tips::numbered(field, tip)?;
-            let center = field.step.cracks[tip.crack as usize].end_point(tip.end);
-            return Ok(View::new(center, width, pixels)?);
+        if let Some(tip) = self.tip(field)? {
+            let fit = View::fit(field.domain.bounds, pixels)?;
+            let width = fit.width / self.zoom.unwrap_or(DEFAULT_ZOOM);
+            return Ok(View::new(tip, width, pixels)?);
         }
-        let whole = if may_shrink { View::hug } else { View::fit };
-        let Rect { min, max } = field.domain.bounds;
+        let fit = if may_shrink { View::hug } else { View::fit };
+        let Rect { min, max } = whole;
         let room = margin * (max.x - min.x).max(max.y - min.y);
         let room = vec2(room, room);
-        Ok(whole(Rect::new(min - room, max + room), pixels)?)
+        Ok(fit(Rect::new(min - room, max + room), pixels)?)
+    }
+
+    /// The place of the tip that is asked for.
+    pub(crate) fn tip(&self, field: &Field<'_>) -> anyhow::Result<Option<Vec2>> {
+        let position = |number| {
+            let tip = tips::numbered(field, number)?;
+            Ok(field.step.cracks[tip.crack as usize].end_point(tip.end))
+        };
+        self.tip.map(position).transpose()
     }
 
     /// The view, which must show some of the domain.
     pub(crate) fn seen(&self, field: &Field<'_>, frame: Frame) -> anyhow::Result<View> {
-        let view = self.view(field, frame)?;
+        let view = self.over(field.domain.bounds, field, frame)?;
         ensure!(
             view.rect().overlaps(&field.domain.bounds),
             "the view shows nothing of the domain; `ppum info` says where that is"

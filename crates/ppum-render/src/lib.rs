@@ -42,6 +42,7 @@
 
 pub mod cells;
 pub mod colormap;
+pub mod deform;
 mod error;
 pub mod image;
 pub mod isoline;
@@ -83,6 +84,7 @@ mod tests {
         ],
         &[
             ("cells", &["raster", "view"]),
+            ("deform", &["parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),

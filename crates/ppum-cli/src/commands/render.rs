@@ -4,17 +4,19 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use ppum::field::Field;
+use ppum::crack::Crack;
 use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Labels, bare, figure, plot_area};
+use ppum_render::deform::DeformedView;
 use ppum_render::picture::Picture;
 use ppum_render::png;
-use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
+use crate::deformed::{Deformed, draw, words};
 use crate::drawing::{Colours, Subject, labels};
+use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
 use crate::standard::is_standard;
@@ -44,6 +46,8 @@ pub(crate) struct Args {
     colours: Colours,
     #[command(flatten)]
     overlays: Overlays,
+    #[command(flatten)]
+    deformed: Deformed,
     /// Add axes, a colour bar, a title and the cracks
     #[arg(long)]
     figure: bool,
@@ -61,6 +65,7 @@ Examples:
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o moved.png --deformed auto --outline --figure
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
@@ -73,21 +78,47 @@ impl Args {
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
         let (quantity, name) = self.subject.quantity(&field)?;
-        let view = self.view(&field)?;
         let style = self.colours.style()?;
+        let seen = self.deformed.view(&field, &self.window, self.frame()?)?;
+        let view = match &seen {
+            Some(seen) => seen.view,
+            None => self.window.seen(&field, self.frame()?)?,
+        };
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { picture, by, undefined, is_finite } = self.engine.draw(job)?;
-        let title = self.subject.replacements.title(&dataset.title);
-        let layers = self.overlays.items(&view, &dataset, &field, self.figure);
-        let image = self.page(&picture, layers, &field, &labels(title, &field, &quantity))?.image();
+        let mut title = self.subject.replacements.title(&dataset.title);
+        let (drawn, layers, moved) = match &seen {
+            None => {
+                let layers = self.overlays.items(&view, &dataset, &field, self.figure);
+                (self.engine.draw(job)?, layers, None)
+            }
+            Some(seen) => {
+                title = format!("{title} ({})", words(seen)).trim_start().to_owned();
+                let (drawn, overlaps) = draw(seen, job, &self.engine)?;
+                let outline = self.deformed.outline;
+                let layers = self.overlays.deformed_items(seen, self.figure, outline)?;
+                (drawn, layers, Some((seen, overlaps)))
+            }
+        };
+        let Drawn { picture, by, undefined, is_finite } = drawn;
+        let cracks =
+            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
+        let image =
+            self.page(&picture, layers, &cracks, &labels(title, &field, &quantity))?.image();
         let mut texts = picture.description(&dataset.title, &self.subject.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.subject.notes(&quantity));
+        texts.extend(
+            moved
+                .iter()
+                .map(|(seen, _)| ("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))),
+        );
         let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
         let [columns, rows] = image.size;
         let target = self.output.display();
+        let deformed: String =
+            moved.iter().map(|(seen, overlaps)| told_of(seen, *overlaps)).collect();
         let told = format!(
-            "wrote {target}: {name}, {columns}x{rows} pixels, {}, {by}",
+            "wrote {target}: {name}{deformed}, {columns}x{rows} pixels, {}, {by}",
             colours(&picture, is_finite)
         );
         if undefined[0] > 0 {
@@ -108,15 +139,14 @@ impl Args {
         self.subject.inputs().chain([self.colours.input()])
     }
 
-    fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
+    fn frame(&self) -> anyhow::Result<Frame> {
         let size = self.size.unwrap_or(DEFAULT_SIZE);
-        let frame = Frame {
+        Ok(Frame {
             pixels: if self.figure { plot_area(size)? } else { size },
             // A figure centres what it is given; a bare picture has the size that was asked for.
             may_shrink: self.figure || self.size.is_none(),
             margin: self.overlays.margin(),
-        };
-        self.window.seen(field, frame)
+        })
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
@@ -124,14 +154,22 @@ impl Args {
         &self,
         picture: &Picture,
         layers: Vec<Item>,
-        field: &Field<'_>,
+        cracks: &[Crack],
         labels: &Labels,
     ) -> anyhow::Result<Canvas> {
         if !self.figure {
             return Ok(bare(picture, layers));
         }
         let size = self.size.unwrap_or(DEFAULT_SIZE);
-        Ok(figure(picture, layers, labels, &field.step.cracks, size)?)
+        Ok(figure(picture, layers, labels, cracks, size)?)
+    }
+}
+
+/// The factor, and at how many pixels the plate lies over itself.
+fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
+    match overlaps {
+        0 => format!(", {}", words(seen)),
+        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
     }
 }
 

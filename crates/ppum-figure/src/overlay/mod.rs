@@ -7,6 +7,7 @@
 //! lie 10^15 pixels away. A line has one colour throughout, and a seam that parts it from its own colour.
 
 mod cover;
+mod deformed;
 mod legend;
 mod rings;
 mod supports;
@@ -19,6 +20,7 @@ use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
+pub use deformed::{deformed_cells, deformed_outline, faces, undeformed_outline};
 pub(crate) use legend::legend_in;
 pub use legend::{Entry, Symbol, legend};
 pub use rings::rings;
