@@ -26,6 +26,18 @@ pub(crate) fn ends(text: &str) -> Result<[Vec2; 2], String> {
     Ok([Vec2::from([x0, y0]), Vec2::from([x1, y1])])
 }
 
+/// `X,Y,R`: centre and radius of a circle.
+pub(crate) fn circle(text: &str) -> Result<(Vec2, f64), String> {
+    let [x, y, r] = numbers(text).ok_or("write three finite numbers: X,Y,R")?;
+    if r > 0.0 { Ok((Vec2::from([x, y]), r)) } else { Err("the radius is not above zero".into()) }
+}
+
+/// An angle in degrees, from −180 to 180.
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    let value = numbers(text).map(|[v]| v).filter(|v| (-180.0..=180.0).contains(v));
+    value.ok_or_else(|| "write an angle from -180 to 180 degrees".into())
+}
+
 /// `WxH`: columns and rows.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));

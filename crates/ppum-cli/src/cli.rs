@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    bench, compare, completions, demo, formula, info, man, probe, render, sample, sif, solve,
+    bench, compare, completions, demo, formula, info, man, plot, probe, render, sample, sif, solve,
 };
 use crate::output::Output;
 
@@ -24,6 +24,7 @@ Examples:
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
   ppum sample plate.h5 --crack 0 -o crack.csv    numbers for plots, here along a crack
   ppum render plate.h5 -o plate.png --figure
+  ppum plot plate.h5 --crack 0 -o opening.svg
   ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
 `ppum COMMAND --help` tells more, with examples.";
@@ -38,6 +39,7 @@ pub(crate) enum Command {
     Sample(sample::Args),
     Render(render::Args),
     Compare(compare::Args),
+    Plot(plot::Args),
     Formula(formula::Args),
     Bench(bench::Args),
     Completions(completions::Args),
@@ -56,6 +58,7 @@ impl Command {
             Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),
             Self::Compare(args) => args.run(out),
+            Self::Plot(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out),

@@ -1,7 +1,5 @@
 //! What is drawn over the colours of a picture.
 
-use std::path::Path;
-
 use anyhow::bail;
 use clap::ValueEnum;
 use ppum::dataset::Dataset;
@@ -133,23 +131,19 @@ impl Overlays {
         if !self.have_stations() {
             return Vec::new();
         }
-        let Some(text) = &dataset.problem else {
-            tell("warning: the dataset holds no problem file, so supports and loads are not known");
-            return Vec::new();
-        };
-        match Problem::parse(text, "problem", Path::new("")) {
-            Ok(problem) => {
-                let height = f64::from(view.pixels[1]).min(f64::from(view.pixels[0]));
-                problem.stations(SPACING * (height / 768.0).max(1.0) * view.pixel_size())
+        match Problem::of_dataset(dataset) {
+            Ok(Some(problem)) => {
+                let side = f64::from(view.pixels[0].min(view.pixels[1]));
+                return problem.stations(SPACING * (side / 768.0).max(1.0) * view.pixel_size());
             }
-            Err(_) => {
-                tell(
-                    "warning: the problem file in the dataset cannot be read without the files that it \
-                     names, so supports and loads are not known",
-                );
-                Vec::new()
-            }
+            Ok(None) => tell(
+                "warning: the dataset holds no problem file, so its supports and loads are not known",
+            ),
+            Err(_) => tell(
+                "warning: the dataset's problem file cannot be read, so its supports and loads are not known",
+            ),
         }
+        Vec::new()
     }
 }
 

@@ -1,13 +1,12 @@
 //! Which part of the plane is drawn.
 
-use anyhow::{Context as _, ensure};
-use ppum::crack::tips;
+use anyhow::ensure;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::arguments::{corners, point, positive};
-use crate::number::count;
+use crate::tips;
 
 /// The window: one way of giving it, or none for the whole domain.
 #[derive(Debug, clap::Args)]
@@ -71,7 +70,11 @@ impl Window {
 
     /// The place of the tip that is asked for.
     pub(crate) fn tip(&self, field: &Field<'_>) -> anyhow::Result<Option<Vec2>> {
-        self.tip.map(|tip| tip_position(field, tip)).transpose()
+        let position = |number| {
+            let tip = tips::numbered(field, number)?;
+            Ok(field.step.cracks[tip.crack as usize].end_point(tip.end))
+        };
+        self.tip.map(position).transpose()
     }
 
     /// The view, which must show some of the domain.
@@ -83,14 +86,4 @@ impl Window {
         );
         Ok(view)
     }
-}
-
-fn tip_position(field: &Field<'_>, number: usize) -> anyhow::Result<Vec2> {
-    let cracks = &field.step.cracks;
-    let n_tips = tips(cracks).count();
-    ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
-    let tip = tips(cracks).nth(number).with_context(|| {
-        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
-    })?;
-    Ok(cracks[tip.crack as usize].end_point(tip.end))
 }

@@ -8,7 +8,7 @@ pub mod canvas;
 pub mod figure;
 pub mod overlay;
 pub mod plot;
-mod text;
+pub mod text;
 pub mod ticks;
 
 #[cfg(test)]

@@ -7,10 +7,11 @@ use ab_glyph::{Font as _, FontRef, Glyph, OutlineCurve, Point, PxScale, ScaleFon
 use ppum::printable::printable;
 use ppum::vec2::{Vec2, vec2};
 
-static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
-    let data = include_bytes!("../data/DejaVuSans-subset.ttf");
-    FontRef::try_from_slice(data).expect("the embedded font is whole")
-});
+/// The font's file, TrueType.
+pub(crate) const FONT_FILE: &[u8] = include_bytes!("../data/DejaVuSans-subset.ttf");
+
+static FONT: LazyLock<FontRef<'static>> =
+    LazyLock::new(|| FontRef::try_from_slice(FONT_FILE).expect("the embedded font is whole"));
 
 /// Height of digits and capitals in parts of the size (the length of an em).
 pub(crate) const CAP_HEIGHT: f64 = 0.729;
@@ -25,21 +26,65 @@ fn px_scale(size: f64) -> PxScale {
 const SUBSCRIPT: f64 = 0.72;
 const LOWERED: f64 = 0.17;
 
-/// The glyphs of a line that starts at the origin, and its length. What is not printable is drawn by its
-/// number, ends of lines and tabs are blanks.
-fn glyphs(text: &str, size: f64) -> (Vec<Glyph>, f64) {
+/// A piece of a line in letters of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Run {
+    pub(crate) text: String,
+    /// Length of an em.
+    pub(crate) size: f64,
+    /// How far below the line's base line its own one lies.
+    pub(crate) lowered: f64,
+}
+
+/// The pieces of a line, none of them empty. What is not printable is shown by its number, ends of lines and
+/// tabs are blanks.
+pub(crate) fn runs(text: &str, size: f64) -> Vec<Run> {
     let text = printable(text).replace(['\n', '\t'], " ");
-    let (mut line, mut x) = (Vec::new(), 0.0);
+    let mut runs = Vec::new();
     for (index, piece) in text.split("_{").enumerate() {
         let (subscript, plain) = match piece.split_once('}') {
             Some(parts) if index > 0 => parts,
             _ if index > 0 => (piece, ""),
             _ => ("", piece),
         };
-        x = append(&mut line, subscript, SUBSCRIPT * size, point(x, (LOWERED * size) as f32));
-        x = append(&mut line, plain, size, point(x, 0.0));
+        let (small, lowered) = (SUBSCRIPT * size, LOWERED * size);
+        runs.push(Run { text: subscript.to_owned(), size: small, lowered });
+        runs.push(Run { text: plain.to_owned(), size, lowered: 0.0 });
+    }
+    runs.retain(|run| !run.text.is_empty());
+    runs
+}
+
+/// The glyphs of a line that starts at the origin, and its length.
+fn glyphs(text: &str, size: f64) -> (Vec<Glyph>, f64) {
+    let (mut line, mut x) = (Vec::new(), 0.0);
+    for run in runs(text, size) {
+        x = append(&mut line, &run.text, run.size, point(x, run.lowered as f32));
     }
     (line, f64::from(x))
+}
+
+/// The characters of a text that the font lacks, each once, in their order.
+#[must_use]
+pub fn missing(text: &str) -> Vec<char> {
+    let mut lacking = Vec::new();
+    for c in runs(text, 1.0).iter().flat_map(|run| run.text.chars()) {
+        if glyph(c) == 0 && !lacking.contains(&c) {
+            lacking.push(c);
+        }
+    }
+    lacking
+}
+
+/// The number of a character's glyph; 0, an empty box, if the font lacks it.
+pub(crate) fn glyph(c: char) -> u16 {
+    FONT.glyph_id(c).0
+}
+
+/// The way from a character to the next one, in ems.
+pub(crate) fn advance(c: char) -> f64 {
+    let em = FONT.units_per_em().expect("the embedded font has an em");
+    f64::from(FONT.h_advance_unscaled(FONT.glyph_id(c)) / em)
 }
 
 /// Appends the glyphs of a piece of text that starts at `at`; returns where it ends.
@@ -172,6 +217,18 @@ mod tests {
         let [lo, hi] = extent("H", 100.0, 0.0);
         assert!((lo.y + 100.0 * 1493.0 / 2048.0).abs() < 1e-3 && hi.y.abs() < 1e-3);
         assert!((CAP_HEIGHT - 1493.0 / 2048.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn characters_that_the_font_lacks_are_told() {
+        assert_eq!(missing("σ_{xy} of 板 and 板, क"), ['板', 'क']);
+        assert!(missing("Kerbspannung σ_{yy} ≤ 3·10⁻⁴ naïve\t\n\u{7}").is_empty());
+    }
+
+    #[test]
+    fn a_line_is_as_long_as_its_characters() {
+        let sum: f64 = "von Mises".chars().map(|c| 20.0 * advance(c)).sum();
+        assert!((width("von Mises", 20.0) - sum).abs() < 1e-4);
     }
 
     /// What reads to the right reads upwards after a quarter turn.

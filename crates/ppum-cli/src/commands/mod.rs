@@ -7,6 +7,7 @@ pub(crate) mod demo;
 pub(crate) mod formula;
 pub(crate) mod info;
 pub(crate) mod man;
+pub(crate) mod plot;
 pub(crate) mod probe;
 pub(crate) mod render;
 pub(crate) mod sample;

@@ -4,12 +4,16 @@
 //! ([`Canvas::image`]) or a vector file. Positions and lengths are pixels: the origin is the upper
 //! left corner, y runs down, and pixel (i, j) covers [i, i + 1] × [j, j + 1].
 
+mod base64;
 mod dashes;
 mod mask;
+mod pdf;
 mod raster;
+mod svg;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
+use ppum_render::png::Text;
 
 use crate::text;
 
@@ -132,6 +136,21 @@ impl Canvas {
     pub fn image(&self) -> Image {
         raster::image(self)
     }
+
+    /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters, the font is
+    /// in the file, pictures are PNG with their pixels kept apart. Of the texts `Title` and `Description` are
+    /// the file's own, the others its metadata.
+    #[must_use]
+    pub fn svg(&self, dpi: f64, texts: &[Text]) -> String {
+        svg::file(self, dpi, texts)
+    }
+
+    /// The page as a PDF file of `dpi` pixels per inch: vectors, letters that can be searched and copied, and
+    /// pictures without loss. The texts are the document's information.
+    #[must_use]
+    pub fn pdf(&self, dpi: f64, texts: &[Text]) -> Vec<u8> {
+        pdf::file(self, dpi, texts)
+    }
 }
 
 impl Lettering {
@@ -201,6 +220,20 @@ impl Path {
         self.pieces.push((0..=count).map(at).collect());
     }
 
+    /// The pieces all turning one way, so that none takes away what another fills.
+    fn turned_alike(&self) -> Self {
+        let turned = |points: &Vec<Vec2>| {
+            let next = points.iter().cycle().skip(1);
+            let area: f64 = points.iter().zip(next).map(|(a, b)| a.cross(*b)).sum();
+            let mut points = points.clone();
+            if area < 0.0 {
+                points.reverse();
+            }
+            points
+        };
+        Self { pieces: self.pieces.iter().map(turned).collect() }
+    }
+
     /// The box around the points: least and largest coordinates; of no points, the least are +∞.
     fn bounds(&self) -> [Vec2; 2] {
         let start =
@@ -235,3 +268,6 @@ impl Pen {
         Self { dashes: Some([dash, gap]), ..self }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,7 +8,7 @@ use super::{Plot, PlotAxis};
 use crate::canvas::{Align, Item, Lettering, Path, Pen};
 use crate::overlay::line_scale;
 use crate::text::{self, CAP_HEIGHT};
-use crate::ticks::{self, Ticks, power_of_ten};
+use crate::ticks::{self, Tick, Ticks, power_of_ten};
 
 pub(super) const PAPER: Rgba = [255, 255, 255, 255];
 const INK: Rgba = [38, 38, 42, 255];
@@ -40,12 +40,15 @@ impl Frame {
     pub(super) fn new(plot: &Plot, norms: [Normalization; 2], size: [u32; 2]) -> Self {
         let scale = line_scale(size);
         let most = |k: usize| (f64::from(size[k]) / (DISTANCE[k] * scale)) as usize;
-        let ticks = [0, 1].map(|k| ticks::bar(&norms[k], most(k).clamp(2, 10)));
+        let ticks = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| match axis.names.as_slice() {
+            [] => ticks::bar(&norms[k], most(k).clamp(2, 10)),
+            names => named(names, &norms[k]),
+        });
         let widths = ticks[1].major.iter().map(|t| text::width(&t.label, TICK_TEXT * scale));
         let widest = widths.fold(0.0, f64::max);
         let below = TICK + GAP + TICK_TEXT + GAP + 1.3 * LABEL_TEXT + MARGIN;
         let above = if plot.title.is_empty() { MARGIN } else { TITLE_TEXT + 2.0 * MARGIN };
-        let left = MARGIN + 1.3 * LABEL_TEXT + GAP + GAP + TICK;
+        let left = MARGIN + 1.3 * LABEL_TEXT + 2.0 * GAP + TICK;
         let min = [(left * scale + widest).round(), (above * scale).round()];
         let [columns, rows] = size.map(f64::from);
         let max = [
@@ -139,7 +142,7 @@ impl Frame {
         };
         let middle = [0, 1].map(|k| 0.5 * (self.min[k] + self.max[k]));
         let below = self.max[1] + (TICK + 2.0 * GAP + TICK_TEXT + 0.8 * LABEL_TEXT) * scale;
-        let beside = self.min[0] - self.widest - (TICK + 2.0 * GAP) * scale;
+        let beside = self.min[0] - self.widest - (TICK + 2.0 * GAP + 0.3 * LABEL_TEXT) * scale;
         let title = text::fitted(&plot.title, TITLE_TEXT * scale, wide);
         let above = self.min[1] - 0.6 * MARGIN * scale;
         vec![
@@ -151,6 +154,13 @@ impl Frame {
             Lettering::new(title, TITLE_TEXT * scale, vec2(self.min[0], above.round()), INK),
         ]
     }
+}
+
+/// Ticks at 0, 1, 2, … with names.
+fn named(names: &[String], norm: &Normalization) -> Ticks {
+    let tick =
+        |(k, name): (usize, &String)| Tick { at: norm.position(k as f64), label: name.clone() };
+    Ticks { major: names.iter().enumerate().map(tick).collect(), ..Ticks::default() }
 }
 
 /// Places and lengths of ticks.

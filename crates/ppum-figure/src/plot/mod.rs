@@ -36,11 +36,14 @@ pub struct PlotAxis {
     pub scale: Scale,
     /// The values from its start to its end; found from the curves if there are none.
     pub range: Option<[f64; 2]>,
+    /// Names of the values 0, 1, 2, … in place of numbers; none of an axis of numbers.
+    pub names: Vec<String>,
 }
 
 impl Default for PlotAxis {
     fn default() -> Self {
-        Self { label: String::new(), unit: String::new(), scale: Scale::Linear, range: None }
+        let (label, unit, names) = (String::new(), String::new(), Vec::new());
+        Self { label, unit, scale: Scale::Linear, range: None, names }
     }
 }
 
@@ -79,6 +82,8 @@ pub enum Look {
     Dashed,
     /// A line with a dot at each point.
     Dotted,
+    /// Bars from zero, those of several curves side by side.
+    Bars,
 }
 
 impl Curve {
@@ -145,12 +150,19 @@ pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
 fn inside(plot: &Plot, frame: &Frame) -> Item {
     let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
     let mut entries = Vec::new();
+    let bars = plot.curves.iter().filter(|curve| curve.look == Look::Bars).count();
     for (k, curve) in plot.curves.iter().enumerate() {
         let color = COLORS[k % COLORS.len()];
         let pen = pen(curve, color, frame.scale);
-        canvas.items.extend(drawn(curve, pen, frame));
+        let is_bar = curve.look == Look::Bars;
+        canvas.items.extend(if is_bar {
+            vec![Item::Fill { outline: bars_of(curve, [k, bars], frame), color }]
+        } else {
+            drawn(curve, pen, frame)
+        });
         if !curve.label.is_empty() {
-            entries.push(Entry::new(Symbol::Line(pen), &curve.label));
+            let symbol = if is_bar { Symbol::Square(color) } else { Symbol::Line(pen) };
+            entries.push(Entry::new(symbol, &curve.label));
         }
     }
     if plot.curves.len() > 1 || entries.len() > 1 {
@@ -162,6 +174,17 @@ fn inside(plot: &Plot, frame: &Frame) -> Item {
 fn pen(curve: &Curve, color: Rgba, scale: f64) -> Pen {
     let pen = Pen::new(color, WIDTH * scale);
     if curve.look == Look::Dashed { pen.dashed(7.0 * scale, 4.0 * scale) } else { pen }
+}
+
+/// The bars of curve k of `count`, side by side around their places.
+fn bars_of(curve: &Curve, [k, count]: [usize; 2], frame: &Frame) -> Path {
+    let width = 0.8 / count as f64;
+    let mut path = Path::default();
+    for &[x, y] in curve.points.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+        let left = x - 0.4 + k as f64 * width;
+        path.rect(frame.position([left, 0.0]), frame.position([left + 0.9 * width, y]));
+    }
+    path
 }
 
 /// The unbroken pieces of a curve, and its dots.
@@ -185,8 +208,13 @@ fn scale_of(axis: &PlotAxis, curves: &[Curve], k: usize) -> Normalization {
     let is_seen = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
     let whole = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite());
     let points = curves.iter().flat_map(|curve| &curve.points).filter(whole);
+    let have_bars = !is_log && curves.iter().any(|curve| curve.look == Look::Bars);
     let [min, max] = axis.range.unwrap_or_else(|| {
-        let values = points.map(|p| p[k]).filter(is_seen);
+        if !axis.names.is_empty() {
+            return [-0.6, axis.names.len() as f64 - 0.4];
+        }
+        let zero = (have_bars && k == 1).then_some(0.0);
+        let values = points.map(|p| p[k]).filter(is_seen).chain(zero);
         let start = [f64::INFINITY, f64::NEG_INFINITY];
         roomy(values.fold(start, |[a, b], v| [a.min(v), b.max(v)]), is_log)
     });
