@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use ppum::crack::Crack;
+use ppum::dataset::Dataset;
 use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Labels, bare, figure, plot_area};
@@ -14,9 +15,8 @@ use ppum_render::png;
 
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
-use crate::deformed::{Deformed, draw, words};
+use crate::deformed::{Deformed, Moved, draw};
 use crate::drawing::{Colours, Subject, labels};
-use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
 use crate::standard::is_standard;
@@ -85,53 +85,50 @@ impl Args {
             None => self.window.seen(&field, self.frame()?)?,
         };
         let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let mut title = self.subject.replacements.title(&dataset.title);
-        let (drawn, layers, moved) = match &seen {
-            None => {
-                let layers = self.overlays.items(&view, &dataset, &field, self.figure);
-                (self.engine.draw(job)?, layers, None)
-            }
-            Some(seen) => {
-                title = format!("{title} ({})", words(seen)).trim_start().to_owned();
-                let (drawn, overlaps) = draw(seen, job, &self.engine)?;
-                let outline = self.deformed.outline;
-                let layers = self.overlays.deformed_items(seen, self.figure, outline)?;
-                (drawn, layers, Some((seen, overlaps)))
-            }
+        let Plate { drawn, layers, cracks, moved } = match &seen {
+            Some(seen) => self.deformed(seen, job)?,
+            None => self.undeformed(job, &dataset)?,
         };
         let Drawn { picture, by, undefined, is_finite } = drawn;
-        let cracks =
-            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
-        let image =
-            self.page(&picture, layers, &cracks, &labels(title, &field, &quantity))?.image();
+        let title = self.subject.replacements.title(&dataset.title);
+        let title = moved.as_ref().map_or(title.clone(), |moved| moved.title(&title));
+        let labels = labels(title, &field, &quantity);
+        let image = self.page(&picture, layers, &cracks, &labels)?.image();
         let mut texts = picture.description(&dataset.title, &self.subject.file_name(), &name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.subject.notes(&quantity));
-        texts.extend(
-            moved
-                .iter()
-                .map(|(seen, _)| ("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))),
-        );
+        texts.extend(self.subject.notes(&quantity).chain(moved.as_ref().map(Moved::note)));
         let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
         let [columns, rows] = image.size;
-        let target = self.output.display();
-        let deformed: String =
-            moved.iter().map(|(seen, overlaps)| told_of(seen, *overlaps)).collect();
-        let told = format!(
-            "wrote {target}: {name}{deformed}, {columns}x{rows} pixels, {}, {by}",
-            colours(&picture, is_finite)
-        );
+        let how = moved.map_or(String::new(), |moved| format!(", {}", moved.told()));
         if undefined[0] > 0 {
             tell(&format!("warning: {}", undefined::message(&name, undefined, "pixels")));
         }
+        let colours = colours(&picture, is_finite);
+        self.write(&bytes, &format!("{name}{how}, {columns}x{rows} pixels, {colours}, {by}"), out)
+    }
+
+    /// Writes the file, and tells of it.
+    fn write(&self, bytes: &[u8], told: &str, out: &mut Output) -> anyhow::Result<()> {
         if is_standard(&self.output) {
-            out.exact().write_all(&bytes)?;
-            tell(&told.replacen("wrote -", "wrote standard output", 1));
+            out.exact().write_all(bytes)?;
+            tell(&format!("wrote standard output: {told}"));
         } else {
-            target::save(&self.output, |out| out.write_all(&bytes))?;
-            writeln!(out, "{told}")?;
+            target::save(&self.output, |out| out.write_all(bytes))?;
+            writeln!(out, "wrote {}: {told}", self.output.display())?;
         }
         Ok(())
+    }
+
+    fn undeformed(&self, job: Job<'_>, dataset: &Dataset) -> anyhow::Result<Plate> {
+        let layers = self.overlays.items(job.view, dataset, job.field, self.figure);
+        let cracks = job.field.step.cracks.clone();
+        Ok(Plate { drawn: self.engine.draw(job)?, layers, cracks, moved: None })
+    }
+
+    fn deformed(&self, seen: &DeformedView<'_>, job: Job<'_>) -> anyhow::Result<Plate> {
+        let layers = self.overlays.deformed_items(seen, self.figure, self.deformed.outline)?;
+        let (drawn, moved) = draw(seen, job, &self.engine)?;
+        Ok(Plate { drawn, layers, cracks: seen.moved_cracks(), moved: Some(moved) })
     }
 
     /// The files that are read.
@@ -165,12 +162,14 @@ impl Args {
     }
 }
 
-/// The factor, and at how many pixels the plate lies over itself.
-fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
-    match overlaps {
-        0 => format!(", {}", words(seen)),
-        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
-    }
+/// The plate as it was drawn.
+struct Plate {
+    drawn: Drawn,
+    layers: Vec<Item>,
+    /// Where they are seen.
+    cracks: Vec<Crack>,
+    /// How it was deformed.
+    moved: Option<Moved>,
 }
 
 /// The meaning of the colours.
