@@ -85,10 +85,10 @@ mod tests {
         &[
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
+            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
-            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],

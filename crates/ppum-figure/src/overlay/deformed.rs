@@ -18,8 +18,8 @@ const DASHES: [f64; 2] = [7.0, 5.0];
 /// The faces of all cracks where they have moved to.
 #[must_use]
 pub fn faces(view: &DeformedView<'_>) -> Vec<Item> {
-    let cracks = 0..view.field().step.cracks.len();
-    let lines = cracks.flat_map(|crack| view.faces(crack)).flatten().collect();
+    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
+    let lines = view.faces_of(&cracks).into_iter().flatten().flatten().collect();
     let scale = line_scale(view.view.pixels);
     let pen = Pen::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     vec![line(view, lines, pen)]
@@ -38,11 +38,8 @@ pub fn deformed_outline(view: &DeformedView<'_>) -> Vec<Item> {
 /// As [`Deformation::new`].
 pub fn undeformed_outline(view: &DeformedView<'_>) -> Result<Vec<Item>, DeformError> {
     let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
-    let cracks = 0..view.field().step.cracks.len();
-    let above = cracks.flat_map(|crack| {
-        let [above, _] = before.faces(crack);
-        above
-    });
+    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
+    let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
     let scale = line_scale(view.view.pixels);
     let [dash, gap] = DASHES.map(|length| length * scale);
     let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);

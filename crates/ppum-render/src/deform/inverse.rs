@@ -65,10 +65,14 @@ impl Inverse<'_, '_> {
         let Leaf { corners, center, image, .. } = self.leaf;
         let start = image.pulled_back(place - image.at);
         let start = if start.is_finite() { *center + start } else { *center };
-        let [a, b] = image.gradient;
-        let is_thin = image.determinant().abs() < THIN * (a.dot(a) + b.dot(b));
-        let more = corners.iter().filter(|_| is_thin);
+        let more = corners.iter().filter(|_| self.is_thin());
         std::iter::once(&start).chain(more).find_map(|start| self.newton(map, *start, place))
+    }
+
+    /// True if the plate may fold inside the leaf.
+    fn is_thin(&self) -> bool {
+        let [a, b] = self.leaf.image.gradient;
+        self.leaf.image.determinant().abs() < THIN * (a.dot(a) + b.dot(b))
     }
 
     fn newton(&self, map: &mut Map<'_>, start: Vec2, place: Vec2) -> Option<Found> {
@@ -91,7 +95,8 @@ impl Inverse<'_, '_> {
             let Some(nearer) = self.step(map, here, step, place) else { break };
             here = nearer;
         }
-        let is_near = (place - here.image.at).length() <= TOLERANCE * pixel;
+        // at a cusp of a fold steps lead nowhere
+        let is_near = self.is_thin() && (place - here.image.at).length() <= TOLERANCE * pixel;
         if is_near { Some(here) } else { self.behind_rim(map, here, place) }
     }
 

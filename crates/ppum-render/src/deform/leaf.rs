@@ -2,6 +2,7 @@
 
 use ppum::crack::Side;
 use ppum::domain::{Hole, LocalDomain};
+use ppum::progress::{Phase, Progress, Watcher};
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
@@ -41,8 +42,11 @@ pub(super) struct Leaf {
     pub(super) at_rim: bool,
 }
 
-/// All pieces of the plate that may be seen.
-pub(super) fn leaves(view: &DeformedView<'_>) -> Result<Vec<Leaf>, DeformError> {
+/// All pieces of the plate that may be seen. The watcher is asked at every halving.
+pub(super) fn leaves(
+    view: &DeformedView<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Leaf>, DeformError> {
     let field = view.field();
     let cutter = Cutter::new(view);
     let [columns, rows] = view.view.pixels.map(|n| n as usize);
@@ -52,6 +56,7 @@ pub(super) fn leaves(view: &DeformedView<'_>) -> Result<Vec<Leaf>, DeformError> 
         squares = squares.iter().flat_map(quarters).collect();
     }
     while !squares.is_empty() {
+        watcher.report(Progress::start(Phase::Evaluation, 1))?;
         let looked_at: Vec<Looked> = squares
             .par_iter()
             .map_init(|| Map::new(field, view.anchor), |map, square| cutter.look(map, square))

@@ -1,6 +1,6 @@
 //! Displacements and images of single points.
 
-use ppum::crack::{SegmentId, Side};
+use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
@@ -43,15 +43,7 @@ pub(super) struct Map<'f> {
 
 impl<'f> Map<'f> {
     pub(super) fn new(field: &'f Field<'f>, anchor: Vec2) -> Self {
-        Self::of(field.at(anchor))
-    }
-
-    /// For points on a segment of a crack.
-    pub(super) fn on(field: &'f Field<'f>, segment: SegmentId, anchor: Vec2) -> Self {
-        Self::of(field.on(segment, anchor))
-    }
-
-    fn of(local: LocalField<'f>) -> Self {
+        let local = field.at(anchor);
         let jets = vec![Jet::constant(0.0); local.field.components()];
         Self { local, patches: Vec::new(), jets }
     }

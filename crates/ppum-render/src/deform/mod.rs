@@ -131,24 +131,26 @@ impl<'f> Deformation<'f> {
     /// The place to which a point of the plate moves, above if it lies on a crack.
     #[must_use]
     pub fn place(&self, point: Vec2) -> Vec2 {
-        let [x, y] = self.displacement(point);
-        point + Vec2 { x, y } * self.factor
+        self.place_by(&mut Map::new(self.field, point), point, point)
+    }
+
+    /// The same by a map that is anchored elsewhere.
+    fn place_by(&self, map: &mut Map<'_>, anchor: Vec2, point: Vec2) -> Vec2 {
+        point + Vec2::from(finite(map.displacement(point - anchor, Side::Above))) * self.factor
     }
 
     /// The displacement at a point; zero far outside the plate.
     fn displacement(&self, point: Vec2) -> [f64; 2] {
-        let mut map = Map::new(self.field, point);
-        map.displacement(Vec2::ZERO, Side::Above)
-            .filter(|u| u.iter().all(|c| c.is_finite()))
-            .unwrap_or([0.0; 2])
+        finite(Map::new(self.field, point).displacement(Vec2::ZERO, Side::Above))
     }
 
     /// The tip that is seen nearest to the middle, if one is seen or lies just beside the picture.
     fn nearest_tip(&self, view: &View) -> Option<Vec2> {
-        let cracks = &self.field.step.cracks;
+        let (cracks, mut map) = (&self.field.step.cracks, Map::new(self.field, view.center));
         let all = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
-        let distance = |tip: &Vec2| (self.place(*tip) - view.center).length();
-        let near = all.map(|tip| (distance(&tip), tip)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let near = all
+            .map(|tip| ((self.place_by(&mut map, view.center, tip) - view.center).length(), tip))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
         near.filter(|(distance, _)| *distance <= 2.0 * view.half().length()).map(|(_, tip)| tip)
     }
 
@@ -156,14 +158,26 @@ impl<'f> Deformation<'f> {
     fn material(&self, place: Vec2) -> Vec2 {
         let bounds = &self.field.domain.bounds;
         let within = |p: Vec2| p.max(bounds.min).min(bounds.max);
-        let miss = |p: Vec2| (self.place(p) - place).length();
-        let (mut point, mut step) = (within(place), 1.0);
+        let mut map = Map::new(self.field, place);
+        let mut missed = |p: Vec2| place - self.place_by(&mut map, place, p);
+        let mut point = within(place);
+        let (mut miss, mut step) = (missed(point), 1.0);
         for _ in 0..STEPS {
-            let next = within(point + (place - self.place(point)) * step);
-            if miss(next) < miss(point) { point = next } else { step *= 0.5 }
+            let next = within(point + miss * step);
+            let after = missed(next);
+            if after.length() < miss.length() {
+                (point, miss) = (next, after);
+            } else {
+                step *= 0.5;
+            }
         }
         point
     }
+}
+
+/// A displacement, or none where it is not known.
+fn finite(displacement: Option<[f64; 2]>) -> [f64; 2] {
+    displacement.filter(|u| u.iter().all(|c| c.is_finite())).unwrap_or([0.0; 2])
 }
 
 /// Most steps to the anchor, which need not be near.
@@ -200,8 +214,9 @@ impl<'f> DeformedView<'f> {
     #[must_use]
     pub fn moved_cracks(&self) -> Vec<Crack> {
         let mut cracks = self.field().step.cracks.clone();
+        let mut map = Map::new(self.field(), self.anchor);
         for point in cracks.iter_mut().flat_map(|crack| &mut crack.points) {
-            *point = self.deformation.place(*point);
+            *point = self.deformation.place_by(&mut map, self.anchor, *point);
         }
         cracks
     }

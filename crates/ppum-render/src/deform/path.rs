@@ -1,6 +1,6 @@
 //! Lines of the plate in the deformed plane.
 
-use ppum::crack::{SegmentId, Side};
+use ppum::crack::{Crack, CrackEnd, Side};
 use ppum::domain::{Hole, LocalDomain};
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -55,19 +55,31 @@ impl DeformedView<'_> {
     /// If there is no such crack.
     #[must_use]
     pub fn faces(&self, crack: usize) -> [Paths; 2] {
-        let (field, domain) = (self.field(), self.field().domain.at(self.anchor));
-        let points = &field.step.cracks[crack].points;
-        [Side::Above, Side::Below].map(|side| {
+        let [faces] = self.faces_of(&[crack]).try_into().unwrap_or_default();
+        faces
+    }
+
+    /// The images of the faces of several cracks, above and below.
+    ///
+    /// # Panics
+    /// If there is no such crack.
+    #[must_use]
+    pub fn faces_of(&self, cracks: &[usize]) -> Vec<[Paths; 2]> {
+        let (mut map, domain) =
+            (Map::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
+        let mut face = |crack: &Crack, side: Side| {
             let mut paths = Joined::new(self);
-            for (segment, ends) in (0..).zip(points.windows(2)) {
-                let mut map =
-                    Map::on(field, SegmentId { crack: crack as u32, segment }, self.anchor);
-                let mut place =
-                    |o: Vec2| domain.contains(o).then(|| map.place(self, o, side)).flatten();
-                paths.add(self.line([ends[0] - self.anchor, ends[1] - self.anchor], &mut place));
+            for face in Face::all(crack, side, self.anchor) {
+                let mut place = |o: Vec2| {
+                    let is_plate = domain.contains(o);
+                    is_plate.then(|| map.place(self, face.beside(o), side)).flatten()
+                };
+                paths.add(self.line(face.ends, &mut place));
             }
             paths.all
-        })
+        };
+        let cracks = cracks.iter().map(|&crack| &self.field().step.cracks[crack]);
+        cracks.map(|crack| [Side::Above, Side::Below].map(|side| face(crack, side))).collect()
     }
 
     /// The image of the plate's border: of the box and of the rims of holes, where they bound the plate.
@@ -141,6 +153,42 @@ impl DeformedView<'_> {
         bent <= CHORD * pixel && size <= LONGEST * pixel || !is_seen
     }
 }
+
+/// One side of one segment of a crack; offsets from the anchor.
+struct Face {
+    ends: [Vec2; 2],
+    /// True for ends that are tips.
+    tips: [bool; 2],
+    /// Unit vector away from the crack.
+    away: Vec2,
+}
+
+impl Face {
+    fn all(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
+        let sign = if side == Side::Above { 1.0 } else { -1.0 };
+        let last = crack.points.len() - 2;
+        crack.points.windows(2).enumerate().map(move |(k, ends)| {
+            let is_tip = |end: usize| crack.ends[end] == CrackEnd::Tip;
+            let tips = [k == 0 && is_tip(0), k == last && is_tip(1)];
+            let away = (ends[1] - ends[0]).unit().left() * sign;
+            Self { ends: [ends[0] - anchor, ends[1] - anchor], tips, away }
+        })
+    }
+
+    /// A point of the face moved off the crack by [`BESIDE`] of its distance to a tip, or of the segment's length.
+    fn beside(&self, offset: Vec2) -> Vec2 {
+        let [a, b] = self.ends;
+        let of_tip = |(end, is_tip): (Vec2, bool)| {
+            if is_tip { (offset - end).length() } else { f64::INFINITY }
+        };
+        let distance =
+            self.ends.into_iter().zip(self.tips).map(of_tip).fold((b - a).length(), f64::min);
+        offset + self.away * (BESIDE * distance)
+    }
+}
+
+/// Enough for rounding not to choose the side, and nothing to be seen.
+const BESIDE: f64 = 1e-9;
 
 /// Longest part of a path in the picture \[pixels\]: what bends within it would be seen.
 const LONGEST: f64 = 40.0;

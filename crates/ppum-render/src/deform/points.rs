@@ -56,7 +56,7 @@ impl<'f> DeformedView<'f> {
     /// # Errors
     /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture, [`DeformError::Cancelled`].
     pub fn points(&self, watcher: &dyn Watcher) -> Result<DeformedPoints<'f>, DeformError> {
-        let leaves = if self.factor() == 0.0 { Vec::new() } else { leaves(self)? };
+        let leaves = if self.factor() == 0.0 { Vec::new() } else { leaves(self, watcher)? };
         let [columns, rows] = self.view.pixels;
         let bands = rows.div_ceil(ROWS);
         let parts = Parts::start(watcher, bands as usize * leaves.len().div_ceil(BLOCK))?;
@@ -69,7 +69,7 @@ impl<'f> DeformedView<'f> {
             } else {
                 self.band(&leaves, band, &parts)?
             };
-            all.append(found, band);
+            all.append(found, band)?;
         }
         Ok(all)
     }
@@ -150,7 +150,11 @@ fn clipped(from: f64, to: f64, [first, end]: [u32; 2]) -> std::ops::Range<u32> {
 
 impl<'f> DeformedPoints<'f> {
     /// Appends what was found in some rows, each point once.
-    fn append(&mut self, found: Vec<(u32, Found)>, [from, to]: [u32; 2]) {
+    fn append(
+        &mut self,
+        found: Vec<(u32, Found)>,
+        [from, to]: [u32; 2],
+    ) -> Result<(), DeformError> {
         let (columns, pixel) = (self.view.view.pixels[0], self.view.view.pixel_size());
         let mut rest = found.into_iter().peekable();
         let mut here: Vec<Found> = Vec::new();
@@ -169,8 +173,10 @@ impl<'f> DeformedPoints<'f> {
                 folded: found.image.determinant() < 0.0,
             };
             self.points.extend(here.iter().map(point));
-            self.starts.push(self.points.len() as u32);
+            let end = u32::try_from(self.points.len());
+            self.starts.push(end.map_err(|_| DeformError::TooFolded(self.view.factor()))?);
         }
+        Ok(())
     }
 
     /// The points at a pixel: none where the plate is not.
