@@ -78,7 +78,8 @@ pub struct Pen {
     pub color: Rgba,
     /// The width.
     pub width: f64,
-    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies under them.
+    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies under them;
+    /// also where a line has gaps.
     pub halo: Option<Halo>,
     /// Lengths of dashes and of the gaps between them; one unbroken line if there are none.
     pub dashes: Option<[f64; 2]>,
@@ -153,6 +154,30 @@ impl Canvas {
     }
 }
 
+impl Item {
+    /// The box that the item may draw into: its upper left and lower right corner. Of nothing, the least
+    /// coordinates are +∞.
+    #[must_use]
+    pub fn bounds(&self) -> [Vec2; 2] {
+        let grown = |[lo, hi]: [Vec2; 2], by: f64| [lo - vec2(by, by), hi + vec2(by, by)];
+        let of_page = |corner: &[u32; 2], size: [u32; 2]| {
+            let (corner, size) =
+                (Vec2::from(corner.map(f64::from)), Vec2::from(size.map(f64::from)));
+            [corner, corner + size]
+        };
+        match self {
+            Self::Picture { image, corner } => of_page(corner, image.size),
+            Self::Fill { outline, .. } => outline.bounds(),
+            Self::Line { path, pen } => {
+                let halo = pen.halo.map_or(0.0, |halo| halo.width);
+                grown(path.bounds(), 0.5 * pen.width + halo)
+            }
+            Self::Text(line) => line.bounds(),
+            Self::Inset { corner, canvas } => of_page(corner, canvas.size),
+        }
+    }
+}
+
 impl Lettering {
     /// Text that starts at a point of its base line and reads to the right.
     #[must_use]
@@ -177,6 +202,14 @@ impl Lettering {
     #[must_use]
     pub fn width(&self) -> f64 {
         text::width(&self.text, self.size)
+    }
+
+    /// The box around the letters and their seam.
+    fn bounds(&self) -> [Vec2; 2] {
+        let curves = text::outlines(&self.text, self.size, self.start(), self.angle);
+        let [lo, hi] = text::bounds(&curves);
+        let by = self.halo.map_or(0.0, |halo| halo.width);
+        [lo - vec2(by, by), hi + vec2(by, by)]
     }
 
     /// The point where the line starts.
