@@ -1,35 +1,34 @@
 //! `ppum render`: a picture of a quantity.
 
+mod file;
+mod look;
+mod panels;
+mod subject;
 mod window;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
+use anyhow::ensure;
 use clap::ValueEnum;
 use ppum::field::Field;
-use ppum::formula::one_line;
-use ppum::quantity::Quantity;
 use ppum::text::{apart, trimmed};
-use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Labels, bare, figure, plot_area};
+use ppum_figure::canvas::Item;
+use ppum_figure::figure::{Panel, bare, figure, plot_area};
 use ppum_figure::overlay;
-use ppum_render::colormap::{Colormap, LONGEST, NAMES};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::png;
-use ppum_render::range::Range;
-use ppum_render::scale::Scale;
+use ppum_render::picture::Picture;
 use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
-use crate::dataset::{field, open, quantity};
+use crate::dataset::{field, open};
 use crate::given;
 use crate::output::{Output, tell};
 use crate::replacements::Replacements;
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::undefined;
+use look::Look;
+use subject::{Colors, Subject};
 use window::{Frame, Window};
 
 /// Draw a quantity, exactly at every pixel
@@ -42,35 +41,30 @@ pub(crate) struct Args {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Picture to write, - for standard output
-    #[arg(short, long, value_name = "OUT.png")]
+    /// Picture to write, - for standard output (PNG)
+    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     output: PathBuf,
-    /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one [default: von-mises;
-    /// for Poisson problems u]
+    /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one; with --layout several,
+    /// apart by commas [default: von-mises; for Poisson problems u]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     #[command(flatten)]
     replacements: Replacements,
-    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
-    /// shape]
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[u32; 2]>,
+    #[command(flatten)]
+    look: Look,
+    /// Panels of a figure with several quantities: columns and rows
+    #[arg(long, value_name = "CxR", value_parser = size)]
+    layout: Option<[u32; 2]>,
+    /// Give all panels one range and one colour bar
+    #[arg(long, requires = "layout")]
+    shared_range: bool,
     #[command(flatten)]
     window: Window,
-    #[arg(long, value_name = "NAME", default_value = "viridis", help = colormaps())]
-    colormap: String,
-    /// Values that the colours span; `auto` is robust against peaks at tips
-    #[arg(long, value_name = "A,B|auto", default_value = "auto", allow_hyphen_values = true)]
-    range: Range,
-    /// How values spread over the colours: linear, log or symlog
-    #[arg(long, default_value = "linear")]
-    scale: Scale,
+    #[command(flatten)]
+    colors: Colors,
     /// What is drawn over the colours; a figure always shows the cracks
     #[arg(long, value_enum, value_delimiter = ',')]
     overlay: Vec<Overlay>,
-    /// Add axes, a colour bar, a title and the cracks
-    #[arg(long)]
-    figure: bool,
     #[command(flatten)]
     engine: Engine,
     /// Step of the series, from 0 [default: the last]
@@ -88,15 +82,10 @@ Examples:
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
+  ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
-
-fn colormaps() -> String {
-    format!(
-        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it",
-        NAMES.join(", ")
-    )
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Overlay {
@@ -106,56 +95,68 @@ enum Overlay {
     Patches,
 }
 
-const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+/// What is drawn of.
+struct Plate<'a> {
+    field: &'a Field<'a>,
+    /// The dataset's title.
+    title: &'a str,
+    /// The title of figures, which tells of what was replaced.
+    shown: String,
+}
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
+        self.look.check(self.layout.is_some())?;
         let mut dataset = open(&self.file)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
-        let given = self.quantity.as_deref().unwrap_or(default_quantity(&field));
-        let quantity = quantity(&field, given)?;
-        let name = name(&quantity, given);
-        let view = self.view(&field)?;
-        let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
-        ensure!(
-            view.rect().overlaps(&field.domain.bounds),
-            "the view shows nothing of the domain; `ppum info` says where that is"
-        );
-        let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { picture, by, undefined, is_finite } = self.engine.draw(job)?;
-        let title = self.replacements.title(&dataset.title);
-        let image = self.page(&picture, &field, &labels(title, &field, &quantity))?.image();
-        let mut texts = picture.description(&dataset.title, &self.file_name(), &name);
-        texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
-        let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
-        let [columns, rows] = image.size;
-        let target = self.output.display();
-        let told = format!(
-            "wrote {target}: {name}, {columns}x{rows} pixels, {}, {by}",
-            colours(&picture, is_finite)
-        );
-        if undefined[0] > 0 {
-            tell(&format!("warning: {}", undefined::message(&name, undefined, "pixels")));
+        let shown = self.replacements.title(&dataset.title);
+        let plate = Plate { field: &field, title: &dataset.title, shown };
+        match self.layout {
+            None => self.one(&plate, out),
+            Some(layout) => self.panels(&plate, layout, out),
         }
-        if is_standard(&self.output) {
-            out.exact().write_all(&bytes)?;
-            tell(&told.replacen("wrote -", "wrote standard output", 1));
+    }
+
+    /// Draws one quantity.
+    fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
+        let field = plate.field;
+        let given = self.quantity.as_deref().unwrap_or(subject::default(field));
+        let subject = Subject::new(field, given)?;
+        let labels = self.look.worded(subject.labels(plate.shown.clone(), field));
+        let design = self.look.design(self.window.aspect(field));
+        let room =
+            if self.look.figure { plot_area(&labels.title, &design)? } else { self.look.size() };
+        let view = self.view(field, room)?;
+        let style = self.colors.style(&subject.quantity)?;
+        let job = Job { field, view: &view, quantity: &subject.quantity, style: &style };
+        let drawn = self.engine.draw(job)?;
+        drawn.warn(&subject.name);
+        let Drawn { picture, by, is_finite, .. } = drawn;
+        let layers = self.layers(&view, field);
+        let page = if self.look.figure {
+            let panel = Panel { picture: &picture, layers, labels, cracks: &field.step.cracks };
+            figure(panel, &design)?
         } else {
-            target::save(&self.output, |out| out.write_all(&bytes))?;
-            writeln!(out, "{told}")?;
-        }
-        Ok(())
+            bare(&picture, layers)
+        };
+        let mut texts = picture.description(plate.title, &self.file_name(), &subject.name);
+        texts.push(("ppum:backend".to_owned(), by.clone()));
+        texts.extend(subject.note().into_iter().chain(self.replacements.notes()));
+        let [columns, rows] = page.size;
+        let (name, colors) = (&subject.name, colours(&picture, is_finite));
+        let told = format!("{name}, {columns}x{rows} pixels, {colors}, {by}");
+        file::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let files = [self.file.as_path(), Path::new(&self.colormap)];
+        let colormap = self.colors.colormap.as_deref().map(Path::new);
         let formula = self.quantity.as_deref().and_then(given::file);
-        files.into_iter().chain(formula).chain(self.replacements.files())
+        let files = [self.file.as_path()].into_iter().chain(colormap);
+        files.chain(formula).chain(self.replacements.files())
     }
 
     /// The name of the dataset in the picture.
@@ -166,38 +167,26 @@ impl Args {
         }
     }
 
-    fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
-        let size = self.size.unwrap_or(DEFAULT_SIZE);
-        let frame = Frame {
-            pixels: if self.figure { plot_area(size)? } else { size },
-            // A figure centres what it is given; a bare picture has the size that was asked for.
-            may_shrink: self.figure || self.size.is_none(),
-        };
-        self.window.view(field, frame)
-    }
-
-    /// The picture with its overlays, as a figure if that is asked for.
-    fn page(
-        &self,
-        picture: &Picture,
-        field: &Field<'_>,
-        labels: &Labels,
-    ) -> anyhow::Result<Canvas> {
-        let (layers, cracks) = (self.layers(picture, field), &field.step.cracks);
-        if !self.figure {
-            return Ok(bare(picture, layers));
-        }
-        Ok(figure(picture, layers, labels, cracks, self.size.unwrap_or(DEFAULT_SIZE))?)
+    /// The view on so many pixels, or less if the domain has another shape.
+    fn view(&self, field: &Field<'_>, pixels: [u32; 2]) -> anyhow::Result<View> {
+        // A figure centres what it is given; a bare picture has the size that was asked for.
+        let is_figure = self.look.figure || self.layout.is_some();
+        let may_shrink = is_figure || self.look.given_size().is_none();
+        let view = self.window.view(field, Frame { pixels, may_shrink })?;
+        ensure!(
+            view.rect().overlaps(&field.domain.bounds),
+            "the view shows nothing of the domain; `ppum info` says where that is"
+        );
+        Ok(view)
     }
 
     /// What is drawn over the colours.
-    fn layers(&self, picture: &Picture, field: &Field<'_>) -> Vec<Item> {
-        let view = &picture.view;
+    fn layers(&self, view: &View, field: &Field<'_>) -> Vec<Item> {
         let mut layers = Vec::new();
         if self.overlay.contains(&Overlay::Patches) {
             layers.extend(overlay::cells(view, &field.step.partition));
         }
-        if self.figure || self.overlay.contains(&Overlay::Cracks) {
+        if self.look.figure || self.layout.is_some() || self.overlay.contains(&Overlay::Cracks) {
             layers.extend(overlay::rims(view, &field.domain.holes));
             layers.extend(overlay::cracks(view, &field.step.cracks));
         }
@@ -218,45 +207,11 @@ fn colours(picture: &Picture, is_finite: bool) -> String {
     }
 }
 
-fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
-    match field.equation.elastic() {
-        Some(_) => "von-mises",
-        None => &field.data.components[0],
-    }
-}
-
-/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too,
-/// to say why it cannot be.
-fn style(name: &str) -> anyhow::Result<Style> {
-    let path = Path::new(name);
-    match Style::named(name) {
-        Ok(style) if !path.is_file() => return Ok(style),
-        Err(error) if !path.exists() => return Err(error.into()),
-        _ => {}
-    }
-    let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {name}"))?;
-    Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
-}
-
-/// The name of the quantity in messages and in the picture's description.
-fn name(quantity: &Quantity, given: &str) -> String {
-    match quantity {
-        Quantity::Formula(formula) => formula.label(),
-        _ => given.to_owned(),
-    }
-}
-
-/// The formula of a quantity, as a note in the picture.
-fn notes(quantity: &Quantity) -> Option<(String, String)> {
-    let Quantity::Formula(formula) = quantity else { return None };
-    Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
-}
-
-fn labels(title: String, field: &Field<'_>, quantity: &Quantity) -> Labels {
-    Labels {
-        title,
-        quantity: quantity.symbol(&field.data.components),
-        unit: quantity.unit(field).to_owned(),
-        length_unit: String::new(),
+impl Drawn {
+    /// Tells that a quantity has no value at some pixels.
+    fn warn(&self, name: &str) {
+        if self.undefined[0] > 0 {
+            tell(&format!("warning: {}", undefined::message(name, self.undefined, "pixels")));
+        }
     }
 }

@@ -9,6 +9,7 @@ mod damage;
 mod demo;
 mod determinism;
 mod errors;
+mod figures;
 mod files;
 mod formula;
 mod info;

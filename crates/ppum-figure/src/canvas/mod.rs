@@ -138,6 +138,21 @@ impl Canvas {
         raster::image(self)
     }
 
+    /// The characters of its texts that the font lacks, each once ([`text::missing`]).
+    #[must_use]
+    pub fn missing(&self) -> Vec<char> {
+        let mut all: Vec<char> = Vec::new();
+        for item in &self.items {
+            let found = match item {
+                Item::Text(line) => text::missing(&line.text),
+                Item::Inset { canvas, .. } => canvas.missing(),
+                _ => Vec::new(),
+            };
+            all.extend(found.into_iter().filter(|c| !all.contains(c)).collect::<Vec<_>>());
+        }
+        all
+    }
+
     /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters, the font is
     /// in the file, pictures are PNG with their pixels kept apart. Of the texts `Title` and `Description` are
     /// the file's own, the others its metadata.

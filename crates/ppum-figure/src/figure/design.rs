@@ -109,6 +109,12 @@ impl Design {
         Self::new(size.map(|length| (length * dpi).round() as u32), dpi)
     }
 
+    /// The same in pixels, with so many of them per inch.
+    #[must_use]
+    pub fn at(self, dpi: f64) -> Self {
+        Self { font_size: self.font_size * self.dpi / dpi, dpi, ..self }
+    }
+
     fn new(size: [u32; 2], dpi: f64) -> Self {
         Self {
             size,

@@ -41,6 +41,15 @@ pub(super) struct Frame {
 const DEFAULT_ZOOM: f64 = 10.0;
 
 impl Window {
+    /// Width over height of what is to be seen; none if it is whatever the picture has room for.
+    pub(super) fn aspect(&self, field: &Field<'_>) -> Option<f64> {
+        if self.center.is_some() || self.tip.is_some() {
+            return None;
+        }
+        let size = self.view.unwrap_or(field.domain.bounds).size();
+        Some(size.x / size.y)
+    }
+
     pub(super) fn view(&self, field: &Field<'_>, frame: Frame) -> anyhow::Result<View> {
         let Frame { pixels, may_shrink } = frame;
         if let Some(Rect { min, max }) = self.view {
