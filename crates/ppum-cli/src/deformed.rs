@@ -48,6 +48,11 @@ impl FromStr for Factor {
 }
 
 impl Deformed {
+    /// True if the deformed plate is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.factor.is_some()
+    }
+
     /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
     pub(crate) fn view<'f>(
         &self,
