@@ -16,7 +16,7 @@ use ppum_render::view::View;
 use crate::graphics::{Device, Method};
 use crate::output::tell;
 use crate::progress::Bar;
-use crate::{graphics, threads, undefined};
+use crate::{graphics, threads};
 
 /// The options that choose who draws.
 #[derive(Debug, clap::Args)]
@@ -75,9 +75,12 @@ impl Drawn {
         job: Job<'_>,
         by: &str,
     ) -> anyhow::Result<Self> {
-        let picture = Picture::bare(raster, job.view, job.style)?;
-        let undefined = undefined::pixels(raster, job.field, job.view);
-        let is_finite = raster.statistics().finite > 0;
+        let mut picture = Picture::bare(raster, job.view, job.style)?;
+        let without = raster.undefined(&job.field.domain, job.view);
+        picture.hatch(&without);
+        let with = raster.values.len() - raster.statistics().undefined;
+        let undefined = [without.len(), without.len() + with];
+        let is_finite = picture.has_values;
         Ok(Self { picture, by: by.to_owned(), undefined, is_finite })
     }
 }

@@ -12,7 +12,6 @@ use ppum_render::picture::Picture;
 use ppum_render::raster::Raster;
 
 use crate::backend::{Drawn, Engine, Job};
-use crate::number::count;
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -49,6 +48,11 @@ impl FromStr for Factor {
 }
 
 impl Deformed {
+    /// True if the deformed plate is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.factor.is_some()
+    }
+
     /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
     pub(crate) fn view<'f>(
         &self,
@@ -95,39 +99,17 @@ impl Deformed {
 /// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a small picture.
 const ROOM: f64 = 0.01;
 
-/// How a plate was drawn deformed.
-pub(crate) struct Moved {
-    factor: f64,
-    /// Pixels at which it lies over itself.
-    overlaps: usize,
+/// The factor as it is told: `×100`.
+pub(crate) fn words(view: &DeformedView<'_>) -> String {
+    format!("deformed ×{}", trimmed(view.factor()))
 }
 
-impl Moved {
-    /// A title that tells the factor.
-    pub(crate) fn title(&self, title: &str) -> String {
-        format!("{title} (deformed ×{})", trimmed(self.factor)).trim_start().to_owned()
-    }
-
-    /// A note in the picture.
-    pub(crate) fn note(&self) -> (String, String) {
-        ("ppum:deformed".to_owned(), format!("{:?}", self.factor))
-    }
-
-    pub(crate) fn told(&self) -> String {
-        let factor = format!("deformed ×{}", trimmed(self.factor));
-        match self.overlaps {
-            0 => factor,
-            n => format!("{factor}, over itself at {} (hatched)", count(n, "pixel", "pixels")),
-        }
-    }
-}
-
-/// A picture of the deformed plate; pixels at which it lies over itself are hatched.
+/// A picture of the deformed plate, and at how many pixels it lies over itself; these are hatched.
 pub(crate) fn draw(
     view: &DeformedView<'_>,
     job: Job<'_>,
     engine: &Engine,
-) -> anyhow::Result<(Drawn, Moved)> {
+) -> anyhow::Result<(Drawn, usize)> {
     let found = engine.on_processor(|| {
         let points = view.points(&Bar::new())?;
         let raster = points.raster(job.quantity, &Bar::new())?;
@@ -139,8 +121,7 @@ pub(crate) fn draw(
     let undefined = undefined(&points, &raster.values);
     let is_finite = raster.values.statistics().finite > 0;
     let drawn = Drawn { picture, by: "cpu f64".into(), undefined, is_finite };
-    let overlaps = raster.overlap.iter().filter(|overlap| **overlap).count();
-    Ok((drawn, Moved { factor: view.factor(), overlaps }))
+    Ok((drawn, raster.overlap.iter().filter(|overlap| **overlap).count()))
 }
 
 /// The number of pixels of the plate without a value, and of all of them.

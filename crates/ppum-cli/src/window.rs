@@ -31,6 +31,7 @@ pub(crate) struct Window {
 }
 
 /// The room there is.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) pixels: [u32; 2],
     /// A picture of the whole domain takes no more pixels than that has.
@@ -42,6 +43,15 @@ pub(crate) struct Frame {
 const DEFAULT_ZOOM: f64 = 10.0;
 
 impl Window {
+    /// Width over height of what is to be seen; none if it is whatever the picture has room for.
+    pub(crate) fn aspect(&self, field: &Field<'_>) -> Option<f64> {
+        if self.center.is_some() || self.tip.is_some() {
+            return None;
+        }
+        let size = self.view.unwrap_or(field.domain.bounds).size();
+        Some(size.x / size.y)
+    }
+
     /// The view; of the whole picture that of a box.
     pub(crate) fn over(
         &self,

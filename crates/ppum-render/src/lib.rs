@@ -3,7 +3,7 @@
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
-//! encodes the result together with what it shows; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
+//! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -40,6 +40,7 @@
 //!
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
+pub mod animation;
 pub mod cells;
 pub mod colormap;
 pub mod deform;
@@ -83,6 +84,7 @@ mod tests {
             ("raster", &["error", "view"]),
         ],
         &[
+            ("animation", &["image", "png"]),
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
@@ -105,6 +107,7 @@ mod tests {
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
         check::<super::RenderError>();
+        check::<super::animation::AnimationError>();
         check::<super::colormap::ColormapError>();
         check::<super::range::RangeError>();
         check::<super::view::ViewError>();

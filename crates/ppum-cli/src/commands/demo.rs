@@ -37,7 +37,7 @@ const TOUR: [&str; 5] = [
     "render @/centre-crack.h5 -o @/von-mises.png --figure",
     "render @/centre-crack.h5 -o @/displacement.png -q magnitude --colormap magma --figure",
     "render @/centre-crack.h5 -o @/tip.png --tip 1 --zoom 1000 --scale log --figure",
-    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cracks,patches --figure",
+    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cells,cracks --figure",
 ];
 
 /// Commands to go on with.

@@ -1,28 +1,32 @@
 //! `ppum render`: a picture of a quantity.
 
-use std::io::Write;
+mod look;
+mod panels;
+
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
-use ppum::crack::Crack;
+use anyhow::ensure;
 use ppum::dataset::Dataset;
+use ppum::field::Field;
 use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Labels, bare, figure, plot_area};
+use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
 use ppum_render::deform::DeformedView;
 use ppum_render::picture::Picture;
-use ppum_render::png;
+use ppum_render::png::Text;
 
 use crate::arguments::size;
 use crate::backend::{Drawn, Engine, Job};
-use crate::deformed::{Deformed, Moved, draw};
-use crate::drawing::{Colours, Subject, labels};
+use crate::deformed::{Deformed, draw, words};
+use crate::drawing::{Asked, Colors, Subject};
+use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
-use crate::standard::is_standard;
+use crate::page;
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
+use look::Look;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -33,24 +37,25 @@ use crate::window::{Frame, Window};
 pub(crate) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// Picture to write, - for standard output
-    #[arg(short, long, value_name = "OUT.png")]
+    /// Picture to write, - for standard output (PNG)
+    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     output: PathBuf,
-    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
-    /// shape]
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[u32; 2]>,
+    #[command(flatten)]
+    look: Look,
+    /// Panels of a figure with several quantities: columns and rows
+    #[arg(long, value_name = "CxR", value_parser = size)]
+    layout: Option<[u32; 2]>,
+    /// Give all panels one range and one colour bar
+    #[arg(long, requires = "layout")]
+    shared_range: bool,
     #[command(flatten)]
     window: Window,
     #[command(flatten)]
-    colours: Colours,
+    colours: Colors,
     #[command(flatten)]
     overlays: Overlays,
     #[command(flatten)]
     deformed: Deformed,
-    /// Add axes, a colour bar, a title and the cracks
-    #[arg(long)]
-    figure: bool,
     #[command(flatten)]
     engine: Engine,
 }
@@ -64,112 +69,140 @@ Examples:
   ppum render plate.h5 -o what-if.png --function 'westergaard 1=r' --weight bump
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
-  ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cells,cracks
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
+  ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
+  ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
-const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+/// What is drawn of.
+struct Plate<'a> {
+    dataset: &'a Dataset,
+    field: &'a Field<'a>,
+    /// The title of figures, which tells of what was replaced.
+    shown: String,
+}
+
+/// A picture with what belongs to it.
+struct Sheet {
+    drawn: Drawn,
+    layers: Vec<Item>,
+    /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
+    told: String,
+    notes: Vec<Text>,
+}
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
+        self.look.check(self.layout.is_some())?;
+        ensure!(
+            self.layout.is_none() || !self.deformed.is_given(),
+            "--layout and --deformed do not go together yet; draw the panels one by one"
+        );
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
-        let (quantity, name) = self.subject.quantity(&field)?;
-        let style = self.colours.style()?;
-        let seen = self.deformed.view(&field, &self.window, self.frame()?)?;
-        let view = match &seen {
-            Some(seen) => seen.view,
-            None => self.window.seen(&field, self.frame()?)?,
+        let shown = self.subject.replacements.title(&dataset.title);
+        let plate = Plate { dataset: &dataset, field: &field, shown };
+        match self.layout {
+            None => self.one(&plate, out),
+            Some(layout) => self.panels(&plate, layout, out),
+        }
+    }
+
+    /// Draws one quantity.
+    fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
+        let field = plate.field;
+        let asked = self.subject.quantity(field)?;
+        let mut labels = asked.labels(plate.shown.clone(), field);
+        let design = self.look.design(self.window.aspect(field));
+        let room = |title: &str| {
+            if self.look.figure { plot_area(title, &design) } else { Ok(self.look.size()) }
         };
-        let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Plate { drawn, layers, cracks, moved } = match &seen {
-            Some(seen) => self.deformed(seen, job)?,
-            None => self.undeformed(job, &dataset)?,
+        let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
+        let seen = self.deformed.view(field, &self.window, frame)?;
+        if let Some(seen) = &seen {
+            labels.title = format!("{} ({})", labels.title, words(seen)).trim_start().to_owned();
+        }
+        let labels = self.look.worded(labels);
+        let sheet = match &seen {
+            None => self.undeformed(plate, &asked, frame)?,
+            Some(seen) => self.moved(seen, &asked, field)?,
         };
-        let Drawn { picture, by, undefined, is_finite } = drawn;
-        let title = self.subject.replacements.title(&dataset.title);
-        let title = moved.as_ref().map_or(title.clone(), |moved| moved.title(&title));
-        let labels = labels(title, &field, &quantity);
-        let image = self.page(&picture, layers, &cracks, &labels)?.image();
-        let mut texts = picture.description(&dataset.title, &self.subject.file_name(), &name);
+        sheet.drawn.warn(&asked.name);
+        let cracks =
+            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
+        let Sheet { drawn: Drawn { picture, by, is_finite, .. }, layers, told, notes } = sheet;
+        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
+        let page = self.page(panel, &design)?;
+        let mut texts =
+            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.subject.notes(&quantity).chain(moved.as_ref().map(Moved::note)));
-        let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
-        let [columns, rows] = image.size;
-        let how = moved.map_or(String::new(), |moved| format!(", {}", moved.told()));
-        if undefined[0] > 0 {
-            tell(&format!("warning: {}", undefined::message(&name, undefined, "pixels")));
-        }
-        let colours = colours(&picture, is_finite);
-        self.write(&bytes, &format!("{name}{how}, {columns}x{rows} pixels, {colours}, {by}"), out)
+        texts
+            .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
+        let [columns, rows] = page.size;
+        let (name, colors) = (&asked.name, colours(&picture, is_finite));
+        let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
+        page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// Writes the file, and tells of it.
-    fn write(&self, bytes: &[u8], told: &str, out: &mut Output) -> anyhow::Result<()> {
-        if is_standard(&self.output) {
-            out.exact().write_all(bytes)?;
-            tell(&format!("wrote standard output: {told}"));
-        } else {
-            target::save(&self.output, |out| out.write_all(bytes))?;
-            writeln!(out, "wrote {}: {told}", self.output.display())?;
-        }
-        Ok(())
+    /// Draws the plate as it was before it was loaded.
+    fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
+        let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
+        let view = self.window.seen(field, frame)?;
+        let job = Job { field, view: &view, quantity: &asked.quantity, style: &style };
+        let layers = self.overlays.items(&view, plate.dataset, field, self.look.figure);
+        let drawn = self.engine.draw(job)?;
+        Ok(Sheet { drawn, layers, told: String::new(), notes: Vec::new() })
     }
 
-    fn undeformed(&self, job: Job<'_>, dataset: &Dataset) -> anyhow::Result<Plate> {
-        let layers = self.overlays.items(job.view, dataset, job.field, self.figure);
-        let cracks = job.field.step.cracks.clone();
-        Ok(Plate { drawn: self.engine.draw(job)?, layers, cracks, moved: None })
-    }
-
-    fn deformed(&self, seen: &DeformedView<'_>, job: Job<'_>) -> anyhow::Result<Plate> {
-        let layers = self.overlays.deformed_items(seen, self.figure, self.deformed.outline)?;
-        let (drawn, moved) = draw(seen, job, &self.engine)?;
-        Ok(Plate { drawn, layers, cracks: seen.moved_cracks(), moved: Some(moved) })
+    /// Draws the plate moved by its displacements.
+    fn moved(
+        &self,
+        seen: &DeformedView<'_>,
+        asked: &Asked,
+        field: &Field<'_>,
+    ) -> anyhow::Result<Sheet> {
+        let style = self.colours.style(&asked.quantity)?;
+        let job = Job { field, view: &seen.view, quantity: &asked.quantity, style: &style };
+        let (drawn, overlaps) = draw(seen, job, &self.engine)?;
+        let outline = self.deformed.outline;
+        let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
+        let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
+        Ok(Sheet { drawn, layers, told: told_of(seen, overlaps), notes })
     }
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        self.subject.inputs().chain([self.colours.input()])
+        self.subject.inputs().chain(self.colours.input())
     }
 
-    fn frame(&self) -> anyhow::Result<Frame> {
-        let size = self.size.unwrap_or(DEFAULT_SIZE);
-        Ok(Frame {
-            pixels: if self.figure { plot_area(size)? } else { size },
-            // A figure centres what it is given; a bare picture has the size that was asked for.
-            may_shrink: self.figure || self.size.is_none(),
-            margin: self.overlays.margin(),
-        })
+    /// The room of a picture of so many pixels.
+    fn frame(&self, pixels: [u32; 2]) -> Frame {
+        // A figure centres what it is given; a bare picture has the size that was asked for.
+        let is_figure = self.look.figure || self.layout.is_some();
+        let may_shrink = is_figure || self.look.given_size().is_none();
+        Frame { pixels, may_shrink, margin: self.overlays.margin() }
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
-    fn page(
-        &self,
-        picture: &Picture,
-        layers: Vec<Item>,
-        cracks: &[Crack],
-        labels: &Labels,
-    ) -> anyhow::Result<Canvas> {
-        if !self.figure {
-            return Ok(bare(picture, layers));
+    fn page(&self, panel: Panel<'_>, design: &Design) -> anyhow::Result<Canvas> {
+        if self.look.figure {
+            Ok(figure(panel, design)?)
+        } else {
+            Ok(bare(panel.picture, panel.layers))
         }
-        let size = self.size.unwrap_or(DEFAULT_SIZE);
-        Ok(figure(picture, layers, labels, cracks, size)?)
     }
 }
 
-/// The plate as it was drawn.
-struct Plate {
-    drawn: Drawn,
-    layers: Vec<Item>,
-    /// Where they are seen.
-    cracks: Vec<Crack>,
-    /// How it was deformed.
-    moved: Option<Moved>,
+/// The factor, and at how many pixels the plate lies over itself.
+fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
+    match overlaps {
+        0 => format!(", {}", words(seen)),
+        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
+    }
 }
 
 /// The meaning of the colours.
@@ -181,6 +214,15 @@ fn colours(picture: &Picture, is_finite: bool) -> String {
         None => {
             let [from, to] = apart(norm.min(), norm.max());
             format!("colours from {from} to {to}")
+        }
+    }
+}
+
+impl Drawn {
+    /// Tells that a quantity has no value at some pixels.
+    fn warn(&self, name: &str) {
+        if self.undefined[0] > 0 {
+            tell(&format!("warning: {}", undefined::message(name, self.undefined, "pixels")));
         }
     }
 }

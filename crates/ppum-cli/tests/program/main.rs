@@ -10,6 +10,7 @@ mod damage;
 mod demo;
 mod determinism;
 mod errors;
+mod figures;
 mod files;
 mod formula;
 mod info;

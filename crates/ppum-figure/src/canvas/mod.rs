@@ -78,7 +78,8 @@ pub struct Pen {
     pub color: Rgba,
     /// The width.
     pub width: f64,
-    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies under them.
+    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies under them;
+    /// also where a line has gaps.
     pub halo: Option<Halo>,
     /// Lengths of dashes and of the gaps between them; one unbroken line if there are none.
     pub dashes: Option<[f64; 2]>,
@@ -137,6 +138,21 @@ impl Canvas {
         raster::image(self)
     }
 
+    /// The characters of its texts that the font lacks, each once ([`text::missing`]).
+    #[must_use]
+    pub fn missing(&self) -> Vec<char> {
+        let mut all: Vec<char> = Vec::new();
+        for item in &self.items {
+            let found = match item {
+                Item::Text(line) => text::missing(&line.text),
+                Item::Inset { canvas, .. } => canvas.missing(),
+                _ => Vec::new(),
+            };
+            all.extend(found.into_iter().filter(|c| !all.contains(c)).collect::<Vec<_>>());
+        }
+        all
+    }
+
     /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters, the font is
     /// in the file, pictures are PNG with their pixels kept apart. Of the texts `Title` and `Description` are
     /// the file's own, the others its metadata.
@@ -150,6 +166,30 @@ impl Canvas {
     #[must_use]
     pub fn pdf(&self, dpi: f64, texts: &[Text]) -> Vec<u8> {
         pdf::file(self, dpi, texts)
+    }
+}
+
+impl Item {
+    /// The box that the item may draw into: its upper left and lower right corner. Of nothing, the least
+    /// coordinates are +∞.
+    #[must_use]
+    pub fn bounds(&self) -> [Vec2; 2] {
+        let grown = |[lo, hi]: [Vec2; 2], by: f64| [lo - vec2(by, by), hi + vec2(by, by)];
+        let of_page = |corner: &[u32; 2], size: [u32; 2]| {
+            let (corner, size) =
+                (Vec2::from(corner.map(f64::from)), Vec2::from(size.map(f64::from)));
+            [corner, corner + size]
+        };
+        match self {
+            Self::Picture { image, corner } => of_page(corner, image.size),
+            Self::Fill { outline, .. } => outline.bounds(),
+            Self::Line { path, pen } => {
+                let halo = pen.halo.map_or(0.0, |halo| halo.width);
+                grown(path.bounds(), 0.5 * pen.width + halo)
+            }
+            Self::Text(line) => line.bounds(),
+            Self::Inset { corner, canvas } => of_page(corner, canvas.size),
+        }
     }
 }
 
@@ -177,6 +217,14 @@ impl Lettering {
     #[must_use]
     pub fn width(&self) -> f64 {
         text::width(&self.text, self.size)
+    }
+
+    /// The box around the letters and their seam.
+    fn bounds(&self) -> [Vec2; 2] {
+        let curves = text::outlines(&self.text, self.size, self.start(), self.angle);
+        let [lo, hi] = text::bounds(&curves);
+        let by = self.halo.map_or(0.0, |halo| halo.width);
+        [lo - vec2(by, by), hi + vec2(by, by)]
     }
 
     /// The point where the line starts.

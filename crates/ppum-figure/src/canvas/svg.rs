@@ -108,21 +108,19 @@ fn picture(out: &mut String, image: &Image, [x, y]: [u32; 2]) {
 
 fn line(out: &mut String, path: &Path, pen: &Pen) {
     let data = data(path, false);
-    let dashes = pen.dashes.map_or(String::new(), |[dash, gap]| {
-        format!(" stroke-dasharray=\"{} {}\"", number(dash), number(gap))
-    });
-    let mut stroke = |color: Rgba, width: f64| {
-        let paint = paint("stroke", color);
-        let width = number(width);
+    let mut stroke = |color: Rgba, width: f64, dashes: &str| {
+        let (paint, width) = (paint("stroke", color), number(width));
         let style = format!(
             " fill=\"none\"{paint} stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"{dashes}"
         );
         element(out, &data, &style);
     };
     if let Some(halo) = pen.halo {
-        stroke(halo.color, pen.width + 2.0 * halo.width);
+        stroke(halo.color, pen.width + 2.0 * halo.width, "");
     }
-    stroke(pen.color, pen.width);
+    let dashes = pen.dashes.map(|lengths| lengths.map(number).join(" "));
+    let dashes = dashes.map_or(String::new(), |list| format!(" stroke-dasharray=\"{list}\""));
+    stroke(pen.color, pen.width, &dashes);
 }
 
 fn element(out: &mut String, data: &str, style: &str) {

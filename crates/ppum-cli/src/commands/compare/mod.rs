@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use clap::ValueEnum;
-use ppum_figure::figure::plot_area;
+use ppum_figure::figure::{Design, plot_area};
 use ppum_render::png;
 use ppum_render::resample::Interpolation;
 
 use crate::arguments::{positive, size};
-use crate::drawing::{Colours, Subject, labels};
+use crate::drawing::{Colors, Subject};
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     window: Window,
     #[command(flatten)]
-    colours: Colours,
+    colours: Colors,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -123,18 +123,20 @@ impl Args {
         );
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
-        let (quantity, name) = self.subject.quantity(&field)?;
-        let frame = Frame { pixels: plot_area(self.size)?, may_shrink: true, margin: 0.0 };
+        let asked = self.subject.quantity(&field)?;
+        let (quantity, name) = (&asked.quantity, &asked.name);
+        let pixels = plot_area("Title", &Design::pixels(self.size))?;
+        let frame = Frame { pixels, may_shrink: true, margin: 0.0 };
         let view = self.window.seen(&field, frame)?;
-        let style = self.colours.style()?;
-        let job = measure::Job { field: &field, view, quantity: &quantity, args: self };
+        let style = self.colours.style(quantity)?;
+        let job = measure::Job { field: &field, view, quantity, args: self };
         let found = threads::with(self.threads, || measure(job))??;
-        let report = Report::new(&self.subject.file_name(), &name, &view, &found);
+        let report = Report::new(&self.subject.file_name(), name, &view, &found);
         if let Some(path) = &self.output {
             let title = self.subject.replacements.title(&dataset.title);
-            let labels = labels(title, &field, &quantity);
+            let labels = asked.labels(title, &field);
             let bytes =
-                self.picture(&found, sheet::Look { field: &field, view, style, labels }, &name)?;
+                self.picture(&found, sheet::Look { field: &field, view, style, labels }, name)?;
             if is_standard(path) {
                 out.exact().write_all(&bytes)?;
             } else {
@@ -179,6 +181,6 @@ impl Args {
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        self.subject.inputs().chain([self.colours.input()])
+        self.subject.inputs().chain(self.colours.input())
     }
 }

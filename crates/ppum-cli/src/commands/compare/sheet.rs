@@ -2,7 +2,7 @@
 
 use ppum::field::Field;
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Labels, figure};
+use ppum_figure::figure::{Design, Labels, Panel, figure};
 use ppum_figure::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
@@ -60,7 +60,8 @@ impl Look<'_> {
         let cracks = &self.field.step.cracks;
         let rims = overlay::rims(&self.view, &self.field.domain.holes);
         let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
-        Ok(figure(&picture, layers, &labels, cracks, size)?)
+        let panel = Panel { picture: &picture, layers, labels, cracks };
+        Ok(figure(panel, &Design::pixels(size))?)
     }
 }
 

@@ -4,7 +4,6 @@ mod convergence;
 mod history;
 mod profiles;
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
@@ -14,7 +13,7 @@ use ppum_figure::plot::{Plot, plot};
 use crate::arguments::size;
 use crate::dataset::open;
 use crate::given::{self, parts};
-use crate::output::{Output, tell};
+use crate::output::Output;
 use crate::page;
 use crate::profile::Profile;
 use crate::standard::{self, is_standard};
@@ -92,15 +91,9 @@ impl Args {
             *axis = std::mem::take(axis).logarithmic();
         }
         let texts = texts(&datasets, &drawn);
-        page::save(&plot(&drawn, self.size), &self.output, &texts, out)?;
-        let curves = drawn.curves.iter().map(|curve| curve.label.as_str());
-        let told =
-            format!("wrote {}: {}", self.output.display(), curves.collect::<Vec<_>>().join(", "));
-        match is_standard(&self.output) {
-            true => tell(&told.replacen("wrote -", "wrote standard output", 1)),
-            false => writeln!(out, "{told}")?,
-        }
-        Ok(())
+        let curves: Vec<_> = drawn.curves.iter().map(|curve| curve.label.as_str()).collect();
+        let page = plot(&drawn, self.size);
+        page::save(&self.output, &page, None, &texts, &curves.join(", "), out)
     }
 
     fn plot(&self, datasets: &[Named]) -> anyhow::Result<Plot> {

@@ -85,10 +85,12 @@ impl<'f> Writer<'f> {
     fn line(&mut self, path: &Path, pen: &Pen) {
         let content = &mut self.content;
         content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
-        content.set_dash_pattern(pen.dashes.iter().flatten().map(|&length| length as f32), 0.0);
+        content.set_dash_pattern([], 0.0);
         if let Some(halo) = pen.halo {
             self.stroke(path, halo.color, pen.width + 2.0 * halo.width);
         }
+        let dashes = pen.dashes.iter().flatten().map(|&length| length as f32);
+        self.content.set_dash_pattern(dashes, 0.0);
         self.stroke(path, pen.color, pen.width);
     }
 
