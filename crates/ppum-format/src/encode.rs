@@ -368,8 +368,8 @@ fn warnings(group: &mut Group, warnings: &[Warning]) {
 fn reactions(group: &mut Group, reactions: &[Reaction]) {
     let Some(first) = reactions.first() else { return };
     let components = first.force.len();
-    let held = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
-    let held: Vec<_> = reactions.iter().map(held).collect();
+    let flags = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
+    let held: Vec<_> = reactions.iter().map(flags).collect();
     let force: Vec<_> = reactions.iter().map(|r| r.force.clone()).collect();
     group.vector("on", reactions.iter().map(|r| r.on.clone()));
     group.array("held", Array::matrix(&held, components));

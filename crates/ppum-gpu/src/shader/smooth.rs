@@ -18,7 +18,7 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
     // the head, the coefficients without the constant, high and low
     let slots = count + 2;
     let per_texel = 4 / lanes;
-    let mut text = "fn smooth_of(address: u32, place: Place) -> Smooth {\n".to_owned();
+    let mut text = "fn smooth_of(address: u32, place: Coordinates) -> Smooth {\n".to_owned();
     for texel in 0..slots.div_ceil(per_texel) {
         let _ = writeln!(text, "    let q{texel} = load(address + {texel}u);");
     }

@@ -10,7 +10,7 @@ struct Bin {
 struct Candidate {
     body: u32,
     at: u32,
-    support: Place,
+    support: Coordinates,
 }
 
 fn node_at(index: u32) -> vec2<u32> {
@@ -44,14 +44,14 @@ fn candidate_of(bin: Bin, k: u32, pixel: Pixel) -> Candidate {
 }
 
 // Coordinates of a pixel in the frame that begins at an address.
-fn place_in(at: u32, pixel: Pixel) -> Place {
+fn place_in(at: u32, pixel: Pixel) -> Coordinates {
     let origin = bitcast<vec4<f32>>(load_place(at));
     let inverse = bitcast<vec4<f32>>(load_place(at + 1u)).xy;
-    return Place(((pixel.high - origin.xy) + (pixel.low - origin.zw)) * inverse, inverse);
+    return Coordinates(((pixel.high - origin.xy) + (pixel.low - origin.zw)) * inverse, inverse);
 }
 
 // Where the polynomials of a candidate are taken.
-fn polynomial_place(candidate: Candidate, pixel: Pixel) -> Place {
+fn polynomial_place(candidate: Candidate, pixel: Pixel) -> Coordinates {
     if OWN_FRAMES {
         return place_in(candidate.at + 2u, pixel);
     }

@@ -70,7 +70,7 @@ fn add_terms(bin: Bin, first: u32, enriched: u32, pixel: Pixel, sums: ptr<functi
     var left = 0u;
     var next = 0u;
     var w: Jet;
-    var place: Place;
+    var place: Coordinates;
     loop {
         if left == 0u {
             if rest == 0u {

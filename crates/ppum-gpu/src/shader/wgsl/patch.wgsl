@@ -1,7 +1,7 @@
 // Patches and what they hold, see region.rs and bodies.rs.
 
 // Coordinates ξ of a pixel in the frame of a patch, and their slopes.
-struct Place {
+struct Coordinates {
     xi: vec2<f32>,
     inverse: vec2<f32>,
 }
@@ -104,7 +104,7 @@ fn times_constant(f: Jet, c: Lanes) -> Jets {
     return out;
 }
 
-fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUPS> {
+fn other_field(term: Term, place: Coordinates, offset: vec2<f32>) -> array<Jets, GROUPS> {
     let f = functions(term.group, offset);
     var v: array<Jets, GROUPS>;
     if HAS_CONSTANTS && has_constants(term) {

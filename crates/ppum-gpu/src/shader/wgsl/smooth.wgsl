@@ -1,6 +1,6 @@
 // The smooth terms of patches of any degrees: smooth.rs writes this out where there is only one.
 
-fn smooth_of(address: u32, place: Place) -> Smooth {
+fn smooth_of(address: u32, place: Coordinates) -> Smooth {
     var out: Smooth;
     let head = load(address);
     let degree = head.y & 0xffu;

@@ -33,13 +33,13 @@ fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
 }
 
 // Where the pixel at hand lies in the frame that has ξ and these steps at the first pixel of its quad.
-fn quad_place(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Place {
+fn quad_place(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Coordinates {
     let steps = vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
-    return Place(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
+    return Coordinates(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
 }
 
 // The weight of a patch; 0 on the pixels of its quad's border that it does not cover.
-fn quad_weight(support: Place) -> Jet {
+fn quad_weight(support: Coordinates) -> Jet {
     if !covers(support.xi) {
         return Jet();
     }
