@@ -138,8 +138,8 @@ impl Needs {
     fn new(problem: &Problem) -> Self {
         let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
         let points: Vec<_> = tips(&problem.cracks).map(tip).collect();
-        let all = problem.cracks.iter().enumerate();
-        let cracks = Placed::new(all.map(|crack| (around(&crack.1.points), crack)));
+        let numbered = problem.cracks.iter().enumerate();
+        let cracks = Placed::new(numbered.map(|crack| (around(&crack.1.points), crack)));
         let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);

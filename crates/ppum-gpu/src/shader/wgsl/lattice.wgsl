@@ -36,7 +36,7 @@ fn candidate_of(bin: Bin, k: u32, pixel: Pixel) -> Candidate {
 }
 
 // Where the polynomials of a candidate are taken.
-fn polynomial_place(candidate: Candidate, pixel: Pixel) -> Coordinates {
+fn polynomial_coordinates(candidate: Candidate, pixel: Pixel) -> Coordinates {
     return candidate.support;
 }
 
