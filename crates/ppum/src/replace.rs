@@ -44,7 +44,7 @@ pub enum ReplaceError {
         hint: String,
         /// The reason why it is no formula.
         #[source]
-        error: FormulaError,
+        error: Box<FormulaError>,
     },
     /// The dataset's tables or parameters have names that formulas cannot use.
     #[error(transparent)]
@@ -196,7 +196,7 @@ fn no_weight(text: &str, error: WeightError) -> ReplaceError {
     let hint = hint(text, WEIGHTS.iter().map(|entry| entry.name));
     match error {
         WeightError::Formula(error) if !hint.is_empty() => {
-            ReplaceError::NoWeight { word: text.to_owned(), hint, error }
+            ReplaceError::NoWeight { word: text.to_owned(), hint, error: Box::new(error) }
         }
         error => error.into(),
     }
