@@ -22,8 +22,9 @@ use ppum_render::scale::Scale;
 use ppum_render::view::View;
 
 use crate::arguments::size;
-use crate::backend::{Drawn, Engine, Job};
+use crate::backend::Engine;
 use crate::dataset::{field, open, quantity};
+use crate::drawing::{Drawn, Job};
 use crate::given;
 use crate::output::{Output, tell};
 use crate::replacements::Replacements;

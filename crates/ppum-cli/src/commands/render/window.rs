@@ -1,4 +1,4 @@
-//! Which part of the plane is drawn.
+//! The part of the plane that is drawn.
 
 use anyhow::{Context as _, ensure};
 use ppum::crack::tips;
