@@ -105,7 +105,7 @@ fn colours_beyond_the_range() {
 fn mistakes_have_a_place_and_a_remedy() {
     for (text, hint) in [
         ("0 0 0\n1 2\n", "line 2: `1 2` is not a colour; write red"),
-        ("0 0 x\n", "line 1: '0 0 x' is not"),
+        ("0 0 x\n", "line 1: `0 0 x` is not"),
         ("0 0 0\n0 0 300", "line 2"),
         ("0 0 0\n-1 0 3", "line 2"),
         ("0 0 0\nNaN 0 0", "line 2"),
