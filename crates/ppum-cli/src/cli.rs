@@ -1,6 +1,6 @@
 //! The command line as a whole.
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::commands::{
     bench, compare, completions, demo, formula, info, man, plot, probe, render, sample, sif, solve,
@@ -50,7 +50,9 @@ impl Command {
     /// Does the work; results are written to `out`.
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         match self {
-            Self::Demo(args) => args.run(out),
+            Self::Demo(args) => {
+                args.run(out, |words, out| Cli::try_parse_from(words)?.command.run(out))
+            }
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
             Self::Sif(args) => args.run(out),
@@ -61,16 +63,14 @@ impl Command {
             Self::Plot(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
-            Self::Completions(args) => args.run(out),
-            Self::Man(args) => args.run(out),
+            Self::Completions(args) => args.run(out, Cli::command()),
+            Self::Man(args) => args.run(out, Cli::command()),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
 
     /// Clap's own checks of names, conflicts and defaults.

@@ -11,7 +11,8 @@ use ppum_render::image::Image;
 use ppum_render::picture::Picture;
 use ppum_render::raster::Raster;
 
-use crate::backend::{Drawn, Engine, Job};
+use crate::backend::Engine;
+use crate::drawing::{Drawn, Job};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 

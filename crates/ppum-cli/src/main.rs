@@ -27,6 +27,7 @@ mod remedy;
 mod replacements;
 mod signals;
 mod standard;
+mod subject;
 mod target;
 mod threads;
 mod tips;
@@ -86,4 +87,72 @@ fn message(error: &anyhow::Error) -> String {
         .map(remedy::told)
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[
+            ("arguments", &[]),
+            ("memory", &[]),
+            ("number", &[]),
+            ("output", &[]),
+            ("panics", &[]),
+            ("progress", &[]),
+            ("remedy", &[]),
+            ("signals", &[]),
+            ("standard", &[]),
+            ("threads", &[]),
+            ("undefined", &[]),
+        ],
+        &[
+            ("drawing", &["undefined"]),
+            ("families", &["number"]),
+            ("given", &["standard"]),
+            ("target", &["standard"]),
+            ("tips", &["number"]),
+            ("warnings", &["number", "output"]),
+        ],
+        &[
+            ("dataset", &["given", "standard"]),
+            ("graphics", &["drawing", "progress"]),
+            ("replacements", &["arguments", "given"]),
+        ],
+        &[("backend", &["drawing", "graphics", "output", "progress", "threads"])],
+        &[(
+            "commands",
+            &[
+                "arguments",
+                "backend",
+                "dataset",
+                "drawing",
+                "families",
+                "given",
+                "graphics",
+                "memory",
+                "number",
+                "output",
+                "progress",
+                "replacements",
+                "standard",
+                "target",
+                "threads",
+                "tips",
+                "undefined",
+                "warnings",
+            ],
+        )],
+        &[("cli", &["commands", "output"])],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
 }

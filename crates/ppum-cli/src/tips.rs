@@ -87,7 +87,7 @@ pub(crate) fn all_tips(index: usize, step: &Step) -> Vec<Tip> {
     tips(&step.cracks).map(tip).collect()
 }
 
-/// A table, one line a tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
+/// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
 /// is shown as zero.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);

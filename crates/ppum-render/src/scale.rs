@@ -32,7 +32,7 @@ pub enum Scale {
 
 /// A word that names no scale.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("'{0}' is no scale{hint}; write linear, log or symlog", hint = hint(.0, ["linear", "log", "symlog"]))]
+#[error("`{0}` is no scale{hint}; write linear, log or symlog", hint = hint(.0, ["linear", "log", "symlog"]))]
 pub struct UnknownScale(String);
 
 impl FromStr for Scale {

@@ -115,7 +115,7 @@ pub fn evaluate(
     let mut rows = Vec::with_capacity(total * quantities.len());
     let mut done = 0;
     for batch in batches(places) {
-        watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+        watcher.report(Progress::new(Phase::Evaluation, done, total))?;
         rows.extend(evaluate_batch(field, quantities, batch));
         done += batch.len();
     }

@@ -16,13 +16,14 @@ use ppum_render::picture::Picture;
 use ppum_render::png::Text;
 
 use crate::arguments::size;
-use crate::backend::{Drawn, Engine, Job};
+use crate::backend::Engine;
 use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Asked, Colors, Subject};
+use crate::drawing::{Drawn, Job};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
 use crate::page;
+use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};

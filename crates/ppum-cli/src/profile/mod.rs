@@ -169,7 +169,7 @@ fn evaluate(
     let watcher: &dyn Watcher = &bar;
     let values = |batch: &&[Place]| {
         let done = done.fetch_add(batch.len(), Ordering::Relaxed);
-        watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+        watcher.report(Progress::new(Phase::Evaluation, done, total))?;
         Ok(sample::evaluate_batch(field, quantities, batch))
     };
     let batches: Vec<_> = sample::batches(places).collect();

@@ -124,9 +124,9 @@ impl Table {
         let field = |Column { name, .. }: &Column| format!("({}, '<f8')", quoted(name));
         let fields: Vec<_> = self.columns.iter().map(field).collect();
         let shape: String = self.shape.iter().map(|n| format!("{n}, ")).collect();
-        let fields = fields.join(", ");
         format!(
-            "{{'descr': [{fields}], 'fortran_order': False, 'shape': ({}), }}",
+            "{{'descr': [{}], 'fortran_order': False, 'shape': ({}), }}",
+            fields.join(", "),
             shape.trim_end()
         )
     }

@@ -151,7 +151,7 @@ fn colours_from_json() {
     assert_eq!(png.text("ppum:colormap"), "grey.txt");
     lab.write("grey.csv", "[[0, 0, 0], [1, 1");
     let complaint = lab.fail("render plate.h5 -o b.png -q u --colormap grey.csv");
-    assert!(complaint.contains("'grey.csv', line 1, column 17: this is not JSON"), "{complaint}");
+    assert!(complaint.contains("`grey.csv`, line 1, column 17: this is not JSON"), "{complaint}");
 }
 
 #[test]

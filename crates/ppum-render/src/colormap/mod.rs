@@ -67,14 +67,14 @@ pub struct Colormap {
 #[non_exhaustive]
 pub enum ColormapError {
     /// No map of that name.
-    #[error("no colour map is named '{name}'{}; there are {}, each also reversed with _r",
+    #[error("no colour map is named `{name}`{}; there are {}, each also reversed with _r",
         hint(name, NAMES), NAMES.join(", "))]
     Unknown {
         /// The name asked for.
         name: String,
     },
     /// A file that is not understood.
-    #[error("colour map '{name}', {place}: {mistake}")]
+    #[error("colour map `{name}`, {place}: {mistake}")]
     File {
         /// Name of the map.
         name: String,

@@ -15,7 +15,7 @@ use ppum_render::png;
 use ppum_render::resample::Interpolation;
 
 use crate::arguments::{positive, size};
-use crate::drawing::{Colors, Subject};
+use crate::subject::{Colors, Subject};
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::standard::is_standard;

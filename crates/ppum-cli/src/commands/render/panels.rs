@@ -8,8 +8,8 @@ use ppum_render::range::Range;
 use ppum_render::view::View;
 
 use super::{Args, Plate};
-use crate::backend::{Drawn, Job};
-use crate::drawing::Asked;
+use crate::drawing::{Drawn, Job};
+use crate::subject::Asked;
 use crate::output::Output;
 use crate::page;
 
