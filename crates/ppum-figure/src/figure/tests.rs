@@ -169,9 +169,66 @@ fn lengths_follow_the_size_on_paper() {
     }
 }
 
+/// A picture of nothing says so, and its bar has no marks that mean something.
+#[test]
+fn a_picture_without_values_says_so() {
+    let design = Design::pixels(SIZE);
+    let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
+    let raster = Raster::from_fn(view.pixels, |_, _| f64::NAN);
+    let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+    let labels = Labels {
+        quantity: "q".to_owned(),
+        x: String::new(),
+        y: String::new(),
+        ..Labels::default()
+    };
+    let mut empty = panel(&picture, labels);
+    let x = |page: &Canvas| texts(page).iter().filter(|line| line.text == "0.5").count();
+    let page = figure(empty.clone(), &design).unwrap();
+    assert!(texts(&page).iter().any(|line| line.text == "q, no values"));
+    // those of the axes alone
+    assert_eq!(x(&page), 2);
+    empty.labels.quantity.clear();
+    let page = figure(empty, &design).unwrap();
+    assert!(texts(&page).iter().any(|line| line.text == "no values"));
+}
+
+/// A transparent page shows what is behind it, in holes too; a dark one is dark to its corners.
+#[test]
+fn pages_have_the_colours_of_their_theme() {
+    let picture = picture(1.0, Range::Auto);
+    let corner = |design: Design| {
+        let image = figure(panel(&picture, labels()), &design).unwrap().image();
+        (image.pixel(0, 0), image)
+    };
+    let (seen, image) = corner(Design { transparent: true, ..Design::pixels(SIZE) });
+    assert_eq!(seen, [0; 4]);
+    let clear = image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let undefined = picture.image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let outside = image.rgba.len() / 4 - picture.image.rgba.len() / 4;
+    assert!(clear > outside * 9 / 10 && clear > undefined * 3 / 4, "{clear}");
+    let (seen, image) = corner(Design { theme: Theme::Dark, ..Design::pixels(SIZE) });
+    assert!(seen[..3].iter().all(|c| *c < 40) && seen[3] == 255);
+    assert!(!image.rgba.as_chunks::<4>().0.contains(&PAGE), "no white is left");
+}
+
+/// More or fewer pixels per inch change nothing but the size on paper.
+#[test]
+fn pixels_do_not_depend_on_the_size_on_paper() {
+    let picture = picture(1.0, Range::Auto);
+    let drawn = |design: &Design| figure(panel(&picture, labels()), design).unwrap().image();
+    let plain = Design::pixels(SIZE);
+    assert_eq!(drawn(&plain), drawn(&plain.clone().at(300.0)));
+}
+
 fn texts(page: &Canvas) -> Vec<&Lettering> {
-    let text = |item| if let &Item::Text(ref line) = item { Some(line) } else { None };
-    page.items.iter().filter_map(text).collect()
+    let mut lines = Vec::new();
+    for item in &page.items {
+        if let Item::Text(line) = item {
+            lines.push(line);
+        }
+    }
+    lines
 }
 
 /// True if two boxes share more than a pixel's rounding.
