@@ -32,7 +32,7 @@ impl Drawn {
         by: &str,
     ) -> anyhow::Result<Self> {
         let mut picture = Picture::bare(raster, job.view, job.style)?;
-        let without = raster.undefined(&job.field.domain, job.view);
+        let without = raster.undefined(job.field.domain, job.view);
         picture.hatch(&without);
         let with = raster.values.len() - raster.statistics().undefined;
         let undefined = [without.len(), without.len() + with];

@@ -3,6 +3,7 @@
 //!     cargo run -p ppum-figure --example odd_figures -- FOLDER
 
 use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use ppum::crack::{Crack, CrackEnd};
@@ -136,7 +137,7 @@ fn cases() -> Done<Vec<Case>> {
     let mut small = Case::new("small", square, tip);
     small.design = Design::pixels([300, 200]);
     let angle: fn(Vec2) -> f64 = |p| 0.5 * p.y.atan2(p.x);
-    let angle = range(Case::new("angle", square, angle), Range::Fixed(-1.5708, 1.5708));
+    let angle = range(Case::new("angle", square, angle), Range::Fixed(-FRAC_PI_2, FRAC_PI_2));
     let list = TickChoice::At(vec![-2.0, 0.0, 0.5, 3.0]);
     Ok(vec![
         Case::new("long", vec2(25.0, 0.5), |p| (0.5 * p.x).sin() + p.y).titled(long),

@@ -169,9 +169,61 @@ fn lengths_follow_the_size_on_paper() {
     }
 }
 
+/// A picture of nothing says so, and its bar has no marks.
+#[test]
+fn a_picture_without_values_says_so() {
+    let none = TickChoice::At(vec![]);
+    let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels(SIZE) };
+    let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
+    let words = |value: f64, quantity: &str| {
+        let raster = Raster::from_fn(view.pixels, |_, _| value);
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = [String::new(), String::new()];
+        let labels = Labels { quantity: quantity.to_owned(), x, y, ..Labels::default() };
+        let page = figure(panel(&picture, labels), &design).unwrap();
+        texts(&page).iter().map(|line| line.text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(words(f64::NAN, "q"), ["q, no values"]);
+    assert_eq!(words(f64::NAN, ""), ["no values"]);
+    assert_eq!(words(3.5, "q"), ["3.5", "q, one value"]);
+}
+
+/// A transparent page shows what is behind it, in holes too; a dark one is dark to its corners.
+#[test]
+fn pages_have_the_colours_of_their_theme() {
+    let picture = picture(1.0, Range::Auto);
+    let corner = |design: Design| {
+        let image = figure(panel(&picture, labels()), &design).unwrap().image();
+        (image.pixel(0, 0), image)
+    };
+    let (seen, image) = corner(Design { transparent: true, ..Design::pixels(SIZE) });
+    assert_eq!(seen, [0; 4]);
+    let clear = image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let undefined = picture.image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let outside = image.rgba.len() / 4 - picture.image.rgba.len() / 4;
+    assert!(clear > outside * 9 / 10 && clear > undefined * 3 / 4, "{clear}");
+    let (seen, image) = corner(Design { theme: Theme::Dark, ..Design::pixels(SIZE) });
+    assert!(seen[..3].iter().all(|c| *c < 40) && seen[3] == 255);
+    assert!(!image.rgba.as_chunks::<4>().0.contains(&PAGE), "no white is left");
+}
+
+/// More or fewer pixels per inch change nothing but the size on paper.
+#[test]
+fn pixels_do_not_depend_on_the_size_on_paper() {
+    let picture = picture(1.0, Range::Auto);
+    let drawn = |design: &Design| figure(panel(&picture, labels()), design).unwrap().image();
+    let plain = Design::pixels(SIZE);
+    assert_eq!(drawn(&plain), drawn(&plain.clone().at(300.0)));
+}
+
 fn texts(page: &Canvas) -> Vec<&Lettering> {
-    let text = |item| if let &Item::Text(ref line) = item { Some(line) } else { None };
-    page.items.iter().filter_map(text).collect()
+    let mut lines = Vec::new();
+    for item in &page.items {
+        if let Item::Text(line) = item {
+            lines.push(line);
+        }
+    }
+    lines
 }
 
 /// True if two boxes share more than a pixel's rounding.

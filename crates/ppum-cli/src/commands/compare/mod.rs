@@ -15,10 +15,10 @@ use ppum_render::png;
 use ppum_render::resample::Interpolation;
 
 use crate::arguments::{positive, size};
-use crate::subject::{Colors, Subject};
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
+use crate::subject::{Colors, Subject};
 use crate::window::{Frame, Window};
 use crate::{target, threads};
 use measure::{Measurements, measure};

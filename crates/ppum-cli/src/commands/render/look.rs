@@ -1,6 +1,6 @@
 //! The look of pictures and figures: size, words, colours of the page.
 
-use anyhow::{bail, ensure};
+use anyhow::bail;
 use clap::ValueEnum;
 use ppum_figure::figure::{BarPlace, Design, Labels, Theme, TickChoice};
 
@@ -99,7 +99,6 @@ impl Look {
         {
             bail!("{option} is for figures; add --figure");
         }
-        ensure!(self.size.is_none_or(|[w, h]| w > 0 && h > 0), "--size: give at least 1x1 pixels");
         Ok(())
     }
 

@@ -9,9 +9,9 @@ use ppum_render::view::View;
 
 use super::{Args, Plate};
 use crate::drawing::{Drawn, Job};
-use crate::subject::Asked;
 use crate::output::Output;
 use crate::page;
+use crate::subject::Asked;
 
 impl Args {
     /// Draws the quantities, each in a panel.
