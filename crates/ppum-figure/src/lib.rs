@@ -4,6 +4,7 @@
 //! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)).
 
 pub mod figure;
+pub mod levels;
 pub mod overlay;
 mod text;
 pub mod ticks;
@@ -16,7 +17,7 @@ mod tests {
 
     const FLOORS: Floors<'_> = &[
         &[("overlay", &[]), ("text", &[]), ("ticks", &[])],
-        &[("figure", &["overlay", "text", "ticks"])],
+        &[("figure", &["overlay", "text", "ticks"]), ("levels", &["ticks"])],
     ];
 
     #[test]

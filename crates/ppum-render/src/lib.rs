@@ -5,6 +5,9 @@
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
 //! encodes the result together with what it shows; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //!
+//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
+//! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.
+//!
 //! ```
 //! use ppum::prelude::*;
 //! use ppum::progress::unwatched;
@@ -42,6 +45,8 @@
 
 pub mod colormap;
 mod error;
+pub mod extrema;
+pub mod glyph;
 pub mod image;
 pub mod isoline;
 mod parts;
@@ -82,6 +87,8 @@ mod tests {
         &[
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
+            ("extrema", &["error", "parts", "raster", "view"]),
+            ("glyph", &["error", "parts", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
