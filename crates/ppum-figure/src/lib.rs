@@ -7,6 +7,7 @@
 
 pub mod canvas;
 pub mod figure;
+pub mod levels;
 pub mod overlay;
 pub mod plot;
 pub mod text;
@@ -20,7 +21,7 @@ mod tests {
 
     const FLOORS: Floors<'_> = &[
         &[("text", &[]), ("ticks", &[])],
-        &[("canvas", &["text"])],
+        &[("canvas", &["text"]), ("levels", &["ticks"])],
         &[("overlay", &["canvas", "text"])],
         &[
             ("figure", &["canvas", "overlay", "text", "ticks"]),

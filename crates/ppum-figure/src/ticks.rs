@@ -53,6 +53,26 @@ impl Step {
     pub fn size(self) -> f64 {
         times_power(self.digit as f64, self.exponent)
     }
+
+    /// Its multiples inside an open interval, rising: exact decimals. One on an end in spite of rounding is not inside.
+    #[must_use]
+    pub fn multiples(self, min: f64, max: f64) -> Vec<f64> {
+        let border = 1e-9 * (max - min);
+        let first = ((min + border) / self.size()).ceil() as i64;
+        let last = ((max - border) / self.size()).floor() as i64;
+        let value = |k: i64| times_power((k * self.digit) as f64, self.exponent);
+        (first..=last).map(value).filter(|v| *v > min && *v < max).collect()
+    }
+}
+
+/// The numbers digit × 10^k inside an open interval of positive numbers, rising if the digits do.
+pub(crate) fn decades([min, max]: [f64; 2], digits: &[i64]) -> Vec<f64> {
+    if !(min > 0.0 && max > min) {
+        return Vec::new();
+    }
+    let value = |k: i32| digits.iter().map(move |&digit| times_power(digit as f64, k));
+    let all = (magnitude(min) - 1..=magnitude(max) + 1).flat_map(value);
+    all.filter(|v| *v > min * (1.0 + 1e-9) && *v < max * (1.0 - 1e-9)).collect()
 }
 
 /// Values that need more steps than this to reach get a reference: labels then have at most about

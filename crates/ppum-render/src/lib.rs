@@ -5,6 +5,9 @@
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
 //! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //!
+//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
+//! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.
+//!
 //! ```
 //! use ppum::prelude::*;
 //! use ppum::progress::unwatched;
@@ -45,6 +48,8 @@ pub mod cells;
 pub mod colormap;
 pub mod deform;
 mod error;
+pub mod extrema;
+pub mod glyph;
 pub mod image;
 pub mod isoline;
 mod parts;
@@ -91,6 +96,8 @@ mod tests {
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
+            ("extrema", &["error", "parts", "raster", "view"]),
+            ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
