@@ -1,5 +1,6 @@
 //! The colour bar of a figure, upright or lying.
 
+use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 
 use super::axis::{Axis, axis_label};
@@ -8,7 +9,7 @@ use super::ink::{Ink, TICK_TEXT, snapped};
 use super::sheet::{GAP, LABEL_GAP, TICK};
 use crate::canvas::{Align, Item, Path};
 use crate::text::{self, CAP_HEIGHT};
-use crate::ticks::{self, Ticks};
+use crate::ticks::{self, Tick, Ticks};
 use ppum_render::colormap::Colormap;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
@@ -25,6 +26,11 @@ pub(super) const LEAST_BAR: [f64; 2] = [140.0, 220.0];
 const UPRIGHT_DISTANCE: f64 = 44.0;
 /// Between neighbouring labels of a lying bar.
 const BETWEEN: f64 = 14.0;
+
+/// Characters of a number that is short.
+const SHORT: usize = 6;
+/// Rounding of the borders of bands, in parts of the range.
+const ROUNDING: f64 = 1e-12;
 
 /// What a colour bar explains.
 #[derive(Clone, Debug)]
@@ -72,6 +78,22 @@ impl Key {
         is_same.then_some(self)
     }
 
+    /// Marks at the borders of bands, if there are no more than `most` and short numbers say where they are.
+    fn borders(&self, most: usize) -> Option<Ticks> {
+        let bands = self.colormap.bands().filter(|&n| usize::from(n) < most)?;
+        let norm = &self.normalization;
+        let tick = |k: u16| {
+            let at = f64::from(k) / f64::from(bands);
+            let (value, label) = (norm.value(at), trimmed(norm.value(at)));
+            let error = (label.parse::<f64>().ok()? - value).abs();
+            let is_exact = error <= ROUNDING * (norm.max() - norm.min());
+            let label = label.replace('-', "−");
+            (is_exact && label.chars().count() <= SHORT).then_some(Tick { at, label })
+        };
+        let major = (0..=bands).map(tick).collect::<Option<Vec<_>>>()?;
+        Some(Ticks { major, ..Ticks::default() })
+    }
+
     /// The marks of a bar with room for `most` labels.
     fn axis(&self, choice: &TickChoice, most: usize, scale: f64) -> Axis {
         let norm = &self.normalization;
@@ -80,7 +102,9 @@ impl Key {
             (TickChoice::At(values), _) => ticks::at(values, norm),
             (_, Some(value)) => ticks::of_one_value(norm, value),
             (TickChoice::Count(count), None) => ticks::bar(norm, *count),
-            (TickChoice::Auto, None) => ticks::bar(norm, most),
+            (TickChoice::Auto, None) => {
+                self.borders(most).unwrap_or_else(|| ticks::bar(norm, most))
+            }
         };
         let label = axis_label(&self.name, &found, &self.unit);
         Axis::new(found, &label, self.name.len(), scale)

@@ -169,6 +169,27 @@ fn lengths_follow_the_size_on_paper() {
     }
 }
 
+/// Where bands end at short numbers these are the marks, else round ones are.
+#[test]
+fn bands_are_marked_at_their_borders() {
+    let marks = |max: f64, bands: u16| {
+        let colormap = Colormap::named("batlow").unwrap().banded(bands);
+        let style = Style { colormap, range: Range::Fixed(-0.5, max), ..Style::default() };
+        let none = TickChoice::At(vec![]);
+        let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels([1024, 768]) };
+        let picture = plate(vec2(1.0, 1.0), plot_area("", &design).unwrap(), &style);
+        let page = figure(panel(&picture, Labels::default()), &design).unwrap();
+        let mut words: Vec<String> = texts(&page).iter().map(|line| line.text.clone()).collect();
+        words.retain(|word| word.len() > 1);
+        words
+    };
+    assert_eq!(marks(1.0, 6), ["−0.5", "−0.25", "0.25", "0.5", "0.75"]);
+    assert_eq!(marks(0.1, 3), ["−0.5", "−0.3", "−0.1", "0.1"]);
+    // a seventh is no short number, and forty are too many
+    assert!(marks(0.5, 7).contains(&"−0.4".to_owned()));
+    assert!(marks(1.5, 40).contains(&"0.2".to_owned()));
+}
+
 /// A picture of nothing says so, and its bar has no marks.
 #[test]
 fn a_picture_without_values_says_so() {

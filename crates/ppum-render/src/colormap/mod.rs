@@ -54,6 +54,8 @@ pub struct Colormap {
     pub diverging: bool,
     /// True if it ends as it begins: for angles.
     pub cyclic: bool,
+    /// The number of bands of one colour, if it is made of such.
+    bands: Option<u16>,
     /// Colours below and above that do not occur in it.
     contrast: [Rgba; 2],
     /// Red, green, blue, 0 to 255; at least two entries.
@@ -144,6 +146,7 @@ impl Colormap {
             above: WHITE,
             diverging: stops.space == Space::Diverging,
             cyclic: false,
+            bands: None,
             contrast: [stops.below.unwrap_or(BLACK), stops.above.unwrap_or(WHITE)],
             entries,
             positions,
@@ -172,8 +175,15 @@ impl Colormap {
         Self {
             entries: (0..count).flat_map(|k| [exact(k); 2]).collect(),
             positions: (0..count).flat_map(|k| [border(k), border(k + 1)]).collect(),
+            bands: Some(count),
             ..self
         }
+    }
+
+    /// The number of bands of one colour each, all equally wide, if the map is made of such.
+    #[must_use]
+    pub fn bands(&self) -> Option<u16> {
+        self.bands
     }
 
     /// The map from its other end; below and above change places.
@@ -341,6 +351,7 @@ mod tests {
         assert_eq!(banded.color(1.0), map.color(1.0));
         assert_eq!((banded.below, banded.above), (map.color(0.0), map.color(1.0)));
         assert!(banded.has_jumps() && !map.has_jumps());
+        assert_eq!((banded.bands(), map.bands()), (Some(5), None));
         let one = map.clone().banded(1);
         assert_eq!([0.0, 0.3, 1.0].map(|t| one.color(t)), [map.color(0.5); 3]);
         let cyclic = Colormap::named("twilight").unwrap();

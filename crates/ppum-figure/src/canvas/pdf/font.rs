@@ -11,7 +11,8 @@ use crate::text::{self, FONT_FILE};
 
 /// The font's name in resources.
 pub(super) const NAME: Name<'static> = Name(b"F");
-const BASE: Name<'static> = Name(b"DejaVuSans");
+/// Six letters and a plus say that it is a part of a font.
+const BASE: Name<'static> = Name(b"PPUMAA+DejaVuSans");
 const SYSTEM: SystemInfo<'static> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 /// Glyph space: a thousandth of an em.
