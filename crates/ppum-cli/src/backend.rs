@@ -91,6 +91,14 @@ impl Engine {
             is_cpu && self.precision != Some(Precision::F32),
             "the deformed plate is drawn by the processor, in double precision; leave --backend and --precision out"
         );
+        self.with_threads(work)
+    }
+
+    /// Works on as many threads as are asked for, whatever draws.
+    pub(crate) fn with_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> anyhow::Result<T> {
         threads::with(self.threads, work)
     }
 

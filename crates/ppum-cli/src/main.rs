@@ -113,7 +113,7 @@ mod tests {
             ("drawing", &["undefined"]),
             ("families", &["number"]),
             ("given", &["standard"]),
-            ("overlays", &["output"]),
+            ("overlays", &["arguments", "output", "progress"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
             ("warnings", &["number", "output"]),

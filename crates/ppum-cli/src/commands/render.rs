@@ -21,7 +21,7 @@ use crate::deformed::{Deformed, draw, words};
 use crate::drawing::{Drawn, Job};
 use crate::number::count;
 use crate::output::{Output, tell};
-use crate::overlays::Overlays;
+use crate::overlays::{Ground, Overlays};
 use crate::page;
 use crate::subject::{Asked, Colors, Subject};
 use crate::target;
@@ -71,6 +71,8 @@ Examples:
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
   ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cells,cracks
+  ppum render plate.h5 -o lines.svg --figure --isolines auto --level-labels
+  ppum render plate.h5 -o cross.png --figure --crosses -q hydrostatic --colormap vik
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
   ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
@@ -154,9 +156,18 @@ impl Args {
         let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
         let view = self.window.seen(field, frame)?;
         let job = Job { field, view: &view, quantity: &asked.quantity, style: &style };
-        let layers = self.overlays.items(&view, plate.dataset, field, self.look.figure);
         let drawn = self.engine.draw(job)?;
+        let layers = self.layers(plate, asked, &drawn)?;
         Ok(Sheet { drawn, layers, told: String::new(), notes: Vec::new() })
+    }
+
+    /// What is drawn over a picture.
+    fn layers(&self, plate: &Plate<'_>, asked: &Asked, drawn: &Drawn) -> anyhow::Result<Vec<Item>> {
+        let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
+        let is_figure = self.look.figure || self.layout.is_some();
+        let picture = &drawn.picture;
+        let ground = Ground { dataset, field, quantity, picture, is_figure };
+        self.engine.with_threads(|| self.overlays.items(ground))?
     }
 
     /// Draws the plate moved by its displacements.

@@ -8,6 +8,8 @@
 
 mod cover;
 mod deformed;
+mod glyphs;
+mod isolines;
 mod legend;
 mod rings;
 mod supports;
@@ -21,6 +23,8 @@ use ppum_render::view::View;
 use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
 pub use deformed::{deformed_cells, deformed_outline, faces, undeformed_outline};
+pub use glyphs::{arrows, crosses};
+pub use isolines::isolines;
 pub(crate) use legend::legend_in;
 pub use legend::{Entry, Symbol, legend};
 pub use rings::rings;

@@ -33,14 +33,17 @@ impl Args {
         let view = self.window.seen(field, frame)?;
         let drawn = self.drawn(field, &view, &subjects)?;
         subjects.iter().zip(&drawn).for_each(|(subject, drawn)| drawn.warn(&subject.name));
-        let all: Vec<Panel<'_>> = drawn
-            .iter()
-            .zip(labels)
-            .map(|(Drawn { picture, .. }, labels)| {
-                let layers = self.overlays.items(&view, plate.dataset, field, true);
-                Panel { picture, layers, labels, cracks: &field.step.cracks }
-            })
-            .collect();
+        let layers =
+            subjects.iter().zip(&drawn).map(|(asked, drawn)| self.layers(plate, asked, drawn));
+        let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
+        let pictures = drawn.iter().map(|drawn| &drawn.picture);
+        let panel = |((picture, labels), layers)| Panel {
+            picture,
+            layers,
+            labels,
+            cracks: &field.step.cracks,
+        };
+        let all: Vec<Panel<'_>> = pictures.zip(labels).zip(layers).map(panel).collect();
         let page = panels(&title, &all, grid, &design)?;
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
         let (names, Drawn { picture, by, .. }) = (names.join(", "), &drawn[0]);
