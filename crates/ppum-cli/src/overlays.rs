@@ -116,7 +116,7 @@ enum Overlay {
 }
 
 /// Most levels that are chosen by the program.
-const AUTOMATIC: usize = 12;
+const AUTOMATIC: usize = 14;
 /// Distance of supports and loads, in pixels of a picture 768 pixels high.
 const SPACING: f64 = 30.0;
 /// Room for them around the plate.

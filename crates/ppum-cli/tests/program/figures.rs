@@ -131,3 +131,57 @@ fn undefined_is_not_outside() {
     assert!(opacity == 255 && r.abs_diff(b) < 8 && r == g, "{:?}", png.pixel(22, 57));
     assert_eq!(png.pixel(2, 2), [0; 4]);
 }
+
+/// Overlays show, each in its own way; words come in any order.
+#[test]
+fn overlays_are_drawn_over_the_colours() {
+    let lab = Lab::solved(CRACKED);
+    let draw = |options: &str| {
+        lab.run(&format!("render plate.h5 -o o.png --size 200x200 -q uy {options}"));
+        Png::read(&lab.path("o.png")).rgba
+    };
+    let plain = draw("");
+    let options = [
+        "--overlay patches",
+        "--overlay cells",
+        "--overlay centers",
+        "--overlay rings",
+        "--overlay cracks",
+        "--overlay supports",
+        "--overlay loads",
+        "--isolines auto",
+        "--isolines 5 --level-labels",
+        "--arrows",
+        "--crosses=20",
+    ];
+    let drawn: Vec<_> = options.iter().map(|options| draw(options)).collect();
+    for (k, picture) in drawn.iter().enumerate() {
+        assert!(*picture != plain, "{}", options[k]);
+        assert!(drawn[..k].iter().all(|other| other != picture), "{}", options[k]);
+    }
+    assert_eq!(draw("--overlay cells,cracks"), draw("--overlay cracks,cells,cracks"));
+    for wrong in [
+        "--isolines 0",
+        "--isolines x",
+        "--isolines ,",
+        "--level-labels",
+        "--arrows=1",
+        "--overlay nodes",
+    ] {
+        lab.fail(&format!("render plate.h5 -o w.png {wrong}"));
+    }
+    let complaint = lab.fail("render plate.h5 -o w.png --deformed auto --arrows");
+    assert!(complaint.contains("--arrows"), "{complaint}");
+}
+
+/// The isolines of a linear potential are straight, at the values asked for.
+#[test]
+fn isolines_are_vectors() {
+    let lab = Lab::solved(LINEAR);
+    lab.run("render plate.h5 -o lines.svg -q u --isolines 0.5,1,99 --level-labels --size 400x200");
+    let svg = read(&lab, "lines.svg");
+    assert!(
+        svg.contains(">0.5</text>") && svg.contains(">1</text>") && !svg.contains(">99<"),
+        "{svg}"
+    );
+}

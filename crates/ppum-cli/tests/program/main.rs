@@ -16,6 +16,7 @@ mod formula;
 mod info;
 mod messages;
 mod parts;
+mod plots;
 mod printable;
 mod probe;
 mod readme;
