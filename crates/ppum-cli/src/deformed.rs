@@ -64,7 +64,7 @@ impl Deformed {
         let Some(factor) = self.factor else { return Ok(None) };
         let factor = match factor {
             Factor::Given(factor) => factor,
-            Factor::Auto => automatic_factor(&[field], &field.domain.bounds),
+            Factor::Auto => automatic_factor(&[field], &field.domain.bounds)?,
         };
         let deformation = Deformation::new(field, factor)?;
         let bounds = self.bounds(&deformation, field)?;

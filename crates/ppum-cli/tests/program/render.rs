@@ -222,26 +222,27 @@ fn the_deformed_plate_has_its_size() {
 fn deformed_cracks_open_and_close() {
     let lab = Lab::solved(CRACKED);
     let draw = |options: &str| {
-        let told = lab.run(&format!("render plate.h5 -o a.png -q uy --size 120x120 {options}"));
+        let told = lab.run(&format!("render plate.h5 -o a.png -q uy {options}"));
         (Png::read(&lab.path("a.png")), told)
     };
-    let (open, told) = draw("--deformed auto --tip 1 --zoom 40");
+    let (open, told) = draw("--size 120x120 --deformed auto --tip 1 --zoom 40");
     assert!(told.contains("deformed ×0.0") && !told.contains("over itself"), "{told}");
     let empty = open.rgba.chunks(4).filter(|p| p[3] == 0).count();
     // behind the tip, which is in the middle, the crack is open
     assert!((3000..9000).contains(&empty), "{empty}");
-    let (_, told) = draw("--deformed=-0.02 --view=-0.5,-0.5,0.5,0.5");
+    let (_, told) = draw("--size 120x120 --deformed=-0.02 --view=-0.5,-0.5,0.5,0.5");
     assert!(told.contains("over itself at") && told.contains("(hatched)"), "{told}");
-    let (plain, _) = draw("--deformed 0.02 --view=-1.2,-1.2,1.2,1.2");
+    let (plain, _) = draw("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2");
     for more in ["--outline", "--overlay cells", "--overlay cracks"] {
-        let (other, _) = draw(&format!("--deformed 0.02 --view=-1.2,-1.2,1.2,1.2 {more}"));
+        let (other, _) =
+            draw(&format!("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2 {more}"));
         assert_ne!(plain.rgba, other.rgba, "{more}");
     }
     let (figure, _) = draw("--deformed auto --outline --figure --size 400x400");
     assert_eq!(figure.size, [400, 400]);
     // without displacement the plate is the plate
-    let (still, _) = draw("--deformed 0 --view=-1.2,-1.2,1.2,1.2");
-    let (plate, _) = draw("--view=-1.2,-1.2,1.2,1.2 --backend cpu");
+    let (still, _) = draw("--size 120x120 --deformed 0 --view=-1.2,-1.2,1.2,1.2");
+    let (plate, _) = draw("--size 120x120 --view=-1.2,-1.2,1.2,1.2 --backend cpu");
     assert_eq!(still.rgba, plate.rgba);
 }
 

@@ -5,6 +5,7 @@ use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::map::Map;
+use super::{DeformError, check};
 
 /// Largest displacement that is seen, in parts of the smaller side of what is shown.
 const SEEN: f64 = 0.05;
@@ -14,12 +15,15 @@ const POINTS: u32 = 65;
 /// The factor with which the largest displacement that is seen in a window of the undeformed plate is 5 % of the smaller
 /// side of the domain, rounded down to 1, 2 or 5 times a power of ten; of several fields the same for all, as for the
 /// pictures of a series. 1 if nothing moves. Displacements are looked at in 65 × 65 points and at the vertices of cracks.
-#[must_use]
-pub fn automatic_factor(fields: &[&Field<'_>], window: &Rect) -> f64 {
+///
+/// # Errors
+/// A field of an equation without displacements.
+pub fn automatic_factor(fields: &[&Field<'_>], window: &Rect) -> Result<f64, DeformError> {
+    fields.iter().try_for_each(|field| check(field))?;
     let largest = fields.iter().map(|field| largest(field, window)).fold(0.0, f64::max);
     let side = fields.iter().map(|field| field.domain.bounds.size()).map(|s| s.x.min(s.y));
     let factor = SEEN * side.fold(f64::INFINITY, f64::min) / largest;
-    if factor.is_normal() { round_down(factor) } else { 1.0 }
+    Ok(if factor.is_normal() { round_down(factor) } else { 1.0 })
 }
 
 /// Largest |u| of a field in a window.

@@ -86,9 +86,7 @@ impl<'f> Deformation<'f> {
     /// # Errors
     /// A field of an equation without displacements; a factor that is not finite.
     pub fn new(field: &'f Field<'f>, factor: f64) -> Result<Self, DeformError> {
-        if field.equation.elastic().is_none() || field.components() != 2 {
-            return Err(DeformError::NoDisplacement(field.data.name.clone()));
-        }
+        check(field)?;
         if !factor.is_finite() {
             return Err(DeformError::Factor(factor));
         }
@@ -173,6 +171,14 @@ impl<'f> Deformation<'f> {
         }
         point
     }
+}
+
+/// Refuses fields that are no displacements of the plane.
+fn check(field: &Field<'_>) -> Result<(), DeformError> {
+    if field.equation.elastic().is_none() || field.components() != 2 {
+        return Err(DeformError::NoDisplacement(field.data.name.clone()));
+    }
+    Ok(())
 }
 
 /// A displacement, or none where it is not known.
