@@ -200,6 +200,12 @@ fn infinite_at_a_tip() {
         assert!(mises.min.value > 0.0 && mises.min.on == On::Border, "{mises:?}");
         let shear = found(&field, &view, "sxy");
         assert_eq!((shear.min.value, shear.max.value), (f64::NEG_INFINITY, f64::INFINITY));
+        // rounding next to the tip is no minimum
+        let stress = found(&field, &view, "syy");
+        for extremum in [stress.min, stress.max].into_iter().filter(|e| e.value.is_finite()) {
+            let away = (extremum.offset + (view.center - tip)).length();
+            assert!(away > 0.999e-3 * view.pixel_size(), "{stress:?}");
+        }
         let value = found(&field, &view, "uy");
         assert!(value.singular.is_empty() && value.max.value.is_finite());
         let beside =
