@@ -3,13 +3,14 @@
 //! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the best pixels are where a search
 //! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
 //! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
-//! view and of the domain, on the rims of holes, on both faces of cracks, on straight interfaces, each sampled once a pixel at least
-//! and refined. Peaks and valleys narrower than a pixel are not seen, nor is, to all digits, what is largest at a curved interface.
+//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel at least
+//! and refined. Peaks and valleys narrower than a pixel are not seen.
 //!
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
 //! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
 //! are left out: there the last digits of the field decide.
 
+mod bent;
 mod climb;
 mod curves;
 mod singular;
@@ -99,7 +100,10 @@ pub fn extrema<T: Sample>(
     let grows = |point: &&Singular| point.max_infinite || point.min_infinite;
     let hidden = singular.iter().filter(grows).map(|point| point.offset).collect();
     let search = Search { field, view, slope: &slope, rect, hidden };
-    let curves = curves::all(field, view.center, &rect);
+    let mut curves = curves::all(field, view.center, &rect);
+    let mut local = field.at(view.center);
+    let mut value = |at| quantity.at(&mut local, at, Side::Above);
+    curves.extend(bent::all(field, view.center, &rect, view.pixel_size(), &mut value));
     let starts = [-1.0, 1.0].map(|sign| climb::starts(raster, sign, STARTS));
     let parts = Parts::start(watcher, curves.len() + starts.iter().map(Vec::len).sum::<usize>())?;
     let on_curves: Result<Vec<_>, RenderError> = curves
