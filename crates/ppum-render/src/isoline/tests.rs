@@ -337,6 +337,19 @@ fn nothing_and_angles() {
     assert_eq!(lines(&field, &one, "ux", &[0.1]).len(), 1);
 }
 
+/// One thread or three: the same lines.
+#[test]
+fn threads_do_not_matter() {
+    let dataset = plate(true);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::hug(dataset.domain.bounds, [90, 70]).expect("a view");
+    let of = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| lines(&field, &view, "syy", &[-0.5, 0.2, 1.0]))
+    };
+    assert_eq!(of(1), of(3));
+}
+
 /// A view that shows mostly nothing looks at little more than the domain.
 #[test]
 fn the_outside_costs_nothing() {
