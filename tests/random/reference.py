@@ -139,7 +139,7 @@ def main():
 
 
 def save(known):
-    """Writes values.json, a line a problem."""
+    """Writes values.json, one line per problem."""
     groups = []
     for group in ("problems", "left_out"):
         lines = [f'  "{name}": {json.dumps(found)}' for name, found in sorted(known[group].items())]

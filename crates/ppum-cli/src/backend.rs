@@ -6,17 +6,15 @@
 use std::num::NonZeroUsize;
 
 use clap::ValueEnum;
-use ppum::field::Field;
-use ppum::quantity::{Quantity, Source};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::raster::{Raster, Sample};
+use ppum::quantity::Source;
+use ppum_render::raster::Sample;
 use ppum_render::scatter::render;
-use ppum_render::view::View;
 
+use crate::drawing::{Drawn, Job};
 use crate::graphics::{Device, Method};
 use crate::output::tell;
 use crate::progress::Bar;
-use crate::{graphics, threads, undefined};
+use crate::{graphics, threads};
 
 /// The options that choose who draws.
 #[derive(Debug, clap::Args)]
@@ -50,38 +48,6 @@ enum Precision {
     F32,
 }
 
-/// The subject of a picture.
-#[derive(Clone, Copy)]
-pub(crate) struct Job<'a> {
-    pub(crate) field: &'a Field<'a>,
-    pub(crate) view: &'a View,
-    pub(crate) quantity: &'a Quantity,
-    pub(crate) style: &'a Style,
-}
-
-/// A picture, and what drew it: `cpu f64`, `gpu f32, NAME`.
-pub(crate) struct Drawn {
-    pub(crate) picture: Picture,
-    pub(crate) by: String,
-    /// The number of pixels of the plate without a value, and of all of them.
-    pub(crate) undefined: [usize; 2],
-    /// True if some value is finite.
-    pub(crate) is_finite: bool,
-}
-
-impl Drawn {
-    pub(crate) fn new<T: Sample>(
-        raster: &Raster<T>,
-        job: Job<'_>,
-        by: &str,
-    ) -> anyhow::Result<Self> {
-        let picture = Picture::bare(raster, job.view, job.style)?;
-        let undefined = undefined::pixels(raster, job.field, job.view);
-        let is_finite = raster.statistics().finite > 0;
-        Ok(Self { picture, by: by.to_owned(), undefined, is_finite })
-    }
-}
-
 impl Engine {
     /// Refuses combinations that clap cannot see.
     pub(crate) fn check(&self) -> anyhow::Result<()> {
@@ -113,6 +79,27 @@ impl Engine {
     /// True for what no graphics device can do.
     fn needs_cpu(&self, job: Job<'_>) -> bool {
         self.precision == Some(Precision::F64) || job.quantity.source() == Source::Exact
+    }
+
+    /// Does what only the processor can, in double precision.
+    pub(crate) fn on_processor<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> anyhow::Result<T> {
+        let is_cpu = matches!(self.backend, Backend::Auto | Backend::Cpu);
+        anyhow::ensure!(
+            is_cpu && self.precision != Some(Precision::F32),
+            "the deformed plate is drawn by the processor, in double precision; leave --backend and --precision out"
+        );
+        self.with_threads(work)
+    }
+
+    /// Works on as many threads as are asked for, whatever draws.
+    pub(crate) fn with_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> anyhow::Result<T> {
+        threads::with(self.threads, work)
     }
 
     fn on_cpu(&self, job: Job<'_>) -> anyhow::Result<Drawn> {

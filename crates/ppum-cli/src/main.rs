@@ -10,23 +10,30 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
+mod deformed;
+mod drawing;
 mod families;
 mod given;
 mod graphics;
 mod memory;
 mod number;
 mod output;
+mod overlays;
+mod page;
 mod panics;
+mod profile;
 mod progress;
 mod remedy;
 mod replacements;
 mod signals;
 mod standard;
+mod subject;
 mod target;
 mod threads;
 mod tips;
 mod undefined;
 mod warnings;
+mod window;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -80,4 +87,85 @@ fn message(error: &anyhow::Error) -> String {
         .map(remedy::told)
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[
+            ("arguments", &[]),
+            ("memory", &[]),
+            ("number", &[]),
+            ("output", &[]),
+            ("panics", &[]),
+            ("progress", &[]),
+            ("remedy", &[]),
+            ("signals", &[]),
+            ("standard", &[]),
+            ("threads", &[]),
+            ("undefined", &[]),
+        ],
+        &[
+            ("drawing", &["undefined"]),
+            ("families", &["number"]),
+            ("given", &["standard"]),
+            ("overlays", &["arguments", "output", "progress"]),
+            ("target", &["standard"]),
+            ("tips", &["number"]),
+            ("warnings", &["number", "output"]),
+        ],
+        &[
+            ("dataset", &["given", "standard"]),
+            ("graphics", &["drawing", "progress"]),
+            ("page", &["output", "standard", "target"]),
+            ("profile", &["arguments", "output", "progress", "tips", "undefined"]),
+            ("window", &["arguments", "tips"]),
+            ("replacements", &["arguments", "given"]),
+        ],
+        &[
+            ("backend", &["drawing", "graphics", "output", "progress", "threads"]),
+            ("subject", &["dataset", "given", "replacements", "standard"]),
+        ],
+        &[("deformed", &["backend", "drawing", "progress", "window"])],
+        &[(
+            "commands",
+            &[
+                "arguments",
+                "backend",
+                "dataset",
+                "deformed",
+                "drawing",
+                "families",
+                "given",
+                "graphics",
+                "memory",
+                "number",
+                "output",
+                "overlays",
+                "page",
+                "profile",
+                "progress",
+                "replacements",
+                "standard",
+                "subject",
+                "target",
+                "threads",
+                "tips",
+                "undefined",
+                "warnings",
+            ],
+        )],
+        &[("cli", &["commands", "output"])],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
 }

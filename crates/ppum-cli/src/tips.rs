@@ -3,14 +3,26 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use anyhow::{Context as _, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Ring, Step, TipIntensity};
+use ppum::field::Field;
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
 use ppum_solve::diagnostics::relative_spread;
 use serde::Serialize;
 
-use crate::number::Number;
+use crate::number::{Number, count};
+
+/// The tip of a number that was given as `--tip`.
+pub(crate) fn numbered(field: &Field<'_>, number: usize) -> anyhow::Result<TipId> {
+    let cracks = &field.step.cracks;
+    let n_tips = tips(cracks).count();
+    ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
+    tips(cracks).nth(number).with_context(|| {
+        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
+    })
+}
 
 /// The stress intensity factors at a tip.
 #[derive(Debug, Serialize)]
@@ -75,7 +87,7 @@ pub(crate) fn all_tips(index: usize, step: &Step) -> Vec<Tip> {
     tips(&step.cracks).map(tip).collect()
 }
 
-/// A table, one line a tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
+/// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
 /// is shown as zero.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);

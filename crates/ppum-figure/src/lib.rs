@@ -1,12 +1,16 @@
 //! Figures: everything that is drawn on and around a picture of a field.
 //!
 //! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its cracks,
-//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)).
+//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)), or several
+//! pictures stand on one page ([`panels`](figure::panels)). All of it is first put on a
+//! [`Canvas`](canvas::Canvas), which is then drawn as pixels or written as SVG or PDF.
 
+pub mod canvas;
 pub mod figure;
 pub mod levels;
 pub mod overlay;
-mod text;
+pub mod plot;
+pub mod text;
 pub mod ticks;
 
 #[cfg(test)]
@@ -16,8 +20,13 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("overlay", &[]), ("text", &[]), ("ticks", &[])],
-        &[("figure", &["overlay", "text", "ticks"]), ("levels", &["ticks"])],
+        &[("text", &[]), ("ticks", &[])],
+        &[("canvas", &["text"]), ("levels", &["ticks"])],
+        &[("overlay", &["canvas", "text"])],
+        &[
+            ("figure", &["canvas", "overlay", "text", "ticks"]),
+            ("plot", &["canvas", "overlay", "text", "ticks"]),
+        ],
     ];
 
     #[test]

@@ -112,12 +112,49 @@ pub fn bar(norm: &Normalization, most: usize) -> Ticks {
     if ticks.major.len() < 2 { evenly(norm, most) } else { ticks }
 }
 
+/// Where the values of an axis lie on it.
+pub trait Positions {
+    /// The place of a value as ticks have it; none if it lies outside.
+    fn place(&self, value: f64) -> Option<f64>;
+}
+
+/// A part of an axis, `center ± half`; places are offsets from the centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The middle.
+    pub center: f64,
+    /// Half the length.
+    pub half: f64,
+}
+
+impl Positions for Span {
+    fn place(&self, value: f64) -> Option<f64> {
+        let offset = value - self.center;
+        (offset.abs() <= self.half * (1.0 + 1e-9)).then_some(offset)
+    }
+}
+
+impl Positions for Normalization {
+    fn place(&self, value: f64) -> Option<f64> {
+        (self.min()..=self.max()).contains(&value).then(|| self.position(value))
+    }
+}
+
+/// Ticks at given values, in any order; those that lie outside are left out.
+#[must_use]
+pub fn at(values: &[f64], positions: &impl Positions) -> Ticks {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let label = |value: f64| trimmed(value).replace('-', "−");
+    let tick = |value: f64| Some(Tick { at: positions.place(value)?, label: label(value) });
+    Ticks { major: values.into_iter().filter_map(tick).collect(), ..Ticks::default() }
+}
+
 /// The tick of a value that is alone; none if it lies outside the range.
 #[must_use]
 pub fn of_one_value(norm: &Normalization, value: f64) -> Ticks {
-    let tick = Tick { at: norm.position(value), label: trimmed(value).replace('-', "−") };
-    let is_seen = (norm.min()..=norm.max()).contains(&value);
-    Ticks { major: is_seen.then_some(tick).into_iter().collect(), ..Ticks::default() }
+    at(&[value], norm)
 }
 
 /// Even values, wherever the scale puts them.
@@ -362,6 +399,15 @@ mod tests {
         let ticks = bar(&norm(Scale::Linear, 0.5, 0.5 + 1e-9), 5);
         assert_eq!((ticks.reference, ticks.exponent), (0.5, -9));
         assert_eq!(labels(&ticks), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
+    fn ticks_at_given_values() {
+        let ticks = at(&[2.0, -0.5, 7.0, f64::NAN, -0.5, 1e-7], &norm(Scale::Linear, -1.0, 3.0));
+        assert_eq!(labels(&ticks), ["−0.5", "1e−7", "2"]);
+        assert_eq!(ticks.major[2].at, 0.75);
+        let ticks = at(&[0.3, 5.0, 0.1], &Span { center: 0.2, half: 0.1 });
+        assert_eq!(labels(&ticks), ["0.1", "0.3"]);
     }
 
     #[test]

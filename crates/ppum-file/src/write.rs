@@ -4,7 +4,7 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use crate::part::Part;
+use crate::part::{Part, folder};
 
 /// Writes a file by `write`, completely or not at all.
 ///
@@ -78,11 +78,6 @@ fn replaceable(target: &Path) -> io::Result<Option<Permissions>> {
 
 fn refused(reason: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, reason)
-}
-
-/// The folder that a file lies in.
-pub(crate) fn folder(target: &Path) -> &Path {
-    target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Makes the new name last through a power failure, where the system can. The file is complete and

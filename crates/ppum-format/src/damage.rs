@@ -10,7 +10,8 @@ mod forge;
 pub use forge::{object_headers, seal, sealed_parts};
 use ppum::dataset::Dataset;
 
-use crate::{WriteError, checksum, encode, hdf5};
+use crate::error::WriteError;
+use crate::{checksum, encode, hdf5};
 
 /// The bytes of a dataset that need not obey the rules, its checksum right.
 ///

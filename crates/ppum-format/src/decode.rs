@@ -15,6 +15,7 @@ use ppum::weight::{WeightError, WeightFunction};
 
 use crate::content::{Array, Content, Form, Values};
 use crate::error::ReadError;
+use crate::limits::FORMAT_VERSION;
 use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
 use functions::functions;
 use group::{Extent, Group, numbered, optional};
@@ -30,7 +31,7 @@ pub(crate) fn check_version(content: &Content) -> Read<u32> {
     match content.get("@format_version").map(|a| &a.values) {
         Some(Values::U32(v)) if v.len() == 2 => match v[0] {
             0 => Err(ReadError::object("@format_version", "the major version is at least 1")),
-            major if major > crate::FORMAT_VERSION.0 => {
+            major if major > FORMAT_VERSION.0 => {
                 Err(ReadError::TooNew { major: major.into(), minor: v[1].into() })
             }
             _ => Ok(v[1]),
@@ -306,7 +307,5 @@ fn reactions(group: &mut Group) -> Read<Vec<Reaction>> {
     results.map(reaction).collect()
 }
 
-#[cfg(test)]
-mod rules;
 #[cfg(test)]
 mod tests;

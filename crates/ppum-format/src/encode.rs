@@ -13,9 +13,9 @@ use ppum::function::{Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
 
-use crate::MAX_TABLE_VALUES;
 use crate::content::{Array, Content, Element, Values, join};
 use crate::error::WriteError;
+use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
     BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES, Words, word,
 };
@@ -26,7 +26,7 @@ type Written = Result<(), WriteError>;
 pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
     let mut content = Content::new();
     let mut root = Group { path: String::new(), content: &mut content };
-    let (major, minor) = crate::FORMAT_VERSION;
+    let (major, minor) = FORMAT_VERSION;
     root.attribute("format", Array::scalar("ppum".to_owned()));
     root.attribute("format_version", Array::vector([major, minor]));
     root.attribute("program", Array::scalar(dataset.program.clone()));
@@ -368,8 +368,8 @@ fn warnings(group: &mut Group, warnings: &[Warning]) {
 fn reactions(group: &mut Group, reactions: &[Reaction]) {
     let Some(first) = reactions.first() else { return };
     let components = first.force.len();
-    let held = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
-    let held: Vec<_> = reactions.iter().map(held).collect();
+    let flags = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
+    let held: Vec<_> = reactions.iter().map(flags).collect();
     let force: Vec<_> = reactions.iter().map(|r| r.force.clone()).collect();
     group.vector("on", reactions.iter().map(|r| r.on.clone()));
     group.array("held", Array::matrix(&held, components));

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use ppum::check::CheckError;
 
+use crate::limits::{FORMAT_VERSION, MAX_LENGTH};
+
 /// The reason why a dataset could not be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -29,7 +31,7 @@ pub enum ReadError {
     #[error(
         "the file has format version {major}.{minor}, this program reads versions up to {}.x; \
          use a newer ppum",
-        crate::FORMAT_VERSION.0
+        FORMAT_VERSION.0
     )]
     TooNew {
         /// Major version of the file.
@@ -41,7 +43,7 @@ pub enum ReadError {
     #[error(
         "{source}; the file has format version {}.{minor}, this program knows {}.{}: a newer ppum \
          may read it",
-        crate::FORMAT_VERSION.0, crate::FORMAT_VERSION.0, crate::FORMAT_VERSION.1
+        FORMAT_VERSION.0, FORMAT_VERSION.0, FORMAT_VERSION.1
     )]
     Newer {
         /// Minor version of the file.
@@ -126,7 +128,7 @@ pub enum WriteError {
         source: std::io::Error,
     },
     /// Longer than what is read.
-    #[error("the file would have {length} bytes, at most {} are read", crate::MAX_LENGTH)]
+    #[error("the file would have {length} bytes, at most {} are read", MAX_LENGTH)]
     TooLong {
         /// Length in bytes.
         length: u64,

@@ -6,10 +6,9 @@ use std::path::Path;
 
 use ppum::dataset::Dataset;
 
+use crate::bytes::{from_bytes, to_bytes};
 use crate::error::{ReadError, WriteError};
-
-/// Longest file, in bytes: some times that of a million patches of order 8.
-pub const MAX_LENGTH: u64 = 4 << 30;
+use crate::limits::MAX_LENGTH;
 
 /// Reads a dataset from a regular file of at most [`MAX_LENGTH`] bytes.
 ///
@@ -17,8 +16,7 @@ pub const MAX_LENGTH: u64 = 4 << 30;
 ///
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn read(path: &Path) -> Result<Dataset, ReadError> {
-    let bytes = bytes(path).map_err(|e| ReadError::io(path, e))?;
-    crate::from_bytes(bytes)
+    from_bytes(bytes(path).map_err(|e| ReadError::io(path, e))?)
 }
 
 /// Signature at the start of an HDF5 file, or after a block of 512, 1024 or 2048 bytes of the user's.
@@ -51,7 +49,7 @@ fn head(file: &File) -> io::Result<Vec<u8>> {
 /// [`WriteError`], and then whatever stood at `path` still stands there unchanged. A file without
 /// write permission, a folder or a device is not replaced, and no file is longer than [`MAX_LENGTH`].
 pub fn write(dataset: &Dataset, path: &Path) -> Result<(), WriteError> {
-    let bytes = crate::to_bytes(dataset)?;
+    let bytes = to_bytes(dataset)?;
     if bytes.len() as u64 > MAX_LENGTH {
         return Err(WriteError::TooLong { length: bytes.len() as u64 });
     }

@@ -29,7 +29,10 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! [`Dataset`]: ppum::dataset::Dataset
 
+mod bytes;
 mod checksum;
 mod content;
 #[cfg(feature = "damage")]
@@ -42,65 +45,41 @@ mod error;
 mod everything;
 mod file;
 mod hdf5;
+mod limits;
 mod names;
 
-use ppum::dataset::Dataset;
-
+pub use bytes::{check, from_bytes, to_bytes};
 pub use error::{ReadError, WriteError};
-pub use file::{MAX_LENGTH, read, write};
+pub use file::{read, write};
+pub use limits::{FORMAT_VERSION, MAX_LENGTH};
 
-/// Version of the format as (major, minor). A reader takes every minor version of its own major
-/// version; what it does not know is optional.
-pub const FORMAT_VERSION: (u32, u32) = (1, 2);
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
 
-/// Most values that the tables of a file may have together. In memory a value of a table takes 16
-/// numbers more, those of its spline, so a small file could ask for more than there is.
-const MAX_TABLE_VALUES: usize = 1 << 20;
+    use ppum_testkit::rooms::{Floors, check, check_page};
 
-/// The dataset as the bytes of an HDF5 file.
-///
-/// # Errors
-///
-/// [`WriteError::Invalid`] if the dataset fails [`Dataset::check`], [`WriteError::Object`] if it
-/// holds something the format cannot express.
-pub fn to_bytes(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
-    dataset.check()?;
-    let mut content = encode::content(dataset)?;
-    checksum::seal(&mut content);
-    hdf5::to_bytes(&content)
-}
+    const FLOORS: Floors<'_> = &[
+        &[("limits", &[]), ("names", &[])],
+        &[("error", &["limits"])],
+        &[("content", &["error"])],
+        &[
+            ("checksum", &["content", "error"]),
+            ("decode", &["content", "error", "limits", "names"]),
+            ("encode", &["content", "error", "limits", "names"]),
+            ("hdf5", &["content", "error"]),
+        ],
+        &[
+            ("bytes", &["checksum", "content", "decode", "encode", "error", "hdf5", "limits"]),
+            ("damage", &["checksum", "content", "encode", "error", "hdf5"]),
+        ],
+        &[("file", &["bytes", "error", "limits"])],
+    ];
 
-/// Makes sure that a dataset can be written and read again, before it is.
-///
-/// # Errors
-///
-/// As [`to_bytes`].
-pub fn check(dataset: &Dataset) -> Result<(), WriteError> {
-    dataset.check()?;
-    hdf5::check_texts(&encode::content(dataset)?)
-}
-
-/// The dataset in the bytes of an HDF5 file.
-///
-/// # Errors
-///
-/// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
-pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
-    decoded(bytes).map_err(ReadError::shortened)
-}
-
-fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
-    let mut content = hdf5::from_bytes(&bytes)?;
-    let minor = decode::check_version(&content)?;
-    checksum::verify(&mut content)?;
-    checked(content).map_err(|error| {
-        let source = Box::new(error);
-        if minor > FORMAT_VERSION.1 { ReadError::Newer { minor, source } } else { *source }
-    })
-}
-
-fn checked(content: content::Content) -> Result<Dataset, ReadError> {
-    let dataset = decode::dataset(content)?;
-    dataset.check()?;
-    Ok(dataset)
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
 }

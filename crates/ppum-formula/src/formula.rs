@@ -50,8 +50,8 @@ impl Formula {
     pub fn parse_condition(text: &str, scope: &Scope) -> Result<Self, FormulaError> {
         let ast = parser::parse(text, scope)?;
         let mut graph = Graph::new(scope.tables());
-        let root = lower::lower_condition(&ast, scope, &mut graph);
-        let root = root.map_err(|mistake| mistake.locate(text, &ast))?;
+        let root = lower::lower_condition(&ast, scope, &mut graph)
+            .map_err(|mistake| mistake.locate(text, &ast))?;
         let program = Program::new(&graph, &[root]);
         let text = print::print(&program, scope);
         Ok(Self { text, scope: Arc::new(scope.clone()), program })

@@ -48,7 +48,7 @@ struct Printer<'a> {
     taken: HashSet<&'a str>,
     /// The scope's text of each operation, if it is a function that the scope defines.
     defined: Vec<Option<&'static str>>,
-    /// Which operations are numbers.
+    /// True for operations that are numbers.
     numbers: Vec<bool>,
     /// Number of texts that the text of each operation is part of.
     uses: Vec<u32>,

@@ -14,7 +14,7 @@
 /// the inside. NaN gives NaN.
 ///
 /// An evaluation costs a binary search in each direction and at most 15 multiplications and
-/// additions; the spline's coefficients are stored, 4 a cell with one argument, 16 with two.
+/// additions; the spline's coefficients are stored, 4 per cell with one argument, 16 with two.
 ///
 /// ```
 /// use ppum_formula::Table;
@@ -174,8 +174,7 @@ impl Table {
     }
 
     /// Number of arguments, 1 or 2.
-    #[must_use]
-    pub fn n_arguments(&self) -> usize {
+    pub(crate) fn n_arguments(&self) -> usize {
         if self.y.is_empty() { 1 } else { 2 }
     }
 

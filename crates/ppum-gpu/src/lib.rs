@@ -11,30 +11,51 @@
 //! A program knows its scene, and its type says what it yields: [`Values`], [`Colors`] or
 //! [`Derivatives`].
 //!
-//! ```no_run
+//! ```
 //! use ppum::prelude::*;
-//! use ppum_gpu::{Choice, Colors, Method, Renderer, Shading, Values};
+//! use ppum_gpu::{Choice, Colors, GpuError, Method, Renderer, Shading, Values};
 //! use ppum_render::picture::Style;
 //! use ppum_render::range::Range;
 //! use ppum_render::view::View;
 //!
-//! fn frames(dataset: &Dataset, views: &[View]) -> Result<(), Box<dyn std::error::Error>> {
-//!     let field = Field::new(dataset, 0)?;
-//!     let mut renderer = Renderer::open(Choice::Any)?;
-//!     let scene = renderer.upload(&field)?;
-//!     let mut stress = renderer.compile(&scene, Values(Quantity::VonMises), Method::Gather)?;
-//!     let raster = renderer.draw(&mut stress, &views[0])?.read()?;
-//!     let Style { colormap, scale, undefined, .. } = Style::default();
-//!     let normalization = Range::Auto.normalization(scale, colormap.diverging, &raster)?;
-//!     let shading = Shading { normalization, colormap, undefined };
-//!     let colors = Colors { quantity: Quantity::VonMises, shading };
-//!     let mut movie = renderer.compile(&scene, colors, Method::Gather)?;
-//!     for view in views {
-//!         let image = renderer.draw(&mut movie, view)?.read()?;
-//!         assert_eq!(image.size, view.pixels);
-//!     }
-//!     Ok(())
+//! // one patch, u = 1 + 2ξ with ξ = x / 1.25
+//! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+//! let partition = Cover::uniform(domain, 0)?.partition(1.25, WeightFunction::Linear)?;
+//! let mut potential = FieldData::new("potential", &["u"]);
+//! potential.push_patch(&[(0, 1)]);
+//! potential.coefficients_mut(0).for_each(|c| c.copy_from_slice(&[1.0, 2.0, 0.0]));
+//! let step = Step::new(partition).with_function("one", FunctionKind::One).with_field(potential);
+//! let dataset = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
+//! let field = Field::new(&dataset, 0)?;
+//!
+//! let mut renderer = match Renderer::open(Choice::Any) {
+//!     Err(GpuError::NoAdapter { .. }) => return Ok(()),
+//!     opened => opened?,
+//! };
+//! let scene = renderer.upload(&field)?;
+//! let u = Quantity::parse("u", &field)?;
+//! let mut values = renderer.compile(&scene, Values(u.clone()), Method::Gather)?;
+//! let view = View::window(-1.0, -1.0, 1.0, 1.0, [4, 4])?;
+//! let raster = renderer.draw(&mut values, &view)?.read()?;
+//! assert!((raster.value(3, 0) - 2.2).abs() < 1e-5); // x = 0.75
+//!
+//! // a program draws any view, here with colours of one range
+//! let Style { colormap, scale, undefined, .. } = Style::default();
+//! let normalization = Range::Auto.normalization(scale, colormap.diverging, &raster)?;
+//! let shading = Shading { normalization, colormap, undefined };
+//! let colors = Colors { quantity: u, shading: shading.clone() };
+//! let mut movie = renderer.compile(&scene, colors, Method::Gather)?;
+//! for half in [1.0, 0.1, 0.01] {
+//!     let view = View::window(-half, -half, half, half, [4, 4])?;
+//!     assert_eq!(renderer.draw(&mut movie, &view)?.read()?.size, view.pixels);
 //! }
+//!
+//! // and with other colours, without being compiled again
+//! let before = renderer.draw(&mut movie, &view)?.read()?;
+//! let colormap = Style::named("magma")?.colormap;
+//! movie.shade(Shading { colormap, ..shading });
+//! assert_ne!(renderer.draw(&mut movie, &view)?.read()?, before);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! Shaders compute in single precision. Everything that would cancel there is formed in double

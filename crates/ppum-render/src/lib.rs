@@ -3,7 +3,7 @@
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
-//! encodes the result together with what it shows; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
+//! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //!
 //! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
 //! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.
@@ -43,7 +43,10 @@
 //!
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
+pub mod animation;
+pub mod cells;
 pub mod colormap;
+pub mod deform;
 mod error;
 pub mod extrema;
 pub mod glyph;
@@ -57,6 +60,7 @@ pub mod png;
 pub mod range;
 pub mod raster;
 pub mod reference;
+pub mod resample;
 pub mod scale;
 pub mod scatter;
 pub mod view;
@@ -85,11 +89,15 @@ mod tests {
             ("raster", &["error", "view"]),
         ],
         &[
+            ("animation", &["image", "png"]),
+            ("cells", &["raster", "view"]),
+            ("deform", &["parts", "pieces", "raster", "view"]),
+            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
+            ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
             ("glyph", &["error", "parts", "view"]),
-            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
@@ -106,6 +114,7 @@ mod tests {
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
         check::<super::RenderError>();
+        check::<super::animation::AnimationError>();
         check::<super::colormap::ColormapError>();
         check::<super::range::RangeError>();
         check::<super::view::ViewError>();

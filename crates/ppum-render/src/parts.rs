@@ -22,6 +22,6 @@ impl<'w> Parts<'w> {
     /// One more is done.
     pub(crate) fn finish_one(&self) -> Result<(), Cancelled> {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        self.watcher.report(Progress { phase: Phase::Evaluation, done, total: self.total })
+        self.watcher.report(Progress::new(Phase::Evaluation, done, self.total))
     }
 }

@@ -15,6 +15,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use ppum::text::exact;
+
 use crate::raster::{Raster, Sample};
 use crate::scale::{Normalization, Scale};
 
@@ -33,10 +35,11 @@ pub enum Range {
 #[non_exhaustive]
 pub enum RangeError {
     /// Not `auto` and not two numbers.
-    #[error("'{0}' is no range; write auto or MIN,MAX")]
+    #[error("`{0}` is no range; write auto or MIN,MAX")]
     Syntax(String),
     /// Bounds that do not rise, are not finite, or differ by less than the smallest normal number.
-    #[error("the range from {0} to {1} is empty; give two finite numbers, the smaller one first")]
+    #[error("the range from {} to {} is empty; give two finite numbers, the smaller one first",
+        exact(*.0), exact(*.1))]
     Empty(f64, f64),
     /// A logarithmic scale from a value that is not positive.
     #[error("a logarithmic scale cannot begin at {0}; begin above zero, or use symlog")]

@@ -12,6 +12,7 @@
 
 use std::ops::Range;
 
+use ppum::text::exact;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// A window of the plane with square pixels; its height follows from the width and the pixels.
@@ -36,18 +37,18 @@ pub enum ViewError {
     #[error("a picture of {0}x{1} pixels; give at least 1x1 and at most {MAX_PIXELS} in all")]
     Pixels(u32, u32),
     /// Width not positive or not finite.
-    #[error("the view's width is {0}; give a positive length")]
+    #[error("the view's width is {}; give a positive length", exact(*.0))]
     Width(f64),
     /// Centre not finite.
-    #[error("the view's centre is ({}, {}); give two finite numbers", .0.x, .0.y)]
+    #[error("the view's centre is ({}, {}); give two finite numbers", exact(.0.x), exact(.0.y))]
     Center(Vec2),
     /// A window without area.
     #[error("the window from ({}, {}) to ({}, {}) has no area; give two opposite corners",
-        .0.min.x, .0.min.y, .0.max.x, .0.max.y)]
+        exact(.0.min.x), exact(.0.min.y), exact(.0.max.x), exact(.0.max.y))]
     EmptyWindow(Rect),
-    /// The pixels are finer than f64 can tell apart around the centre.
+    /// The pixels are finer than f64 can tell apart around the centre, or their size is no normal number.
     #[error("a view {width:e} wide at ({}, {}) is finer than double precision; widen it",
-        .center.x, .center.y)]
+        exact(.center.x), exact(.center.y))]
     TooDeep {
         /// Centre asked for.
         center: Vec2,
@@ -61,7 +62,7 @@ impl View {
     ///
     /// # Errors
     /// No pixels or more than [`MAX_PIXELS`]; a width that is not positive; numbers that are not
-    /// finite; a width below the spacing of f64 at the centre.
+    /// finite; a width below the spacing of f64 at the centre, or pixels below the least normal number.
     pub fn new(center: Vec2, width: f64, pixels: [u32; 2]) -> Result<Self, ViewError> {
         let [nx, ny] = pixels;
         if nx == 0 || ny == 0 || u64::from(nx) * u64::from(ny) > MAX_PIXELS {
@@ -71,10 +72,11 @@ impl View {
             return Err(ViewError::Center(center));
         }
         let view = Self { center, width, pixels };
-        if !(width > 0.0 && width.is_finite() && view.height() > 0.0 && view.height().is_finite()) {
+        if !(width > 0.0 && width.is_finite() && view.height().is_finite()) {
             return Err(ViewError::Width(width));
         }
-        if width < f64::EPSILON * center.x.abs().max(center.y.abs()) {
+        let is_blurred = width < f64::EPSILON * center.x.abs().max(center.y.abs());
+        if is_blurred || !view.pixel_size().is_normal() {
             return Err(ViewError::TooDeep { center, width });
         }
         Ok(view)
@@ -309,7 +311,25 @@ mod tests {
         assert!(matches!(at(Vec2::ZERO, f64::NAN, [5, 5]), ViewError::Width(_)));
         assert!(matches!(at(vec2(f64::NAN, 0.0), 1.0, [5, 5]), ViewError::Center(_)));
         assert!(matches!(at(vec2(1.0, 0.0), 1e-17, [5, 5]), ViewError::TooDeep { .. }));
+        for width in [1e-320, f64::MIN_POSITIVE, f64::from_bits(1)] {
+            assert!(
+                matches!(at(Vec2::ZERO, width, [5, 5]), ViewError::TooDeep { .. }),
+                "{width:e}"
+            );
+        }
+        View::new(Vec2::ZERO, 5.1 * f64::MIN_POSITIVE, [5, 5]).unwrap();
         let flat = View::window(0.0, 1.0, 2.0, 1.0, [5, 5]).unwrap_err();
         assert!(matches!(flat, ViewError::EmptyWindow(_)), "{flat}");
+    }
+
+    #[test]
+    fn large_numbers_are_told_with_exponents() {
+        let far = View::new(vec2(1e300, -2.5), 1.0, [5, 5]).unwrap_err().to_string();
+        assert_eq!(
+            far,
+            "a view 1e0 wide at (1e300, -2.5) is finer than double precision; widen it"
+        );
+        let empty = View::window(-1e300, 0.0, 3.0, 0.0, [5, 5]).unwrap_err().to_string();
+        assert!(empty.starts_with("the window from (-1e300, 0) to (3, 0) has"), "{empty}");
     }
 }

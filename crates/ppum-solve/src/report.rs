@@ -97,8 +97,7 @@ impl SolverReport {
     }
 
     /// Part of the unknowns that was cut off.
-    #[must_use]
-    pub fn cut_off_part(&self) -> Option<f64> {
+    pub(crate) fn cut_off_part(&self) -> Option<f64> {
         Some(self.cut_off? / self.unknowns?)
     }
 }

@@ -61,7 +61,7 @@ impl<'w> Stage<'w> {
     pub(crate) fn advance(&self, parts: usize) -> Result<(), Cancelled> {
         let done = self.done.fetch_add(parts, Relaxed) + parts;
         let progress = match self.total {
-            Some(total) => Progress { phase: self.phase, done: done.min(total), total },
+            Some(total) => Progress::new(self.phase, done.min(total), total),
             None => Progress::start(self.phase, 1),
         };
         if self.is_stopped.load(Relaxed) {

@@ -72,7 +72,7 @@ fn is_a_box(b: &Rect) -> bool {
 mod tests {
     use super::*;
 
-    /// Problem files that are wrong have holes of negative radii; their boxes harm nobody.
+    /// Problems that are wrong have holes of negative radii; their boxes harm nobody.
     #[test]
     fn empty_and_undefined_boxes_are_found_nowhere() {
         let [unit, nan] = [vec2(1.0, 1.0), vec2(f64::NAN, 0.0)];

@@ -29,7 +29,7 @@ pub struct Dataset {
     pub title: String,
     /// Name and version of the program that made it, e.g. `ppum 0.1.0`.
     pub program: String,
-    /// The problem file's text, if there was one.
+    /// The text that the problem was read from, if there was one.
     pub problem: Option<String>,
     /// The box minus holes Ω. Outside it nothing is defined.
     pub domain: Domain,

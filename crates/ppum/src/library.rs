@@ -1,13 +1,13 @@
 //! The built-in functions, as formulas.
 //!
 //! Everything this crate evaluates by a kernel written by hand is defined here by a text; the kernels
-//! are held to their texts by tests. Problem files name the weights and enrichments of this library;
+//! are held to their texts by tests. Problems name the weights and enrichments of this library;
 //! formulas of quantities may use its quantities by their names.
 
 /// A function of the library, or several that belong together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Name in problem files.
+    /// Name in problems.
     pub name: &'static str,
     /// Its kind.
     pub about: &'static str,

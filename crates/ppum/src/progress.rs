@@ -11,7 +11,7 @@
 //!
 //! fn long_call(watcher: &dyn Watcher) -> Result<usize, Cancelled> {
 //!     for done in 0..100 {
-//!         watcher.report(Progress { phase: Phase::Assembly, done, total: 100 })?;
+//!         watcher.report(Progress::new(Phase::Assembly, done, 100))?;
 //!     }
 //!     Ok(100)
 //! }
@@ -25,6 +25,7 @@
 
 /// The state of a long call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Progress {
     /// The phase.
     pub phase: Phase,
@@ -35,10 +36,16 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// So many parts of a phase are done, of so many.
+    #[must_use]
+    pub fn new(phase: Phase, done: usize, total: usize) -> Self {
+        Self { phase, done, total }
+    }
+
     /// The beginning of a phase of so many parts.
     #[must_use]
     pub fn start(phase: Phase, total: usize) -> Self {
-        Self { phase, done: 0, total }
+        Self::new(phase, 0, total)
     }
 }
 

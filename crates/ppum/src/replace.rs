@@ -10,6 +10,7 @@ use std::sync::Arc;
 use crate::dataset::{Dataset, Step};
 use crate::decompose::{Part, PartError};
 use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
+use crate::library::WEIGHTS;
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
 use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
@@ -34,6 +35,17 @@ pub enum ReplaceError {
     /// The text is no weight.
     #[error("{0}")]
     Weight(#[from] WeightError),
+    /// The text is neither a formula nor the name of a weight, but near to one.
+    #[error("`{word}` is no weight of the library{hint} and no formula: {error}")]
+    NoWeight {
+        /// The text.
+        word: String,
+        /// The suggestion, see [`hint`].
+        hint: String,
+        /// The reason why it is no formula.
+        #[source]
+        error: Box<FormulaError>,
+    },
     /// The dataset's tables or parameters have names that formulas cannot use.
     #[error(transparent)]
     Scope(#[from] ScopeError),
@@ -77,7 +89,7 @@ pub enum ReplacementsError {
         index: usize,
         /// The name or number asked for.
         which: String,
-        /// What is wrong.
+        /// The reason.
         #[source]
         error: Box<ReplaceError>,
     },
@@ -146,9 +158,8 @@ impl Step {
         if indices.is_empty() {
             let stems: BTreeSet<_> = self.functions.iter().map(Function::stem).collect();
             let (which, hint) = (which.to_owned(), hint(which, stems.iter().copied()));
-            let known = stems.into_iter().map(|stem| format!("`{stem}`")).collect::<Vec<_>>();
-            let known = known.join(", ");
-            return Err(ReplaceError::Unknown { which, hint, known });
+            let names: Vec<_> = stems.into_iter().map(|stem| format!("`{stem}`")).collect();
+            return Err(ReplaceError::Unknown { which, hint, known: names.join(", ") });
         }
         for &index in &indices {
             let parameters = self.functions[index].kind.parameters();
@@ -173,9 +184,21 @@ impl Step {
     ) -> Result<(), ReplaceError> {
         self.partition.weight = match WeightFunction::from_library(text.trim()) {
             Some(weight) => weight,
-            None => WeightFunction::formula(text, &Scope::new(&["t"])?.with_tables(tables)?)?,
+            None => WeightFunction::formula(text, &Scope::new(&["t"])?.with_tables(tables)?)
+                .map_err(|error| no_weight(text.trim(), error))?,
         };
         Ok(())
+    }
+}
+
+/// The error of a text that is no weight, with the weight of the library that may have been meant.
+fn no_weight(text: &str, error: WeightError) -> ReplaceError {
+    let hint = hint(text, WEIGHTS.iter().map(|entry| entry.name));
+    match error {
+        WeightError::Formula(error) if !hint.is_empty() => {
+            ReplaceError::NoWeight { word: text.to_owned(), hint, error: Box::new(error) }
+        }
+        error => error.into(),
     }
 }
 

@@ -23,6 +23,13 @@ const ROUNDING: f64 = 1e-12;
 /// The same of coordinates, which nothing has been computed with but sums and products.
 const ROUNDING_OF_PLACES: f64 = 8.0 * f64::EPSILON;
 
+/// All digits that tell a number from its neighbours, with an exponent where there would be many zeros.
+#[must_use]
+pub fn exact(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
 /// Six significant digits, without an exponent where that is no longer.
 #[must_use]
 pub fn short(value: f64) -> String {

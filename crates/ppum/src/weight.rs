@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::jet::Jet;
 use crate::library;
-use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::real::Real;
 use ppum_formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
@@ -27,7 +27,7 @@ impl WeightFunction {
     /// The B-splines.
     pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Cubic];
 
-    /// Name in problem files and datasets; `formula` of a formula.
+    /// Name in problems and datasets; `formula` of a formula.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -256,19 +256,14 @@ impl WeightFormula {
 
     /// w, dw/dt, d²w/dt² at t, lane by lane.
     fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
-        let (lanes, mut scratch) = (t.lanes(), Vec::new());
-        let mut out = [[0.0; WIDEST]; 3];
-        for (lane, t) in lanes.iter().enumerate().take(R::LANES) {
+        let mut scratch = Vec::new();
+        t.map_to(|t| {
             // Beyond the support the formula need not have a value, at its end perhaps a limit.
             let t = t.min(1.0);
             let mut jet = [0.0; 3];
             self.jets.evaluate(&[t], &mut scratch, &mut jet);
-            for (out, value) in out.iter_mut().zip(jet) {
-                let possible = t < 1.0 || value.is_finite();
-                out[lane] = if possible { value } else { 0.0 };
-            }
-        }
-        out.map(|values| t.with_lanes(|lane| values[lane]))
+            jet.map(|value| if t < 1.0 || value.is_finite() { value } else { 0.0 })
+        })
     }
 }
 

@@ -2,10 +2,8 @@
 
 use std::io::Write;
 
-use clap::CommandFactory as _;
+use clap::Command;
 use clap_complete::{Shell, generate};
-
-use crate::cli::Cli;
 
 /// Print completions for a shell
 ///
@@ -25,9 +23,10 @@ Examples:
   ppum completions fish > ~/.config/fish/completions/ppum.fish";
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+    /// Does the work; `program` is the command line as a whole.
+    pub(crate) fn run(&self, out: &mut dyn Write, mut program: Command) -> anyhow::Result<()> {
         let mut script = Vec::new();
-        generate(self.shell, &mut Cli::command(), "ppum", &mut script);
+        generate(self.shell, &mut program, "ppum", &mut script);
         out.write_all(&script)?;
         Ok(())
     }

@@ -5,9 +5,7 @@ use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
-use clap::Parser as _;
 
-use crate::cli::Cli;
 use crate::output::Output;
 use crate::target;
 
@@ -37,7 +35,7 @@ const TOUR: [&str; 5] = [
     "render @/centre-crack.h5 -o @/von-mises.png --figure",
     "render @/centre-crack.h5 -o @/displacement.png -q magnitude --colormap magma --figure",
     "render @/centre-crack.h5 -o @/tip.png --tip 1 --zoom 1000 --scale log --figure",
-    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cracks,patches --figure",
+    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cells,cracks --figure",
 ];
 
 /// Commands to go on with.
@@ -50,7 +48,12 @@ const NEXT: [&str; 5] = [
 ];
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+    /// Does the work; `run` runs a command line, given word by word.
+    pub(crate) fn run(
+        &self,
+        out: &mut Output,
+        run: impl Fn(Vec<OsString>, &mut Output) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
         let problem = self.output.join(PROBLEM_FILE);
         self.check(&problem)?;
         target::save(&problem, |out| out.write_all(PROBLEM.as_bytes()))?;
@@ -58,7 +61,7 @@ impl Args {
         for line in TOUR {
             writeln!(out, "\n$ {}", self.shown(line))?;
             out.flush()?;
-            Cli::try_parse_from(self.words(line))?.command.run(out)?;
+            run(self.words(line), out)?;
         }
         writeln!(out, "\nOpen the pictures in {}. Then try:", self.output.display())?;
         for line in NEXT {

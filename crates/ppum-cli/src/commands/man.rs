@@ -3,10 +3,9 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use clap::CommandFactory as _;
+use clap::Command;
 use clap_mangen::Man;
 
-use crate::cli::Cli;
 use crate::target;
 
 /// Print the manual page, or write the pages of all commands
@@ -24,15 +23,16 @@ Examples:
   ppum man -o ~/.local/share/man/man1";
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+    /// Does the work; `program` is the command line as a whole.
+    pub(crate) fn run(&self, out: &mut dyn Write, program: Command) -> anyhow::Result<()> {
         let Some(folder) = &self.output else {
             let mut page = Vec::new();
-            Man::new(Cli::command()).render(&mut page)?;
+            Man::new(program).render(&mut page)?;
             out.write_all(&page)?;
             return Ok(());
         };
         target::make_folder(folder)?;
-        for page in pages() {
+        for page in pages(program) {
             target::save(&folder.join(page.get_filename()), |out| page.render(out))?;
         }
         writeln!(out, "wrote the manual pages to {}", folder.display())?;
@@ -41,8 +41,8 @@ impl Args {
 }
 
 /// The pages of the program and of all its commands.
-fn pages() -> Vec<Man> {
-    let mut program = Cli::command().disable_help_subcommand(true);
+fn pages(program: Command) -> Vec<Man> {
+    let mut program = program.disable_help_subcommand(true);
     program.build();
     let commands: Vec<_> = program.get_subcommands().cloned().collect();
     [program].into_iter().chain(commands).map(Man::new).collect()

@@ -1,11 +1,13 @@
 //! One command each: its arguments and what it prints.
 
 pub(crate) mod bench;
+pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod formula;
 pub(crate) mod info;
 pub(crate) mod man;
+pub(crate) mod plot;
 pub(crate) mod probe;
 pub(crate) mod render;
 pub(crate) mod sample;

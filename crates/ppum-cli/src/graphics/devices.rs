@@ -4,7 +4,7 @@ use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 
 use super::{Adapter, Device, Failure, Method, drivers};
-use crate::backend::{Drawn, Job};
+use crate::drawing::{Drawn, Job};
 use crate::progress::Bar;
 
 impl From<Device> for Choice {

@@ -22,9 +22,8 @@ pub(crate) fn opening<T>(open: impl FnOnce() -> T) -> T {
 fn note(words: &str) -> Option<String> {
     let matters = |line: &&str| !line.is_empty() && !HARMLESS.iter().any(|h| line.contains(h));
     let lines: Vec<_> = words.lines().map(str::trim).filter(matters).collect();
-    let words = lines.join("; ");
-    let shown = words.chars().map(|c| if c.is_control() { ' ' } else { c }).take(LONGEST);
-    let shown: String = shown.collect();
+    let plain = |c: char| if c.is_control() { ' ' } else { c };
+    let shown: String = lines.join("; ").chars().map(plain).take(LONGEST).collect();
     (!shown.is_empty()).then(|| format!("note: the graphics driver says: {shown}"))
 }
 

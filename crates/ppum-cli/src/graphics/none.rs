@@ -7,7 +7,7 @@ use ppum_render::picture::Style;
 use ppum_render::view::View;
 
 use super::{Adapter, Device, Failure, Method};
-use crate::backend::{Drawn, Job};
+use crate::drawing::{Drawn, Job};
 
 /// The answer of `ppum info --gpu`.
 pub(crate) const MISSING: &str = "\

@@ -317,3 +317,20 @@ fn wgsl_is_valid_and_the_same_function() {
     assert!(quantity.contains("-> array<f32, 1>"), "{quantity}");
     Module::new(&quantity).unwrap();
 }
+
+/// The example of docs/cli.md, up to the numbers at a point, whose last digits are the processor's: lines that
+/// the page leaves out it marks with `…`.
+#[test]
+fn the_example_of_the_page_is_what_the_program_says() {
+    const FORMULA: &str = "abs(x - 2*y)*sqrt(r)";
+    let page = include_str!("../../../../docs/cli.md");
+    let (_, example) =
+        page.split_once(&format!("$ ppum formula '{FORMULA}' --at x=3,y=4\n")).expect("an example");
+    let told = Lab::new().run_with("formula --at x=3,y=4", &[FORMULA]);
+    let mut lines = told.lines();
+    let shown: Vec<_> = example.lines().take_while(|line| !line.starts_with("at ")).collect();
+    assert!(shown.len() > 10, "{shown:?}");
+    for line in shown.into_iter().filter(|line| !line.ends_with('…')) {
+        assert!(lines.any(|told| told == line), "{line}\n{told}");
+    }
+}

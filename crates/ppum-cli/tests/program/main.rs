@@ -3,12 +3,14 @@
 
 mod backend;
 mod bench;
+mod compare;
 #[cfg(target_os = "linux")]
 mod cost;
 mod damage;
 mod demo;
 mod determinism;
 mod errors;
+mod figures;
 mod files;
 mod formula;
 mod info;

@@ -98,6 +98,7 @@ fn what_was_meant_is_named() {
         ("render plate.h5 -o a.png --scale lgo", "log"),
         ("render plate.h5 -o a.png --part tips", "tip"),
         ("probe plate.h5 --at 0,0 --function westergard=1", "westergaard 1"),
+        ("probe plate.h5 --at 0,0 --weight bmup", "bump"),
         ("formula x --of plnae", "plane"),
         ("formula westergard", "westergaard"),
         ("formula sqr(x)", "sqrt"),

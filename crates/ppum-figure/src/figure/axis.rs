@@ -3,14 +3,15 @@
 use ppum::crack::{Crack, tips};
 use ppum::vec2::Vec2;
 
-use super::Labels;
-use super::sheet::TICK_TEXT;
+use super::color_bar::widest;
+use super::design::{Design, Labels, TickChoice};
 use crate::text;
-use crate::ticks::{self, Step, Ticks, power_of_ten};
+use crate::ticks::{self, Span, Step, Ticks, power_of_ten};
 use ppum_render::picture::Picture;
 
 /// Least distances of labelled ticks, across and along the direction of reading.
-pub(super) const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
+const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
+
 /// An axis or the bar: its ticks, what is written along it, and how wide its tick labels are.
 pub(super) struct Axis {
     pub(super) ticks: Ticks,
@@ -21,10 +22,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    fn new(ticks: Ticks, name: &str, unit: &str, scale: f64) -> Self {
-        let widths = ticks.major.iter().map(|t| text::width(&t.label, TICK_TEXT * scale));
-        let widest = widths.fold(0.0, f64::max);
-        Self { label: axis_label(name, &ticks, unit), name: name.len(), widest, ticks }
+    pub(super) fn new(ticks: Ticks, label: &str, name: usize, scale: f64) -> Self {
+        Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
     }
 
     /// The label, with its name shortened if there is less room \[pixels\].
@@ -35,29 +34,37 @@ impl Axis {
     }
 }
 
-/// The colour bar; where one value alone is seen it says so.
-pub(super) fn bar(picture: &Picture, labels: &Labels, most: usize, scale: f64) -> Axis {
-    let (norm, Labels { quantity, unit, .. }) = (&picture.normalization, labels);
-    match picture.one_value {
-        Some(value) => {
-            let name = format!("{quantity}, one value").trim_start_matches(", ").to_owned();
-            Axis::new(ticks::of_one_value(norm, value), &name, unit, scale)
-        }
-        None => Axis::new(ticks::bar(norm, most), quantity, unit, scale),
-    }
-}
-
 /// The axes x and y, with the same step where that leaves y two ticks at least.
-pub(super) fn axes(picture: &Picture, labels: &Labels, cracks: &[Crack], scale: f64) -> [Axis; 2] {
-    let view = &picture.view;
+pub(super) fn axes(
+    picture: &Picture,
+    labels: &Labels,
+    cracks: &[Crack],
+    design: &Design,
+) -> [Axis; 2] {
+    let (view, scale) = (&picture.view, design.scale());
     let half = view.half();
     let step = |distance: f64| Step::at_least(distance * scale * view.pixel_size());
     let [across, along] = TICK_DISTANCE.map(step);
     let (x_step, y_step) = (across, if half.y > across.size() { across } else { along });
     let tip = nearest_tip(picture, cracks);
-    let x = ticks::axis(view.center.x, half.x, x_step, tip.map(|t| t.x));
-    let y = ticks::axis(view.center.y, half.y, y_step, tip.map(|t| t.y));
-    [Axis::new(x, "x", &labels.length_unit, scale), Axis::new(y, "y", &labels.length_unit, scale)]
+    let axis = |span: Span, step: Step, choice: &TickChoice, tip: Option<f64>, name: &str| {
+        let ticks = match choice {
+            TickChoice::Auto => ticks::axis(span.center, span.half, step, tip),
+            TickChoice::Count(count) => {
+                let step = Step::at_least(2.0 * span.half / (*count).max(1) as f64);
+                ticks::axis(span.center, span.half, step, tip)
+            }
+            TickChoice::At(values) => ticks::at(values, &span),
+        };
+        let label = axis_label(name, &ticks, &labels.length_unit);
+        Axis::new(ticks, &label, name.len(), scale)
+    };
+    let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
+        .map(|(center, half)| Span { center, half });
+    [
+        axis(x, x_step, &design.x_ticks, tip.map(|t| t.x), &labels.x),
+        axis(y, y_step, &design.y_ticks, tip.map(|t| t.y), &labels.y),
+    ]
 }
 
 /// The tip in the view that is nearest to its centre.
@@ -72,8 +79,9 @@ fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
         .min_by(|&a, &b| offset(a).length().total_cmp(&offset(b).length()))
 }
 
-/// "name − reference [×10ᵏ unit]", each part where it is needed.
-fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
+/// "name − reference [×10ᵏ unit]", each part where it is needed; nothing along an axis without a name and
+/// units.
+pub(super) fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
     let mut label = name.to_owned();
     if ticks.reference != 0.0 {
         let sign = if ticks.reference > 0.0 { '−' } else { '+' };
@@ -112,7 +120,7 @@ mod tests {
         let view = View::new(tip, 1e-9, [300, 300]).unwrap();
         let raster = Raster::from_fn(view.pixels, |i, _| f64::from(i));
         let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
-        let [x, y] = axes(&picture, &labels(), &cracks, 1.0);
+        let [x, y] = axes(&picture, &labels(), &cracks, &Design::pixels([640, 480]));
         assert_eq!(
             (x.label.as_str(), y.label.as_str()),
             ("x − 0.3 [×10⁻¹⁰ mm]", "y + 0.7 [×10⁻¹⁰ mm]")
@@ -133,8 +141,9 @@ mod tests {
     /// A name that is too long gives way to the power of ten and the unit.
     #[test]
     fn shortened_labels_keep_their_units() {
-        let axis =
-            Axis::new(Ticks { exponent: -4, ..Ticks::default() }, &"x + ".repeat(99), "mm", 1.0);
+        let (ticks, name) = (Ticks { exponent: -4, ..Ticks::default() }, "x + ".repeat(99));
+        let label = axis_label(&name, &ticks, "mm");
+        let axis = Axis::new(ticks, &label, name.len(), 1.0);
         let label = axis.fitted(12.0, 200.0);
         assert!(label.starts_with("x + x") && label.ends_with("… [×10⁻⁴ mm]"), "{label}");
         assert!(text::width(&label, 12.0) <= 200.0, "{label}");

@@ -6,9 +6,9 @@ use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 
 use super::Read;
 use super::group::{Extent, Group, numbered};
-use crate::MAX_TABLE_VALUES;
 use crate::content::Form;
 use crate::error::ReadError;
+use crate::limits::MAX_TABLE_VALUES;
 
 /// The scopes in which formulas are read before the dataset is complete.
 pub(super) struct Scopes {

@@ -1,5 +1,7 @@
 //! Contents that are damaged in one place each.
 
+mod rules;
+
 use super::*;
 use crate::{checksum, encode, everything};
 
@@ -100,7 +102,7 @@ fn lists_that_do_not_divide_are_named() {
 fn complaint_after(change: impl FnOnce(&mut Content)) -> String {
     let mut damaged = content();
     change(&mut damaged);
-    let Err(error) = crate::checked(damaged) else { panic!("the change must be found") };
+    let Err(error) = crate::bytes::checked(damaged) else { panic!("the change must be found") };
     error.to_string()
 }
 

@@ -14,7 +14,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::interpret::Interpret;
 
 /// Lanes of the widest vector there is: f32 on 512 bits.
-pub const WIDEST: usize = 16;
+const WIDEST: usize = 16;
+
+/// The lanes of any vector, widened to f64.
+pub type Lanes = [f64; WIDEST];
 
 /// A number or a vector of numbers.
 pub trait Real:
@@ -67,7 +70,7 @@ pub trait Real:
     fn store(self, to: &mut [Self::Scalar]);
     /// The lanes widened to f64; zero beyond [`Self::LANES`].
     #[inline(always)]
-    fn lanes(self) -> [f64; WIDEST] {
+    fn lanes(self) -> Lanes {
         let mut lanes = [Self::Scalar::default(); WIDEST];
         self.store(&mut lanes);
         lanes.map(Scalar::to_f64)
@@ -86,6 +89,17 @@ pub trait Real:
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let lanes = self.lanes();
         self.with_lanes(|k| f(lanes[k]))
+    }
+    /// As [`map`](Self::map), a function of several results.
+    #[inline(always)]
+    fn map_to<const N: usize>(self, mut f: impl FnMut(f64) -> [f64; N]) -> [Self; N] {
+        let (lanes, mut results) = (self.lanes(), [Lanes::default(); N]);
+        for (k, &number) in lanes.iter().enumerate().take(Self::LANES) {
+            for (result, value) in results.iter_mut().zip(f(number)) {
+                result[k] = value;
+            }
+        }
+        results.map(|lanes| self.with_lanes(|k| lanes[k]))
     }
     /// Writes the lanes to a slice, or as many as there is room for.
     #[inline(always)]

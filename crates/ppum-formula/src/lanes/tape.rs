@@ -30,7 +30,7 @@ pub(crate) struct Step {
     pub(crate) action: Action,
     /// Registers, or indices of constants.
     pub(crate) operands: [u32; 4],
-    /// Which operands are constants: bit k stands for operand k.
+    /// The operands that are constants: bit k stands for operand k.
     pub(crate) constants: u8,
     /// The register it writes; it may be that of an operand.
     pub(crate) to: u32,

@@ -254,10 +254,7 @@ impl Scope {
 
     /// Adds inputs that are functions of the independent variables, each with the rules of its
     /// derivatives, which may use all inputs of the group.
-    ///
-    /// # Errors
-    /// As [`Scope::with_dependent`].
-    pub fn with_dependents(mut self, group: &[(&str, &[&str])]) -> Result<Self, ScopeError> {
+    fn with_dependents(mut self, group: &[(&str, &[&str])]) -> Result<Self, ScopeError> {
         let first = self.dependent.len();
         for (name, rules) in group {
             self.check_name(name)?;

@@ -144,8 +144,7 @@ impl Gpu {
     }
 
     /// True once the device is lost: driver reset, card removed. It does not come back; open another.
-    #[must_use]
-    pub fn is_lost(&self) -> bool {
+    pub(crate) fn is_lost(&self) -> bool {
         self.state.lost.load(Ordering::Relaxed)
     }
 

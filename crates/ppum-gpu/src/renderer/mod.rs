@@ -131,8 +131,7 @@ impl Renderer {
         method: Method,
         watcher: &dyn Watcher,
     ) -> Result<Raster<f32>, RenderError> {
-        let report =
-            |done| watcher.report(Progress { phase: Phase::Evaluation, done, total: STAGES });
+        let report = |done| watcher.report(Progress::new(Phase::Evaluation, done, STAGES));
         report(0)?;
         let scene = self.upload(field)?;
         report(1)?;

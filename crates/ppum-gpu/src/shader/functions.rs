@@ -186,8 +186,11 @@ impl Formulas {
         }
         let all: Vec<_> = formulas.iter().collect();
         let compile = |_| FormulaJets::new(&all, surroundings.order);
-        let jets = all.first().map(compile).transpose();
-        let jets = jets.map_err(|error| GpuError::formula(&name, &error))?;
+        let jets = all
+            .first()
+            .map(compile)
+            .transpose()
+            .map_err(|error| GpuError::formula(&name, &error))?;
         Ok(Self { name, sources, jets })
     }
 

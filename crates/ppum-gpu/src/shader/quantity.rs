@@ -97,11 +97,13 @@ fn of_library(
 ) -> Result<String, GpuError> {
     let components: Vec<String> = components.iter().map(|&name| name.to_owned()).collect();
     let known = names(equation, &components);
-    let name = known.into_iter().find(|(_, known)| known == quantity).map(|(name, _)| name);
-    let name = name.ok_or_else(|| GpuError::formula("this quantity", &"it has no formula"))?;
+    let (name, _) = known
+        .into_iter()
+        .find(|(_, known)| known == quantity)
+        .ok_or_else(|| GpuError::formula("this quantity", &"it has no formula"))?;
     let vocabulary = Vocabulary { equation, components: &components, tables: &[], named: &[] };
-    let formula = QuantityFormula::new(&name.replace('-', "_"), &vocabulary);
-    let formula = formula.map_err(|error| GpuError::formula(&name, &error))?;
+    let formula = QuantityFormula::new(&name.replace('-', "_"), &vocabulary)
+        .map_err(|error| GpuError::formula(&name, &error))?;
     of_formula(&formula, field, &vocabulary)
 }
 
@@ -114,8 +116,8 @@ fn of_formula(
     let what = format!("`{}`", formula.label());
     let failed = |error: &dyn std::fmt::Display| GpuError::formula(&what, error);
     let limit = |error: &WgslError| GpuError::limit(&what, error);
-    let given = with_constants(formula.formula(), field.equation, vocabulary);
-    let given = given.map_err(|error| failed(&error))?;
+    let given = with_constants(formula.formula(), field.equation, vocabulary)
+        .map_err(|error| failed(&error))?;
     let jets = FormulaJets::new(&[&given], 0).map_err(|error| failed(&error))?;
     let mut text = jets.wgsl_of_used("quantity_formula").map_err(|error| limit(&error))?;
     let inputs: Vec<_> = given.scope().inputs().collect();
@@ -159,11 +161,11 @@ fn with_constants(
     vocabulary: &Vocabulary<'_>,
 ) -> Result<Formula, Failure> {
     let elastic = vocabulary.equation.elastic().is_some();
-    let mut definitions = Vec::new();
+    let mut formulas = Vec::new();
     for (name, text) in constants(equation, elastic) {
-        definitions.push((name, Formula::parse(&text, formula.scope())?));
+        formulas.push((name, Formula::parse(&text, formula.scope())?));
     }
-    let definitions: Vec<_> = definitions.iter().map(|(name, f)| (*name, f)).collect();
+    let definitions: Vec<_> = formulas.iter().map(|(name, f)| (*name, f)).collect();
     Ok(formula.substitute(&definitions)?)
 }
 
@@ -175,11 +177,11 @@ fn constants(equation: &Equation, elastic: bool) -> Vec<(&'static str, String)> 
     };
     match (equation, elastic) {
         (Equation::Elasticity(Elasticity { state, .. }), true) => {
-            let moduli = match state {
+            let texts = match state {
                 StressState::PlaneStrain => PLANE_STRAIN,
                 StressState::PlaneStress => PLANE_STRESS,
             };
-            let moduli = moduli.map(|(name, text)| (name, text.to_owned()));
+            let moduli = texts.map(|(name, text)| (name, text.to_owned()));
             equation.constants().filter_map(number).chain(moduli).collect()
         }
         (Equation::Poisson { .. }, false) => equation.constants().filter_map(number).collect(),
@@ -199,10 +201,11 @@ fn varying(equation: &Equation) -> impl Iterator<Item = (&'static str, &Expressi
 
 /// The function of a material constant.
 fn material(name: &str, expression: &Expression) -> Result<String, GpuError> {
-    let jets = FormulaJets::new(&[expression.formula()], 0);
-    let jets = jets.map_err(|error| GpuError::formula(name, &error))?;
-    let text = jets.wgsl_of_used(&format!("formula_{name}"));
-    let text = text.map_err(|error| GpuError::limit(name, &error))?;
+    let jets = FormulaJets::new(&[expression.formula()], 0)
+        .map_err(|error| GpuError::formula(name, &error))?;
+    let text = jets
+        .wgsl_of_used(&format!("formula_{name}"))
+        .map_err(|error| GpuError::limit(name, &error))?;
     let coordinates: Vec<&str> = jets.used().map(|input| ["p.x", "p.y"][input]).collect();
     let call = format!("formula_{name}({})[0]", coordinates.join(", "));
     Ok(format!("{text}\nfn material_{name}(p: vec2<f32>) -> f32 {{\n    return {call};\n}}\n"))

@@ -18,12 +18,12 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
     // the head, the coefficients without the constant, high and low
     let slots = count + 2;
     let per_texel = 4 / lanes;
-    let mut text = "fn smooth_of(address: u32, place: Place) -> Smooth {\n".to_owned();
+    let mut text = "fn smooth_of(address: u32, coordinates: Coordinates) -> Smooth {\n".to_owned();
     for texel in 0..slots.div_ceil(per_texel) {
         let _ = writeln!(text, "    let q{texel} = load(address + {texel}u);");
     }
     let slot = |k: usize| slot(k, lanes);
-    text += "    let xi = place.xi;\n";
+    text += "    let xi = coordinates.xi;\n";
     let mut lines = Lines { text, order, count: 0 };
     let sums = lines.polynomial(degree, |k| (k + 1 < count).then(|| slot(k + 1)));
     let mut text = lines.text;
@@ -64,7 +64,7 @@ fn slot(k: usize, lanes: usize) -> String {
 /// The chain rule for ξ.
 fn slopes(member: &str) -> String {
     let axes = member.chars().filter(|axis| *axis != 'v');
-    axes.map(|axis| format!(" * place.inverse.{axis}")).collect()
+    axes.map(|axis| format!(" * coordinates.inverse.{axis}")).collect()
 }
 
 /// A sum that may be zero, for which there is no name then.

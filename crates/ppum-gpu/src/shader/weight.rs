@@ -37,8 +37,10 @@ pub(crate) fn weight_wgsl(weight: &WeightFunction) -> Result<String, GpuError> {
             "\nfn weight(xi: f32) -> vec3<f32> {{\n    return weight_{name}(xi);\n}}\n"
         ));
     };
-    let text = formula.jets().wgsl_of_used("weight_formula");
-    let text = text.map_err(|error| GpuError::limit("the weight", &error))?;
+    let text = formula
+        .jets()
+        .wgsl_of_used("weight_formula")
+        .map_err(|error| GpuError::limit("the weight", &error))?;
     let argument = if formula.jets().uses(0) { "t" } else { "" };
     Ok(text + &OF_FORMULA.replace("CALL", argument))
 }

@@ -104,8 +104,8 @@ fn colours_beyond_the_range() {
 #[test]
 fn mistakes_have_a_place_and_a_remedy() {
     for (text, hint) in [
-        ("0 0 0\n1 2\n", "line 2: '1 2' is not a colour; write red"),
-        ("0 0 x\n", "line 1: '0 0 x' is not"),
+        ("0 0 0\n1 2\n", "line 2: `1 2` is not a colour; write red"),
+        ("0 0 x\n", "line 1: `0 0 x` is not"),
         ("0 0 0\n0 0 300", "line 2"),
         ("0 0 0\n-1 0 3", "line 2"),
         ("0 0 0\nNaN 0 0", "line 2"),
@@ -114,7 +114,7 @@ fn mistakes_have_a_place_and_a_remedy() {
         ("0 0 0 0\n1 1 1 1\n0.5 0 0 0", "line 3: position 0.5 follows 1.0"),
         ("1 0 0 0\n1 1 1 1", "must span"),
         ("-1e308 0 0 0\n1e308 1 1 1", "must span"),
-        ("a,b,c\n1,2,3", "line 1: 'a,b,c' is not a colour"),
+        ("a,b,c\n1,2,3", "line 1: `a,b,c` is not a colour"),
         ("r,g,b\n1,2", "line 2"),
         ("1 2 3 4 5", "line 1"),
         ("1 1 1", "fewer than two"),
@@ -145,7 +145,7 @@ fn mistakes_have_a_place_and_a_remedy() {
     ] {
         let error = fail(text);
         assert!(
-            error.starts_with("colour map 'file', ") && error.contains(hint),
+            error.starts_with("colour map `file`, ") && error.contains(hint),
             "{text}: {error}"
         );
     }

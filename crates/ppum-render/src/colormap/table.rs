@@ -48,7 +48,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Stop>, Mistake> {
 }
 
 fn no_color(line: &str, place: String) -> Mistake {
-    Mistake::new(place, format!("'{}' is not a colour; {FORMS}", excerpt(line)))
+    Mistake::new(place, format!("`{}` is not a colour; {FORMS}", excerpt(line)))
 }
 
 /// So much of a line as a message can bear.

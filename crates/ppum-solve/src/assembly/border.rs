@@ -1,6 +1,6 @@
 //! Conditions on the border of a cell: Nitsche's method for given values, loads for given tractions.
 //!
-//! Where component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown. Multiplying
+//! If component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown. Multiplying
 //! −div σ(u) = b by a test function v and integrating by parts leaves it in the equation; Nitsche adds two terms
 //! that vanish for the solution, the first for symmetry, the second so that the system is positive definite:
 //!
@@ -23,7 +23,7 @@
 //! into slivers so gets the larger value it needs (Griebel & Schweitzer 2003). Where β is much larger than
 //! elsewhere, the basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
 //!
-//! Where Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
+//! If Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
 //! through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C the modulus,
 //! h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as the plate.
 

@@ -113,8 +113,9 @@ impl System {
                 let source = given.source(cell);
                 let own = source.and_then(|source| source.rules);
                 let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
-                let part = assembler.assemble(cell, &rules, source, &pieces);
-                let part = part.map_err(|_| Halt::at(space.partition().cell[cell]))?;
+                let part = assembler
+                    .assemble(cell, &rules, source, &pieces)
+                    .map_err(|_| Halt::at(space.partition().cell[cell]))?;
                 Ok((part, points, doubt_of(&rules, &pieces)))
             },
             |cell, (part, points, left)| {

@@ -2,7 +2,7 @@
 //!
 //! Around such a point the solution is a sum of r^λ times functions of the angle, with exponents λ that the
 //! openings of the material, the conditions on their two rays and Poisson's ratio decide (Williams 1952).
-//! Where the smallest Re λ is below one, stresses are infinite, and polynomials see the field badly: kinks of
+//! If the smallest Re λ is below one, stresses are infinite, and polynomials see the field badly: kinks of
 //! cracks, corners of holes, the ends of held pieces of edges, clamped corners, mouths of cracks at held edges.
 //! They are found from the geometry and the conditions alone.
 

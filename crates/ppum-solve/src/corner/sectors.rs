@@ -94,8 +94,8 @@ impl Surroundings<'_> {
         });
         let sides = domain.holes.iter().flat_map(Hole::sides);
         let cracks = self.problem.cracks.iter().flat_map(|c| c.points.windows(2));
-        let segments = sides.chain(cracks.map(|s| [s[0], s[1]]));
-        let segments = segments.map(|[a, b]| segment::distance([a, b], p));
+        let segments =
+            sides.chain(cracks.map(|s| [s[0], s[1]])).map(|[a, b]| segment::distance([a, b], p));
         let all = edges.into_iter().chain(circles).chain(segments);
         all.filter(|distance| !self.is_on(*distance)).fold(f64::INFINITY, f64::min)
     }

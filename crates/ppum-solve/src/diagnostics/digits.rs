@@ -1,6 +1,6 @@
 //! Digits that the coefficients of a dataset bear.
 //!
-//! Where coefficients are large and cancel, evaluation loses digits. How many is found without knowing why: the field
+//! Coefficients that are large and cancel cost evaluation digits. Their number is found without knowing why: the field
 //! whose coefficients are δ_k c_k, |δ_k| ≤ 1 without pattern, is what rounding of the c_k to a part ε adds,
 //! divided by ε. Its gradient over that of the field, times some ε, is the relative rounding error of stresses.
 

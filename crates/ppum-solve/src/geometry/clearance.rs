@@ -77,13 +77,12 @@ impl TipClearance {
         (own, tip): (&Crack, TipId),
     ) -> Self {
         let p = own.end_point(tip.end);
-        let border = (p - domain.bounds.min).min(domain.bounds.max - p);
-        let border = Self { radius: border.x.min(border.y), end: Obstacle::Border };
-        let rims = domain.holes.iter().enumerate();
+        let depth = (p - domain.bounds.min).min(domain.bounds.max - p);
+        let border = Self { radius: depth.x.min(depth.y), end: Obstacle::Border };
+        let holes = domain.holes.iter().enumerate();
         let rims =
-            rims.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
-        let others = cracks.filter(|(k, _)| *k != tip.crack as usize);
-        let others = others.map(|(k, c)| Self {
+            holes.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
+        let others = cracks.filter(|(k, _)| *k != tip.crack as usize).map(|(k, c)| Self {
             radius: segment::polyline_distance(&c.points, p),
             end: Obstacle::Crack(k),
         });

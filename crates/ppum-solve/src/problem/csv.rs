@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::error::{Mistake, Place};
+use super::error::{Location, Mistake};
 
 /// A line that says something.
 pub(super) struct Line<'t> {
@@ -67,10 +67,10 @@ pub(super) fn is_enough(mistakes: &[Mistake]) -> bool {
 
 /// A mistake about a file as a whole.
 pub(super) fn of_file(path: &Path, message: String) -> Mistake {
-    Mistake { place: Place::File(path.display().to_string()), message }
+    Mistake { location: Location::File(path.display().to_string()), message }
 }
 
-/// A mistake at a place of a file.
+/// A mistake at a position in a file.
 pub(super) fn mistake(file: &str, line: usize, column: usize, message: String) -> Mistake {
-    Mistake { place: Place::Text { file: file.to_owned(), line, column }, message }
+    Mistake { location: Location::Text { file: file.to_owned(), line, column }, message }
 }

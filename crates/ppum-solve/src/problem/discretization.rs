@@ -13,8 +13,8 @@ pub struct Discretization {
     pub cells: Cells,
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
-    /// Degree of the local polynomials. Problem files that give none get
-    /// [`default_order`](super::default_order).
+    /// Degree of the local polynomials. Problem files that give none get 2, and 4 where the plate is nearly
+    /// incompressible.
     pub order: Order,
     /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,
@@ -51,7 +51,7 @@ pub enum Order {
     Formula(Expression),
 }
 
-/// Which functions the local spaces hold beside polynomials.
+/// The functions that local spaces hold beside polynomials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Enrichment {
     /// None: neither cracks nor interfaces are seen.

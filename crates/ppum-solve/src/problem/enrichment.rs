@@ -39,7 +39,7 @@ pub struct LocalEnrichment {
     pub parameters: Vec<(String, f64)>,
     /// The frame in which x, y, r and theta are measured.
     pub site: Site,
-    /// Which patches have the functions.
+    /// The patches that have the functions.
     pub region: Region,
     /// Degree of the polynomials that multiply the functions. `None` is 0, but at tips
     /// [`Discretization::tip_degree`](super::Discretization::tip_degree) on patches that hold the tip.

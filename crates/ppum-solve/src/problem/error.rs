@@ -1,4 +1,4 @@
-//! Mistakes of a problem and their places.
+//! Mistakes of a problem and their locations.
 
 use std::fmt;
 
@@ -15,18 +15,18 @@ pub struct ProblemError {
 /// One thing that is wrong, with its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// Its place.
-    pub place: Place,
-    /// The mistake and its remedy, lower-case, without the place.
+    /// Its location.
+    pub location: Location,
+    /// The mistake and its remedy, lower-case, without the location.
     pub message: String,
 }
 
-/// The place of a [`Mistake`].
+/// The location of a [`Mistake`].
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// A file as a whole, e.g. one that cannot be read.
     File(String),
-    /// A place in a file's text.
+    /// A position in a file's text.
     Text {
         /// The file's name as it was given.
         file: String,
@@ -61,11 +61,11 @@ impl From<Mistake> for ProblemError {
 
 impl fmt::Display for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.message)
+        write!(f, "{}: {}", self.location, self.message)
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(file) => write!(f, "{file}"),

@@ -44,6 +44,7 @@ pub(crate) mod quantities;
 mod read;
 mod restraint;
 mod scopes;
+mod stations;
 mod stiffness;
 mod table_file;
 #[cfg(test)]
@@ -62,16 +63,17 @@ pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 pub use cracks::crack;
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
-pub use error::{Mistake, Place, ProblemError};
+pub use error::{Location, Mistake, ProblemError};
 pub use ppum::expression::Expression;
 pub use restraint::restraint_center;
 pub(crate) use restraint::restraint_words;
-pub use stiffness::default_order;
+pub use stations::Station;
 pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use table_file::read_table;
 
 /// A problem with its discretisation.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Problem {
     /// One line that names the problem; may be empty.
     pub title: String,
@@ -143,7 +145,7 @@ impl Problem {
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
         let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Mistake {
-            place: Place::File(file.clone()),
+            location: Location::File(file.clone()),
             message: format!("cannot read the problem file: {error}"),
         })?;
         Self::parse(&text, &file, path.parent().unwrap_or(Path::new("")))
@@ -278,8 +280,8 @@ impl Problem {
         }
         let mistake = |mistake: check::MistakeAt| {
             let other = mistake.other.map_or(String::new(), |key| format!(" (see {key})"));
-            let place = Place::Key(mistake.key.to_string());
-            Mistake { place, message: mistake.message + &other }
+            let location = Location::Key(mistake.key.to_string());
+            Mistake { location, message: mistake.message + &other }
         };
         Err(ProblemError::new(mistakes.into_iter().map(mistake).collect()))
     }

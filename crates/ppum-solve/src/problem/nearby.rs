@@ -1,4 +1,4 @@
-//! Which of many segments lie near each other.
+//! Pairs of near segments among many.
 
 use std::cell::Cell;
 

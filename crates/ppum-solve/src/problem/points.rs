@@ -15,7 +15,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Mistake>> {
     let text = csv::read(path, "points").map_err(|mistake| vec![mistake])?;
     let points = parse(&text, &path.display().to_string())?;
     if points.is_empty() {
-        let message = "there are no points; write one `x,y` a line".to_owned();
+        let message = "there are no points; write one `x,y` per line".to_owned();
         return Err(vec![csv::of_file(path, message)]);
     }
     Ok(points)

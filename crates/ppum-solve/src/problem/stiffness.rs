@@ -22,8 +22,9 @@ pub(crate) fn stiffness_ratio(equation: &Equation, domain: &Domain) -> f64 {
     }
     let (corner, size) = (domain.bounds.min, domain.bounds.size());
     let along = |k: u32| f64::from(k) / f64::from(LOOKS);
-    let points = (0..=LOOKS).flat_map(|j| (0..=LOOKS).map(move |i| (i, j)));
-    let points = points.map(|(i, j)| corner + vec2(along(i) * size.x, along(j) * size.y));
+    let points = (0..=LOOKS)
+        .flat_map(|j| (0..=LOOKS).map(move |i| (i, j)))
+        .map(|(i, j)| corner + vec2(along(i) * size.x, along(j) * size.y));
     let ratio = |p| {
         let moduli = equation.moduli(p, [0.0, 0.0]);
         moduli.lambda / moduli.mu
@@ -35,6 +36,6 @@ pub(crate) fn stiffness_ratio(equation: &Equation, domain: &Domain) -> f64 {
 /// The order of local polynomials where none is given: two, and four where the plate is nearly
 /// incompressible.
 #[must_use]
-pub fn default_order(equation: &Equation, domain: &Domain) -> usize {
+pub(super) fn default_order(equation: &Equation, domain: &Domain) -> usize {
     if stiffness_ratio(equation, domain) > STIFF { FREE_OF_LOCKING } else { 2 }
 }

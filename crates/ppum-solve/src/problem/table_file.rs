@@ -28,7 +28,7 @@ pub(super) fn read(path: &Path) -> Result<Data, Vec<Mistake>> {
     let text = csv::read(path, "table").map_err(|mistake| vec![mistake])?;
     let data = parse(&text, &path.display().to_string())?;
     if data.values.is_empty() {
-        let message = "there are no values; write one `x,value` a line".to_owned();
+        let message = "there are no values; write one `x,value` per line".to_owned();
         return Err(vec![csv::of_file(path, message)]);
     }
     Ok(data)

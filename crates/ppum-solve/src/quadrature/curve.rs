@@ -298,7 +298,7 @@ impl Grid {
     }
 }
 
-/// The steepest slope between neighbours in a grid with `n` points a row.
+/// The steepest slope between neighbours in a grid with `n` points per row.
 fn slope(points: &[Vec2], values: &[f64], n: usize) -> f64 {
     let beside = (0..points.len()).filter(|k| k % n > 0).map(|k| (k - 1, k));
     let above = (n..points.len()).map(|k| (k - n, k));

@@ -284,12 +284,13 @@ impl Run<'_> {
         let straight = kinks.iter().filter_map(|kink| cutting_line(kink, self.cell));
         let others = self.quadrature.segments_near(self.cell).filter(|s| *s != self.line.segment);
         let lines = others.chain(straight);
-        let curved = kinks.iter().filter_map(|kink| match kink {
+        let levels = kinks.iter().filter_map(|kink| match kink {
             Kink::Curve(level) => Some(level),
             _ => None,
         });
-        let curved = curved.chain(&self.quadrature.circles);
-        let curved = curved.flat_map(|level| self.curve_crossings(lo, hi, &**level));
+        let curved = levels
+            .chain(&self.quadrature.circles)
+            .flat_map(|level| self.curve_crossings(lo, hi, &**level));
         lines.filter_map(crossing).chain(curved).collect()
     }
 

@@ -280,8 +280,8 @@ impl Run<'_> {
         let active = geometry.active_probes(patches);
         let mut curves = curves_near(&kinks, rect);
         let circles = self.quadrature.circles.iter().zip(&self.quadrature.circle_boxes);
-        let circles = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
-        curves.extend(circles.filter(|&level| curve::may_meet(level, rect)));
+        let near = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
+        curves.extend(near.filter(|&level| curve::may_meet(level, rect)));
         let order = self.orders.choose(&Active {
             patches: patches.len(),
             distance: nearest / diameter,

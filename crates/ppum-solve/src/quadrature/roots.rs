@@ -19,8 +19,8 @@ pub(crate) fn tame(value: f64) -> f64 {
 /// equal distances and the extrema between them show them.
 pub(crate) fn sign_changes(f: &dyn Fn(f64) -> f64, lo: f64, hi: f64) -> Vec<f64> {
     let at = |k: usize| lo + (hi - lo) * (k as f64 / STEPS as f64);
-    let samples: Vec<[f64; 2]> = (0..=STEPS).map(|k| [at(k), f(at(k))]).collect();
-    let mut samples: Vec<[f64; 2]> = samples.into_iter().filter(|s| s[1] != 0.0).collect();
+    let mut samples: Vec<[f64; 2]> =
+        (0..=STEPS).map(|k| [at(k), f(at(k))]).filter(|s| s[1] != 0.0).collect();
     let touching: Vec<[f64; 2]> = samples.windows(3).filter_map(|t| beyond_zero(f, t)).collect();
     samples.extend(touching);
     samples.sort_by(|a, b| a[0].total_cmp(&b[0]));

@@ -138,8 +138,8 @@ impl Needs {
     fn new(problem: &Problem) -> Self {
         let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
         let points: Vec<_> = tips(&problem.cracks).map(tip).collect();
-        let cracks = problem.cracks.iter().enumerate();
-        let cracks = Placed::new(cracks.map(|crack| (around(&crack.1.points), crack)));
+        let numbered = problem.cracks.iter().enumerate();
+        let cracks = Placed::new(numbered.map(|crack| (around(&crack.1.points), crack)));
         let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
@@ -235,11 +235,11 @@ fn base(problem: &Problem) -> Result<Cover, CoverError> {
 /// allows: 4^k root cells along a long domain, each halved level − k times.
 fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
     let size = domain.size();
-    let k = (0.5 * (size.x / size.y).log2().abs() - 0.5).ceil().max(0.0);
-    let k = (k as u32).min(level);
+    let halvings = (0.5 * (size.x / size.y).log2().abs() - 0.5).ceil().max(0.0);
+    let k = (halvings as u32).min(level);
     let roots = 1 << (2 * k);
-    let roots = if size.x > size.y { [roots, 1] } else { [1, roots] };
-    let mut cover = Cover::grid(domain, roots)?;
+    let grid = if size.x > size.y { [roots, 1] } else { [1, roots] };
+    let mut cover = Cover::grid(domain, grid)?;
     let deepest = (level - k) as u8;
     while cover.refine(|_, level| level < deepest)? > 0 {}
     Ok(cover)

@@ -83,8 +83,8 @@ impl<'s> Surroundings<'s> {
                     name: function.name.clone(),
                     source: Box::new(source),
                 };
-                let scope = function_scope(parameters, self.cracks.len(), self.tables);
-                let scope = scope.map_err(|e| error(e.into()))?;
+                let scope = function_scope(parameters, self.cracks.len(), self.tables)
+                    .map_err(|e| error(e.into()))?;
                 let formula = Formula::parse(text, &scope).map_err(|e| error(e.into()))?;
                 self.of_formula(function, &formula, &self.axes(*frame), declared)
             }

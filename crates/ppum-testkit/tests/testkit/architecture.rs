@@ -32,14 +32,17 @@ const ARROWS: [(&str, &[&str]); 10] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 15] = [
+const DOORS: [(&str, &str); 18] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum-formula"),
     ("flate2", "ppum-format"),
+    ("gif", "ppum-render"),
     ("hdf5-pure", "ppum-format"),
+    ("miniz_oxide", "ppum-figure"),
     ("naga", "ppum-testkit"),
+    ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),

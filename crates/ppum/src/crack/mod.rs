@@ -47,7 +47,7 @@ impl End {
 pub struct TipId {
     /// Index of the crack.
     pub crack: u32,
-    /// Which end.
+    /// The end.
     pub end: End,
 }
 

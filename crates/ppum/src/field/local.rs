@@ -156,11 +156,7 @@ impl<'f> LocalField<'f> {
 
     /// W_i at `anchor + offset` with derivatives.
     #[inline(always)]
-    pub fn partition_weight<R: Real, const D: usize>(
-        &self,
-        patch: usize,
-        offset: [R; 2],
-    ) -> Jet<R> {
+    fn partition_weight<R: Real, const D: usize>(&self, patch: usize, offset: [R; 2]) -> Jet<R> {
         let partition = &self.field.step.partition;
         let half = partition.half[patch];
         let inverse = [1.0 / half.x, 1.0 / half.y];

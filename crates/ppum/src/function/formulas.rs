@@ -8,7 +8,7 @@ use super::seen::Seen;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
-use ppum_formula::real::{Real, WIDEST};
+use ppum_formula::real::{Lanes, Real};
 use ppum_formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 
 use super::table::GROUP;
@@ -149,11 +149,11 @@ thread_local! {
 /// Numbers of one evaluation, in rows of one per lane, and of one lane of it.
 #[derive(Clone, Debug, Default)]
 struct Workspace {
-    rows: Vec<[f64; WIDEST]>,
+    rows: Vec<Lanes>,
     inputs: Vec<f64>,
     scratch: Vec<f64>,
     numbers: Vec<f64>,
-    results: Vec<[f64; WIDEST]>,
+    results: Vec<Lanes>,
 }
 
 impl LocalFormulas<'_> {
@@ -183,9 +183,9 @@ impl LocalFormulas<'_> {
         let like = offset[0];
         let jets = &self.compiled.jets[D];
         let Workspace { rows, inputs, scratch, numbers, results } = workspace;
-        rows.resize(self.compiled.uses.len(), [0.0; WIDEST]);
+        rows.resize(self.compiled.uses.len(), Lanes::default());
         inputs.resize(self.compiled.uses.len(), 0.0);
-        results.resize(jets.n_outputs(), [0.0; WIDEST]);
+        results.resize(jets.n_outputs(), Lanes::default());
         numbers.resize(jets.n_outputs(), 0.0);
         let polar = self.polar(offset, side);
         for (index, row) in rows.iter_mut().enumerate() {

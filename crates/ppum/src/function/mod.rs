@@ -9,8 +9,7 @@ use crate::crack::TipId;
 pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 pub use table::{
-    CompileError, FunctionError, FunctionTable, GROUP, LEAST_COST, LocalFunctions, Slot,
-    function_scope, native,
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope, native,
 };
 pub use westergaard::westergaard;
 

@@ -38,7 +38,7 @@ pub struct FunctionTable {
 
 /// Least cost of a group in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
 /// a picture, and turned into the world.
-pub const LEAST_COST: usize = 256;
+const LEAST_COST: usize = 256;
 
 /// Largest number of functions in a group.
 pub const GROUP: usize = 4;
@@ -144,7 +144,7 @@ impl FunctionTable {
     }
 
     /// Cost of an evaluation of a group with its first derivatives: operations, and segments of cracks.
-    /// That of any function counts as [`LEAST_COST`] at least.
+    /// What every group costs is in it.
     ///
     /// # Panics
     /// If the cracks are not those of the table's step.

@@ -208,8 +208,11 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
 pub fn available(field: &Field<'_>) -> Vec<String> {
     let all = names(field.equation, &field.data.components);
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
-    let named = field.quantities.iter().map(|quantity| quantity.name.clone());
-    let named = named.filter(|name| Quantity::parse(name, field).is_ok());
+    let named = field
+        .quantities
+        .iter()
+        .map(|quantity| quantity.name.clone())
+        .filter(|name| Quantity::parse(name, field).is_ok());
     usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
 }
 

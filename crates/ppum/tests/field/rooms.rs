@@ -31,7 +31,7 @@ const FLOORS: Floors<'_> = &[
             "field",
             &["box_tree", "crack", "dataset", "domain", "function", "jet", "polynomial", "vec2"],
         ),
-        ("replace", &["dataset", "decompose", "function", "text", "weight"]),
+        ("replace", &["dataset", "decompose", "function", "library", "text", "weight"]),
     ],
     &[(
         "quantity",

@@ -18,7 +18,7 @@ use solver::Run;
 ///
 /// Solves the centre crack at order 2 on covers of growing levels and tells the seconds and unknowns
 /// per second of each phase. Draws a centre crack on covers of 16 to 1,048,576 patches by splatting, by gathering
-/// and on the CPU, and tells the milliseconds a frame.
+/// and on the CPU, and tells the milliseconds per frame.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

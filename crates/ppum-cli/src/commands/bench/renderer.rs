@@ -141,7 +141,7 @@ impl Report {
             let view = view(frame, pixels)?;
             for (k, subject) in subjects.iter_mut().enumerate() {
                 let done = frame as usize * covers.len() + k;
-                watcher.report(Progress { phase: Phase::Evaluation, done, total })?;
+                watcher.report(Progress::new(Phase::Evaluation, done, total))?;
                 subject.draw_all((&view, &look), cards.as_mut(), frame > 0)?;
             }
         }

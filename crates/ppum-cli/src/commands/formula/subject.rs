@@ -1,4 +1,4 @@
-//! Which formulas are meant, and what they are formulas of.
+//! The formulas that are meant, and what they are formulas of.
 
 use std::path::PathBuf;
 use std::str::FromStr;

@@ -131,8 +131,7 @@ fn table_row(row: &TableRow) -> String {
 }
 
 fn weight(step: &StepReport) -> Option<String> {
-    let places = step.weight_breakpoints.iter().map(|&t| trimmed(t));
-    let places = joined(places);
+    let places = joined(step.weight_breakpoints.iter().map(|&t| trimmed(t)));
     let at = if places.is_empty() { String::new() } else { format!(", breakpoints {places}") };
     (step.weight == "formula").then(|| format!("{}{at}", one_line(&step.weight_formula)))
 }

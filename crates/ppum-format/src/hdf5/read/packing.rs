@@ -76,9 +76,8 @@ fn numbers(data: &[u8], parameters: &[u32], most: usize) -> Option<Vec<u8>> {
     if packed.len() < (count * bits).div_ceil(8) {
         return None;
     }
-    let fill = [parameter(FILL)?, parameter(FILL + 1).unwrap_or(0)];
-    let fill = u64::from(fill[0]) | u64::from(fill[1]) << 32;
-    let fill = (parameter(HAS_FILL)? == 1).then_some(fill);
+    let [low, high] = [parameter(FILL)?, parameter(FILL + 1).unwrap_or(0)].map(u64::from);
+    let fill = (parameter(HAS_FILL)? == 1).then_some(low | high << 32);
     let value = |difference: u64| match fill {
         // the largest difference stands for the value of what is not there
         Some(fill) if difference == (1 << bits) - 1 => fill,

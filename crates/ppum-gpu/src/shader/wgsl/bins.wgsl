@@ -10,7 +10,7 @@ struct Bin {
 struct Candidate {
     body: u32,
     at: u32,
-    support: Place,
+    support: Coordinates,
 }
 
 fn node_at(index: u32) -> vec2<u32> {
@@ -40,20 +40,20 @@ fn candidate_of(bin: Bin, k: u32, pixel: Pixel) -> Candidate {
     let entry = bin.first + k;
     let four = load_place(view.list + entry / 4u);
     let at = view.patches + four[entry & 3u] * RECORD_TEXELS;
-    return Candidate(load_place(at + 1u).z, at, place_in(at, pixel));
+    return Candidate(load_place(at + 1u).z, at, coordinates_in(at, pixel));
 }
 
 // Coordinates of a pixel in the frame that begins at an address.
-fn place_in(at: u32, pixel: Pixel) -> Place {
+fn coordinates_in(at: u32, pixel: Pixel) -> Coordinates {
     let origin = bitcast<vec4<f32>>(load_place(at));
     let inverse = bitcast<vec4<f32>>(load_place(at + 1u)).xy;
-    return Place(((pixel.high - origin.xy) + (pixel.low - origin.zw)) * inverse, inverse);
+    return Coordinates(((pixel.high - origin.xy) + (pixel.low - origin.zw)) * inverse, inverse);
 }
 
 // Where the polynomials of a candidate are taken.
-fn polynomial_place(candidate: Candidate, pixel: Pixel) -> Place {
+fn polynomial_coordinates(candidate: Candidate, pixel: Pixel) -> Coordinates {
     if OWN_FRAMES {
-        return place_in(candidate.at + 2u, pixel);
+        return coordinates_in(candidate.at + 2u, pixel);
     }
     return candidate.support;
 }

@@ -47,7 +47,7 @@ fn add_candidates(bin: Bin, first: u32, pixel: Pixel, sums: ptr<function, Sums>)
             (*sums).part += select(0.0, w.v, candidate.body == view.chosen);
         }
         if HAS_FIELD {
-            let smooth_term = smooth_of(candidate.body, polynomial_place(candidate, pixel));
+            let smooth_term = smooth_of(candidate.body, polynomial_coordinates(candidate, pixel));
             if rest == covering && (*sums).overlap == 0.0 {
                 (*sums).reference = Reference(smooth_term.high, smooth_term.low);
             }
@@ -70,7 +70,7 @@ fn add_terms(bin: Bin, first: u32, enriched: u32, pixel: Pixel, sums: ptr<functi
     var left = 0u;
     var next = 0u;
     var w: Jet;
-    var place: Place;
+    var coordinates: Coordinates;
     loop {
         if left == 0u {
             if rest == 0u {
@@ -80,12 +80,12 @@ fn add_terms(bin: Bin, first: u32, enriched: u32, pixel: Pixel, sums: ptr<functi
             rest &= rest - 1u;
             let head = load(candidate.body);
             w = weight_tensor(candidate.support.xi, candidate.support.inverse);
-            place = polynomial_place(candidate, pixel);
+            coordinates = polynomial_coordinates(candidate, pixel);
             left = head.x;
             next = candidate.body + (head.y >> 8u);
         }
         let term = term_at(next);
-        let v = other_field(term, place, pixel.offset);
+        let v = other_field(term, coordinates, pixel.offset);
         for (var g = 0u; g < GROUPS; g++) {
             (*sums).u[g] = jets_plus((*sums).u[g], jets_times(w, v[g]));
         }

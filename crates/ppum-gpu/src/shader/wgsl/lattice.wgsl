@@ -11,7 +11,7 @@ struct Bin {
 
 struct Candidate {
     body: u32,
-    support: Place,
+    support: Coordinates,
 }
 
 fn bin_of(pixel: Pixel) -> Bin {
@@ -32,11 +32,11 @@ fn candidate_of(bin: Bin, k: u32, pixel: Pixel) -> Candidate {
     let body = select(lower, select(bin.bodies.z, bin.bodies.w, right), upper);
     let corner = select(vec2<f32>(0.0), view.pitch_high, vec2<bool>(right, upper));
     let rest = select(vec2<f32>(0.0), view.pitch_low, vec2<bool>(right, upper));
-    return Candidate(body, Place(((bin.d - corner) - rest) * view.per_half, view.per_half));
+    return Candidate(body, Coordinates(((bin.d - corner) - rest) * view.per_half, view.per_half));
 }
 
 // Where the polynomials of a candidate are taken.
-fn polynomial_place(candidate: Candidate, pixel: Pixel) -> Place {
+fn polynomial_coordinates(candidate: Candidate, pixel: Pixel) -> Coordinates {
     return candidate.support;
 }
 

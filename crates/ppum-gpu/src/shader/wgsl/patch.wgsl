@@ -1,7 +1,7 @@
 // Patches and what they hold, see region.rs and bodies.rs.
 
 // Coordinates ξ of a pixel in the frame of a patch, and their slopes.
-struct Place {
+struct Coordinates {
     xi: vec2<f32>,
     inverse: vec2<f32>,
 }
@@ -104,7 +104,7 @@ fn times_constant(f: Jet, c: Lanes) -> Jets {
     return out;
 }
 
-fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUPS> {
+fn other_field(term: Term, coordinates: Coordinates, offset: vec2<f32>) -> array<Jets, GROUPS> {
     let f = functions(term.group, offset);
     var v: array<Jets, GROUPS>;
     if HAS_CONSTANTS && has_constants(term) {
@@ -129,7 +129,7 @@ fn other_field(term: Term, place: Place, offset: vec2<f32>) -> array<Jets, GROUP
             }
             let jet = functions_entry(f, entry);
             for (var g = 0u; g < GROUPS; g++) {
-                let p = polynomial(at, degree, place.xi, place.inverse);
+                let p = polynomial(at, degree, coordinates.xi, coordinates.inverse);
                 at += monomials(degree) * LANE_PAIRS;
                 v[g] = jets_plus(v[g], jets_times(jet, p));
             }

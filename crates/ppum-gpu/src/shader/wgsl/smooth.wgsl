@@ -1,6 +1,6 @@
 // The smooth terms of patches of any degrees: smooth.rs writes this out where there is only one.
 
-fn smooth_of(address: u32, place: Place) -> Smooth {
+fn smooth_of(address: u32, coordinates: Coordinates) -> Smooth {
     var out: Smooth;
     let head = load(address);
     let degree = head.y & 0xffu;
@@ -13,7 +13,7 @@ fn smooth_of(address: u32, place: Place) -> Smooth {
     let count = monomials(degree);
     var at = 2u * address + LANE_PAIRS;
     for (var g = 0u; g < GROUPS; g++) {
-        out.v[g] = polynomial_with(at, degree, place.xi, place.inverse, Lanes());
+        out.v[g] = polynomial_with(at, degree, coordinates.xi, coordinates.inverse, Lanes());
         out.high[g] = load_lanes(at + (count - 1u) * LANE_PAIRS);
         out.low[g] = load_lanes(at + count * LANE_PAIRS);
         at += (count + 1u) * LANE_PAIRS;

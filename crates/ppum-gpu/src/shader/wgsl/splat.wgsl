@@ -33,13 +33,13 @@ fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
 }
 
 // Where the pixel at hand lies in the frame that has ξ and these steps at the first pixel of its quad.
-fn quad_place(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Place {
+fn quad_coordinates(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Coordinates {
     let steps = vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
-    return Place(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
+    return Coordinates(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
 }
 
 // The weight of a patch; 0 on the pixels of its quad's border that it does not cover.
-fn quad_weight(support: Place) -> Jet {
+fn quad_weight(support: Coordinates) -> Jet {
     if !covers(support.xi) {
         return Jet();
     }
@@ -48,7 +48,7 @@ fn quad_weight(support: Place) -> Jet {
 
 @fragment
 fn splat_weight(quad: Quad) -> Weights {
-    let support = quad_place(quad, quad.xi, quad.step);
+    let support = quad_coordinates(quad, quad.xi, quad.step);
     let w = quad_weight(support);
     let part = select(0.0, w.v, quad.body == view.chosen);
     return weights_of(w, select(0.0, 1.0, covers(support.xi)), part);
@@ -58,24 +58,24 @@ fn splat_weight(quad: Quad) -> Weights {
 @fragment
 fn splat_field(quad: Quad) -> Fields {
     let pixel = pixel_at(vec2<u32>(quad.position.xy));
-    let support = quad_place(quad, quad.xi, quad.step);
+    let support = quad_coordinates(quad, quad.xi, quad.step);
     // on the very border W is 0, but its slope is not
     if !covers(support.xi) {
         return Fields();
     }
     let w = weight_tensor(support.xi, support.inverse);
     let phi = jet_over(w, weight_sum(pixel.index));
-    var place = support;
+    var coordinates = support;
     if OWN_FRAMES {
-        place = quad_place(quad, quad.frame_xi, quad.frame_step);
+        coordinates = quad_coordinates(quad, quad.frame_xi, quad.frame_step);
     }
-    let smooth_term = smooth_of(quad.body, place);
+    let smooth_term = smooth_of(quad.body, coordinates);
     var v = smooth_field(smooth_term, pixel.offset, view_reference());
     if HAS_CONSTANTS || HAS_POLYNOMIALS {
         var next = smooth_term.others;
         for (var k = 0u; k < smooth_term.terms; k++) {
             let term = term_at(next);
-            let other = other_field(term, place, pixel.offset);
+            let other = other_field(term, coordinates, pixel.offset);
             for (var g = 0u; g < GROUPS; g++) {
                 v[g] = jets_plus(v[g], other[g]);
             }

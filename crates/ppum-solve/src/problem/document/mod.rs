@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Mistake, Place};
+use super::error::{Location, Mistake};
 pub(super) use ppum::text::nearest;
 pub(super) use value::Value;
 
@@ -39,8 +39,8 @@ impl<'a> Report<'a> {
     /// Reports a mistake at a byte of the text.
     pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
         let (line, column) = self.position(offset);
-        let place = Place::Text { file: self.file.to_owned(), line, column };
-        self.add(offset, Mistake { place, message: message.into() });
+        let location = Location::Text { file: self.file.to_owned(), line, column };
+        self.add(offset, Mistake { location, message: message.into() });
     }
 
     /// Reports a mistake in another file, named at a byte of this text.

@@ -204,10 +204,10 @@ fn region(section: &Section<'_>, tables: &[Arc<Table>]) -> Option<Region> {
 fn declared(section: &Section<'_>) -> Option<Declared> {
     let list =
         |key: &str, what: &str| section.get(key).map_or(Some(Vec::new()), |value| value.list(what));
-    let kinks = list("kinks", "a list of segments [[[x0, y0], [x1, y1]], …]");
-    let kinks = kinks.and_then(|kinks| all(kinks.iter().map(segment)));
-    let singular = list("singular", "a list of points [[x, y], …]");
-    let singular = singular.and_then(|points| all(points.iter().map(Value::point)));
+    let kinks = list("kinks", "a list of segments [[[x0, y0], [x1, y1]], …]")
+        .and_then(|kinks| all(kinks.iter().map(segment)));
+    let singular = list("singular", "a list of points [[x, y], …]")
+        .and_then(|points| all(points.iter().map(Value::point)));
     Some(Declared { kinks: kinks?, singular: singular? })
 }
 

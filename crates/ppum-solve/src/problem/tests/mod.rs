@@ -219,7 +219,8 @@ fn problems_built_in_code_are_checked_alike() {
         .with_crack(&[[0.5, 0.5], [2.0, 0.5]])
         .with_boundary(Edge::Top, vec![Condition::Free; 2]);
     let error = problem.check().expect_err("much is wrong");
-    let keys: Vec<_> = error.mistakes().iter().map(|mistake| mistake.place.to_string()).collect();
+    let keys: Vec<_> =
+        error.mistakes().iter().map(|mistake| mistake.location.to_string()).collect();
     let expected =
         ["material.conductivity", "boundary[0]", "discretization.level", "crack[0].points[1]"];
     assert_eq!(keys, expected);

@@ -219,7 +219,7 @@ fn two_tips_in_a_cell_are_separated() {
     }
 }
 
-/// σ_xx, σ_yy, σ_xy at a tip with K = 1 (Williams; references.md, section 1).
+/// σ_xx, σ_yy, σ_xy at a tip with K = 1 (Williams 1957).
 fn tip_stress(mode: usize, x: Vec2) -> [f64; 3] {
     let (r, theta) = (x.length(), x.y.atan2(x.x));
     let (s, c) = (theta / 2.0).sin_cos();

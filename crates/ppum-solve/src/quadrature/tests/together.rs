@@ -23,7 +23,7 @@ fn scene(random: &mut Random, trial: usize) -> (Case, Vec<Kink>) {
     (case, kinks)
 }
 
-/// Which side of every line and curve a point is on.
+/// The side of every line and curve that a point is on.
 fn side(kinks: &[Kink], p: Vec2) -> f64 {
     let of = |kink: &Kink| match kink {
         Kink::Line([a, b]) => (*b - *a).cross(p - *a),

@@ -115,8 +115,9 @@ fn along([a, b, c]: [f64; 3], near: Vec2) -> Frame {
 pub(crate) fn proportional(f: &dyn Fn(Vec2) -> f64, g: &dyn Fn(Vec2) -> f64, rect: &Rect) -> bool {
     let part = |k: usize| (k as f64 + 0.4142) / COMPARED as f64;
     let (min, size) = (rect.min, rect.size());
-    let points = (0..COMPARED * COMPARED).map(|k| (k % COMPARED, k / COMPARED));
-    let points = points.map(|(i, j)| min + vec2(size.x * part(i), size.y * part(j)));
+    let points = (0..COMPARED * COMPARED)
+        .map(|k| (k % COMPARED, k / COMPARED))
+        .map(|(i, j)| min + vec2(size.x * part(i), size.y * part(j)));
     let pairs: Vec<_> = points.map(|p| (f(p), g(p))).collect();
     let largest = pairs.iter().copied().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     largest.is_some_and(|(a, b)| {

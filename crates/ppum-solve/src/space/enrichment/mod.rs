@@ -1,4 +1,4 @@
-//! Which functions each patch's local space holds beside its polynomials.
+//! The functions that each patch's local space holds beside its polynomials.
 //!
 //! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
 //! them, the degree of the polynomials that multiply them.
@@ -210,8 +210,10 @@ impl Patches<'_> {
 
 /// The built-in enrichment of tips.
 fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
-    let new = LocalEnrichment::new(&WESTERGAARD, Site::Tips);
-    let new = LocalEnrichment { name: "westergaard".into(), ..new };
+    let new = LocalEnrichment {
+        name: "westergaard".into(),
+        ..LocalEnrichment::new(&WESTERGAARD, Site::Tips)
+    };
     match mode {
         Enrichment::None | Enrichment::Jumps => None,
         Enrichment::TipPatch => Some(LocalEnrichment { region: Region::Near(0.0), ..new }),

@@ -12,7 +12,7 @@ impl Report {
             out,
             "pictures of {columns}x{rows} pixels: order 2, two components, four tip functions on a \
              quarter\nof the area; displacement, gradient, von Mises stress, colours\n\
-             ms a frame, medians of {frames}: wall time / processor time of all threads; {threads} on the CPU"
+             ms per frame, medians of {frames}: wall time / processor time of all threads; {threads} on the CPU"
         )?;
         match &self.adapter {
             Some(Adapter { name, kind }) => writeln!(out, "splat and gather by {name}, {kind}")?,

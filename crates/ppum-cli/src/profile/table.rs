@@ -11,13 +11,13 @@ use crate::target;
 
 /// A column's name and unit; the unit may be empty.
 #[derive(Clone, Debug)]
-pub(super) struct Column {
+pub(crate) struct Column {
     name: String,
     unit: String,
 }
 
 impl Column {
-    pub(super) fn new(name: &str, unit: &str) -> Self {
+    pub(crate) fn new(name: &str, unit: &str) -> Self {
         Self { name: name.to_owned(), unit: unit.to_owned() }
     }
 
@@ -32,7 +32,7 @@ impl Column {
     }
 }
 
-pub(super) struct Table {
+pub(crate) struct Table {
     columns: Vec<Column>,
     /// Row by row.
     values: Vec<f64>,
@@ -41,24 +41,35 @@ pub(super) struct Table {
 }
 
 impl Table {
-    pub(super) fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
+    pub(crate) fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
         let shape = vec![values.len() / columns.len()];
         Self { columns, values, shape }
     }
 
     /// The same with a first column.
-    pub(super) fn with_first(self, column: Column, first: Vec<f64>) -> Self {
+    pub(crate) fn with_first(self, column: Column, first: Vec<f64>) -> Self {
         let rows = first.iter().zip(self.values.chunks(self.columns.len()));
         let values = rows.flat_map(|(first, rest)| [&[*first], rest].concat()).collect();
         Self::new([vec![column], self.columns].concat(), values)
     }
 
-    pub(super) fn with_shape(self, [rows, columns]: [usize; 2]) -> Self {
+    pub(crate) fn with_shape(self, [rows, columns]: [usize; 2]) -> Self {
         Self { shape: vec![rows, columns], ..self }
     }
 
+    /// The names of the columns.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// The numbers of a column.
+    pub(crate) fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let at = self.names().position(|known| known == name)?;
+        Some(self.values.chunks(self.columns.len()).map(|row| row[at]).collect())
+    }
+
     /// Fields of arrays have names of their own.
-    pub(super) fn check_names(&self) -> anyhow::Result<()> {
+    pub(crate) fn check_names(&self) -> anyhow::Result<()> {
         let mut seen = BTreeSet::new();
         for Column { name, .. } in &self.columns {
             ensure!(seen.insert(name), "there would be two columns `{name}`; leave one out");
@@ -66,20 +77,20 @@ impl Table {
         Ok(())
     }
 
-    pub(super) fn summary(&self) -> String {
+    pub(crate) fn summary(&self) -> String {
         let names: Vec<_> = self.columns.iter().map(|column| column.name.as_str()).collect();
         let rows = self.shape.iter().product();
         format!("{} of {}", count(rows, "row", "rows"), names.join(", "))
     }
 
     /// Writes a file, of numpy if its extension says so.
-    pub(super) fn save(&self, path: &Path) -> anyhow::Result<()> {
+    pub(crate) fn save(&self, path: &Path) -> anyhow::Result<()> {
         let is_npy = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
         target::save(path, |out| if is_npy { self.write_npy(out) } else { self.write_csv(out) })
     }
 
     /// Numbers in the fewest digits that mean the same double; `nan`, `inf` and `-inf`.
-    pub(super) fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(crate) fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let heads: Vec<_> = self.columns.iter().map(Column::head).collect();
         writeln!(out, "{}", heads.join(","))?;
         let mut line = String::new();
@@ -113,9 +124,9 @@ impl Table {
         let field = |Column { name, .. }: &Column| format!("({}, '<f8')", quoted(name));
         let fields: Vec<_> = self.columns.iter().map(field).collect();
         let shape: String = self.shape.iter().map(|n| format!("{n}, ")).collect();
-        let fields = fields.join(", ");
         format!(
-            "{{'descr': [{fields}], 'fortran_order': False, 'shape': ({}), }}",
+            "{{'descr': [{}], 'fortran_order': False, 'shape': ({}), }}",
+            fields.join(", "),
             shape.trim_end()
         )
     }

@@ -1,16 +1,34 @@
-//! Passes over a picture: cracks, rims of holes and the cells of the cover.
+//! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration discs,
+//! supports and loads.
 //!
-//! Lines are placed through offsets from the view's centre, so they are where the field has them at
-//! any zoom: an oblique line through a view 1e-12 of the domain wide is drawn by its distance from the
-//! centre and its direction, not between end points that lie 10^15 pixels away.
+//! Each gives what is to be drawn on a page of the view's pixels. Lines are placed through offsets from the
+//! view's centre, so they are where the field has them at any zoom: an oblique line through a view 1e-12 of
+//! the domain wide is drawn by its distance from the centre and its direction, not between end points that
+//! lie 10^15 pixels away. A line has one colour throughout, and a seam that parts it from its own colour.
+
+mod cover;
+mod deformed;
+mod glyphs;
+mod isolines;
+mod legend;
+mod rings;
+mod supports;
 
 use ppum::crack::{Crack, tips};
-use ppum::dataset::Partition;
 use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
-
-use ppum_render::image::{Image, Mask, Rgba};
+use ppum_render::image::Rgba;
 use ppum_render::view::View;
+
+use crate::canvas::{Item, Path, Pen};
+pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
+pub use deformed::{deformed_cells, deformed_outline, faces, undeformed_outline};
+pub use glyphs::{arrows, crosses};
+pub use isolines::isolines;
+pub(crate) use legend::legend_in;
+pub use legend::{Entry, Symbol, legend};
+pub use rings::rings;
+pub use supports::{Load, Support, loads, supports};
 
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 const CRACK: Rgba = [16, 16, 20, 255];
@@ -20,11 +38,6 @@ const CRACK_WIDTH: f64 = 1.8;
 const TIP_RADIUS: f64 = 3.0;
 const RIM_WIDTH: f64 = 1.0;
 const SEAM_WIDTH: f64 = 1.0;
-const BORDER_WIDTH: f64 = 1.0;
-/// Opacity of cell borders.
-const BORDER_ALPHA: u8 = 120;
-/// White borders show on all but the lightest colours; black ones begin late, so that few lines change.
-const MOSTLY_LIGHT: f64 = 165.0;
 
 /// Width of lines and letters in units of their width in a picture of 1024 × 768 pixels; never narrower, lest
 /// they be unreadable.
@@ -33,47 +46,38 @@ pub(crate) fn line_scale(size: [u32; 2]) -> f64 {
     (f64::from(size[0]) / 1024.0).min(f64::from(size[1]) / 768.0).clamp(1.0, 20.0)
 }
 
-/// Draws the cracks as lines and their tips as dots.
-///
-/// # Panics
-/// If the picture does not have the view's size.
-pub fn cracks(image: &mut Image, view: &View, cracks: &[Crack]) {
-    let scale = line_scale(image.size);
-    for (extra, color) in [(SEAM_WIDTH, SEAM), (0.0, CRACK)] {
-        let mut mask = Mask::new(image.size);
-        for segment in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
-            if let Some([a, b]) = visible_part(view, segment[0], segment[1]) {
-                mask.line(a, b, (CRACK_WIDTH + 2.0 * extra) * scale);
-            }
-        }
-        for tip in tips(cracks) {
-            let at = view.pixel(cracks[tip.crack as usize].end_point(tip.end));
-            mask.disc(at, (TIP_RADIUS + extra) * scale);
-        }
-        image.paint(&mask, color);
-    }
+/// The cracks as lines and their tips as dots.
+#[must_use]
+pub fn cracks(view: &View, cracks: &[Crack]) -> Vec<Item> {
+    let scale = line_scale(view.pixels);
+    let segments = cracks.iter().flat_map(|crack| crack.points.windows(2));
+    let seen = segments.filter_map(|ends| visible_part(view, ends[0], ends[1]));
+    let lines = Path { pieces: seen.map(Vec::from).collect() };
+    let ends = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
+    let dots = Path { pieces: ends.map(|end| vec![view.pixel(end)]).collect() };
+    let pen = |width: f64| Pen::new(CRACK, width * scale).with_halo(SEAM, SEAM_WIDTH * scale);
+    // seams below all lines
+    let (lines_pen, dots_pen) = (pen(CRACK_WIDTH), pen(2.0 * TIP_RADIUS));
+    let plain = |pen: Pen| Pen { halo: None, ..pen };
+    vec![
+        Item::Line { path: lines.clone(), pen: lines_pen },
+        Item::Line { path: dots, pen: dots_pen },
+        Item::Line { path: lines, pen: plain(lines_pen) },
+    ]
 }
 
-/// Draws the rims of holes as thin lines.
-///
-/// # Panics
-/// If the picture does not have the view's size.
-pub fn rims(image: &mut Image, view: &View, holes: &[Hole]) {
-    let width = RIM_WIDTH * line_scale(image.size);
-    let mut mask = Mask::new(image.size);
+/// The rims of holes as thin lines.
+#[must_use]
+pub fn rims(view: &View, holes: &[Hole]) -> Vec<Item> {
+    let mut path = Path::default();
     for hole in holes {
         if let Hole::Circle { center, radius } = hole {
-            for chord in arc(view, *center, *radius).windows(2) {
-                mask.line(chord[0], chord[1], width);
-            }
+            path.pieces.push(arc(view, *center, *radius));
         }
-        for [a, b] in hole.sides() {
-            if let Some([a, b]) = visible_part(view, a, b) {
-                mask.line(a, b, width);
-            }
-        }
+        let sides = hole.sides();
+        path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
     }
-    image.paint(&mask, CRACK);
+    vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * line_scale(view.pixels)) }]
 }
 
 /// Points of the part of a circle in or near the view, in continuous pixel coordinates.
@@ -96,38 +100,6 @@ fn arc(view: &View, center: Vec2, radius: f64) -> Vec<Vec2> {
         view.pixel_of_offset(toward * (radius - far) + beside * radius)
     };
     (-count..=count).map(at).collect()
-}
-
-/// Draws the borders of the cover's cells, light on dark colours and dark on light ones.
-///
-/// # Panics
-/// If the picture does not have the view's size.
-pub fn patches(image: &mut Image, view: &View, partition: &Partition) {
-    let half = 0.5 * BORDER_WIDTH * line_scale(image.size);
-    let mut mask = Mask::new(image.size);
-    let around = view.half() + vec2(view.pixel_size(), view.pixel_size()) * (1.0 + half);
-    for cell in &partition.cell {
-        let (min, max) = (cell.min - view.center, cell.max - view.center);
-        if max.x < -around.x || min.x > around.x || max.y < -around.y || min.y > around.y {
-            continue;
-        }
-        let corner = |p: Vec2| view.pixel_of_offset(p.max(-around).min(around));
-        let (a, b) = (corner(min), corner(max));
-        for x in [a.x, b.x] {
-            mask.rect(vec2(x - half, a.y), vec2(x + half, b.y));
-        }
-        for y in [a.y, b.y] {
-            mask.rect(vec2(a.x, y - half), vec2(b.x, y + half));
-        }
-    }
-    image.paint_with(&mask, contrasting);
-}
-
-/// A translucent black or white, whichever shows on `color`.
-fn contrasting(color: Rgba) -> Rgba {
-    let [r, g, b, alpha] = color.map(f64::from);
-    let light = (0.299 * r + 0.587 * g + 0.114 * b) * alpha / 255.0 + (255.0 - alpha);
-    if light < MOSTLY_LIGHT { [255, 255, 255, BORDER_ALPHA] } else { [0, 0, 0, BORDER_ALPHA] }
 }
 
 /// The part of a segment in or near the view, in continuous pixel coordinates.
@@ -153,9 +125,9 @@ fn visible_part(view: &View, a: Vec2, b: Vec2) -> Option<[Vec2; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canvas::Canvas;
     use ppum::crack::CrackEnd;
-    use ppum::vec2::Rect;
-    use ppum::weight::WeightFunction;
+    use ppum_render::image::Image;
 
     const GREY: Rgba = [128, 128, 128, 255];
 
@@ -163,10 +135,13 @@ mod tests {
         Crack { points: vec![a, b], ends: [CrackEnd::Tip, CrackEnd::Mouth] }
     }
 
+    /// The items on a page of one colour.
+    pub(super) fn on(color: Rgba, view: &View, items: Vec<Item>) -> Image {
+        Canvas { size: view.pixels, paper: color, items }.image()
+    }
+
     fn draw(view: &View, crack: Crack) -> Image {
-        let mut image = Image::filled(view.pixels, GREY);
-        cracks(&mut image, view, &[crack]);
-        image
+        on(GREY, view, cracks(view, &[crack]))
     }
 
     #[test]
@@ -225,8 +200,7 @@ mod tests {
             (&polygon, vec2(0.875, 0.75), 1e-12),
         ] {
             let view = View::new(center, width, [101, 101]).unwrap();
-            let mut image = Image::filled(view.pixels, GREY);
-            rims(&mut image, &view, std::slice::from_ref(hole));
+            let image = on(GREY, &view, rims(&view, std::slice::from_ref(hole)));
             for (column, row) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
                 // A world coordinate is rounded to a fiftieth of the smallest pixel.
                 let distance = hole.rim_distance(center + view.offset(column, row));
@@ -246,49 +220,5 @@ mod tests {
         {
             assert_eq!(draw(&view, crack), Image::filled([32, 32], GREY));
         }
-    }
-
-    fn cells(cell: Vec<Rect>) -> Partition {
-        let n = cell.len();
-        Partition {
-            weight: WeightFunction::Linear,
-            center: cell.iter().map(Rect::center).collect(),
-            half: cell.iter().map(|c| c.size() * 0.65).collect(),
-            origin: cell.iter().map(Rect::center).collect(),
-            scale: cell.iter().map(|c| c.size() * 0.65).collect(),
-            cell,
-            level: vec![1; n],
-            point: vec![None; n],
-            points: vec![],
-        }
-    }
-
-    #[test]
-    fn cell_borders_show_on_any_colour_and_do_not_add_up() {
-        let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
-        let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
-        let cover = cells(vec![unit, next]);
-        let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
-        for (color, border) in [([0, 0, 0, 255], 120), ([255, 255, 255, 255], 135)] {
-            let mut image = Image::filled(view.pixels, color);
-            patches(&mut image, &view, &cover);
-            assert_eq!(image.pixel(100, 50)[0], border, "the shared border, drawn once");
-            assert_eq!(image.pixel(50, 50), color);
-        }
-    }
-
-    #[test]
-    fn cell_borders_are_in_place_at_a_width_of_1e_12() {
-        let corner = vec2(0.3, 0.7);
-        let cover = cells(vec![Rect::new(Vec2::ZERO, corner), Rect::new(corner, vec2(1.0, 1.0))]);
-        let view = View::new(corner, 1e-12, [101, 101]).unwrap();
-        let mut image = Image::filled(view.pixels, [0, 0, 0, 255]);
-        patches(&mut image, &view, &cover);
-        // The first cell lies left of and below its corner, the second right of and above it.
-        for (column, row, expected) in [(50, 80, 120), (20, 50, 120), (50, 20, 120), (80, 50, 120)]
-        {
-            assert_eq!(image.pixel(column, row)[0], expected);
-        }
-        assert_eq!(image.pixel(20, 20)[0], 0);
     }
 }
