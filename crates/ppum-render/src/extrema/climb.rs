@@ -57,23 +57,16 @@ pub(super) fn finite(value: f64) -> f64 {
 }
 
 /// Climbs in a rectangle of offsets; down for the sign −1.
-pub(super) struct Climber<'a, 'f> {
-    slope: &'a QuantityGradient,
-    local: LocalField<'f>,
-    rect: Rect,
-    sign: f64,
+pub(super) struct Climber<'a, 'f, H> {
+    pub(super) slope: &'a QuantityGradient,
+    pub(super) local: LocalField<'f>,
+    pub(super) rect: Rect,
+    pub(super) sign: f64,
+    /// Says where not to go.
+    pub(super) is_hidden: H,
 }
 
-impl<'a, 'f> Climber<'a, 'f> {
-    pub(super) fn new(
-        slope: &'a QuantityGradient,
-        local: LocalField<'f>,
-        rect: Rect,
-        sign: f64,
-    ) -> Self {
-        Self { slope, local, rect, sign }
-    }
-
+impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
     /// The highest place that is found from a point, and its value; `None` where there is none.
     pub(super) fn climb(&mut self, from: Vec2, pixel: f64) -> Option<(f64, Vec2)> {
         let start = self.inside(from);
@@ -152,6 +145,9 @@ impl<'a, 'f> Climber<'a, 'f> {
     }
 
     fn height(&mut self, at: Vec2) -> f64 {
+        if (self.is_hidden)(at) {
+            return f64::NAN;
+        }
         finite(self.sign * self.slope.quantity().at(&mut self.local, at, Side::Above))
     }
 

@@ -7,12 +7,13 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
 use super::On;
+use super::bent::Bent;
 
 /// Fewest and most samples of a curve.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
 
 /// Distance from a rim or an interface at which values are taken, pixels: to be on one side of it.
-const BESIDE: f64 = 1e-9;
+pub(super) const BESIDE: f64 = 1e-9;
 
 /// Samples that are refined, at most.
 const REFINED: usize = 16;
@@ -31,6 +32,7 @@ pub(super) struct Curve {
 enum Shape {
     Straight([Vec2; 2]),
     Arc(Arc),
+    Bent(Bent),
 }
 
 /// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a from the centre, is, relative to the
@@ -48,11 +50,16 @@ impl Curve {
         Self { shape: Shape::Straight(ends), toward, on }
     }
 
+    pub(super) fn bent(bent: Bent, on: On) -> Self {
+        Self { shape: Shape::Bent(bent), toward: Vec2::ZERO, on }
+    }
+
     /// The point at a part of the way, beside the curve by [`BESIDE`] pixels where it has to be.
     pub(super) fn at(&self, t: f64, pixel: f64) -> Vec2 {
         match &self.shape {
             Shape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
             Shape::Arc(arc) => arc.at(t, BESIDE * pixel),
+            Shape::Bent(bent) => bent.at(t, BESIDE * pixel),
         }
     }
 
@@ -73,6 +80,7 @@ impl Curve {
         let length = match &self.shape {
             Shape::Straight([a, b]) => (*b - *a).length(),
             Shape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
+            Shape::Bent(bent) => bent.length(),
         };
         ((2.0 * length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
     }

@@ -3,12 +3,14 @@
 //! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the best pixels are where a search
 //! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
 //! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
-//! view and of the domain, on the rims of holes, on both faces of cracks, on straight interfaces, each sampled once a pixel at least
-//! and refined. Peaks and valleys narrower than a pixel are not seen, nor is, to all digits, what is largest at a curved interface.
+//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel at least
+//! and refined. Peaks and valleys narrower than a pixel are not seen.
 //!
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
-//! the point; then the extremum is, and its place is the point.
+//! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
+//! are left out: there the last digits of the field decide.
 
+mod bent;
 mod climb;
 mod curves;
 mod singular;
@@ -30,6 +32,9 @@ pub use singular::{Singular, SingularKind};
 
 /// Pixels from which the search begins, at most: the most promising ones.
 const STARTS: usize = 32;
+
+/// Distance from a singular point below which finite values are left out, pixels.
+const HIDDEN: f64 = 1e-3;
 
 /// An extreme value of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,8 +97,13 @@ pub fn extrema<T: Sample>(
     let slope = QuantityGradient::new(quantity, field)?;
     let Some(rect) = seen(field, view) else { return Ok(None) };
     let singular = singular::points(field, view.center, &rect, quantity);
-    let search = Search { field, view, slope: &slope, rect };
-    let curves = curves::all(field, view.center, &rect);
+    let grows = |point: &&Singular| point.max_infinite || point.min_infinite;
+    let hidden = singular.iter().filter(grows).map(|point| point.offset).collect();
+    let search = Search { field, view, slope: &slope, rect, hidden };
+    let mut curves = curves::all(field, view.center, &rect);
+    let mut local = field.at(view.center);
+    let mut value = |at| quantity.at(&mut local, at, Side::Above);
+    curves.extend(bent::all(field, view.center, &rect, view.pixel_size(), &mut value));
     let starts = [-1.0, 1.0].map(|sign| climb::starts(raster, sign, STARTS));
     let parts = Parts::start(watcher, curves.len() + starts.iter().map(Vec::len).sum::<usize>())?;
     let on_curves: Result<Vec<_>, RenderError> = curves
@@ -126,6 +136,8 @@ struct Search<'a, 'f> {
     view: &'a View,
     slope: &'a QuantityGradient,
     rect: Rect,
+    /// Singular points where the quantity is infinite.
+    hidden: Vec<Vec2>,
 }
 
 impl Search<'_, '_> {
@@ -133,8 +145,13 @@ impl Search<'_, '_> {
     fn on_curve(&self, curve: &Curve) -> [Option<Extremum>; 2] {
         let (pixel, quantity) = (self.view.pixel_size(), self.slope.quantity());
         let mut local = curve.local(self.field, self.view.center);
-        let mut value =
-            |t: f64| climb::finite(quantity.at(&mut local, curve.at(t, pixel), curve.side()));
+        let mut value = |t: f64| {
+            let at = curve.at(t, pixel);
+            if self.is_hidden(at) {
+                return f64::NAN;
+            }
+            climb::finite(quantity.at(&mut local, at, curve.side()))
+        };
         let found = curves::extremes(&mut value, curve.samples(pixel));
         let place = |(value, t)| Extremum { value, offset: curve.at(t, 0.0), on: curve.on };
         found.map(|found| found.map(place))
@@ -143,9 +160,16 @@ impl Search<'_, '_> {
     /// The extremum uphill (downhill for the sign −1) from a point.
     fn climbed(&self, start: Vec2, sign: f64) -> Option<Extremum> {
         let local = self.field.at(self.view.center);
-        let mut climber = Climber::new(self.slope, local, self.rect, sign);
+        let is_hidden = |at| self.is_hidden(at);
+        let mut climber = Climber { slope: self.slope, local, rect: self.rect, sign, is_hidden };
         let (value, offset) = climber.climb(start, self.view.pixel_size())?;
         Some(Extremum { value, offset, on: On::Inside })
+    }
+
+    /// True next to a singular point.
+    fn is_hidden(&self, at: Vec2) -> bool {
+        let reach = HIDDEN * self.view.pixel_size();
+        self.hidden.iter().any(|&point| (at - point).length() < reach)
     }
 }
 

@@ -200,6 +200,12 @@ fn infinite_at_a_tip() {
         assert!(mises.min.value > 0.0 && mises.min.on == On::Border, "{mises:?}");
         let shear = found(&field, &view, "sxy");
         assert_eq!((shear.min.value, shear.max.value), (f64::NEG_INFINITY, f64::INFINITY));
+        // rounding next to the tip is no minimum
+        let stress = found(&field, &view, "syy");
+        for extremum in [stress.min, stress.max].into_iter().filter(|e| e.value.is_finite()) {
+            let away = (extremum.offset + (view.center - tip)).length();
+            assert!(away > 0.999e-3 * view.pixel_size(), "{stress:?}");
+        }
         let value = found(&field, &view, "uy");
         assert!(value.singular.is_empty() && value.max.value.is_finite());
         let beside =
@@ -232,6 +238,25 @@ fn at_an_interface_and_at_corners() {
     // the corners of the hole are told of; the represented field is finite there
     let told = all.singular.iter().filter(|p| p.kind == SingularKind::Corner(0));
     assert_eq!(told.filter(|p| !p.max_infinite && !p.min_infinite).count(), 3);
+}
+
+/// σ_xx = E of u_x = x of a round inclusion, E = 2 + x y inside it and 1 outside: at the point of the rim where x y is largest.
+#[test]
+fn at_a_round_interface() {
+    let mut dataset = polynomial(&[0.0, 1.0]);
+    let center = dataset.domain.bounds.center();
+    let (x, y) = (format!("(x - {})", center.x), format!("(y - {})", center.y));
+    let young = format!("if(hypot({x}, {y}) > 0.21, 1, 2 + {x}*{y})");
+    let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
+    dataset.equation =
+        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");
+    let all = found(&field, &view, "sxx");
+    let expected = 2.0 + 0.5 * 0.21 * 0.21;
+    assert!((all.max.value - expected).abs() < 1e-8 && all.max.on == On::Interface, "{all:?}");
+    let far = all.max.offset.length() - 0.21;
+    assert!(far.abs() < 1e-9 && (all.max.offset.x - all.max.offset.y).abs() < 1e-3, "{all:?}");
 }
 
 /// Curves are sampled in random order of magnitude: the extremes of sums of waves, against many more samples.

@@ -80,7 +80,11 @@ impl Lattice {
         let (lo, hi) =
             values.iter().fold((values[0], values[0]), |(a, b), &v| (a.min(v), b.max(v)));
         let doubt = DOUBT * T::SAME * lo.abs().max(hi.abs());
-        values.iter().any(|v| !v.is_finite())
+        if values.iter().any(|v| v.is_nan()) {
+            // outside, or cut by what ends the domain
+            return false;
+        }
+        !doubt.is_finite()
             || levels.iter().any(|level| lo - doubt <= *level && *level <= hi + doubt)
     }
 

@@ -8,16 +8,8 @@ use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::CHORD;
 use super::lattice::{Cell, Lattice};
+use super::root::root;
 use crate::pieces::{INSET, Piece, Pieces};
-
-/// Crossings are found to this part of a side.
-const ROOT: f64 = 1e-10;
-
-/// Most steps to a crossing; halving alone takes 34.
-const STEPS: usize = 100;
-
-/// A change by more than this many times what slopes explain along a side is a jump.
-const JUMP: f64 = 10.0;
 
 /// Part of a gradient's size by which it changes between two points that are this near only by a jump.
 const SAME: f64 = 1e-6;
@@ -344,47 +336,4 @@ fn part(a: Vec2, b: Vec2, p: Vec2) -> Option<f64> {
         return None;
     };
     (t > SAME_CORNER && t < 1.0 - SAME_CORNER).then_some(t)
-}
-
-/// A change of sign on \[0, 1\].
-struct Root {
-    at: f64,
-    /// Where the function jumps, or runs through infinity: the places on both sides.
-    jump: Option<[f64; 2]>,
-}
-
-/// Where a function with values of different signs at 0 and 1 changes its sign. `f` gives value and slope.
-fn root([at_0, at_1]: [f64; 2], f: &mut impl FnMut(f64) -> (f64, f64)) -> Root {
-    let (mut lo, mut hi) = ((0.0, at_0), (1.0, at_1));
-    let mut t = at_0 / (at_0 - at_1);
-    let (mut steepest, mut last) = (0.0f64, 1.0);
-    for _ in 0..STEPS {
-        if !(t > lo.0 && t < hi.0) {
-            t = 0.5 * (lo.0 + hi.0);
-        }
-        let (value, slope) = f(t);
-        // the sign that counts as above is that of the corners
-        if (value > 0.0) == (at_0 > 0.0) {
-            lo = (t, value)
-        } else {
-            hi = (t, value)
-        }
-        steepest = steepest.max(if slope.is_finite() { slope.abs() } else { 0.0 });
-        let step = -value / slope;
-        // where it is zero and level it changes its sign elsewhere
-        if step.abs() <= ROOT || value == 0.0 && slope != 0.0 {
-            return Root { at: t, jump: None };
-        }
-        if hi.0 - lo.0 <= ROOT {
-            // beside a pole the function runs the other way
-            let is_pole = slope * (at_1 - at_0) < 0.0;
-            let jumps = is_pole || (hi.1 - lo.1).abs() > JUMP * steepest;
-            return Root { at: t, jump: jumps.then_some([lo.0, hi.0]) };
-        }
-        // Newton's step, if it is at most half of the last one
-        let is_good = step.abs() <= 0.5 * last && t + step > lo.0 && t + step < hi.0;
-        last = if is_good { step.abs() } else { 0.5 * (hi.0 - lo.0) };
-        t = if is_good { t + step } else { 0.5 * (lo.0 + hi.0) };
-    }
-    Root { at: t, jump: None }
 }

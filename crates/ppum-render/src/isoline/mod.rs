@@ -15,6 +15,7 @@
 mod join;
 mod lattice;
 mod march;
+mod root;
 
 use ppum::field::Field;
 use ppum::progress::Watcher;

@@ -337,6 +337,35 @@ fn nothing_and_angles() {
     assert_eq!(lines(&field, &one, "ux", &[0.1]).len(), 1);
 }
 
+/// One thread or three: the same lines.
+#[test]
+fn threads_do_not_matter() {
+    let dataset = plate(true);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::hug(dataset.domain.bounds, [90, 70]).expect("a view");
+    let of = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| lines(&field, &view, "syy", &[-0.5, 0.2, 1.0]))
+    };
+    assert_eq!(of(1), of(3));
+}
+
+/// A view that shows mostly nothing looks at little more than the domain.
+#[test]
+fn the_outside_costs_nothing() {
+    let dataset = plate(true);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let center = dataset.domain.bounds.center();
+    let view = View::new(center, 40.0, [500, 400]).expect("a view");
+    let quantity = Quantity::parse("ux", &field).expect("a quantity");
+    let raster = reference(&field, &view, &quantity, unwatched()).expect("a raster");
+    let pieces = Pieces::new(&field, center);
+    let looked = Lattice::new(&view).candidates(&raster, &[0.1, 0.5], &pieces);
+    // the picture's border, and the domain with what is beside it
+    let domain = (4.0 / 3.0 / 0.08 + 3.0) * (1.0 / 0.08 + 3.0);
+    assert!(looked.len() < 2 * 901 + domain as usize, "{}", looked.len());
+}
+
 #[test]
 fn it_can_be_stopped() {
     let dataset = plate(true);

@@ -122,10 +122,14 @@ impl<'f> Pieces<'f> {
         }
     }
 
-    /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies in the domain then, or in one
-    /// hole. Of curved interfaces samples tell.
+    /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies in the domain then, or all
+    /// outside. Of curved interfaces samples tell.
     #[must_use]
     pub fn may_cut(&self, rect: &Rect) -> bool {
+        let near = self.bounds.intersection(rect);
+        if near.min.x > near.max.x || near.min.y > near.max.y {
+            return false;
+        }
         let is_inside = self.bounds.contains(rect.min) && self.bounds.contains(rect.max);
         !is_inside
             || self.curves.iter().any(|curve| curve.may_meet(rect))

@@ -47,7 +47,7 @@ pub struct Slope {
 /// let field = Field::new(&dataset, 0)?;
 /// let slope = QuantityGradient::new(&Quantity::parse("du_dx^2", &field)?, &field)?;
 /// let at = slope.at(&mut field.at(vec2(0.5, 0.0)), Vec2::ZERO, Side::Above);
-/// let curvature = 4.0 / (1.25 * 1.25); // u_x = curvature · x
+/// let curvature: f64 = 4.0 / (1.25 * 1.25); // u_x = curvature · x
 /// assert!((at.value - (0.5 * curvature).powi(2)).abs() < 1e-14);
 /// assert!((at.gradient.x - curvature * curvature).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -3,7 +3,7 @@
 //! With displacement u, strain ε = (∇u + ∇uᵀ)/2 and stress σ = λ tr(ε) I + 2μ ε. Where a derivative
 //! does not exist (at a crack tip) quantities of the gradient are +∞: nothing is clamped.
 //!
-//! Quantities have names, or are [formulas](QuantityFormula) of those that have.
+//! Quantities have names, or are [formulas](QuantityFormula) of those that have; [`QuantityGradient`] has their exact gradients.
 
 mod formula;
 mod gradient;
