@@ -1,9 +1,12 @@
 //! The command line as a whole.
 
+use std::ffi::OsString;
+
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::commands::{
-    bench, compare, completions, demo, formula, info, man, plot, probe, render, sample, sif, solve,
+    bench, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
+    sif, solve,
 };
 use crate::output::Output;
 
@@ -40,6 +43,7 @@ pub(crate) enum Command {
     Render(render::Args),
     Compare(compare::Args),
     Plot(plot::Args),
+    Gallery(gallery::Args),
     Formula(formula::Args),
     Bench(bench::Args),
     Completions(completions::Args),
@@ -49,10 +53,11 @@ pub(crate) enum Command {
 impl Command {
     /// Does the work; results are written to `out`.
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        let line =
+            |words: Vec<OsString>, out: &mut Output| Cli::try_parse_from(words)?.command.run(out);
         match self {
-            Self::Demo(args) => {
-                args.run(out, |words, out| Cli::try_parse_from(words)?.command.run(out))
-            }
+            Self::Demo(args) => args.run(out, &line),
+            Self::Gallery(args) => args.run(out, &line),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
             Self::Sif(args) => args.run(out),

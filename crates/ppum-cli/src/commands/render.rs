@@ -156,8 +156,11 @@ impl Args {
         let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
         let view = self.window.seen(field, frame)?;
         let job = Job { field, view: &view, quantity: &asked.quantity, style: &style };
-        let drawn = self.engine.draw(job)?;
+        let mut drawn = self.engine.draw(job)?;
         let layers = self.layers(plate, asked, &drawn)?;
+        if self.look.blank {
+            drawn.blank();
+        }
         Ok(Sheet { drawn, layers, told: String::new(), notes: Vec::new() })
     }
 
@@ -231,6 +234,12 @@ fn colours(picture: &Picture, is_finite: bool) -> String {
 }
 
 impl Drawn {
+    /// Leaves out the colours: the plate is white.
+    fn blank(&mut self) {
+        let pixels = self.picture.image.rgba.as_chunks_mut::<4>().0;
+        pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
+    }
+
     /// Tells that a quantity has no value at some pixels.
     fn warn(&self, name: &str) {
         if self.undefined[0] > 0 {

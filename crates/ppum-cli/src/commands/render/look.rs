@@ -22,6 +22,9 @@ pub(super) struct Look {
     /// Add axes, a colour bar, a title and the cracks
     #[arg(long)]
     pub(super) figure: bool,
+    /// Leave out the colours and their bar: the overlays alone
+    #[arg(long)]
+    pub(crate) blank: bool,
     /// Size of the letters of a figure in points [default: 9 with --inches, else with the size in pixels]
     #[arg(long, value_name = "PT", value_parser = positive)]
     font_size: Option<f64>,
@@ -134,6 +137,7 @@ impl Look {
             design.theme = Theme::Dark;
         }
         design.bar = match self.bar.unwrap_or(BarName::Auto) {
+            _ if self.blank => BarPlace::None,
             BarName::Auto => aspect.map_or(BarPlace::Right, BarPlace::fitting),
             BarName::Right => BarPlace::Right,
             BarName::Bottom => BarPlace::Bottom,

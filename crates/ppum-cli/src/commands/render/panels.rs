@@ -31,11 +31,14 @@ impl Args {
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
         let view = self.window.seen(field, frame)?;
-        let drawn = self.drawn(field, &view, &subjects)?;
+        let mut drawn = self.drawn(field, &view, &subjects)?;
         subjects.iter().zip(&drawn).for_each(|(subject, drawn)| drawn.warn(&subject.name));
         let layers =
             subjects.iter().zip(&drawn).map(|(asked, drawn)| self.layers(plate, asked, drawn));
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
+        if self.look.blank {
+            drawn.iter_mut().for_each(Drawn::blank);
+        }
         let pictures = drawn.iter().map(|drawn| &drawn.picture);
         let panel = |((picture, labels), layers)| Panel {
             picture,
