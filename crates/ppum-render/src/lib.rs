@@ -4,6 +4,7 @@
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
 //! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
+//! [`deform`] shows the plate as its displacements move it; [`resample`] does what other programs do, to compare.
 //!
 //! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
 //! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.

@@ -116,8 +116,13 @@ mod tests {
         let [before, after] = [draw(0.0, &view), draw(2.0, &moved)];
         let apart = before.rgba.iter().zip(&after.rgba).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(apart <= Some(3), "{apart:?}");
-        let dark = before.rgba.chunks(4).filter(|p| p[0] < 128).count();
-        assert!(dark > 1000, "{dark}");
+        // the middle of the crack's first segment, and a place away from all lines
+        let [x, y] = {
+            let ends = &dataset.steps[0].cracks[0].points;
+            <[f64; 2]>::from(view.pixel((ends[0] + ends[1]) * 0.5)).map(|c| c as u32)
+        };
+        assert!(before.pixel(x, y)[0] < 90, "{:?}", before.pixel(x, y));
+        assert!(before.rgba.chunks(4).filter(|p| p[0] > 250).count() > 10_000);
         let seen = Deformation::new(&field, 2.0).unwrap().seen(&moved);
         let outline = on([255; 4], &moved, undeformed_outline(&seen).unwrap());
         let grey = outline.rgba.chunks(4).filter(|p| p[0] < 200).count();
