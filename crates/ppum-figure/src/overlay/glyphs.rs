@@ -1,6 +1,6 @@
 //! Arrows of vectors and crosses of principal stresses.
 
-use ppum::text::short;
+use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::glyph::{Glyph, Principal};
 use ppum_render::image::Rgba;
@@ -41,7 +41,7 @@ pub fn arrows(view: &View, glyphs: &[Glyph<Vec2>], spacing: f64) -> (Vec<Item>, 
         arrow(&mut shafts, &mut heads, [at - half, at + half], HEAD * scale);
     }
     let pen = Pen::new(ARROW, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
-    let entry = Entry::new(Symbol::Line(pen), format!("longest arrow {}", short(longest)));
+    let entry = Entry::new(Symbol::Line(pen), format!("longest arrow {}", trimmed(longest)));
     let items = vec![Item::Line { path: shafts, pen }, Item::Fill { outline: heads, color: ARROW }];
     (items, if longest > 0.0 { vec![entry] } else { Vec::new() })
 }
@@ -75,7 +75,7 @@ pub fn crosses(view: &View, glyphs: &[Glyph<Principal>], spacing: f64) -> (Vec<I
         }
     }
     if let Some(last) = entries.last_mut() {
-        last.label = format!("{}, longest {}", last.label, short(longest));
+        last.label = format!("{}, longest {}", last.label, trimmed(longest));
     }
     let lines = [(tension, TENSION), (compression, COMPRESSION)];
     (lines.map(|(path, color)| Item::Line { path, pen: pen(color) }).into(), entries)

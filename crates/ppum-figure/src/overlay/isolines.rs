@@ -15,8 +15,8 @@ const SEAM: Rgba = [255, 255, 255, 105];
 const GROUND: Rgba = [255, 255, 255, 215];
 const WIDTH: f64 = 1.2;
 const TEXT: f64 = 11.5;
-/// A line of this many lengths of its label has one.
-const ROOM: f64 = 2.5;
+/// A line this many times as long as its label, and as that is high, has one.
+const ROOM: [f64; 2] = [2.5, 6.0];
 
 /// Isolines as dark lines with a light seam, of one width everywhere; with their levels where there is room, if that is wanted.
 #[must_use]
@@ -53,7 +53,7 @@ fn label(
     let half = 0.5 * line.width();
     let arcs = arc_lengths(points);
     let length = *arcs.last()?;
-    if length < ROOM * 2.0 * half {
+    if length < (ROOM[0] * 2.0 * half).max(ROOM[1] * size) {
         return None;
     }
     let at = |s: f64| point_at(points, &arcs, s);
