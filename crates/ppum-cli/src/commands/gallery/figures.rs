@@ -66,7 +66,7 @@ pub(super) const ALL: &[Figure] = &[
             "compare @/paper-centre-crack.h5 -o @/figure-5-ab.png --grid 64 --range 0,4",
             "compare @/paper-centre-crack.h5 -o @/figure-5-cd.png --grid 2048 --range 0,4",
             "compare @/paper-centre-crack.h5 -o @/figure-5-ef.png --grid 2048 --tip 1 --zoom 150 --range 0,20",
-            "render @/paper-centre-crack.h5 -o @/figure-5-middle.png --figure --center 0,0 --width 0.4 --isolines auto",
+            "render @/paper-centre-crack.h5 -o @/figure-5-middle.png --figure --center 0,0 --width 0.4",
         ],
     },
     Figure {
