@@ -1,4 +1,4 @@
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::{CRACKED, LINEAR, Lab, keys, sound, with_formulas};
 

@@ -13,6 +13,7 @@ mod errors;
 mod figures;
 mod files;
 mod formula;
+mod gallery;
 mod info;
 mod messages;
 mod parts;
