@@ -110,6 +110,9 @@ impl Profile {
         field: &Field<'_>,
         quantities: &[(String, Quantity)],
     ) -> anyhow::Result<Table> {
+        // clap does not ask for `--tip` where something else of its group is given
+        let is_at_tip = self.tip.is_some() || (self.radius.is_none() && self.angle.is_none());
+        ensure!(is_at_tip, "--radius and --angle belong to --tip");
         let count = self.count.unwrap_or(COUNT);
         ensure!(count >= 2, "--count {count}: a line has two points or more");
         ensure!(count <= MOST, "--count {count}: at most {MOST} points at a time");
