@@ -110,7 +110,7 @@ mod tests {
             ("undefined", &[]),
         ],
         &[
-            ("drawing", &["undefined"]),
+            ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
             ("overlays", &["arguments", "output", "progress"]),

@@ -114,9 +114,9 @@ impl Row {
 
 fn kind(kind: SingularKind) -> &'static str {
     match kind {
-        SingularKind::Tip => "tip",
-        SingularKind::Kink => "kink",
-        SingularKind::Corner => "corner",
+        SingularKind::Tip(_) => "tip",
+        SingularKind::Kink(_) => "kink",
+        SingularKind::Corner(_) => "corner",
         SingularKind::Origin => "origin of a function",
     }
 }
