@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Write the colour tables in crates/ppum-render/data: 256 lines of sRGB bytes each.
+"""Write the colour tables in crates/ppum-render/data: lines of sRGB bytes, 256 or, of twilight, 510.
 
-    python3 -m venv venv && venv/bin/pip install matplotlib
+    python3 -m venv venv && venv/bin/pip install matplotlib cmcrameri
     venv/bin/python tools/colormaps.py
 
-The viridis family, cividis and turbo are the published tables as matplotlib carries them;
-coolwarm is computed here from its definition.
+The viridis family, cividis, turbo and twilight are the published tables as matplotlib carries them,
+batlow, vik and roma as cmcrameri does; coolwarm is computed here from its definition.
 """
 
 from math import acos, atan2, cos, hypot, sin, sqrt
 from pathlib import Path
 
+import cmcrameri.cm
 import matplotlib
 
 ENTRIES = 256
@@ -22,6 +23,10 @@ SOURCES = {
     "inferno": "S. van der Walt, N. Smith and E. Firing, matplotlib; CC0",
     "magma": "S. van der Walt, N. Smith and E. Firing, matplotlib; CC0",
     "cividis": "J. Nunez, C. Anderton and R. Renslow, PLOS ONE 13 (2018) e0199239; CC0",
+    "twilight": "B. Bechtold, matplotlib; CC0",
+    "batlow": "F. Crameri, Scientific colour maps; MIT, see LICENSE_CRAMERI",
+    "vik": "F. Crameri, Scientific colour maps; MIT, see LICENSE_CRAMERI",
+    "roma": "F. Crameri, Scientific colour maps; MIT, see LICENSE_CRAMERI",
     "turbo": "Copyright 2019 Google LLC, author A. Mikhailov; SPDX-License-Identifier: Apache-2.0",
 }
 
@@ -32,7 +37,8 @@ WHITE = (0.95047, 1.0, 1.08883)
 
 def main():
     for name, source in SOURCES.items():
-        table = [matplotlib.colormaps[name](i)[:3] for i in range(ENTRIES)]
+        colours = getattr(cmcrameri.cm, name, None) or matplotlib.colormaps[name]
+        table = [colours(i)[:3] for i in range(colours.N)]
         write(name, source, table)
     table = [coolwarm(i / (ENTRIES - 1)) for i in range(ENTRIES)]
     write("coolwarm", "computed from K. Moreland, Diverging color maps for scientific "

@@ -1,19 +1,19 @@
 #!/bin/sh
-# Writes crates/ppum-render/data/DejaVuSans-subset.ttf: Latin, Greek, super- and subscripts and
-# mathematical signs of DejaVu Sans, without hinting and layout tables, which figures do not use.
+# Writes crates/ppum-figure/data/DejaVuSans-subset.ttf: Latin, Greek, super- and subscripts and
+# mathematical signs of DejaVu Sans, with the box that stands for all others, without hinting and layout tables, which figures do not use.
 # Needs a virtual environment with matplotlib (it carries the font) and fonttools:
 #     python3 -m venv venv && venv/bin/pip install matplotlib fonttools
 #     tools/font.sh venv/bin
 set -eu
 bin=$1
-data=$(dirname "$0")/../crates/ppum-render/data
+data=$(dirname "$0")/../crates/ppum-figure/data
 fonts=$("$bin/python" -c 'import matplotlib; print(matplotlib.get_data_path())')/fonts/ttf
 latin=U+0020-007E,U+00A0-017F,U+2010-2015,U+2018-201D,U+2026,U+FFFD
 greek=U+0391-03A9,U+03B1-03C9,U+03D1,U+03D5,U+03F5
 marks=U+2032,U+2033,U+2070-209C,U+2190-2194
 signs=U+2200-220D,U+2211-2215,U+221A,U+221D-2220,U+2225-222B,U+2248,U+2260-2265,U+226A,U+226B
 "$bin/pyftsubset" "$fonts/DejaVuSans.ttf" --output-file="$data/DejaVuSans-subset.ttf" \
-    --no-hinting --layout-features= --drop-tables+=MATH,GPOS,GSUB,GDEF,gasp,FFTM \
+    --notdef-outline --no-hinting --layout-features= --drop-tables+=MATH,GPOS,GSUB,GDEF,gasp,FFTM \
     --name-IDs=0,1,2,3,4,5,6,13,14 \
     --unicodes="$latin,$greek,$marks,$signs,U+22C5,U+27E8,U+27E9"
 cp "$fonts/LICENSE_DEJAVU" "$data/LICENSE_DEJAVU"

@@ -26,10 +26,29 @@ pub(crate) fn ends(text: &str) -> Result<[Vec2; 2], String> {
     Ok([Vec2::from([x0, y0]), Vec2::from([x1, y1])])
 }
 
+/// `X,Y,R`: centre and radius of a circle.
+pub(crate) fn circle(text: &str) -> Result<(Vec2, f64), String> {
+    let [x, y, r] = numbers(text).ok_or("write three finite numbers: X,Y,R")?;
+    if r > 0.0 { Ok((Vec2::from([x, y]), r)) } else { Err("the radius is not above zero".into()) }
+}
+
+/// An angle in degrees, from −180 to 180.
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    let value = numbers(text).map(|[v]| v).filter(|v| (-180.0..=180.0).contains(v));
+    value.ok_or_else(|| "write an angle from -180 to 180 degrees".into())
+}
+
 /// `WxH`: columns and rows.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parts.ok_or_else(|| "write two whole numbers: WIDTHxHEIGHT, e.g. 1024x768".into())
+}
+
+/// `WxH`: width and height, in inches.
+pub(crate) fn inches(text: &str) -> Result<[f64; 2], String> {
+    let parts =
+        text.split_once('x').and_then(|(w, h)| Some([positive(w).ok()?, positive(h).ok()?]));
+    parts.ok_or_else(|| "write two numbers above zero: WIDTHxHEIGHT, e.g. 3.4x2.6".into())
 }
 
 /// A finite number above zero.
@@ -88,6 +107,8 @@ mod tests {
         for wrong in ["1024", "1024x", "x768", "-1x5", "1.5x2", "1024*768"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
+        assert_eq!(inches("3.4x2.6"), Ok([3.4, 2.6]));
+        assert!(inches("3.4").is_err() && inches("3x0").is_err());
         assert_eq!(positive("1e-12"), Ok(1e-12));
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
     }

@@ -81,6 +81,27 @@ impl Engine {
         self.precision == Some(Precision::F64) || job.quantity.source() == Source::Exact
     }
 
+    /// Does what only the processor can, in double precision.
+    pub(crate) fn on_processor<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> anyhow::Result<T> {
+        let is_cpu = matches!(self.backend, Backend::Auto | Backend::Cpu);
+        anyhow::ensure!(
+            is_cpu && self.precision != Some(Precision::F32),
+            "the deformed plate is drawn by the processor, in double precision; leave --backend and --precision out"
+        );
+        self.with_threads(work)
+    }
+
+    /// Works on as many threads as are asked for, whatever draws.
+    pub(crate) fn with_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> anyhow::Result<T> {
+        threads::with(self.threads, work)
+    }
+
     fn on_cpu(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
         let narrow = self.precision == Some(Precision::F32);
         let draw =

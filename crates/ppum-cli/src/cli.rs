@@ -1,9 +1,12 @@
 //! The command line as a whole.
 
+use std::ffi::OsString;
+
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::commands::{
-    bench, completions, demo, formula, info, man, probe, render, sample, sif, solve,
+    bench, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
+    sif, solve,
 };
 use crate::output::Output;
 
@@ -24,6 +27,7 @@ Examples:
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
   ppum sample plate.h5 --crack 0 -o crack.csv    numbers for plots, here along a crack
   ppum render plate.h5 -o plate.png --figure
+  ppum plot plate.h5 --crack 0 -o opening.svg
   ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
 `ppum COMMAND --help` tells more, with examples.";
@@ -37,6 +41,9 @@ pub(crate) enum Command {
     Probe(probe::Args),
     Sample(sample::Args),
     Render(render::Args),
+    Compare(compare::Args),
+    Plot(plot::Args),
+    Gallery(gallery::Args),
     Formula(formula::Args),
     Bench(bench::Args),
     Completions(completions::Args),
@@ -46,16 +53,19 @@ pub(crate) enum Command {
 impl Command {
     /// Does the work; results are written to `out`.
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        let line =
+            |words: Vec<OsString>, out: &mut Output| Cli::try_parse_from(words)?.command.run(out);
         match self {
-            Self::Demo(args) => {
-                args.run(out, |words, out| Cli::try_parse_from(words)?.command.run(out))
-            }
+            Self::Demo(args) => args.run(out, &line),
+            Self::Gallery(args) => args.run(out, &line),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
             Self::Sif(args) => args.run(out),
             Self::Probe(args) => args.run(out),
             Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),
+            Self::Compare(args) => args.run(out),
+            Self::Plot(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out, Cli::command()),

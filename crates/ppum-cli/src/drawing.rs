@@ -6,8 +6,6 @@ use ppum_render::picture::{Picture, Style};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 
-use crate::undefined;
-
 /// The subject of a picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
@@ -33,9 +31,12 @@ impl Drawn {
         job: Job<'_>,
         by: &str,
     ) -> anyhow::Result<Self> {
-        let picture = Picture::bare(raster, job.view, job.style)?;
-        let undefined = undefined::pixels(raster, job.field, job.view);
-        let is_finite = raster.statistics().finite > 0;
+        let mut picture = Picture::bare(raster, job.view, job.style)?;
+        let without = raster.undefined(job.field.domain, job.view);
+        picture.hatch(&without);
+        let with = raster.values.len() - raster.statistics().undefined;
+        let undefined = [without.len(), without.len() + with];
+        let is_finite = picture.has_values;
         Ok(Self { picture, by: by.to_owned(), undefined, is_finite })
     }
 }

@@ -10,6 +10,7 @@ mod backend;
 mod cli;
 mod commands;
 mod dataset;
+mod deformed;
 mod drawing;
 mod families;
 mod given;
@@ -17,17 +18,22 @@ mod graphics;
 mod memory;
 mod number;
 mod output;
+mod overlays;
+mod page;
 mod panics;
+mod profile;
 mod progress;
 mod remedy;
 mod replacements;
 mod signals;
 mod standard;
+mod subject;
 mod target;
 mod threads;
 mod tips;
 mod undefined;
 mod warnings;
+mod window;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -104,9 +110,10 @@ mod tests {
             ("undefined", &[]),
         ],
         &[
-            ("drawing", &["undefined"]),
+            ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
+            ("overlays", &["arguments", "output", "progress"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
             ("warnings", &["number", "output"]),
@@ -114,15 +121,26 @@ mod tests {
         &[
             ("dataset", &["given", "standard"]),
             ("graphics", &["drawing", "progress"]),
+            ("page", &["output", "standard", "target"]),
+            (
+                "profile",
+                &["arguments", "number", "output", "progress", "target", "tips", "undefined"],
+            ),
+            ("window", &["arguments", "tips"]),
             ("replacements", &["arguments", "given"]),
         ],
-        &[("backend", &["drawing", "graphics", "output", "progress", "threads"])],
+        &[
+            ("backend", &["drawing", "graphics", "output", "progress", "threads"]),
+            ("subject", &["dataset", "given", "replacements", "standard"]),
+        ],
+        &[("deformed", &["backend", "drawing", "progress", "window"])],
         &[(
             "commands",
             &[
                 "arguments",
                 "backend",
                 "dataset",
+                "deformed",
                 "drawing",
                 "families",
                 "given",
@@ -130,14 +148,19 @@ mod tests {
                 "memory",
                 "number",
                 "output",
+                "overlays",
+                "page",
+                "profile",
                 "progress",
                 "replacements",
                 "standard",
+                "subject",
                 "target",
                 "threads",
                 "tips",
                 "undefined",
                 "warnings",
+                "window",
             ],
         )],
         &[("cli", &["commands", "output"])],

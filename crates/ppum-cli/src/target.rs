@@ -20,7 +20,7 @@ impl Kind {
     fn words(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
-            Self::Picture => ("pictures are PNG files", &["png"]),
+            Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }
     }

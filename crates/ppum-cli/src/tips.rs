@@ -3,14 +3,26 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use anyhow::{Context as _, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Ring, Step, TipIntensity};
+use ppum::field::Field;
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
 use ppum_solve::diagnostics::relative_spread;
 use serde::Serialize;
 
-use crate::number::Number;
+use crate::number::{Number, count};
+
+/// The tip of a number that was given as `--tip`.
+pub(crate) fn numbered(field: &Field<'_>, number: usize) -> anyhow::Result<TipId> {
+    let cracks = &field.step.cracks;
+    let n_tips = tips(cracks).count();
+    ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
+    tips(cracks).nth(number).with_context(|| {
+        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
+    })
+}
 
 /// The stress intensity factors at a tip.
 #[derive(Debug, Serialize)]

@@ -66,9 +66,40 @@ impl FormulaJets {
             formulas.iter().map(|formula| root_in(&mut graph, formula, scope)).collect();
         let mut outputs = jets(&mut graph, scope, &roots, order)?;
         share_reciprocals(&mut graph, &roots, &mut outputs);
-        let program = Program::new(&graph, &outputs);
+        Ok(Self::of_outputs(&graph, &outputs, scope))
+    }
+
+    /// Compiles a formula with its derivatives with respect to some independent variables of its scope, however
+    /// many that has: the results are the value and a derivative for each of `variables`, in their order.
+    ///
+    /// ```
+    /// use ppum_formula::{Formula, FormulaJets, Scope};
+    ///
+    /// let formula = Formula::parse("a*b + c", &Scope::new(&["a", "b", "c"])?)?;
+    /// let jets = FormulaJets::partials(&formula, &["c", "a"])?;
+    /// let mut out = [0.0; 3];
+    /// jets.evaluate(&[2.0, 3.0, 4.0], &mut Vec::new(), &mut out);
+    /// assert_eq!(out, [10.0, 1.0, 3.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When one is no independent variable, or the derivatives are too large.
+    pub fn partials(formula: &Formula, variables: &[&str]) -> Result<Self, DerivativeError> {
+        let indices: Result<Vec<_>, _> =
+            variables.iter().map(|name| formula.independent(name)).collect();
+        let (mut graph, root) = (formula.program.graph(), formula.root());
+        let all = gradients(&mut graph, &formula.scope, &[root])?;
+        let mut outputs = vec![root];
+        outputs.extend(indices?.into_iter().map(|index| all[0][index]));
+        share_reciprocals(&mut graph, &[root], &mut outputs);
+        Ok(Self::of_outputs(&graph, &outputs, &formula.scope))
+    }
+
+    fn of_outputs(graph: &Graph, outputs: &[NodeId], scope: &Arc<Scope>) -> Self {
+        let program = Program::new(graph, outputs);
         let tape = Tape::new(&program, scope.n_inputs());
-        Ok(Self { scope: Arc::clone(scope), program, tape })
+        Self { scope: Arc::clone(scope), program, tape }
     }
 
     /// The results at one point, all those of the first formula first. `inputs` has one number for

@@ -2,9 +2,12 @@
 //!
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
-//! [`Raster`](raster::Raster), [`Picture`](picture::Picture) gives its values colours, and
-//! [`figure()`](figure::figure) adds axes, a colour bar and the cracks. [`png`] encodes the result
-//! together with what it shows. Nothing is resampled, interpolated or triangulated on the way.
+//! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
+//! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
+//! [`deform`] shows the plate as its displacements move it; [`resample`] does what other programs do, to compare.
+//!
+//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
+//! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -41,22 +44,26 @@
 //!
 //! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
+pub mod animation;
+pub mod cells;
 pub mod colormap;
+pub mod deform;
 mod error;
-pub mod figure;
+pub mod extrema;
+pub mod glyph;
 pub mod image;
-pub mod overlay;
+pub mod isoline;
 mod parts;
 pub mod picture;
+pub mod pieces;
 pub mod pixels;
 pub mod png;
 pub mod range;
 pub mod raster;
 pub mod reference;
+pub mod resample;
 pub mod scale;
 pub mod scatter;
-mod text;
-pub mod ticks;
 pub mod view;
 
 pub use error::RenderError;
@@ -68,23 +75,33 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("error", &[]), ("image", &[]), ("parts", &[]), ("scale", &[]), ("view", &[])],
+        &[
+            ("error", &[]),
+            ("image", &[]),
+            ("parts", &[]),
+            ("pieces", &[]),
+            ("scale", &[]),
+            ("view", &[]),
+        ],
         &[
             ("colormap", &["image"]),
-            ("overlay", &["image", "view"]),
             ("pixels", &["view"]),
             ("png", &["image"]),
             ("raster", &["error", "view"]),
-            ("text", &["image"]),
-            ("ticks", &["scale"]),
         ],
         &[
+            ("animation", &["image", "png"]),
+            ("cells", &["raster", "view"]),
+            ("deform", &["parts", "pieces", "raster", "view"]),
+            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
             ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
+            ("resample", &["error", "parts", "raster", "view"]),
+            ("extrema", &["error", "parts", "raster", "view"]),
+            ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
-        &[("figure", &["image", "overlay", "picture", "text", "ticks"])],
     ];
 
     #[test]
@@ -98,8 +115,8 @@ mod tests {
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
         check::<super::RenderError>();
+        check::<super::animation::AnimationError>();
         check::<super::colormap::ColormapError>();
-        check::<super::figure::FigureError>();
         check::<super::range::RangeError>();
         check::<super::view::ViewError>();
     }

@@ -55,6 +55,8 @@ pub struct Picture {
     pub colormap: Colormap,
     /// The one value that is seen, if there is no other but for rounding.
     pub one_value: Option<f64>,
+    /// True if some value is finite.
+    pub has_values: bool,
     /// True if some value lies below the range.
     pub has_below: bool,
     /// True if some value lies above the range; an infinite one always does.
@@ -64,6 +66,11 @@ pub struct Picture {
 /// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
 /// at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most one step.
 pub const PALETTE: usize = 4096;
+
+/// Lines of the hatching, what lies between them, and their distance in units of their width.
+const HATCH: Rgba = [96, 96, 102, 255];
+const HATCHED: Rgba = [196, 196, 200, 255];
+const HATCH_STEP: u32 = 6;
 
 impl Picture {
     /// The bare picture of a raster: one pixel a value, nothing else.
@@ -83,6 +90,7 @@ impl Picture {
         let norm = range.normalization(*scale, colormap.diverging, raster)?;
         let shades = Shades {
             palette: colormap.palette(PALETTE),
+            jumping: colormap.has_jumps().then_some(colormap),
             norm,
             undefined: *undefined,
             below: colormap.below,
@@ -99,9 +107,23 @@ impl Picture {
             normalization: norm,
             colormap: colormap.clone(),
             one_value: raster.one_value(),
+            has_values: raster.values.iter().any(|&v| v.into().is_finite()),
             has_below,
             has_above,
         })
+    }
+
+    /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them from those
+    /// outside.
+    pub fn hatch(&mut self, pixels: &[u32]) {
+        let columns = self.image.size[0];
+        let rgba = self.image.rgba.as_chunks_mut::<4>().0;
+        for &pixel in pixels {
+            let (column, row) = (pixel % columns, pixel / columns);
+            let is_line =
+                (column + row) % HATCH_STEP == 0 || column % HATCH_STEP == row % HATCH_STEP;
+            rgba[pixel as usize] = if is_line { HATCH } else { HATCHED };
+        }
     }
 
     /// A description of the picture, for the texts of its file: `Title`, `Software` and `Description`, then
@@ -130,15 +152,17 @@ impl Picture {
 }
 
 /// The means to find a value's colour.
-struct Shades {
+struct Shades<'a> {
     palette: Vec<Rgba>,
+    /// The map where the palette is too coarse: jumps are where they are.
+    jumping: Option<&'a Colormap>,
     norm: Normalization,
     undefined: Rgba,
     below: Rgba,
     above: Rgba,
 }
 
-impl Shades {
+impl Shades<'_> {
     /// Colours a row; tells whether a value lay below, and above, the range.
     fn paint<T: Sample>(&self, values: &[T], pixels: &mut [Rgba]) -> (bool, bool) {
         let (min, max) = (self.norm.min(), self.norm.max());
@@ -158,6 +182,9 @@ impl Shades {
     }
 
     fn inside(&self, value: f64) -> Rgba {
+        if let Some(map) = self.jumping {
+            return map.color(self.norm.position(value));
+        }
         let index = (self.norm.position(value) * (PALETTE - 1) as f64 + 0.5) as usize;
         self.palette[index.min(PALETTE - 1)]
     }
@@ -178,6 +205,7 @@ mod tests {
         let values = vec![0.0, 2.0, 10.0, -0.1, 10.1, inf, -inf, f64::NAN];
         let mut style = Style::named("magma").unwrap();
         style.range = Range::Fixed(0.0, 10.0);
+        style.colormap = style.colormap.contrasting();
         let map = &style.colormap;
         let picture = Picture::bare(&Raster::new([4, 2], values), &view(4, 2), &style).unwrap();
         let colors: Vec<Rgba> = (0..8).map(|k| picture.image.pixel(k % 4, k / 4)).collect();
@@ -185,6 +213,36 @@ mod tests {
         assert_eq!(colors[..3], ends);
         assert_eq!(colors[3..], [map.below, map.above, map.above, map.below, [0; 4]]);
         assert!(picture.has_below && picture.has_above);
+    }
+
+    /// Borders of bands are where the scale has them, to the last bit.
+    #[test]
+    fn bands_end_at_their_values() {
+        let map = Colormap::named("viridis").unwrap().banded(3);
+        let style =
+            Style { colormap: map.clone(), range: Range::Fixed(0.0, 3.0), ..Style::default() };
+        let values = vec![1.0 - 1e-12, 1.0, 2.0 - 1e-12, 2.0, 3.0, 0.0];
+        let picture = Picture::bare(&Raster::new([3, 2], values), &view(3, 2), &style).unwrap();
+        let colors: Vec<Rgba> = (0..6).map(|k| picture.image.pixel(k % 3, k / 3)).collect();
+        let bands = [0.1, 0.5, 0.9].map(|t| map.color(t));
+        assert_eq!(colors, [0, 1, 1, 2, 2, 0].map(|k: usize| bands[k]));
+    }
+
+    #[test]
+    fn what_has_no_value_is_hatched() {
+        let values: Vec<f64> = (0..240).map(|k| if k % 3 == 0 { f64::NAN } else { 1.0 }).collect();
+        let raster = Raster::new([20, 12], values);
+        let mut picture = Picture::bare(&raster, &view(20, 12), &Style::default()).unwrap();
+        let plain = picture.clone();
+        let undefined: Vec<u32> = (0..120).filter(|k| k % 3 == 0).collect();
+        picture.hatch(&undefined);
+        let found = [HATCH, HATCHED].map(|color| {
+            undefined.iter().filter(|&&k| picture.image.pixel(k % 20, k / 20) == color).count()
+        });
+        assert!(found[0] > 5 && found[1] > 5 && found[0] + found[1] == undefined.len());
+        let is_same =
+            |k: u32| picture.image.pixel(k % 20, k / 20) == plain.image.pixel(k % 20, k / 20);
+        assert!((0..240).all(|k| is_same(k) != undefined.contains(&k)));
     }
 
     #[test]

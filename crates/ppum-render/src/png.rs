@@ -19,12 +19,38 @@ pub type Text = (String, String);
 /// # Errors
 /// A key that is empty, too long or not Latin-1; a picture without pixels.
 pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, ::png::EncodingError> {
+    encode_at(image, None, texts)
+}
+
+/// The same with the size that the picture has on paper: its pixels per inch, which the file holds as whole
+/// pixels per metre.
+///
+/// # Errors
+/// Those of [`encode`].
+pub fn encode_at(
+    image: &Image,
+    dpi: Option<f64>,
+    texts: &[Text],
+) -> Result<Vec<u8>, ::png::EncodingError> {
     let (color, data) = color_data(image);
     let mut bytes = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut bytes, image.size[0], image.size[1]);
     encoder.set_color(color);
     encoder.set_depth(::png::BitDepth::Eight);
     encoder.set_source_srgb(::png::SrgbRenderingIntent::Perceptual);
+    encoder.set_pixel_dims(dpi.map(density));
+    describe(&mut encoder, texts)?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&data)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Adds texts to a file that is not begun.
+pub(crate) fn describe<W: std::io::Write>(
+    encoder: &mut ::png::Encoder<'_, W>,
+    texts: &[Text],
+) -> Result<(), ::png::EncodingError> {
     for (key, text) in texts {
         let text = printable(text).into_owned();
         if text.chars().all(|c| u32::from(c) < 256) {
@@ -33,10 +59,13 @@ pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, ::png::EncodingE
             encoder.add_itxt_chunk(key.clone(), text)?;
         }
     }
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&data)?;
-    writer.finish()?;
-    Ok(bytes)
+    Ok(())
+}
+
+fn density(dpi: f64) -> ::png::PixelDimensions {
+    const INCHES_PER_METRE: f64 = 1.0 / 0.0254;
+    let per_metre = (dpi * INCHES_PER_METRE).round() as u32;
+    ::png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: ::png::Unit::Meter }
 }
 
 fn color_data(image: &Image) -> (::png::ColorType, Cow<'_, [u8]>) {
@@ -88,6 +117,19 @@ mod tests {
         let bytes = encode(&Image::filled([3, 2], [10, 20, 30, 255]), &[]).unwrap();
         let (back, _, color) = read(&bytes);
         assert_eq!((back.rgba, color), ([10, 20, 30].repeat(6), ::png::ColorType::Rgb));
+    }
+
+    /// 300 dots per inch are 11811 per metre.
+    #[test]
+    fn pictures_have_a_size_on_paper() {
+        let image = Image::filled([3, 2], [10, 20, 30, 255]);
+        let found = |bytes: Vec<u8>| {
+            let reader = ::png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+            reader.info().pixel_dims.map(|d| (d.xppu, d.yppu, d.unit))
+        };
+        let expected = Some((11811, 11811, ::png::Unit::Meter));
+        assert_eq!(found(encode_at(&image, Some(300.0), &[]).unwrap()), expected);
+        assert_eq!(found(encode(&image, &[]).unwrap()), None);
     }
 
     #[test]

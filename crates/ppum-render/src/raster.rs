@@ -1,5 +1,6 @@
 //! Values at the pixel centres of a view.
 
+use ppum::domain::Domain;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
@@ -94,6 +95,24 @@ impl<T: Sample> Raster<T> {
         (finite > 0 && infinite == 0 && same).then_some(0.5 * min + 0.5 * max)
     }
 
+    /// The pixels of the plate without a value, by their place row by row: what is undefined there, as a
+    /// formula may be, and not outside.
+    ///
+    /// # Panics
+    /// If the raster does not have the view's size.
+    #[must_use]
+    pub fn undefined(&self, domain: &Domain, view: &View) -> Vec<u32> {
+        assert_eq!(self.size, view.pixels, "a raster belongs to a view of its size");
+        let (local, columns) = (domain.at(view.center), self.size[0]);
+        let in_row = |row: u32| {
+            let values = self.row(row).iter().map(|&v| v.into());
+            let without = (0..).zip(values).filter(|(_, value): &(u32, f64)| value.is_nan());
+            let undefined = without.filter(|(column, _)| local.contains(view.offset(*column, row)));
+            undefined.map(|(column, _)| row * columns + column).collect::<Vec<_>>()
+        };
+        (0..self.size[1]).into_par_iter().flat_map_iter(in_row).collect()
+    }
+
     /// Counts, extremes and mean.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
@@ -115,7 +134,28 @@ impl<T: Sample> Raster<T> {
 
 #[cfg(test)]
 mod tests {
+    use ppum::domain::Hole;
+    use ppum::vec2::{Rect, Vec2, vec2};
+
     use super::*;
+
+    #[test]
+    fn undefined_is_not_outside() {
+        let hole = Hole::Circle { center: vec2(0.5, 0.5), radius: 0.3 };
+        let bounds = Rect::around(Vec2::ZERO, vec2(1.0, 1.0));
+        let domain = Domain { bounds, holes: vec![hole] };
+        let view = View::new(vec2(0.1, 0.2), 3.0, [60, 40]).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, _| if i < 30 { f64::NAN } else { 1.0 });
+        let found = raster.undefined(&domain, &view);
+        let expected: Vec<u32> = (0..2400)
+            .filter(|k| {
+                let p = view.center + view.offset(k % 60, k / 60);
+                let in_plate = p.x.abs() < 1.0 && p.y.abs() < 1.0;
+                k % 60 < 30 && in_plate && (p - vec2(0.5, 0.5)).length() > 0.3
+            })
+            .collect();
+        assert!(found == expected && !found.is_empty());
+    }
 
     #[test]
     fn statistics_count_what_is_not_finite_apart() {

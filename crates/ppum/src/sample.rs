@@ -24,7 +24,9 @@
 //! # }
 //! ```
 
-use crate::crack::{Crack, SegmentId, Side};
+use std::f64::consts::PI;
+
+use crate::crack::{Crack, End, SegmentId, Side, TipId};
 use crate::field::{Field, LocalField};
 use crate::progress::{Cancelled, Phase, Progress, Watcher};
 use crate::quantity::Quantity;
@@ -148,6 +150,106 @@ pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
     (0..ny).flat_map(row).collect()
 }
 
+/// Places on a circle at `count` equal steps of the angle from −π to π about the x axis, both included. On both
+/// sides where one lies on a crack.
+#[must_use]
+pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<(f64, Place)> {
+    let segments = Segments::new(cracks);
+    let at = |k: usize| {
+        let angle = angle(k, count);
+        let places = Place::sides(&segments, center, direction(vec2(1.0, 0.0), angle) * radius);
+        places.into_iter().map(move |place| (angle, place))
+    };
+    (0..count).flat_map(at).collect()
+}
+
+/// Places on a circle around a tip with their angles θ in the tip's frame, `count` equal steps from −π to π, both
+/// included: there they lie on the faces of the crack if that is straight so far. None if there is no such tip.
+#[must_use]
+pub fn around(
+    cracks: &[Crack],
+    tip: TipId,
+    radius: f64,
+    count: usize,
+) -> Option<Vec<(f64, Place)>> {
+    let frame = TipFrame::new(cracks, tip)?;
+    Some((0..count).map(|k| angle(k, count)).map(|t| (t, frame.place(radius, t))).collect())
+}
+
+/// Places on the ray from a tip at an angle θ in the tip's frame, with their distances r from `near` to `far`,
+/// `count` of them at equal steps of log r. None if there is no such tip.
+#[must_use]
+pub fn ray(
+    cracks: &[Crack],
+    tip: TipId,
+    angle: f64,
+    [near, far]: [f64; 2],
+    count: usize,
+) -> Option<Vec<(f64, Place)>> {
+    let frame = TipFrame::new(cracks, tip)?;
+    let part = |k: usize| k as f64 / count.saturating_sub(1).max(1) as f64;
+    let distance = |k: usize| near * (far / near).powf(part(k));
+    Some((0..count).map(distance).map(|r| (r, frame.place(r, angle))).collect())
+}
+
+/// Angle k of `count` from −π to π, both included.
+fn angle(k: usize, count: usize) -> f64 {
+    between(vec2(-PI, 0.0), vec2(PI, 0.0), k, count).x
+}
+
+/// The unit vector at an angle from another one, exactly opposite to it at ±π.
+fn direction(axis: Vec2, angle: f64) -> Vec2 {
+    if angle.abs() == PI {
+        return -axis;
+    }
+    let (sin, cos) = angle.sin_cos();
+    axis * cos + axis.left() * sin
+}
+
+/// The frame of a tip, for places near it.
+struct TipFrame {
+    tip: Vec2,
+    /// Unit direction of growth.
+    axis: Vec2,
+    /// The segment that ends at the tip, and its length.
+    segment: SegmentId,
+    length: f64,
+    /// The side of the crack where θ is positive.
+    positive: Side,
+}
+
+impl TipFrame {
+    fn new(cracks: &[Crack], tip: TipId) -> Option<Self> {
+        let crack = cracks.get(tip.crack as usize)?;
+        let last = crack.points.len().checked_sub(2)?;
+        let (segment, positive) = match tip.end {
+            End::Start => (0, Side::Below),
+            End::Last => (last, Side::Above),
+        };
+        let length = (crack.points[segment + 1] - crack.points[segment]).length();
+        let segment = SegmentId { crack: tip.crack, segment: segment as u32 };
+        let (end, axis) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
+        Some(Self { tip: end, axis, segment, length, positive })
+    }
+
+    fn place(&self, radius: f64, angle: f64) -> Place {
+        let offset = direction(self.axis, angle) * radius;
+        let is_on = angle.abs() == PI && radius < self.length;
+        let other = if self.positive == Side::Above { Side::Below } else { Side::Above };
+        Place {
+            point: self.tip + offset,
+            anchor: self.tip,
+            offset,
+            on: is_on.then_some(self.segment),
+            side: match is_on {
+                true if angle < 0.0 => other,
+                true => self.positive,
+                false => Side::Above,
+            },
+        }
+    }
+}
+
 /// One place for each point, two on a crack.
 fn sided(segments: &Segments<'_>, points: &[Vec2]) -> impl Iterator<Item = Vec<Place>> {
     points
@@ -259,6 +361,7 @@ impl Station {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::crack::CrackEnd;
 
     #[test]
     fn ends_are_exact() {
@@ -272,5 +375,50 @@ mod tests {
         let bounds = Rect::new(vec2(-1.1, 0.1), vec2(0.7, 1.3));
         let corners = grid(&[], bounds, [7, 9]);
         assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
+    }
+
+    /// Places on faces know their side: above the crack θ = π at its last tip, and −π at its first.
+    #[test]
+    fn circles_around_tips_end_on_the_faces() {
+        let points = vec![vec2(-0.5, 0.1), vec2(0.3, 0.4)];
+        let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];
+        for (end, above) in [(End::Last, PI), (End::Start, -PI)] {
+            let tip = TipId { crack: 0, end };
+            for radius in [0.2, 1e-9] {
+                let places = around(&cracks, tip, radius, 9).expect("a tip");
+                assert_eq!(places.len(), 9);
+                for (angle, place) in places {
+                    assert!((place.offset.length() / radius - 1.0).abs() < 1e-14);
+                    assert_eq!(place.on.is_some(), angle.abs() == PI);
+                    let expected = if angle == above { Side::Above } else { Side::Below };
+                    assert!(place.on.is_none() || place.side == expected, "{end:?} {angle}");
+                    // a little towards the middle angle the position says the same
+                    let inner = Segments::new(&cracks);
+                    assert_eq!(
+                        inner.at(place.anchor, place.offset * 0.5).is_some(),
+                        place.on.is_some()
+                    );
+                }
+            }
+            // beyond the crack's other end there are no faces
+            let wide = around(&cracks, tip, 2.0, 5).expect("a tip");
+            assert!(wide.iter().all(|(_, place)| place.on.is_none()));
+        }
+        assert!(around(&cracks, TipId { crack: 1, end: End::Last }, 0.1, 5).is_none());
+    }
+
+    #[test]
+    fn rays_are_evenly_spaced_in_the_logarithm() {
+        let points = vec![vec2(0.0, 0.0), vec2(0.0, 1.0)];
+        let cracks = [Crack { points, ends: [CrackEnd::Mouth, CrackEnd::Tip] }];
+        let tip = TipId { crack: 0, end: End::Last };
+        let places = ray(&cracks, tip, 0.0, [1e-12, 1.0], 13).expect("a tip");
+        for (k, (r, place)) in places.iter().enumerate() {
+            assert!((r / 10f64.powi(k as i32 - 12) - 1.0).abs() < 1e-12);
+            assert_eq!((place.anchor, place.offset), (vec2(0.0, 1.0), vec2(0.0, *r)));
+        }
+        let full = circle(&cracks, vec2(0.0, 0.5), 0.25, 5);
+        let angles: Vec<_> = full.iter().map(|(angle, _)| angle / PI).collect();
+        assert_eq!(angles, [-1.0, -0.5, -0.5, 0.0, 0.5, 0.5, 1.0]);
     }
 }

@@ -5,7 +5,8 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Rect;
-use ppum_render::figure::{Labels, figure, plot_area};
+use ppum_figure::figure::{Design, Labels, Panel, figure, plot_area};
+use ppum_figure::overlay;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png;
 use ppum_render::scale::Scale;
@@ -20,7 +21,8 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     let field = Field::new(dataset, 0)?;
     let name = if field.components() == 2 { "von-mises" } else { "gradient" };
     let quantity = Quantity::parse(name, &field)?;
-    let view = View::hug(window, plot_area(SIZE)?)?;
+    let design = Design::pixels(SIZE);
+    let view = View::hug(window, plot_area(&dataset.title, &design)?)?;
     let style = Style { scale: Scale::Log, ..Style::default() };
     let picture =
         Picture::bare(&render::<f64>(&field, &view, &quantity, unwatched())?, &view, &style)?;
@@ -30,7 +32,10 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
         ..Labels::default()
     };
     let texts = picture.description(&dataset.title, "", name);
-    let image = figure(&picture, &labels, &field.step.cracks, SIZE)?;
+    let cracks = &field.step.cracks;
+    let layers = [overlay::rims(&view, &field.domain.holes), overlay::cracks(&view, cracks)];
+    let panel = Panel { picture: &picture, layers: layers.concat(), labels, cracks };
+    let image = figure(panel, &design)?.image();
     std::fs::write(path, png::encode(&image, &texts)?)?;
     Ok(())
 }

@@ -1,13 +1,10 @@
 //! `ppum demo`: a guided tour, made of the program's own commands.
 
-use std::ffi::OsString;
-use std::io::{ErrorKind, Write as _};
-use std::path::{Path, PathBuf};
+use std::io::Write as _;
+use std::path::PathBuf;
 
-use anyhow::{Context as _, bail, ensure};
-
+use super::tour::{Run, Tour};
 use crate::output::Output;
-use crate::target;
 
 /// Solve the centre crack and draw it
 ///
@@ -26,87 +23,40 @@ Examples:
   ppum demo -o tour";
 
 /// The problem: one text for the demonstration and the examples.
-const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
-const PROBLEM_FILE: &str = "centre-crack.toml";
+const FILES: [(&str, &str); 1] =
+    [("centre-crack.toml", include_str!("../../../../examples/centre-crack.toml"))];
 
-/// The commands that are run. `@` stands for the folder.
+/// The commands that are run.
 const TOUR: [&str; 5] = [
     "solve @/centre-crack.toml",
     "render @/centre-crack.h5 -o @/von-mises.png --figure",
     "render @/centre-crack.h5 -o @/displacement.png -q magnitude --colormap magma --figure",
     "render @/centre-crack.h5 -o @/tip.png --tip 1 --zoom 1000 --scale log --figure",
-    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cracks,patches --figure",
+    "render @/centre-crack.h5 -o @/patches.png --tip 1 --zoom 4 --overlay cells,cracks --figure",
 ];
 
 /// Commands to go on with.
-const NEXT: [&str; 5] = [
+const NEXT: [&str; 7] = [
     "info @/centre-crack.h5",
     "sif @/centre-crack.h5",
     "probe @/centre-crack.h5 --at 0,0",
+    "plot @/centre-crack.h5 --crack 0 -o @/opening.svg",
+    "render @/centre-crack.h5 -o @/deformed.png --deformed auto --figure",
     "render @/centre-crack.h5 -o @/deep.png --tip 1 --zoom 1e12 --scale log --figure",
     "render --help",
 ];
 
 impl Args {
     /// Does the work; `run` runs a command line, given word by word.
-    pub(crate) fn run(
-        &self,
-        out: &mut Output,
-        run: impl Fn(Vec<OsString>, &mut Output) -> anyhow::Result<()>,
-    ) -> anyhow::Result<()> {
-        let problem = self.output.join(PROBLEM_FILE);
-        self.check(&problem)?;
-        target::save(&problem, |out| out.write_all(PROBLEM.as_bytes()))?;
-        writeln!(out, "wrote {}", problem.display())?;
-        for line in TOUR {
-            writeln!(out, "\n$ {}", self.shown(line))?;
-            out.flush()?;
-            run(self.words(line), out)?;
-        }
+    pub(crate) fn run(&self, out: &mut Output, run: Run<'_>) -> anyhow::Result<()> {
+        let tour = Tour { folder: &self.output, files: &FILES, lines: TOUR.into() };
+        tour.check()?;
+        tour.write_files(out)?;
+        tour.run(out, run)?;
         writeln!(out, "\nOpen the pictures in {}. Then try:", self.output.display())?;
         for line in NEXT {
-            writeln!(out, "  {}", self.shown(line))?;
+            writeln!(out, "  {}", tour.shown(line))?;
         }
         Ok(())
-    }
-
-    /// Makes the folder; refuses before any work what could not be written, and a problem that is the user's.
-    fn check(&self, problem: &Path) -> anyhow::Result<()> {
-        let own = "give another folder with -o, or remove it";
-        match ppum_file::text(problem, PROBLEM.len() as u64) {
-            Ok(text) => ensure!(text == PROBLEM, "{}: was edited; {own}", problem.display()),
-            Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
-            Err(e) if matches!(e.kind(), ErrorKind::FileTooLarge | ErrorKind::InvalidData) => {
-                bail!("{}: is another file; {own}", problem.display())
-            }
-            Err(e) => return Err(e).with_context(|| format!("cannot read {}", problem.display())),
-        }
-        target::make_folder(&self.output)?;
-        let words = TOUR.iter().flat_map(|line| line.split(' '));
-        for name in words.filter_map(|word| word.strip_suffix(".png")?.strip_prefix("@/")) {
-            let picture = self.output.join(name).with_extension("png");
-            target::check(&picture, target::Kind::Picture, [problem])?;
-        }
-        Ok(())
-    }
-
-    /// The command line, word by word.
-    fn words(&self, line: &str) -> Vec<OsString> {
-        let word = |word: &str| match word.strip_prefix("@/") {
-            Some(name) => self.output.join(name).into_os_string(),
-            None => word.into(),
-        };
-        ["ppum"].into_iter().chain(line.split(' ')).map(word).collect()
-    }
-
-    /// The command line as one would type it, with the program as this one was called.
-    fn shown(&self, line: &str) -> String {
-        let program = std::env::args_os().next().unwrap_or_else(|| "ppum".into());
-        let quoted = |word: &OsString| {
-            let text = word.to_string_lossy();
-            if text.contains(' ') { format!("'{text}'") } else { text.into_owned() }
-        };
-        let words = self.words(line);
-        [&program].into_iter().chain(&words[1..]).map(quoted).collect::<Vec<_>>().join(" ")
     }
 }

@@ -1,13 +1,17 @@
 //! One command each: its arguments and what it prints.
 
 pub(crate) mod bench;
+pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod formula;
+pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod man;
+pub(crate) mod plot;
 pub(crate) mod probe;
 pub(crate) mod render;
 pub(crate) mod sample;
 pub(crate) mod sif;
 pub(crate) mod solve;
+mod tour;

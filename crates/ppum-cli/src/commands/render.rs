@@ -1,37 +1,33 @@
 //! `ppum render`: a picture of a quantity.
 
-mod window;
+mod look;
+mod panels;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
-use clap::ValueEnum;
+use anyhow::ensure;
+use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::formula::one_line;
-use ppum::quantity::Quantity;
 use ppum::text::{apart, trimmed};
-use ppum_render::colormap::{Colormap, LONGEST, NAMES};
-use ppum_render::figure::{Labels, figure, plot_area};
-use ppum_render::image::Image;
-use ppum_render::overlay;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::png;
-use ppum_render::range::Range;
-use ppum_render::scale::Scale;
-use ppum_render::view::View;
+use ppum_figure::canvas::{Canvas, Item};
+use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
+use ppum_render::deform::DeformedView;
+use ppum_render::picture::Picture;
+use ppum_render::png::Text;
 
 use crate::arguments::size;
 use crate::backend::Engine;
-use crate::dataset::{field, open, quantity};
+use crate::deformed::{Deformed, draw, words};
 use crate::drawing::{Drawn, Job};
-use crate::given;
+use crate::number::count;
 use crate::output::{Output, tell};
-use crate::replacements::Replacements;
-use crate::standard::{self, is_standard};
+use crate::overlays::{Ground, Overlays};
+use crate::page;
+use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
-use window::{Frame, Window};
+use crate::window::{Frame, Window};
+use look::Look;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -40,43 +36,29 @@ use window::{Frame, Window};
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset, - for standard input
-    #[arg(value_name = "FILE.h5")]
-    file: PathBuf,
-    /// Picture to write, - for standard output
-    #[arg(short, long, value_name = "OUT.png")]
-    output: PathBuf,
-    /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one [default: von-mises;
-    /// for Poisson problems u]
-    #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
-    quantity: Option<String>,
     #[command(flatten)]
-    replacements: Replacements,
-    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
-    /// shape]
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[u32; 2]>,
+    subject: Subject,
+    /// Picture to write, - for standard output (PNG)
+    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
+    output: PathBuf,
+    #[command(flatten)]
+    look: Look,
+    /// Panels of a figure with several quantities: columns and rows
+    #[arg(long, value_name = "CxR", value_parser = size)]
+    layout: Option<[u32; 2]>,
+    /// Give all panels one range and one colour bar
+    #[arg(long, requires = "layout")]
+    shared_range: bool,
     #[command(flatten)]
     window: Window,
-    #[arg(long, value_name = "NAME", default_value = "viridis", help = colormaps())]
-    colormap: String,
-    /// Values that the colours span; `auto` is robust against peaks at tips
-    #[arg(long, value_name = "A,B|auto", default_value = "auto", allow_hyphen_values = true)]
-    range: Range,
-    /// How values spread over the colours: linear, log or symlog
-    #[arg(long, default_value = "linear")]
-    scale: Scale,
-    /// What is drawn over the colours; a figure always shows the cracks
-    #[arg(long, value_enum, value_delimiter = ',')]
-    overlay: Vec<Overlay>,
-    /// Add axes, a colour bar, a title and the cracks
-    #[arg(long)]
-    figure: bool,
+    #[command(flatten)]
+    colours: Colors,
+    #[command(flatten)]
+    overlays: Overlays,
+    #[command(flatten)]
+    deformed: Deformed,
     #[command(flatten)]
     engine: Engine,
-    /// Step of the series, from 0 [default: the last]
-    #[arg(long, value_name = "K")]
-    step: Option<usize>,
 }
 
 const EXAMPLES: &str = "\
@@ -88,117 +70,153 @@ Examples:
   ppum render plate.h5 -o what-if.png --function 'westergaard 1=r' --weight bump
   ppum render plate.h5 -o jump.png -q uy --part jump
   ppum render plate.h5 -o tip.png --tip 1 --zoom 1e6 --scale log --figure
-  ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cracks,patches
+  ppum render plate.h5 -o part.png --view -0.2,-0.1,0.2,0.1 --overlay cells,cracks
+  ppum render plate.h5 -o lines.svg --figure --isolines auto --level-labels
+  ppum render plate.h5 -o cross.png --figure --crosses -q hydrostatic --colormap vik
+  ppum render plate.h5 -o moved.png --deformed auto --outline --figure
+  ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
+  ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
-fn colormaps() -> String {
-    format!(
-        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it",
-        NAMES.join(", ")
-    )
+/// What is drawn of.
+struct Plate<'a> {
+    dataset: &'a Dataset,
+    field: &'a Field<'a>,
+    /// The title of figures, which tells of what was replaced.
+    shown: String,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Overlay {
-    /// Cracks and their tips
-    Cracks,
-    /// Borders of the cover's cells
-    Patches,
+/// A picture with what belongs to it.
+struct Sheet {
+    drawn: Drawn,
+    layers: Vec<Item>,
+    /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
+    told: String,
+    notes: Vec<Text>,
 }
-
-const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
-        let mut dataset = open(&self.file)?;
-        self.replacements.apply(&mut dataset, self.step)?;
-        let field = field(&dataset, self.step)?;
-        let given = self.quantity.as_deref().unwrap_or(default_quantity(&field));
-        let quantity = quantity(&field, given)?;
-        let name = name(&quantity, given);
-        let view = self.view(&field)?;
-        let style = Style { scale: self.scale, range: self.range, ..style(&self.colormap)? };
+        self.look.check(self.layout.is_some())?;
         ensure!(
-            view.rect().overlaps(&field.domain.bounds),
-            "the view shows nothing of the domain; `ppum info` says where that is"
+            self.layout.is_none() || !self.deformed.is_given(),
+            "--layout and --deformed do not go together yet; draw the panels one by one"
         );
-        let job = Job { field: &field, view: &view, quantity: &quantity, style: &style };
-        let Drawn { mut picture, by, undefined, is_finite } = self.engine.draw(job)?;
-        let title = self.replacements.title(&dataset.title);
-        let image = self.image(&mut picture, &field, &labels(title, &field, &quantity))?;
-        let mut texts = picture.description(&dataset.title, &self.file_name(), &name);
+        let dataset = self.subject.open()?;
+        let field = self.subject.field(&dataset)?;
+        let shown = self.subject.replacements.title(&dataset.title);
+        let plate = Plate { dataset: &dataset, field: &field, shown };
+        match self.layout {
+            None => self.one(&plate, out),
+            Some(layout) => self.panels(&plate, layout, out),
+        }
+    }
+
+    /// Draws one quantity.
+    fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
+        let field = plate.field;
+        let asked = self.subject.quantity(field)?;
+        let mut labels = asked.labels(plate.shown.clone(), field);
+        let design = self.look.design(self.window.aspect(field));
+        let room = |title: &str| {
+            if self.look.figure { plot_area(title, &design) } else { Ok(self.look.size()) }
+        };
+        let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
+        let seen = self.deformed.view(field, &self.window, frame)?;
+        if let Some(seen) = &seen {
+            labels.title = format!("{} ({})", labels.title, words(seen)).trim_start().to_owned();
+        }
+        let labels = self.look.worded(labels);
+        let sheet = match &seen {
+            None => self.undeformed(plate, &asked, frame)?,
+            Some(seen) => self.moved(seen, &asked, field)?,
+        };
+        sheet.drawn.warn(&asked.name);
+        let cracks =
+            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
+        let Sheet { drawn: Drawn { picture, by, is_finite, .. }, layers, told, notes } = sheet;
+        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
+        let page = self.page(panel, &design)?;
+        let mut texts =
+            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(notes(&quantity).into_iter().chain(self.replacements.notes()));
-        let bytes = png::encode(&image, &texts).context("cannot encode the picture")?;
-        let [columns, rows] = image.size;
-        let target = self.output.display();
-        let told = format!(
-            "wrote {target}: {name}, {columns}x{rows} pixels, {}, {by}",
-            colours(&picture, is_finite)
-        );
-        if undefined[0] > 0 {
-            tell(&format!("warning: {}", undefined::message(&name, undefined, "pixels")));
+        texts
+            .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
+        let [columns, rows] = page.size;
+        let (name, colors) = (&asked.name, colours(&picture, is_finite));
+        let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
+        page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
+    }
+
+    /// Draws the plate as it was before it was loaded.
+    fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
+        let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
+        let view = self.window.seen(field, frame)?;
+        let job = Job { field, view: &view, quantity: &asked.quantity, style: &style };
+        let mut drawn = self.engine.draw(job)?;
+        let layers = self.layers(plate, asked, &drawn)?;
+        if self.look.blank {
+            drawn.blank();
         }
-        if is_standard(&self.output) {
-            out.exact().write_all(&bytes)?;
-            tell(&told.replacen("wrote -", "wrote standard output", 1));
-        } else {
-            target::save(&self.output, |out| out.write_all(&bytes))?;
-            writeln!(out, "{told}")?;
-        }
-        Ok(())
+        Ok(Sheet { drawn, layers, told: String::new(), notes: Vec::new() })
+    }
+
+    /// What is drawn over a picture.
+    fn layers(&self, plate: &Plate<'_>, asked: &Asked, drawn: &Drawn) -> anyhow::Result<Vec<Item>> {
+        let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
+        let is_figure = self.look.figure || self.layout.is_some();
+        let picture = &drawn.picture;
+        let ground = Ground { dataset, field, quantity, picture, is_figure };
+        self.engine.with_threads(|| self.overlays.items(ground))?
+    }
+
+    /// Draws the plate moved by its displacements.
+    fn moved(
+        &self,
+        seen: &DeformedView<'_>,
+        asked: &Asked,
+        field: &Field<'_>,
+    ) -> anyhow::Result<Sheet> {
+        let style = self.colours.style(&asked.quantity)?;
+        let job = Job { field, view: &seen.view, quantity: &asked.quantity, style: &style };
+        let (drawn, overlaps) = draw(seen, job, &self.engine)?;
+        let outline = self.deformed.outline;
+        let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
+        let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
+        Ok(Sheet { drawn, layers, told: told_of(seen, overlaps), notes })
     }
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let files = [self.file.as_path(), Path::new(&self.colormap)];
-        let formula = self.quantity.as_deref().and_then(given::file);
-        files.into_iter().chain(formula).chain(self.replacements.files())
+        self.subject.inputs().chain(self.colours.input())
     }
 
-    /// The name of the dataset in the picture.
-    fn file_name(&self) -> String {
-        match self.file.file_name() {
-            Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
-            _ => standard::name(&self.file),
-        }
-    }
-
-    fn view(&self, field: &Field<'_>) -> anyhow::Result<View> {
-        let size = self.size.unwrap_or(DEFAULT_SIZE);
-        let frame = Frame {
-            pixels: if self.figure { plot_area(size)? } else { size },
-            // A figure centres what it is given; a bare picture has the size that was asked for.
-            may_shrink: self.figure || self.size.is_none(),
-        };
-        self.window.view(field, frame)
+    /// The room of a picture of so many pixels.
+    fn frame(&self, pixels: [u32; 2]) -> Frame {
+        // A figure centres what it is given; a bare picture has the size that was asked for.
+        let is_figure = self.look.figure || self.layout.is_some();
+        let may_shrink = is_figure || self.look.given_size().is_none();
+        Frame { pixels, may_shrink, margin: self.overlays.margin() }
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
-    fn image(
-        &self,
-        picture: &mut Picture,
-        field: &Field<'_>,
-        labels: &Labels,
-    ) -> anyhow::Result<Image> {
-        let view = picture.view;
-        if self.overlay.contains(&Overlay::Patches) {
-            overlay::patches(&mut picture.image, &view, &field.step.partition);
+    fn page(&self, panel: Panel<'_>, design: &Design) -> anyhow::Result<Canvas> {
+        if self.look.figure {
+            Ok(figure(panel, design)?)
+        } else {
+            Ok(bare(panel.picture, panel.layers))
         }
-        if self.figure || self.overlay.contains(&Overlay::Cracks) {
-            overlay::rims(&mut picture.image, &view, &field.domain.holes);
-        }
-        if self.figure {
-            let size = self.size.unwrap_or(DEFAULT_SIZE);
-            return Ok(figure(picture, labels, &field.step.cracks, size)?);
-        }
-        if self.overlay.contains(&Overlay::Cracks) {
-            overlay::cracks(&mut picture.image, &view, &field.step.cracks);
-        }
-        Ok(picture.image.clone())
+    }
+}
+
+/// The factor, and at how many pixels the plate lies over itself.
+fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
+    match overlaps {
+        0 => format!(", {}", words(seen)),
+        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
     }
 }
 
@@ -215,45 +233,17 @@ fn colours(picture: &Picture, is_finite: bool) -> String {
     }
 }
 
-fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
-    match field.equation.elastic() {
-        Some(_) => "von-mises",
-        None => &field.data.components[0],
+impl Drawn {
+    /// Leaves out the colours: the plate is white.
+    fn blank(&mut self) {
+        let pixels = self.picture.image.rgba.as_chunks_mut::<4>().0;
+        pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
     }
-}
 
-/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too,
-/// to say why it cannot be.
-fn style(name: &str) -> anyhow::Result<Style> {
-    let path = Path::new(name);
-    match Style::named(name) {
-        Ok(style) if !path.is_file() => return Ok(style),
-        Err(error) if !path.exists() => return Err(error.into()),
-        _ => {}
-    }
-    let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {name}"))?;
-    Ok(Style { colormap: Colormap::from_text(name, &text)?, ..Style::default() })
-}
-
-/// The name of the quantity in messages and in the picture's description.
-fn name(quantity: &Quantity, given: &str) -> String {
-    match quantity {
-        Quantity::Formula(formula) => formula.label(),
-        _ => given.to_owned(),
-    }
-}
-
-/// The formula of a quantity, as a note in the picture.
-fn notes(quantity: &Quantity) -> Option<(String, String)> {
-    let Quantity::Formula(formula) = quantity else { return None };
-    Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
-}
-
-fn labels(title: String, field: &Field<'_>, quantity: &Quantity) -> Labels {
-    Labels {
-        title,
-        quantity: quantity.symbol(&field.data.components),
-        unit: quantity.unit(field).to_owned(),
-        length_unit: String::new(),
+    /// Tells that a quantity has no value at some pixels.
+    fn warn(&self, name: &str) {
+        if self.undefined[0] > 0 {
+            tell(&format!("warning: {}", undefined::message(name, self.undefined, "pixels")));
+        }
     }
 }

@@ -1,4 +1,4 @@
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::{CRACKED, LINEAR, Lab, keys, sound, with_formulas};
 
@@ -135,4 +135,19 @@ fn a_known_solution_adds_the_error() {
     assert_eq!(step["fields"][0]["exact"], json!(["x + 2*y"]));
     assert!(step["quantities"].as_array().unwrap().contains(&json!("error")));
     assert!(!step["quantities"].as_array().unwrap().contains(&json!("sxx")));
+}
+
+/// Of a linear potential the extrema are at corners; of stresses at a tip.
+#[test]
+fn extrema_have_places() {
+    let lab = Lab::solved(LINEAR);
+    let told = lab.run("info plate.h5 --extrema u");
+    assert_eq!(told, "min  0  at (0, 0), on the border\nmax  4  at (2, 1), on the border\n");
+    let json: Value = serde_json::from_str(&lab.run("info plate.h5 --extrema u --json")).unwrap();
+    assert_eq!((&json["quantity"], &json["max"]["on"]), (&json!("u"), &json!("border")));
+    assert!((json["max"]["value"].as_f64().unwrap() - 4.0).abs() < 1e-9);
+    let cracked = Lab::solved(CRACKED);
+    let told = cracked.run("info plate.h5 --extrema syy");
+    assert!(told.contains("max  ∞  at (") && told.contains("infinite at (0.5, 0) (tip)"), "{told}");
+    assert!(lab.fail("info plate.h5 --extrema nonsense").contains("nonsense"));
 }

@@ -3,17 +3,21 @@
 
 mod backend;
 mod bench;
+mod compare;
 #[cfg(target_os = "linux")]
 mod cost;
 mod damage;
 mod demo;
 mod determinism;
 mod errors;
+mod figures;
 mod files;
 mod formula;
+mod gallery;
 mod info;
 mod messages;
 mod parts;
+mod plots;
 mod printable;
 mod probe;
 mod readme;

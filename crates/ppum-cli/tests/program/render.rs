@@ -199,3 +199,69 @@ fn a_pixel_is_what_probe_prints() {
         assert!(near, "{found:?} {exact:?}");
     }
 }
+
+/// σ_yy = 1: the plate grows in y by (1 − ν²) σ/E and shrinks in x by ν(1 + ν) σ/E, times the factor.
+#[test]
+fn the_deformed_plate_has_its_size() {
+    let lab = Lab::solved(&sound());
+    let told = lab.run(
+        "render plate.h5 -o a.png -q syy --deformed 0.5 --size 100x100 --view=-2,-2,2,2 --range 0,2",
+    );
+    assert!(told.contains("deformed ×0.5, 100x100 pixels"), "{told}");
+    let png = Png::read(&lab.path("a.png"));
+    assert_eq!(png.text("ppum:deformed"), "0.5");
+    let solid = |column, row| png.pixel(column, row)[3] == 255;
+    let width = (0..100).filter(|&i| solid(i, 50)).count() as f64 / 25.0;
+    let height = (0..100).filter(|&j| solid(50, j)).count() as f64 / 25.0;
+    // to the two pixels at the ends
+    assert!((width - 2.0 * (1.0 - 0.5 * 0.39)).abs() < 0.081, "{width}");
+    assert!((height - 2.0 * (1.0 + 0.5 * 0.91)).abs() < 0.081, "{height}");
+}
+
+#[test]
+fn deformed_cracks_open_and_close() {
+    let lab = Lab::solved(CRACKED);
+    let draw = |options: &str| {
+        let told = lab.run(&format!("render plate.h5 -o a.png -q uy {options}"));
+        (Png::read(&lab.path("a.png")), told)
+    };
+    let (open, told) = draw("--size 120x120 --deformed auto --tip 1 --zoom 40");
+    assert!(told.contains("deformed ×0.0") && !told.contains("over itself"), "{told}");
+    let empty = open.rgba.chunks(4).filter(|p| p[3] == 0).count();
+    // behind the tip, which is in the middle, the crack is open
+    assert!((3000..9000).contains(&empty), "{empty}");
+    let (_, told) = draw("--size 120x120 --deformed=-0.02 --view=-0.5,-0.5,0.5,0.5");
+    assert!(told.contains("over itself at") && told.contains("(hatched)"), "{told}");
+    let (plain, _) = draw("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2");
+    for more in ["--outline", "--overlay cells", "--overlay cracks"] {
+        let (other, _) =
+            draw(&format!("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2 {more}"));
+        assert_ne!(plain.rgba, other.rgba, "{more}");
+    }
+    let (figure, _) = draw("--deformed auto --outline --figure --size 400x400");
+    assert_eq!(figure.size, [400, 400]);
+    // without displacement the plate is the plate
+    let (still, _) = draw("--size 120x120 --deformed 0 --view=-1.2,-1.2,1.2,1.2");
+    let (plate, _) = draw("--size 120x120 --view=-1.2,-1.2,1.2,1.2 --backend cpu");
+    assert_eq!(still.rgba, plate.rgba);
+}
+
+#[test]
+fn what_cannot_be_deformed_is_told() {
+    let lab = Lab::solved(CRACKED);
+    for (options, part) in [
+        ("--deformed x", "a finite number, or auto"),
+        ("--deformed inf", "a finite number, or auto"),
+        ("--outline", "--deformed"),
+        ("--deformed 1 --backend gpu", "by the processor"),
+        ("--deformed 1 --precision f32", "by the processor"),
+        ("--deformed 1 --overlay rings", "--overlay rings"),
+        ("--deformed 0.01 --view 50,50,51,51", "nothing of the deformed plate"),
+    ] {
+        let complaint = lab.fail(&format!("render plate.h5 -o a.png {options}"));
+        assert!(complaint.contains(part), "{options}: {complaint}");
+    }
+    let potential = Lab::solved(LINEAR);
+    let complaint = potential.fail("render plate.h5 -o a.png --deformed auto");
+    assert!(complaint.contains("no displacement"), "{complaint}");
+}

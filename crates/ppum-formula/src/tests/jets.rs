@@ -99,3 +99,24 @@ fn variables_may_not() {
     let g = Formula::parse("x", &Scope::polar()).expect("valid");
     let _ = FormulaJets::new(&[&f, &g], 0);
 }
+
+/// Derivatives with respect to any of many variables, in the order asked for, are those of the formula by each.
+#[test]
+fn partials_of_many_variables() {
+    let scope = Scope::new(&["a", "b", "c", "d"]).expect("names");
+    let formula = Formula::parse("hypot(a, b*c)/d + max(a, d)*exp(-b)", &scope).expect("a formula");
+    let names = ["d", "a", "c", "b"];
+    let jets = FormulaJets::partials(&formula, &names).expect("derivatives");
+    for inputs in [[0.3, -0.7, 1.2, 2.0], [3.0, 0.1, -0.4, -1.5], [1.0, 2.0, 3.0, 1.0]] {
+        let mut out = [0.0; 5];
+        jets.evaluate(&inputs, &mut Vec::new(), &mut out);
+        assert_eq!(out[0], formula.evaluate(&inputs));
+        for (name, found) in names.iter().zip(&out[1..]) {
+            let expected = formula.derivative(name).expect("a derivative").evaluate(&inputs);
+            // quotients by the same number are products with its reciprocal
+            assert!((found - expected).abs() <= 4.0 * f64::EPSILON * expected.abs(), "{name}");
+        }
+    }
+    let error = FormulaJets::partials(&formula, &["e"]).expect_err("no such variable");
+    assert!(matches!(error, DerivativeError::NotIndependent { .. }), "{error}");
+}

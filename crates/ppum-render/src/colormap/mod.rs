@@ -5,12 +5,15 @@
 //! | viridis, plasma, inferno, magma | magnitudes; lightness grows evenly |
 //! | cividis | the same, and alike for readers who do not see red and green apart |
 //! | turbo | much detail; lightness is *not* monotone |
-//! | coolwarm | signed values around zero |
+//! | batlow | magnitudes, in more colours |
+//! | coolwarm, vik, roma | signed values around zero |
+//! | twilight | angles: it ends as it begins |
 //!
-//! `_r` behind a name reverses a map. Each map has its own colours for values [below](Colormap::below)
-//! and [above](Colormap::above) the range, which do not occur in it: where lightness grows they are
+//! `_r` behind a name reverses a map; [`banded`](Colormap::banded) makes steps of it. Values
+//! [below](Colormap::below) and [above](Colormap::above) the range have the colours of the map's ends, or
+//! [contrasting](Colormap::contrasting) ones, which do not occur in it: where lightness grows they are
 //! black (slate blue in the maps that begin with black) and white; turbo has grey and white,
-//! coolwarm cyan and yellow.
+//! coolwarm, vik and twilight cyan and yellow.
 //!
 //! [Files](Colormap::from_text) of other programs are read in the common forms, JSON and text.
 
@@ -26,8 +29,10 @@ use space::Space;
 use stops::{Mistake, Stops};
 
 /// Names of the built-in maps.
-pub const NAMES: [&str; 7] =
-    ["viridis", "plasma", "inferno", "magma", "cividis", "turbo", "coolwarm"];
+pub const NAMES: [&str; 11] = [
+    "viridis", "plasma", "inferno", "magma", "cividis", "turbo", "batlow", "coolwarm", "vik",
+    "roma", "twilight",
+];
 
 const BLACK: Rgba = [0, 0, 0, 255];
 const WHITE: Rgba = [255, 255, 255, 255];
@@ -47,6 +52,12 @@ pub struct Colormap {
     pub above: Rgba,
     /// True if its middle stands for zero: an automatic range is then symmetric.
     pub diverging: bool,
+    /// True if it ends as it begins: for angles.
+    pub cyclic: bool,
+    /// The number of bands of one colour, if it is made of such.
+    bands: Option<u16>,
+    /// Colours below and above that do not occur in it.
+    contrast: [Rgba; 2],
     /// Red, green, blue, 0 to 255; at least two entries.
     entries: Vec<[f64; 3]>,
     /// Positions of the entries, from 0 to 1, never falling; empty if they are even.
@@ -88,18 +99,23 @@ impl Colormap {
         if let Some(base) = name.strip_suffix("_r") {
             return Self::named(base).map(Self::reversed);
         }
-        let (table, below, above) = match name {
-            "viridis" => (include_str!("../../data/viridis.txt"), BLACK, WHITE),
-            "plasma" => (include_str!("../../data/plasma.txt"), BLACK, WHITE),
-            "inferno" => (include_str!("../../data/inferno.txt"), SLATE, WHITE),
-            "magma" => (include_str!("../../data/magma.txt"), SLATE, WHITE),
-            "cividis" => (include_str!("../../data/cividis.txt"), BLACK, WHITE),
-            "turbo" => (include_str!("../../data/turbo.txt"), GREY, WHITE),
-            "coolwarm" => (include_str!("../../data/coolwarm.txt"), CYAN, YELLOW),
+        let (table, contrast) = match name {
+            "viridis" => (include_str!("../../data/viridis.txt"), [BLACK, WHITE]),
+            "plasma" => (include_str!("../../data/plasma.txt"), [BLACK, WHITE]),
+            "inferno" => (include_str!("../../data/inferno.txt"), [SLATE, WHITE]),
+            "magma" => (include_str!("../../data/magma.txt"), [SLATE, WHITE]),
+            "cividis" => (include_str!("../../data/cividis.txt"), [BLACK, WHITE]),
+            "turbo" => (include_str!("../../data/turbo.txt"), [GREY, WHITE]),
+            "batlow" => (include_str!("../../data/batlow.txt"), [BLACK, WHITE]),
+            "coolwarm" => (include_str!("../../data/coolwarm.txt"), [CYAN, YELLOW]),
+            "vik" => (include_str!("../../data/vik.txt"), [CYAN, YELLOW]),
+            "roma" => (include_str!("../../data/roma.txt"), [BLACK, WHITE]),
+            "twilight" => (include_str!("../../data/twilight.txt"), [CYAN, YELLOW]),
             _ => return Err(ColormapError::Unknown { name: name.to_owned() }),
         };
+        let diverging = ["coolwarm", "vik", "roma"].contains(&name);
         let map = Self::from_text(name, table)?;
-        Ok(Self { below, above, diverging: name == "coolwarm", ..map })
+        Ok(Self { contrast, diverging, cyclic: name == "twilight", ..map })
     }
 
     /// A map from the text of a file; its form is found from the content.
@@ -113,7 +129,7 @@ impl Colormap {
     ///
     /// The numbers of colours lie all within 0 to 1 or all within 0 to 255. Positions may be of any
     /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and above
-    /// are black and white if the file has none. Opacity is left out, and so is ParaView's colour for
+    /// are the colours of its ends if the file has none, and black and white in contrast. Opacity is left out, and so is ParaView's colour for
     /// NaN, which here is outside the domain.
     ///
     /// # Errors
@@ -124,14 +140,50 @@ impl Colormap {
         let ((positions, entries), stops) = found.map_err(|Mistake { place, text: mistake }| {
             ColormapError::File { name: name.to_owned(), place, mistake }
         })?;
-        Ok(Self {
+        let mut map = Self {
             name: name.to_owned(),
-            below: stops.below.unwrap_or(BLACK),
-            above: stops.above.unwrap_or(WHITE),
+            below: BLACK,
+            above: WHITE,
             diverging: stops.space == Space::Diverging,
+            cyclic: false,
+            bands: None,
+            contrast: [stops.below.unwrap_or(BLACK), stops.above.unwrap_or(WHITE)],
             entries,
             positions,
-        })
+        };
+        map.below = stops.below.unwrap_or(map.color(0.0));
+        map.above = stops.above.unwrap_or(map.color(1.0));
+        Ok(map)
+    }
+
+    /// The map with colours below and above the range that do not occur in it.
+    #[must_use]
+    pub fn contrasting(self) -> Self {
+        let [below, above] = self.contrast;
+        Self { below, above, ..self }
+    }
+
+    /// The map in `count` ≥ 1 bands of one colour each, the first and the last in those of its ends. A single
+    /// band has the colour of the middle, and a cyclic map does not repeat its end.
+    #[must_use]
+    pub fn banded(self, count: u16) -> Self {
+        let count = count.max(1);
+        let last = f64::from(if self.cyclic { count } else { count - 1 });
+        let share = |k: u16| if last > 0.0 && count > 1 { f64::from(k) / last } else { 0.5 };
+        let border = |k: u16| f64::from(k) / f64::from(count);
+        let exact = |k: u16| self.mixed(share(k));
+        Self {
+            entries: (0..count).flat_map(|k| [exact(k); 2]).collect(),
+            positions: (0..count).flat_map(|k| [border(k), border(k + 1)]).collect(),
+            bands: Some(count),
+            ..self
+        }
+    }
+
+    /// The number of bands of one colour each, all equally wide, if the map is made of such.
+    #[must_use]
+    pub fn bands(&self) -> Option<u16> {
+        self.bands
     }
 
     /// The map from its other end; below and above change places.
@@ -140,6 +192,7 @@ impl Colormap {
         self.entries.reverse();
         self.positions.reverse();
         self.positions.iter_mut().for_each(|at| *at = 1.0 - *at);
+        self.contrast.reverse();
         std::mem::swap(&mut self.below, &mut self.above);
         self.name = match self.name.strip_suffix("_r") {
             Some(base) => base.to_owned(),
@@ -151,10 +204,19 @@ impl Colormap {
     /// The colour at position `t`, held at the ends outside \[0, 1\].
     #[must_use]
     pub fn color(&self, t: f64) -> Rgba {
+        let [red, green, blue] = self.mixed(t).map(|c| c.round() as u8);
+        [red, green, blue, 255]
+    }
+
+    fn mixed(&self, t: f64) -> [f64; 3] {
         let (index, share) = self.place(t.clamp(0.0, 1.0));
         let (low, high) = (self.entries[index], self.entries[index + 1]);
-        let mix = |k: usize| (low[k] + share * (high[k] - low[k])).round() as u8;
-        [mix(0), mix(1), mix(2), 255]
+        [0, 1, 2].map(|k| low[k] + share * (high[k] - low[k]))
+    }
+
+    /// True if the map jumps somewhere, so that a table of its colours is not exact.
+    pub(crate) fn has_jumps(&self) -> bool {
+        self.positions.windows(2).any(|pair| pair[0] >= pair[1])
     }
 
     /// The entry below position `t` ∈ \[0, 1\], and the share of the way to the next one.
@@ -230,11 +292,14 @@ mod tests {
         assert_eq!(ends("turbo"), [[48, 18, 59], [122, 4, 3]]);
         assert_eq!(ends("coolwarm"), [[59, 76, 192], [180, 4, 38]]);
         assert_eq!(ends("coolwarm_r"), [[180, 4, 38], [59, 76, 192]]);
+        assert_eq!(ends("batlow"), [[1, 25, 89], [250, 204, 250]]);
+        assert_eq!(ends("vik"), [[0, 18, 97], [89, 0, 8]]);
+        assert_eq!(ends("roma"), [[126, 23, 0], [3, 49, 152]]);
     }
 
     #[test]
     fn perceptual_maps_grow_lighter_everywhere() {
-        for name in ["viridis", "plasma", "inferno", "magma", "cividis"] {
+        for name in ["viridis", "plasma", "inferno", "magma", "cividis", "batlow"] {
             let map = Colormap::named(name).unwrap();
             let levels: Vec<f64> = map.palette(256).into_iter().map(lightness).collect();
             // Bytes are rounded: neighbours may tie or fall by a rounding step, ten apart may not.
@@ -255,10 +320,62 @@ mod tests {
         assert!((levels[127] - 88.0).abs() < 0.5 && map.diverging);
     }
 
+    /// Lightness of the middle of a diverging map above both ends, and of a cyclic one below them.
     #[test]
-    fn below_and_above_do_not_occur_in_the_map() {
+    fn kinds_of_maps() {
         for name in NAMES {
             let map = Colormap::named(name).unwrap();
+            let [first, middle, last] = [0.0, 0.5, 1.0].map(|t| lightness(map.color(t)));
+            assert_eq!(map.diverging, middle > first.max(last) + 20.0 && name != "turbo", "{name}");
+            let same = map.color(0.0).iter().zip(map.color(1.0)).all(|(a, b)| a.abs_diff(b) <= 1);
+            assert_eq!((map.cyclic, map.cyclic), (same, middle < first.min(last) - 20.0), "{name}");
+        }
+        // nowhere does a cyclic map jump, its ends included
+        let palette = Colormap::named("twilight").unwrap().palette(361);
+        for (k, color) in palette.iter().enumerate() {
+            let next = palette[(k + 1) % 361];
+            assert!(color.iter().zip(next).all(|(a, b)| a.abs_diff(b) < 10), "{k}");
+        }
+    }
+
+    #[test]
+    fn bands_have_one_colour_each() {
+        let map = Colormap::named("viridis").unwrap();
+        let banded = map.clone().banded(5);
+        for k in 0..5u8 {
+            let color = map.color(f64::from(k) / 4.0);
+            for within in [0.0, 1e-9, 0.5, 0.999_999] {
+                assert_eq!(banded.color((f64::from(k) + within) / 5.0), color, "{k} {within}");
+            }
+        }
+        assert_eq!(banded.color(1.0), map.color(1.0));
+        assert_eq!((banded.below, banded.above), (map.color(0.0), map.color(1.0)));
+        assert!(banded.has_jumps() && !map.has_jumps());
+        assert_eq!((banded.bands(), map.bands()), (Some(5), None));
+        let one = map.clone().banded(1);
+        assert_eq!([0.0, 0.3, 1.0].map(|t| one.color(t)), [map.color(0.5); 3]);
+        let cyclic = Colormap::named("twilight").unwrap();
+        let four = cyclic.clone().banded(4);
+        let quarters = [0.0, 0.25, 0.5, 0.75];
+        assert_eq!(quarters.map(|t| four.color(t + 0.1)), quarters.map(|t| cyclic.color(t)));
+        assert_eq!(
+            map.clone().reversed().banded(3).color(0.1),
+            map.banded(3).reversed().color(0.1)
+        );
+    }
+
+    #[test]
+    fn below_and_above_have_the_colours_of_the_ends() {
+        for name in NAMES {
+            let map = Colormap::named(name).unwrap();
+            assert_eq!((map.below, map.above), (map.color(0.0), map.color(1.0)), "{name}");
+        }
+    }
+
+    #[test]
+    fn contrasting_colours_do_not_occur_in_the_map() {
+        for name in NAMES {
+            let map = Colormap::named(name).unwrap().contrasting();
             for special in [map.below, map.above] {
                 let far = |c: Rgba| (0..3).map(|k| c[k].abs_diff(special[k])).max() > Some(30);
                 assert!(map.palette(256).into_iter().all(far), "{name} {special:?}");

@@ -44,6 +44,7 @@ pub(crate) mod quantities;
 mod read;
 mod restraint;
 mod scopes;
+mod stations;
 mod stiffness;
 mod table_file;
 #[cfg(test)]
@@ -66,6 +67,7 @@ pub use error::{Location, Mistake, ProblemError};
 pub use ppum::expression::Expression;
 pub use restraint::restraint_center;
 pub(crate) use restraint::restraint_words;
+pub use stations::Station;
 pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use table_file::read_table;
 

@@ -7,27 +7,42 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 9] = [
+const ARROWS: [(&str, &[&str]); 10] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
     ("ppum-format", &["ppum", "ppum-file"]),
     ("ppum-solve", &["ppum", "ppum-file"]),
     ("ppum-render", &["ppum"]),
+    ("ppum-figure", &["ppum", "ppum-render"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
-    ("ppum-cli", &["ppum", "ppum-file", "ppum-format", "ppum-gpu", "ppum-render", "ppum-solve"]),
+    (
+        "ppum-cli",
+        &[
+            "ppum",
+            "ppum-file",
+            "ppum-figure",
+            "ppum-format",
+            "ppum-gpu",
+            "ppum-render",
+            "ppum-solve",
+        ],
+    ),
     ("ppum-testkit", &["ppum"]),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 15] = [
-    ("ab_glyph", "ppum-render"),
+const DOORS: [(&str, &str); 18] = [
+    ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum-formula"),
     ("flate2", "ppum-format"),
+    ("gif", "ppum-render"),
     ("hdf5-pure", "ppum-format"),
+    ("miniz_oxide", "ppum-figure"),
     ("naga", "ppum-testkit"),
+    ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),

@@ -144,6 +144,12 @@ impl<'d> Field<'d> {
         self.exact.get(component).map_or(f64::NAN, |formula| formula.evaluate(&[p.x, p.y]))
     }
 
+    /// The formulas of the exact solution, one for each component; none if it is not known.
+    #[must_use]
+    pub fn exact_formulas(&self) -> &[Formula] {
+        &self.exact
+    }
+
     /// The field as seen from an anchor.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalField<'_> {

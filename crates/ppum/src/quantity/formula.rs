@@ -215,6 +215,11 @@ impl QuantityFormula {
         &self.unit
     }
 
+    /// Of the scope's inputs those that the formula needs: their indices and origins.
+    pub(super) fn inputs(&self) -> &[(usize, Input)] {
+        &self.inputs
+    }
+
     pub(super) fn source(&self) -> Source {
         let slopes =
             |(_, input): &(usize, Input)| matches!(input, Input::SlopeX(_) | Input::SlopeY(_));
@@ -247,7 +252,7 @@ impl PartialEq for QuantityFormula {
 
 impl Input {
     #[inline(always)]
-    fn value<R: Real>(self, at: &Sample<'_, R>) -> R {
+    pub(super) fn value<R: Real>(self, at: &Sample<'_, R>) -> R {
         match self {
             Self::X => at.offset[0] + at.offset[0].lit(at.anchor.x),
             Self::Y => at.offset[1] + at.offset[1].lit(at.anchor.y),

@@ -3,10 +3,12 @@
 //! With displacement u, strain ε = (∇u + ∇uᵀ)/2 and stress σ = λ tr(ε) I + 2μ ε. Where a derivative
 //! does not exist (at a crack tip) quantities of the gradient are +∞: nothing is clamped.
 //!
-//! Quantities have names, or are [formulas](QuantityFormula) of those that have.
+//! Quantities have names, or are [formulas](QuantityFormula) of those that have; [`QuantityGradient`] has their exact gradients.
 
 mod formula;
+mod gradient;
 mod many;
+mod material;
 mod tensors;
 
 use std::sync::Arc;
@@ -19,6 +21,7 @@ use crate::jet::Jet;
 use crate::text::hint;
 use crate::vec2::Vec2;
 pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use gradient::{QuantityGradient, Slope};
 use ppum_formula::real::Real;
 use tensors::Strain;
 

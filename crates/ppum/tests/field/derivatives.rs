@@ -34,7 +34,7 @@ fn difference(
 }
 
 /// A point where the field is smooth all around, and the radius in which it is.
-fn smooth_place(field: &Field<'_>, random: &mut Random) -> (Vec2, f64) {
+pub(crate) fn smooth_place(field: &Field<'_>, random: &mut Random) -> (Vec2, f64) {
     loop {
         let p = random.point(&field.domain.bounds);
         let border = (p - field.domain.bounds.min).min(field.domain.bounds.max - p);

@@ -7,6 +7,7 @@ mod deep_zoom;
 mod derivatives;
 mod errors;
 mod formulas;
+mod gradients;
 mod jumps;
 mod lanes;
 mod library;

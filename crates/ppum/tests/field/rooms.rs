@@ -33,7 +33,10 @@ const FLOORS: Floors<'_> = &[
         ),
         ("replace", &["dataset", "decompose", "function", "library", "text", "weight"]),
     ],
-    &[("quantity", &["crack", "dataset", "equation", "field", "jet", "library", "text", "vec2"])],
+    &[(
+        "quantity",
+        &["crack", "dataset", "equation", "expression", "field", "jet", "library", "text", "vec2"],
+    )],
     &[
         (
             "check",

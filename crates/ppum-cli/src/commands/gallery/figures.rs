@@ -1,0 +1,78 @@
+//! The figures, each with its problem files and the commands that make it.
+
+/// A figure of the paper.
+pub(super) struct Figure {
+    /// Its number.
+    pub(super) number: u32,
+    /// What it shows.
+    pub(super) title: &'static str,
+    /// Names and texts of its files.
+    pub(super) files: &'static [(&'static str, &'static str)],
+    /// The command lines; `@` stands for the folder.
+    pub(super) lines: &'static [&'static str],
+}
+
+/// A file of the folder `examples`.
+macro_rules! example {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../../../../../examples/", $name)))
+    };
+}
+
+pub(super) const ALL: &[Figure] = &[
+    Figure {
+        number: 1,
+        title: "points, cells and patches",
+        files: &[example!("scattered-points.toml"), example!("scattered-points.csv")],
+        lines: &[
+            "solve @/scattered-points.toml",
+            "render @/scattered-points.h5 -o @/figure-1-cells.png --figure --blank --overlay points,cells --size 700x600",
+            "render @/scattered-points.h5 -o @/figure-1-patches.png --figure --blank --overlay points,patches --size 700x600",
+        ],
+    },
+    Figure {
+        number: 2,
+        title: "enrichment of the patches around a crack",
+        files: &[example!("paper-enrichment.toml")],
+        lines: &[
+            "solve @/paper-enrichment.toml",
+            "render @/paper-enrichment.h5 -o @/figure-2.png --figure --blank --overlay cells,centers,cracks --size 800x700",
+        ],
+    },
+    Figure {
+        number: 3,
+        title: "the passes of a picture: weights, field, gradient, quantity",
+        files: &[example!("paper-enrichment.toml")],
+        lines: &[
+            "solve @/paper-enrichment.toml",
+            "render @/paper-enrichment.h5 -o @/figure-3.png -q weight-sum,uy,duy_dy,von-mises --layout 2x2 --size 1200x1000 --tip 0 --zoom 2",
+        ],
+    },
+    Figure {
+        number: 4,
+        title: "the four functions of a crack tip",
+        files: &[example!("paper-tip-functions.toml")],
+        lines: &[
+            "solve @/paper-tip-functions.toml",
+            "render @/paper-tip-functions.h5 -o @/figure-4.png -q tip-1,tip-2,tip-3,tip-4 --layout 2x2 --shared-range --colormap vik --range -1,1 --isolines 15 --size 1200x1000",
+        ],
+    },
+    Figure {
+        number: 5,
+        title: "the centre crack, resampled and direct",
+        files: &[example!("paper-centre-crack.toml")],
+        lines: &[
+            "solve @/paper-centre-crack.toml",
+            "compare @/paper-centre-crack.h5 -o @/figure-5-ab.png --grid 64 --range 0,4",
+            "compare @/paper-centre-crack.h5 -o @/figure-5-cd.png --grid 2048 --range 0,4",
+            "compare @/paper-centre-crack.h5 -o @/figure-5-ef.png --grid 2048 --tip 1 --zoom 150 --range 0,20",
+            "render @/paper-centre-crack.h5 -o @/figure-5-middle.png --figure --center 0,0 --width 0.4",
+        ],
+    },
+    Figure {
+        number: 6,
+        title: "ten cracks",
+        files: &[example!("many-cracks.toml")],
+        lines: &["solve @/many-cracks.toml", "render @/many-cracks.h5 -o @/figure-6.png --figure"],
+    },
+];

@@ -1,0 +1,122 @@
+//! The smallest and the largest value of a quantity in the plate, with their places.
+
+use std::io::{self, Write};
+
+use anyhow::Context as _;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::text::{Places, beside, trimmed};
+use ppum::vec2::Vec2;
+use ppum_render::extrema::{Extremum, On, Singular, SingularKind, extrema};
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use serde::Serialize;
+
+use crate::number::Number;
+use crate::progress::Bar;
+
+/// Pixels of the picture that the search begins from: peaks narrower than one of them are not seen.
+const PIXELS: [u32; 2] = [1024, 1024];
+
+/// The extrema of a quantity.
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    quantity: String,
+    min: Row,
+    max: Row,
+    /// Points where the quantity is infinite.
+    singular: Vec<Point>,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    value: Number,
+    at: [f64; 2],
+    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`.
+    on: &'static str,
+    /// Index of the crack or the hole; of a face with its side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    index: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<&'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct Point {
+    kind: &'static str,
+    at: [f64; 2],
+}
+
+impl Report {
+    /// Finds them.
+    pub(super) fn new(field: &Field<'_>, name: &str, quantity: &Quantity) -> anyhow::Result<Self> {
+        let view = View::hug(field.domain.bounds, PIXELS)?;
+        let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
+        let found = extrema(field, &view, quantity, &raster, &Bar::new())?;
+        let found = found.with_context(|| format!("{name}: is nowhere defined"))?;
+        let place = |offset: Vec2| (view.center + offset).into();
+        let row = |extremum: &Extremum| Row::new(extremum, place(extremum.offset));
+        let is_infinite = |s: &&Singular| s.max_infinite || s.min_infinite;
+        let point = |s: &Singular| Point { kind: kind(s.kind), at: place(s.offset) };
+        Ok(Self {
+            quantity: name.to_owned(),
+            min: row(&found.min),
+            max: row(&found.max),
+            singular: found.singular.iter().filter(is_infinite).map(point).collect(),
+        })
+    }
+
+    /// Writes a line for each.
+    pub(super) fn write(&self, places: &Places, out: &mut dyn Write) -> io::Result<()> {
+        let finite =
+            [&self.min, &self.max].map(|row| row.value.0).into_iter().filter(|v| v.is_finite());
+        let largest = finite.map(f64::abs).fold(0.0, f64::max);
+        for (name, row) in [("min", &self.min), ("max", &self.max)] {
+            let value = match row.value.0 {
+                infinite if infinite.is_infinite() => {
+                    if infinite > 0.0 { "∞" } else { "−∞" }.to_owned()
+                }
+                value => trimmed(beside(value, largest)),
+            };
+            writeln!(out, "{name}  {value}  at {}{}", places.show(row.at.into()), row.words())?;
+        }
+        for point in &self.singular {
+            writeln!(out, "infinite at {} ({})", places.show(point.at.into()), point.kind)?;
+        }
+        Ok(())
+    }
+}
+
+impl Row {
+    fn new(extremum: &Extremum, at: [f64; 2]) -> Self {
+        let (on, index, side) = match extremum.on {
+            On::Inside => ("inside", None, None),
+            On::Border => ("border", None, None),
+            On::Face(segment, side) => ("face", Some(segment.crack), Some(side.name())),
+            On::Rim(hole) => ("rim", u32::try_from(hole).ok(), None),
+            On::Interface => ("interface", None, None),
+            On::Singular(_) => ("singular", None, None),
+        };
+        Self { value: Number(extremum.value), at, on, index, side }
+    }
+
+    /// What the place lies on.
+    fn words(&self) -> String {
+        match (self.on, self.index, self.side) {
+            ("face", Some(crack), Some(side)) => format!(", {side} crack {crack}"),
+            ("rim", Some(hole), _) => format!(", on the rim of hole {hole}"),
+            ("border", ..) => ", on the border".into(),
+            ("interface", ..) => ", on an interface".into(),
+            _ => String::new(),
+        }
+    }
+}
+
+fn kind(kind: SingularKind) -> &'static str {
+    match kind {
+        SingularKind::Tip(_) => "tip",
+        SingularKind::Kink(_) => "kink",
+        SingularKind::Corner(_) => "corner",
+        SingularKind::Origin => "origin of a function",
+    }
+}

@@ -1,0 +1,125 @@
+//! Errors of solutions of one problem, against their unknowns.
+
+use anyhow::ensure;
+use ppum::dataset::{Dataset, Step};
+use ppum::field::Field;
+use ppum::formula::{Formula, FormulaJets, Scope};
+use ppum::jet::Jet;
+use ppum::vec2::Vec2;
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope};
+
+use ppum_solve::norms::norms;
+use ppum_solve::space::Space;
+
+use super::Named;
+
+/// A curve for each error: those of the exact solution if all datasets have them, else the distances of energy and
+/// stress intensity factors from those of the dataset with most unknowns.
+pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+    ensure!(datasets.len() >= 3, "--convergence compares three datasets or more");
+    let mut solutions = Vec::new();
+    for Named { name, dataset } in datasets {
+        let index = step.unwrap_or(dataset.steps.len() - 1);
+        let found = dataset.steps.get(index);
+        ensure!(found.is_some(), "{name}: there is no step {index}");
+        solutions.extend(found.map(|step| Solution { dataset, index, step }));
+    }
+    solutions.sort_by(|a, b| unknowns(a.step).total_cmp(&unknowns(b.step)));
+    let mut curves = exact(&solutions)?;
+    if curves.is_empty() {
+        curves = distances(&solutions.iter().map(|solution| solution.step).collect::<Vec<_>>());
+    }
+    ensure!(!curves.is_empty(), "the datasets have no numbers to compare");
+    let mut plot = Plot {
+        x: PlotAxis::new("unknowns", "").logarithmic(),
+        y: PlotAxis::new("relative error", "").logarithmic(),
+        ..Plot::default()
+    };
+    plot.title.clone_from(&datasets[0].dataset.title);
+    plot.curves = curves;
+    Ok(plot)
+}
+
+fn record(step: &Step, name: &str) -> Option<f64> {
+    step.history.iter().find(|record| record.name == name).map(|record| record.value)
+}
+
+/// Unknowns: those of the report, or all coefficients.
+fn unknowns(step: &Step) -> f64 {
+    let coefficients =
+        || step.fields.first().map_or(0, |f| f.coefficients.iter().map(Vec::len).sum());
+    record(step, "unknowns").unwrap_or_else(|| coefficients() as f64)
+}
+
+/// A step of a dataset.
+struct Solution<'d> {
+    dataset: &'d Dataset,
+    index: usize,
+    step: &'d Step,
+}
+
+/// Relative errors in the energy norm and in L² where all exact solutions are known.
+fn exact(solutions: &[Solution<'_>]) -> anyhow::Result<Vec<Curve>> {
+    let mut points = [Vec::new(), Vec::new()];
+    for solution in solutions {
+        let Some(errors) = errors(solution)? else { return Ok(Vec::new()) };
+        for (points, error) in points.iter_mut().zip(errors) {
+            points.push([unknowns(solution.step), error]);
+        }
+    }
+    let [energy, l2] = points;
+    Ok(vec![curve("energy norm", energy), curve("L² norm", l2)])
+}
+
+/// Errors relative to the exact solution, in the energy norm and in L²; none if it is not known.
+fn errors(Solution { dataset, index, step }: &Solution<'_>) -> anyhow::Result<Option<[f64; 2]>> {
+    let field = Field::new(dataset, *index)?;
+    if !field.has_exact() {
+        return Ok(None);
+    }
+    let scope = Scope::cartesian().with_tables(&dataset.tables)?;
+    let parse = |text: &String| Formula::parse(text, &scope);
+    let formulas = field.data.exact.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
+    let jets = FormulaJets::new(&formulas.iter().collect::<Vec<_>>(), 1)?;
+    let exact = |anchor: Vec2, offset: Vec2| {
+        let (p, mut out) = (anchor + offset, vec![0.0; 3 * formulas.len()]);
+        jets.evaluate(&[p.x, p.y], &mut Vec::new(), &mut out);
+        let jet = |d: &[f64]| Jet { x: d[1], y: d[2], ..Jet::constant(d[0]) };
+        let mut both = [Jet::constant(0.0); 2];
+        both.iter_mut().zip(out.chunks(3)).for_each(|(jet_of, d)| *jet_of = jet(d));
+        both
+    };
+    let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables)?;
+    let [_, reference, difference] = norms(&field, &space, &exact);
+    let (energy, l2) = difference.relative_to(&reference);
+    Ok(Some([energy, l2]))
+}
+
+/// Distances from the last step's numbers.
+fn distances(steps: &[&Step]) -> Vec<Curve> {
+    let Some((last, others)) = steps.split_last() else { return Vec::new() };
+    let mut curves = Vec::new();
+    let mut add = |label: &str, value: &dyn Fn(&Step) -> Option<f64>| {
+        let Some(reference) = value(last).filter(|v| *v != 0.0) else { return };
+        let point = |step: &&Step| Some([unknowns(step), (value(step)? / reference - 1.0).abs()]);
+        if let Some(points) = others.iter().map(point).collect::<Option<Vec<_>>>() {
+            curves.push(curve(label, points));
+        }
+    };
+    add("energy", &|step| record(step, "energy"));
+    let number = last.intensities.len();
+    for tip in 0..number {
+        let label = if number > 1 { format!("K_{{I}} of tip {tip}") } else { "K_{I}".into() };
+        add(&label, &|step| step.intensities.get(tip).map(|found| found.k1));
+    }
+    curves
+}
+
+/// A curve with dots, and the exponent of its power law.
+fn curve(label: &str, points: Vec<[f64; 2]>) -> Curve {
+    let text = match slope(&points) {
+        Some(slope) => format!("{label}, slope {slope:.2}").replace("slope -", "slope −"),
+        None => label.to_owned(),
+    };
+    Curve::new(text, points).with_look(Look::Dotted)
+}

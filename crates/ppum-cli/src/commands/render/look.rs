@@ -1,0 +1,246 @@
+//! The look of pictures and figures: size, words, colours of the page.
+
+use anyhow::bail;
+use clap::ValueEnum;
+use ppum_figure::figure::{BarPlace, Design, Labels, Theme, TickChoice};
+
+use crate::arguments::{inches, positive, size};
+
+/// The options of size and look.
+#[derive(Debug, clap::Args)]
+pub(super) struct Look {
+    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
+    /// shape]
+    #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")]
+    size: Option<[u32; 2]>,
+    /// Size of the picture on paper, in inches
+    #[arg(long, value_name = "WxH", value_parser = inches)]
+    inches: Option<[f64; 2]>,
+    /// Pixels per inch [default: 300 with --inches, else 96]
+    #[arg(long, value_name = "N", value_parser = positive)]
+    dpi: Option<f64>,
+    /// Add axes, a colour bar, a title and the cracks
+    #[arg(long)]
+    pub(super) figure: bool,
+    /// Leave out the colours and their bar: the overlays alone
+    #[arg(long)]
+    pub(crate) blank: bool,
+    /// Size of the letters of a figure in points [default: 9 with --inches, else with the size in pixels]
+    #[arg(long, value_name = "PT", value_parser = positive)]
+    font_size: Option<f64>,
+    /// Colours around the picture of a figure [default: light]
+    #[arg(long, value_enum)]
+    theme: Option<ThemeName>,
+    /// Leave out the colour of a figure's page
+    #[arg(long)]
+    transparent: bool,
+    /// Place of a figure's colour bar [default: auto, below long plates]
+    #[arg(long, value_enum)]
+    bar: Option<BarName>,
+    /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x= or y= in front
+    /// of an axis
+    #[arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true, value_parser = marks)]
+    ticks: Vec<(Axis, TickChoice)>,
+    /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
+    #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = words)]
+    labels: Vec<Words>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ThemeName {
+    /// Dark on white
+    Light,
+    /// Light on black
+    Dark,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BarName {
+    /// Below long plates, else right
+    Auto,
+    Right,
+    Bottom,
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Axis {
+    X,
+    Y,
+    Bar,
+}
+
+/// What words stand for.
+type Words = Vec<(Word, String)>;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Word {
+    Title,
+    X,
+    Y,
+    Bar,
+}
+
+const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+const PRINT_DPI: f64 = 300.0;
+const SCREEN_DPI: f64 = 96.0;
+
+impl Look {
+    /// Refuses options of figures without one; `has_panels` makes it one.
+    pub(super) fn check(&self, has_panels: bool) -> anyhow::Result<()> {
+        let given = [
+            ("--font-size", self.font_size.is_some()),
+            ("--theme", self.theme.is_some()),
+            ("--transparent", self.transparent),
+            ("--bar", self.bar.is_some()),
+            ("--ticks", !self.ticks.is_empty()),
+            ("--labels", !self.labels.is_empty()),
+        ];
+        if !self.figure
+            && !has_panels
+            && let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given)
+        {
+            bail!("{option} is for figures; add --figure");
+        }
+        Ok(())
+    }
+
+    /// The size that was asked for \[pixels\].
+    pub(super) fn given_size(&self) -> Option<[u32; 2]> {
+        self.size.or_else(|| Some(Design::inches(self.inches?, self.dpi()).size))
+    }
+
+    /// Columns and rows of the picture or figure.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.given_size().unwrap_or(DEFAULT_SIZE)
+    }
+
+    /// Pixels per inch.
+    pub(super) fn dpi(&self) -> f64 {
+        self.dpi.unwrap_or(if self.inches.is_some() { PRINT_DPI } else { SCREEN_DPI })
+    }
+
+    /// Pixels per inch if someone cares.
+    pub(super) fn given_dpi(&self) -> Option<f64> {
+        (self.dpi.is_some() || self.inches.is_some()).then(|| self.dpi())
+    }
+
+    /// The look of a figure of something of a shape, width over height; none if it has any shape.
+    pub(super) fn design(&self, aspect: Option<f64>) -> Design {
+        let mut design = match self.inches {
+            Some(inches) => Design::inches(inches, self.dpi()),
+            None => Design::pixels(self.size()).at(self.dpi()),
+        };
+        design.font_size = self.font_size.unwrap_or(design.font_size);
+        design.transparent = self.transparent;
+        if self.theme == Some(ThemeName::Dark) {
+            design.theme = Theme::Dark;
+        }
+        design.bar = match self.bar.unwrap_or(BarName::Auto) {
+            _ if self.blank => BarPlace::None,
+            BarName::Auto => aspect.map_or(BarPlace::Right, BarPlace::fitting),
+            BarName::Right => BarPlace::Right,
+            BarName::Bottom => BarPlace::Bottom,
+            BarName::None => BarPlace::None,
+        };
+        for (axis, choice) in &self.ticks {
+            let ticks = match axis {
+                Axis::X => &mut design.x_ticks,
+                Axis::Y => &mut design.y_ticks,
+                Axis::Bar => &mut design.bar_ticks,
+            };
+            ticks.clone_from(choice);
+        }
+        design
+    }
+
+    /// The words with those that were given.
+    pub(super) fn worded(&self, mut labels: Labels) -> Labels {
+        for (word, text) in self.labels.iter().flatten() {
+            let label = match word {
+                Word::Title => &mut labels.title,
+                Word::X => &mut labels.x,
+                Word::Y => &mut labels.y,
+                Word::Bar => &mut labels.quantity,
+            };
+            label.clone_from(text);
+        }
+        labels
+    }
+}
+
+/// `[x=|y=|bar=]auto|N|A,B,…`.
+fn marks(text: &str) -> Result<(Axis, TickChoice), String> {
+    let (axis, choice) = match text.split_once('=') {
+        None => (Axis::Bar, text),
+        Some(("x", choice)) => (Axis::X, choice),
+        Some(("y", choice)) => (Axis::Y, choice),
+        Some(("bar", choice)) => (Axis::Bar, choice),
+        Some((other, _)) => return Err(format!("there is no axis `{other}`; write x, y or bar")),
+    };
+    let choice = choice.trim();
+    if choice == "auto" {
+        return Ok((axis, TickChoice::Auto));
+    }
+    if let Ok(count) = choice.parse::<usize>() {
+        return match count {
+            1..=100 => Ok((axis, TickChoice::Count(count))),
+            _ => Err("write 1 to 100 marks, or their values with a comma".into()),
+        };
+    }
+    let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
+    let values: Option<Vec<f64>> =
+        choice.split(',').filter(|p| !p.trim().is_empty()).map(number).collect();
+    let values = values.ok_or("write auto, a number of marks, or values with commas between")?;
+    Ok((axis, TickChoice::At(values)))
+}
+
+/// `KEY=TEXT` with commas between; a comma that no key follows is part of a text.
+fn words(text: &str) -> Result<Words, String> {
+    const KEYS: [(&str, Word); 4] =
+        [("title=", Word::Title), ("x=", Word::X), ("y=", Word::Y), ("bar=", Word::Bar)];
+    let mut all: Words = Vec::new();
+    for part in text.split(',') {
+        let found =
+            KEYS.iter().find_map(|(key, word)| Some((*word, part.trim_start().strip_prefix(key)?)));
+        match (found, all.last_mut()) {
+            (Some((word, text)), _) => all.push((word, text.to_owned())),
+            (None, Some((_, last))) => *last = format!("{last},{part}"),
+            (None, None) => return Err("begin with title=, x=, y= or bar=".into()),
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_of_axes_and_bar() {
+        assert_eq!(marks("auto"), Ok((Axis::Bar, TickChoice::Auto)));
+        assert_eq!(marks("x=5"), Ok((Axis::X, TickChoice::Count(5))));
+        assert_eq!(marks("y=-1,0.5"), Ok((Axis::Y, TickChoice::At(vec![-1.0, 0.5]))));
+        assert_eq!(marks("3,"), Ok((Axis::Bar, TickChoice::At(vec![3.0]))));
+        assert_eq!(marks("x="), Ok((Axis::X, TickChoice::At(vec![]))));
+        for wrong in ["z=3", "0", "101", "1,a", "inf,0", "some"] {
+            assert!(marks(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn words_may_have_commas() {
+        let found = words("title=A plate, cracked, x=1,y=up,bar=").unwrap();
+        let pair = |word, text: &str| (word, text.to_owned());
+        assert_eq!(
+            found,
+            [
+                pair(Word::Title, "A plate, cracked"),
+                pair(Word::X, "1"),
+                pair(Word::Y, "up"),
+                pair(Word::Bar, ""),
+            ]
+        );
+        assert!(words("plate").is_err() && words("").is_err());
+    }
+}

@@ -1,0 +1,118 @@
+//! Several quantities in one figure.
+
+use anyhow::{Context as _, ensure};
+use ppum::field::Field;
+use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
+use ppum_render::picture::Style;
+use ppum_render::range::Range;
+use ppum_render::view::View;
+
+use super::{Args, Plate};
+use crate::drawing::{Drawn, Job};
+use crate::output::Output;
+use crate::page;
+use crate::subject::Asked;
+
+impl Args {
+    /// Draws the quantities, each in a panel.
+    pub(super) fn panels(
+        &self,
+        plate: &Plate<'_>,
+        [columns, rows]: [u32; 2],
+        out: &mut Output,
+    ) -> anyhow::Result<()> {
+        let (field, title) = (plate.field, plate.shown.clone());
+        let grid = Grid { columns, rows, shared_bar: self.shared_range };
+        let subjects = self.asked(field, grid)?;
+        let title = self.look.worded(Labels { title, ..Labels::default() }).title;
+        let labels: Vec<Labels> =
+            subjects.iter().zip(0..).map(|(s, k)| self.words(s, k, field)).collect();
+        let design = self.look.design(self.window.aspect(field));
+        let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
+        let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
+        let view = self.window.seen(field, frame)?;
+        let mut drawn = self.drawn(field, &view, &subjects)?;
+        subjects.iter().zip(&drawn).for_each(|(subject, drawn)| drawn.warn(&subject.name));
+        let layers =
+            subjects.iter().zip(&drawn).map(|(asked, drawn)| self.layers(plate, asked, drawn));
+        let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
+        if self.look.blank {
+            drawn.iter_mut().for_each(Drawn::blank);
+        }
+        let pictures = drawn.iter().map(|drawn| &drawn.picture);
+        let panel = |((picture, labels), layers)| Panel {
+            picture,
+            layers,
+            labels,
+            cracks: &field.step.cracks,
+        };
+        let all: Vec<Panel<'_>> = pictures.zip(labels).zip(layers).map(panel).collect();
+        let page = panels(&title, &all, grid, &design)?;
+        let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
+        let (names, Drawn { picture, by, .. }) = (names.join(", "), &drawn[0]);
+        let mut texts =
+            picture.description(&plate.dataset.title, &self.subject.file_name(), &names);
+        if !self.shared_range {
+            // each panel has its own, on its bar
+            texts.retain(|(key, _)| key != "ppum:range");
+        }
+        texts.push(("ppum:backend".to_owned(), by.clone()));
+        texts.extend(self.subject.replacements.notes());
+        let [columns, rows] = page.size;
+        let told = format!("{names}, {columns}x{rows} pixels, {by}");
+        page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
+    }
+
+    fn asked(&self, field: &Field<'_>, grid: Grid) -> anyhow::Result<Vec<Asked>> {
+        ensure!(grid.columns.min(grid.rows) > 0, "--layout: give at least 1x1 panels");
+        let asked = self.subject.quantities(field)?;
+        ensure!(
+            asked.len() <= grid.cells(),
+            "--layout {}x{} has fewer panels than there are quantities, {}",
+            grid.columns,
+            grid.rows,
+            asked.len()
+        );
+        Ok(asked)
+    }
+
+    /// The words of a panel, `(a) σ_yy` above it; where one bar is for all it names nothing but the unit.
+    fn words(&self, subject: &Asked, number: u8, field: &Field<'_>) -> Labels {
+        let mut labels = subject.labels(String::new(), field);
+        let name = labels.quantity.clone();
+        if self.shared_range {
+            labels.quantity.clear();
+        }
+        let mut labels = self.look.worded(labels);
+        // after z comes {, but nobody has that many
+        labels.title = format!("({}) {name}", char::from(b'a'.saturating_add(number)));
+        labels
+    }
+
+    /// The pictures; where the range is shared and automatic they are drawn twice, to find it.
+    fn drawn(
+        &self,
+        field: &Field<'_>,
+        view: &View,
+        subjects: &[Asked],
+    ) -> anyhow::Result<Vec<Drawn>> {
+        let draw = |subject: &Asked, style: &Style| {
+            let quantity = &subject.quantity;
+            self.engine.draw(Job { field, view, quantity, style })
+        };
+        let own = |subject: &Asked| draw(subject, &self.colours.style(&subject.quantity)?);
+        let first = subjects.iter().map(own).collect::<anyhow::Result<Vec<_>>>()?;
+        if !self.shared_range {
+            return Ok(first);
+        }
+        let subject = subjects.first().context("there is a quantity")?;
+        let mut style = self.colours.style(&subject.quantity)?;
+        if self.colours.is_automatic() {
+            let norms = || first.iter().map(|drawn| &drawn.picture.normalization);
+            let min = norms().map(|norm| norm.min()).fold(f64::INFINITY, f64::min);
+            let max = norms().map(|norm| norm.max()).fold(f64::NEG_INFINITY, f64::max);
+            style.range = Range::Fixed(min, max);
+        }
+        subjects.iter().map(|subject| draw(subject, &style)).collect()
+    }
+}

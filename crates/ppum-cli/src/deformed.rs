@@ -1,0 +1,149 @@
+//! Options that draw the deformed plate.
+
+use std::str::FromStr;
+
+use anyhow::ensure;
+use ppum::field::Field;
+use ppum::text::trimmed;
+use ppum::vec2::{Rect, Vec2};
+use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_factor};
+use ppum_render::image::Image;
+use ppum_render::picture::Picture;
+use ppum_render::raster::Raster;
+
+use crate::backend::Engine;
+use crate::drawing::{Drawn, Job};
+use crate::progress::Bar;
+use crate::window::{Frame, Window};
+
+/// How the plate is deformed.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Deformed {
+    /// Draw the plate with so many times its displacement; `auto` shows the largest as some 5 % of the
+    /// plate
+    #[arg(long = "deformed", value_name = "FACTOR|auto", allow_hyphen_values = true)]
+    factor: Option<Factor>,
+    /// Draw the border of the undeformed plate too, dashed
+    #[arg(long, requires = "factor")]
+    pub(crate) outline: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Factor {
+    Auto,
+    Given(f64),
+}
+
+impl FromStr for Factor {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.trim() {
+            "auto" => Ok(Self::Auto),
+            number => match number.parse() {
+                Ok(factor) if f64::is_finite(factor) => Ok(Self::Given(factor)),
+                _ => Err("write a finite number, or auto"),
+            },
+        }
+    }
+}
+
+impl Deformed {
+    /// True if the deformed plate is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.factor.is_some()
+    }
+
+    /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
+    pub(crate) fn view<'f>(
+        &self,
+        field: &'f Field<'f>,
+        window: &Window,
+        frame: Frame,
+    ) -> anyhow::Result<Option<DeformedView<'f>>> {
+        let Some(factor) = self.factor else { return Ok(None) };
+        let factor = match factor {
+            Factor::Given(factor) => factor,
+            Factor::Auto => automatic_factor(&[field], &field.domain.bounds)?,
+        };
+        let deformation = Deformation::new(field, factor)?;
+        let bounds = self.bounds(&deformation, field)?;
+        let view = window.over(bounds, field, frame)?;
+        if let Some(tip) = window.tip(field)? {
+            return Ok(Some(deformation.around(tip, view.width, view.pixels)?));
+        }
+        ensure!(
+            view.rect().overlaps(&bounds),
+            "the view shows nothing of the deformed plate, which lies between ({}, {}) and ({}, {})",
+            trimmed(bounds.min.x),
+            trimmed(bounds.min.y),
+            trimmed(bounds.max.x),
+            trimmed(bounds.max.y)
+        );
+        Ok(Some(deformation.seen(&view)))
+    }
+
+    /// A box around the deformed plate, and around the undeformed one if its border is drawn.
+    fn bounds(&self, deformation: &Deformation<'_>, field: &Field<'_>) -> anyhow::Result<Rect> {
+        let whole = field.domain.bounds;
+        let view = ppum_render::view::View::fit(whole, [256, 256])?;
+        let outline = deformation.seen(&view).outline();
+        let place = |offset: &Vec2| view.center + *offset;
+        let all = outline.iter().flatten().map(place).map(|p| Rect::new(p, p));
+        let moved = all.reduce(|a, b| a.union(&b)).unwrap_or(whole);
+        let shown = if self.outline { moved.union(&whole) } else { moved };
+        let room = shown.size() * ROOM;
+        Ok(Rect::new(shown.min - room, shown.max + room))
+    }
+}
+
+/// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a small picture.
+const ROOM: f64 = 0.01;
+
+/// The factor as it is told: `×100`.
+pub(crate) fn words(view: &DeformedView<'_>) -> String {
+    format!("deformed ×{}", trimmed(view.factor()))
+}
+
+/// A picture of the deformed plate, and at how many pixels it lies over itself; these are hatched.
+pub(crate) fn draw(
+    view: &DeformedView<'_>,
+    job: Job<'_>,
+    engine: &Engine,
+) -> anyhow::Result<(Drawn, usize)> {
+    let found = engine.on_processor(|| {
+        let points = view.points(&Bar::new())?;
+        let raster = points.raster(job.quantity, &Bar::new())?;
+        anyhow::Ok((points, raster))
+    })??;
+    let (points, raster) = found;
+    let mut picture = Picture::bare(&raster.values, &view.view, job.style)?;
+    hatch(&mut picture.image, &raster.overlap);
+    let undefined = undefined(&points, &raster.values);
+    let is_finite = raster.values.statistics().finite > 0;
+    let drawn = Drawn { picture, by: "cpu f64".into(), undefined, is_finite };
+    Ok((drawn, raster.overlap.iter().filter(|overlap| **overlap).count()))
+}
+
+/// The number of pixels of the plate without a value, and of all of them.
+fn undefined(points: &DeformedPoints<'_>, values: &Raster) -> [usize; 2] {
+    let [columns, rows] = values.size;
+    let plate = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+    let plate: Vec<_> = plate.filter(|&(i, j)| !points.at(i, j).is_empty()).collect();
+    let without = plate.iter().filter(|&&(i, j)| values.value(i, j).is_nan()).count();
+    [without, plate.len()]
+}
+
+/// Dark lines across the pixels where the plate lies over itself.
+fn hatch(image: &mut Image, overlap: &[bool]) {
+    let columns = image.size[0] as usize;
+    let pixels = image.rgba.as_chunks_mut().0;
+    for (index, pixel) in pixels.iter_mut().enumerate().filter(|(index, _)| overlap[*index]) {
+        if (index % columns + index / columns).is_multiple_of(HATCH_STEP) {
+            *pixel = HATCH;
+        }
+    }
+}
+
+const HATCH: [u8; 4] = [16, 16, 20, 255];
+const HATCH_STEP: usize = 5;

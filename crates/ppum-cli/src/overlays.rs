@@ -1,0 +1,277 @@
+//! What is drawn over the colours of a picture.
+
+use std::str::FromStr;
+
+use anyhow::bail;
+use clap::ValueEnum;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::{Axis, Quantity};
+use ppum::vec2::Vec2;
+use ppum_figure::canvas::Item;
+use ppum_figure::levels;
+use ppum_figure::overlay::{self, Entry, Load, Support};
+use ppum_render::deform::DeformedView;
+use ppum_render::glyph::{self, LEAST_SPACING};
+use ppum_render::isoline::isolines;
+use ppum_render::picture::Picture;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use ppum_solve::problem::{Problem, Station};
+
+use crate::arguments::positive;
+use crate::output::tell;
+use crate::progress::Bar;
+
+/// Options of overlays.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Overlays {
+    /// What is drawn over the colours, in any number and order; a figure always shows the cracks
+    #[arg(long, value_enum, value_delimiter = ',')]
+    overlay: Vec<Overlay>,
+    /// Isolines of the quantity: auto for round levels, N for about so many, or the levels
+    #[arg(long, value_name = "auto|N|A,B,…", allow_hyphen_values = true)]
+    isolines: Option<Levels>,
+    /// Write their levels along the isolines
+    #[arg(long, requires = "isolines")]
+    level_labels: bool,
+    /// Arrows of the displacement (of a potential its gradient), so many pixels apart [default: 36]
+    #[arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true, default_missing_value = "36", value_parser = spacing)]
+    arrows: Option<f64>,
+    /// Crosses of the principal stresses, so many pixels apart [default: 36]
+    #[arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true, default_missing_value = "36", value_parser = spacing)]
+    crosses: Option<f64>,
+}
+
+/// The levels of isolines.
+#[derive(Clone, Debug, PartialEq)]
+enum Levels {
+    Auto,
+    Count(usize),
+    At(Vec<f64>),
+}
+
+impl FromStr for Levels {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let text = text.trim();
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        if let Ok(count) = text.parse() {
+            return match count {
+                1..=1000 => Ok(Self::Count(count)),
+                _ => Err("write 1 to 1000 levels, or their values with a comma"),
+            };
+        }
+        let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
+        let values: Option<Vec<f64>> =
+            text.split(',').filter(|part| !part.trim().is_empty()).map(number).collect();
+        let values = values.filter(|values| !values.is_empty());
+        Ok(Self::At(values.ok_or("write auto, a number of levels, or values with commas between")?))
+    }
+}
+
+/// Distance of arrows and crosses.
+fn spacing(text: &str) -> Result<f64, String> {
+    let value = positive(text)?;
+    if value >= LEAST_SPACING {
+        Ok(value)
+    } else {
+        Err(format!("write at least {LEAST_SPACING} pixels"))
+    }
+}
+
+/// What overlays are drawn on.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) dataset: &'a Dataset,
+    pub(crate) field: &'a Field<'a>,
+    pub(crate) quantity: &'a Quantity,
+    pub(crate) picture: &'a Picture,
+    /// A figure has its cracks whatever is asked for.
+    pub(crate) is_figure: bool,
+}
+
+/// In the order in which they are drawn, the lowest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+enum Overlay {
+    /// Supports of the patches, which overlap
+    Patches,
+    /// Borders of the cover's cells
+    Cells,
+    /// Points the cover was made from
+    Points,
+    /// Centres of the cells, coloured by the kind of enrichment
+    Centers,
+    /// Rings that the stress intensity factors are integrated over
+    Rings,
+    /// Cracks with their tips, and rims of holes
+    Cracks,
+    /// Supports of the plate, as its problem file has them
+    Supports,
+    /// Loads on the plate, as its problem file has them
+    Loads,
+}
+
+/// Most levels that are chosen by the program.
+const AUTOMATIC: usize = 14;
+/// Distance of supports and loads, in pixels of a picture 768 pixels high.
+const SPACING: f64 = 30.0;
+/// Room for them around the plate.
+const MARGIN: f64 = 0.09;
+
+impl Overlays {
+    /// Draws them over a picture of the plate as it was before it was loaded.
+    pub(crate) fn items(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
+        let Ground { dataset, field, picture, is_figure, .. } = ground;
+        let view = &picture.view;
+        let mut wanted = self.overlay.clone();
+        if is_figure {
+            wanted.push(Overlay::Cracks);
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        let stations = self.stations(view, dataset);
+        let (mut items, mut legend) = (self.isolines(ground)?, Vec::new());
+        let (glyphs, entries) = self.glyphs(field, view)?;
+        items.extend(glyphs);
+        legend.extend(entries);
+        for overlay in wanted {
+            items.extend(match overlay {
+                Overlay::Patches => overlay::patches(view, &field.step.partition),
+                Overlay::Cells => overlay::cells(view, &field.step.partition),
+                Overlay::Points => overlay::points(view, &field.step.partition),
+                Overlay::Centers => {
+                    let (centers, entries) = overlay::centers(view, field);
+                    legend.extend(entries);
+                    centers
+                }
+                Overlay::Rings => overlay::rings(view, &field.step.cracks, &field.step.intensities),
+                Overlay::Cracks => {
+                    let rims = overlay::rims(view, &field.domain.holes);
+                    [rims, overlay::cracks(view, &field.step.cracks)].concat()
+                }
+                Overlay::Supports => overlay::supports(view, &supports(&stations)),
+                Overlay::Loads => overlay::loads(view, &loads(&stations)),
+            });
+        }
+        items.extend(overlay::legend(view, &legend));
+        Ok(items)
+    }
+
+    /// Isolines, found on the exact field; the raster of the processor says where to look for them.
+    fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
+        let Some(levels) = &self.isolines else { return Ok(Vec::new()) };
+        let Ground { field, quantity, picture, .. } = ground;
+        let (view, norm) = (&picture.view, &picture.normalization);
+        let levels = match levels {
+            Levels::Auto => levels::automatic(norm, AUTOMATIC),
+            Levels::Count(count) => levels::automatic(norm, *count),
+            Levels::At(values) => values.clone(),
+        };
+        let raster = render::<f64>(field, view, quantity, &Bar::new())?;
+        let lines = isolines(field, view, quantity, &levels, &raster, &Bar::new())?;
+        Ok(overlay::isolines(view, &lines, self.level_labels))
+    }
+
+    /// Arrows and crosses with what their lengths mean.
+    fn glyphs(&self, field: &Field<'_>, view: &View) -> anyhow::Result<(Vec<Item>, Vec<Entry>)> {
+        let (mut items, mut entries) = (Vec::new(), Vec::new());
+        let mut add = |(more, meaning): (Vec<Item>, Vec<Entry>)| {
+            items.extend(more);
+            entries.extend(meaning);
+        };
+        if let Some(spacing) = self.crosses {
+            let found = glyph::principal(field, view, spacing, &Bar::new())?;
+            add(overlay::crosses(view, &found, spacing));
+        }
+        if let Some(spacing) = self.arrows {
+            let shown = match field.components() {
+                2 => [Quantity::Component(0), Quantity::Component(1)],
+                _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
+            };
+            let found = glyph::vectors(field, view, spacing, &shown, &Bar::new())?;
+            add(overlay::arrows(view, &found, spacing));
+        }
+        Ok((items, entries))
+    }
+
+    /// Draws them over the deformed plate, which has its border and the faces of its cracks whatever is asked for in a figure; with
+    /// the border of the undeformed plate if that is wanted.
+    pub(crate) fn deformed_items(
+        &self,
+        view: &DeformedView<'_>,
+        is_figure: bool,
+        with_outline: bool,
+    ) -> anyhow::Result<Vec<Item>> {
+        let has = |wanted: Overlay| self.overlay.contains(&wanted);
+        let given = [
+            ("--isolines", self.isolines.is_some()),
+            ("--arrows", self.arrows.is_some()),
+            ("--crosses", self.crosses.is_some()),
+        ];
+        if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
+            bail!("{option}: the deformed plate is drawn with cells and cracks alone");
+        }
+        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
+        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
+            bail!(
+                "--overlay {}: the deformed plate is drawn with cells and cracks alone",
+                other.get_name()
+            );
+        }
+        let mut items = Vec::new();
+        if with_outline {
+            items.extend(overlay::undeformed_outline(view)?);
+        }
+        if has(Overlay::Cells) {
+            items.extend(overlay::deformed_cells(view));
+        }
+        if is_figure || has(Overlay::Cracks) {
+            items.extend(overlay::deformed_outline(view));
+            items.extend(overlay::faces(view));
+        }
+        Ok(items)
+    }
+
+    /// Room around the plate for what stands outside of it, in parts of the plate's larger side.
+    pub(crate) fn margin(&self) -> f64 {
+        if self.have_stations() { MARGIN } else { 0.0 }
+    }
+
+    fn have_stations(&self) -> bool {
+        self.overlay.iter().any(|o| matches!(o, Overlay::Supports | Overlay::Loads))
+    }
+
+    /// Points along the border with supports and loads; none if nobody asks for them.
+    fn stations(&self, view: &View, dataset: &Dataset) -> Vec<Station> {
+        if !self.have_stations() {
+            return Vec::new();
+        }
+        match Problem::of_dataset(dataset) {
+            Ok(Some(problem)) => {
+                let side = f64::from(view.pixels[0].min(view.pixels[1]));
+                return problem.stations(SPACING * (side / 768.0).max(1.0) * view.pixel_size());
+            }
+            Ok(None) => tell(
+                "warning: the dataset holds no problem file, so its supports and loads are not known",
+            ),
+            Err(_) => tell(
+                "warning: the dataset's problem file cannot be read, so its supports and loads are not known",
+            ),
+        }
+        Vec::new()
+    }
+}
+
+fn supports(stations: &[Station]) -> Vec<Support> {
+    let held = stations.iter().filter(|station| station.held != [false; 2]);
+    held.map(|&Station { at, outward, held, .. }| Support { at, outward, held }).collect()
+}
+
+fn loads(stations: &[Station]) -> Vec<Load> {
+    let loaded = stations.iter().filter(|station| station.traction != Vec2::ZERO);
+    loaded.map(|&Station { at, outward, traction, .. }| Load { at, outward, traction }).collect()
+}

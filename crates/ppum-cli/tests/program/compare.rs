@@ -1,0 +1,103 @@
+use serde_json::Value;
+
+use crate::{CRACKED, LINEAR, Lab, Png, keys};
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+/// u = x + 2y over [0, 2] × [0, 1]: bilinear and bicubic interpolation reproduce it; nearest errs by up to half the
+/// spacing in each direction, (1 + 1)/2 of 1/32 and 2/32 with 65 × 17 points.
+#[test]
+fn errors_of_a_plane_are_those_of_theory() {
+    let lab = Lab::solved(LINEAR);
+    let arguments = "compare plate.h5 -q u --grid 65x17 --method all --error 0.1";
+    let report = lab.json(arguments);
+    let rows = report["resampled"].as_array().unwrap();
+    let methods: Vec<_> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
+    assert_eq!(methods, ["nearest", "bilinear", "bicubic", "cells"]);
+    assert_eq!(rows[0]["grid"], serde_json::json!([65, 17]));
+    assert_eq!(rows[0]["bytes"], 8 * 65 * 17);
+    assert!(rows[3]["grid"].is_null() && rows[3]["needed"].is_null());
+    for row in rows {
+        let absolute = numbers(&row["absolute"]);
+        let most = match row["method"].as_str().unwrap() {
+            "nearest" => 0.5 / 32.0 + 0.5 * 2.0 / 16.0,
+            // 2 × 2 cells of 1 × 1/2
+            "cells" => 0.5 + 0.25 * 2.0,
+            _ => 1e-9,
+        };
+        let least = if most > 1e-3 { 0.9 * most } else { 0.0 };
+        assert!((least..=most).contains(&absolute[2]), "{row}");
+        assert!(absolute[0] <= absolute[1] && absolute[1] <= absolute[2], "{row}");
+        assert_eq!((&row["lost"], &row["invented"]), (&0.into(), &0.into()));
+    }
+    assert_eq!(rows[1]["needed"]["grids"][2]["kind"], "measured");
+    assert_eq!(
+        keys(&report),
+        ["center", "direct", "file", "pixels", "quantity", "resampled", "width"]
+    );
+    let text = lab.run(arguments);
+    assert!(text.contains("bicubic, 65×17") && text.contains("a relative error of 0.1"), "{text}");
+}
+
+#[test]
+fn pictures_have_three_panels_or_two_rows() {
+    let lab = Lab::solved(CRACKED);
+    let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 400x300");
+    assert!(told.starts_with("wrote a.png\n"), "{told}");
+    let png = Png::read(&lab.path("a.png"));
+    assert_eq!(png.size, [1200, 300]);
+    assert_eq!(png.text("ppum:resampled"), "bilinear, 16×16");
+    assert_eq!(png.text("ppum:quantity"), "von-mises");
+    lab.run(
+        "compare plate.h5 -o a.png --method nearest,cells,nearest --size 400x300 -q uy --tip 0",
+    );
+    assert_eq!(Png::read(&lab.path("a.png")).size, [1200, 600]);
+    assert_eq!(lab.files(), ["a.png", "plate.h5", "plate.toml"]);
+}
+
+/// Numbers are the same on any number of threads.
+#[test]
+fn no_grid_is_enough_at_a_tip() {
+    let lab = Lab::solved(CRACKED);
+    let [a, b] = ["1", "2"].map(|threads| {
+        let mut report = lab.json(&format!(
+            "compare plate.h5 --grid 16 --error 1e-3 --tip 1 --over view --threads {threads}"
+        ));
+        let row = &mut report["resampled"][0];
+        assert_eq!(row["needed"]["grids"][2]["reason"], "singular");
+        assert_eq!(row["needed"]["grids"][2]["kind"], "none");
+        (row["relative"].take(), row["needed"].take())
+    });
+    assert_eq!(a, b);
+    let report = lab.json("compare plate.h5 -q uy --grid 16 --error 1e-3");
+    assert_eq!(report["resampled"][0]["needed"]["grids"][2]["reason"], "jump");
+}
+
+#[test]
+fn mistakes_are_told() {
+    let lab = Lab::solved(LINEAR);
+    for (arguments, part) in [
+        ("compare plate.h5 --grid 1", "at least 2x2"),
+        ("compare plate.h5 --grid 5x1", "at least 2x2"),
+        ("compare plate.h5 --grid 65536x65536", "at most"),
+        ("compare plate.h5 --grid x", "NXxNY"),
+        ("compare plate.h5 --grid -3", "unexpected argument"),
+        ("compare plate.h5 --method cubic", "bicubic"),
+        ("compare plate.h5 --error 0", "above zero"),
+        ("compare plate.h5 --error x", "above zero"),
+        ("compare plate.h5 -q strss", "no quantity"),
+        ("compare plate.h5 --size 100x100", "no room"),
+        ("compare plate.h5 --view 5,5,6,6", "nothing of the domain"),
+        ("compare plate.h5 -o plate.h5", "would replace"),
+        ("compare plate.h5 -o a.jpg", "PNG"),
+        ("compare plate.h5 -o - --json", "standard output"),
+        ("compare plate.h5 --tip 0", "no crack tips"),
+        ("compare none.h5", "none.h5"),
+    ] {
+        let complaint = lab.fail(arguments);
+        assert!(complaint.contains(part), "{arguments}: {complaint}");
+        assert_eq!(lab.files(), ["plate.h5", "plate.toml"]);
+    }
+}

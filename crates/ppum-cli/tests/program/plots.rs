@@ -1,0 +1,97 @@
+//! Plots, and the tables behind them.
+
+use crate::{CRACKED, LINEAR, Lab, Png};
+
+fn read(lab: &Lab, name: &str) -> String {
+    String::from_utf8_lossy(&std::fs::read(lab.path(name)).unwrap()).into_owned()
+}
+
+/// Rows of numbers of a table, without its names.
+fn rows(table: &str) -> Vec<Vec<f64>> {
+    let numbers = |line: &str| line.split(',').map(|n| n.parse().unwrap()).collect();
+    table.lines().skip(1).map(numbers).collect()
+}
+
+#[test]
+fn circles_and_tips_are_sampled() {
+    let lab = Lab::solved(LINEAR);
+    let table = lab.run("sample plate.h5 --circle 1,0.5,0.25 --count 5 -q u");
+    assert!(table.starts_with("theta [deg],x,y,side,u\n"), "{table}");
+    let found = rows(&table);
+    assert_eq!(
+        found.iter().map(|row| row[0]).collect::<Vec<_>>(),
+        [-180.0, -90.0, 0.0, 90.0, 180.0]
+    );
+    for row in found {
+        assert!((row[1] + 2.0 * row[2] - row[4]).abs() < 1e-9, "{row:?}");
+        let from_center = (row[1] - 1.0).hypot(row[2] - 0.5);
+        assert!((from_center - 0.25).abs() < 1e-12);
+    }
+    for wrong in
+        ["--circle 1,0.5", "--circle 1,0.5,0", "--tip 0", "--angle 3", "--circle 0,0,1 --radius 2"]
+    {
+        lab.fail(&format!("sample plate.h5 {wrong}"));
+    }
+}
+
+/// Faces are free of traction, and σ_rr r^(1/2) tends to a constant.
+#[test]
+fn values_around_a_tip() {
+    let lab = Lab::solved(CRACKED);
+    let around = rows(&lab.run("sample plate.h5 --tip 0 --radius 1e-9 --count 181 -q syy,sxx"));
+    let (first, last) = (&around[0], &around[180]);
+    assert_eq!((first[0], last[0]), (-180.0, 180.0));
+    let largest = around.iter().map(|row| row[4].abs()).fold(0.0, f64::max);
+    assert!(
+        first[4].abs() < 0.02 * largest && last[4].abs() < 0.02 * largest,
+        "{first:?} {last:?} {largest}"
+    );
+    assert_eq!(first[3] * last[3], -1.0, "the two faces");
+    let away = rows(&lab.run("sample plate.h5 --tip 0 --angle 0 --radius 1e-3 --count 7 -q syy"));
+    let scaled: Vec<f64> = away.iter().map(|row| row[4] * row[0].sqrt()).collect();
+    assert!((away[0][0] / 1e-9 - 1.0).abs() < 1e-12 && (away[6][0] / 1e-3 - 1.0).abs() < 1e-12);
+    assert!((scaled[0] / scaled[1] - 1.0).abs() < 1e-3, "{scaled:?}");
+}
+
+#[test]
+fn plots_are_drawn() {
+    let lab = Lab::solved(CRACKED);
+    let told = lab.run("plot plate.h5 --tip 0 --angle 0 -q syy -o a.svg");
+    let slope: f64 =
+        told.split("slope −").nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
+    assert!((slope - 0.5).abs() < 2e-3, "{told}");
+    let svg = read(&lab, "a.svg");
+    assert!(svg.contains("<title>Small plate</title>") && svg.contains(">r</text>"));
+    let told = lab.run("plot plate.h5 --crack 0 -o b.pdf");
+    assert!(told.contains("b.pdf: opening, sliding"), "{told}");
+    assert!(read(&lab, "b.pdf").starts_with("%PDF-"));
+    lab.run("plot plate.h5 --line 0.1,0.1,0.9,0.3 -q sxx,syy --log y --size 400x300 -o c.png");
+    assert_eq!(Png::read(&lab.path("c.png")).size, [400, 300]);
+    let told = lab.run("plot plate.h5 --history -o d.png");
+    assert!(told.contains("plate"), "{told}");
+    std::fs::copy(lab.path("plate.h5"), lab.path("other.h5")).unwrap();
+    let told = lab.run("plot plate.h5 other.h5 --line 0.1,0.1,0.9,0.3 -q sxx -o e.svg");
+    assert!(told.contains("plate: sxx, other: sxx"), "{told}");
+}
+
+#[test]
+fn plots_that_cannot_be_are_refused() {
+    let lab = Lab::solved(CRACKED);
+    for (options, part) in [
+        ("--crack 7", "numbered from 0"),
+        ("--tip 7", "numbered from 0"),
+        ("--line 0,0,0,0", "its two points are equal"),
+        ("--line 0,0,1,1 --count 1", "two points or more"),
+        ("--convergence", "three datasets or more"),
+        ("--line 0,0,1,1 -q nonsense", "nonsense"),
+        ("", "required"),
+        ("--line 0,0,1,1 --crack 0", "cannot be used with"),
+        ("--history -q sxx", "cannot be used with"),
+        ("--tip 0 --angle 181", "from -180 to 180"),
+    ] {
+        let complaint = lab.fail(&format!("plot plate.h5 {options} -o a.png"));
+        assert!(complaint.contains(part), "{options}: {complaint}");
+        assert!(!lab.path("a.png").exists());
+    }
+    assert!(lab.fail("plot plate.h5 --crack 0 -o a.csv").contains("PNG, SVG or PDF"));
+}

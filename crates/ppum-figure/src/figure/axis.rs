@@ -1,0 +1,153 @@
+//! Axes, and what is written along them.
+
+use ppum::crack::{Crack, tips};
+use ppum::vec2::Vec2;
+
+use super::color_bar::widest;
+use super::design::{Design, Labels, TickChoice};
+use crate::text;
+use crate::ticks::{self, Span, Step, Ticks, power_of_ten};
+use ppum_render::picture::Picture;
+
+/// Least distances of labelled ticks, across and along the direction of reading.
+const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
+
+/// An axis or the bar: its ticks, what is written along it, and how wide its tick labels are.
+pub(super) struct Axis {
+    pub(super) ticks: Ticks,
+    pub(super) label: String,
+    /// Bytes of the label that are the name; the rest is a number and units, which stay whole.
+    name: usize,
+    pub(super) widest: f64,
+}
+
+impl Axis {
+    pub(super) fn new(ticks: Ticks, label: &str, name: usize, scale: f64) -> Self {
+        Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
+    }
+
+    /// The label, with its name shortened if there is less room \[pixels\].
+    pub(super) fn fitted(&self, size: f64, room: f64) -> String {
+        let (name, rest) = self.label.split_at(self.name);
+        let name = text::fitted(name, size, (room - text::width(rest, size)).max(0.0));
+        text::fitted(&format!("{name}{rest}"), size, room)
+    }
+}
+
+/// The axes x and y, with the same step where that leaves y two ticks at least.
+pub(super) fn axes(
+    picture: &Picture,
+    labels: &Labels,
+    cracks: &[Crack],
+    design: &Design,
+) -> [Axis; 2] {
+    let (view, scale) = (&picture.view, design.scale());
+    let half = view.half();
+    let step = |distance: f64| Step::at_least(distance * scale * view.pixel_size());
+    let [across, along] = TICK_DISTANCE.map(step);
+    let (x_step, y_step) = (across, if half.y > across.size() { across } else { along });
+    let tip = nearest_tip(picture, cracks);
+    let axis = |span: Span, step: Step, choice: &TickChoice, tip: Option<f64>, name: &str| {
+        let ticks = match choice {
+            TickChoice::Auto => ticks::axis(span.center, span.half, step, tip),
+            TickChoice::Count(count) => {
+                let step = Step::at_least(2.0 * span.half / (*count).max(1) as f64);
+                ticks::axis(span.center, span.half, step, tip)
+            }
+            TickChoice::At(values) => ticks::at(values, &span),
+        };
+        let label = axis_label(name, &ticks, &labels.length_unit);
+        Axis::new(ticks, &label, name.len(), scale)
+    };
+    let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
+        .map(|(center, half)| Span { center, half });
+    [
+        axis(x, x_step, &design.x_ticks, tip.map(|t| t.x), &labels.x),
+        axis(y, y_step, &design.y_ticks, tip.map(|t| t.y), &labels.y),
+    ]
+}
+
+/// The tip in the view that is nearest to its centre.
+fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
+    let view = &picture.view;
+    let offset = |p: Vec2| p - view.center;
+    let is_seen =
+        |p: &Vec2| offset(*p).x.abs() <= view.half().x && offset(*p).y.abs() <= view.half().y;
+    tips(cracks)
+        .map(|tip| cracks[tip.crack as usize].end_point(tip.end))
+        .filter(is_seen)
+        .min_by(|&a, &b| offset(a).length().total_cmp(&offset(b).length()))
+}
+
+/// "name − reference [×10ᵏ unit]", each part where it is needed; nothing along an axis without a name and
+/// units.
+pub(super) fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
+    let mut label = name.to_owned();
+    if ticks.reference != 0.0 {
+        let sign = if ticks.reference > 0.0 { '−' } else { '+' };
+        label = format!("{name} {sign} {}", ticks.reference.abs());
+    }
+    let power = match ticks.exponent {
+        0 => String::new(),
+        k => format!("×{}", power_of_ten(k)),
+    };
+    let parts = [power.as_str(), unit].into_iter().filter(|part| !part.is_empty());
+    let measure = parts.collect::<Vec<_>>().join(" ");
+    if measure.is_empty() { label } else { format!("{label} [{measure}]").trim_start().to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::CrackEnd;
+    use ppum::vec2::vec2;
+    use ppum_render::picture::Style;
+    use ppum_render::raster::Raster;
+    use ppum_render::view::View;
+
+    fn labels() -> Labels {
+        Labels { length_unit: "mm".to_owned(), ..Labels::default() }
+    }
+
+    #[test]
+    fn deep_axes_count_from_the_nearest_tip_in_view() {
+        let tip = vec2(0.3, -0.7);
+        let crack = |tip: Vec2| Crack {
+            points: vec![tip + vec2(-0.1, 0.0), tip],
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
+        };
+        let cracks = [crack(tip + vec2(3e-10, 0.0)), crack(tip), crack(tip + vec2(1e-8, 0.0))];
+        let view = View::new(tip, 1e-9, [300, 300]).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, _| f64::from(i));
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = axes(&picture, &labels(), &cracks, &Design::pixels([640, 480]));
+        assert_eq!(
+            (x.label.as_str(), y.label.as_str()),
+            ("x − 0.3 [×10⁻¹⁰ mm]", "y + 0.7 [×10⁻¹⁰ mm]")
+        );
+        assert!(x.ticks.major.iter().any(|t| t.at == 0.0 && t.label == "0"));
+    }
+
+    #[test]
+    fn labels_have_only_the_parts_they_need() {
+        let ticks = |reference, exponent| Ticks { reference, exponent, ..Ticks::default() };
+        assert_eq!(axis_label("x", &ticks(0.0, 0), ""), "x");
+        assert_eq!(axis_label("x", &ticks(0.0, 0), "mm"), "x [mm]");
+        assert_eq!(axis_label("u", &ticks(0.0, -4), ""), "u [×10⁻⁴]");
+        assert_eq!(axis_label("", &ticks(0.0, 3), "MPa"), "[×10³ MPa]");
+        assert_eq!(axis_label("x", &ticks(0.25, 0), ""), "x − 0.25");
+    }
+
+    /// A name that is too long gives way to the power of ten and the unit.
+    #[test]
+    fn shortened_labels_keep_their_units() {
+        let (ticks, name) = (Ticks { exponent: -4, ..Ticks::default() }, "x + ".repeat(99));
+        let label = axis_label(&name, &ticks, "mm");
+        let axis = Axis::new(ticks, &label, name.len(), 1.0);
+        let label = axis.fitted(12.0, 200.0);
+        assert!(label.starts_with("x + x") && label.ends_with("… [×10⁻⁴ mm]"), "{label}");
+        assert!(text::width(&label, 12.0) <= 200.0, "{label}");
+        assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
+        assert_eq!(axis.fitted(12.0, 1e6), axis.label);
+    }
+}

@@ -1,0 +1,285 @@
+//! The colour bar of a figure, upright or lying.
+
+use ppum::text::trimmed;
+use ppum::vec2::{Vec2, vec2};
+
+use super::axis::{Axis, axis_label};
+use super::design::{Design, LABEL_TEXT, Labels, TickChoice};
+use super::ink::{Ink, TICK_TEXT, snapped};
+use super::sheet::{GAP, LABEL_GAP, TICK};
+use crate::canvas::{Align, Item, Path};
+use crate::text::{self, CAP_HEIGHT};
+use crate::ticks::{self, Tick, Ticks};
+use ppum_render::colormap::Colormap;
+use ppum_render::image::{Image, Rgba};
+use ppum_render::picture::Picture;
+use ppum_render::scale::Normalization;
+
+/// Width of the bar.
+pub(super) const BAR: f64 = 18.0;
+/// Height of the triangles for values below and above.
+pub(super) const ARROW: f64 = 14.0;
+const MINOR_TICK: f64 = 3.0;
+/// Least lengths of an upright bar and of a lying one: three labels and the triangles.
+pub(super) const LEAST_BAR: [f64; 2] = [140.0, 220.0];
+/// Least distance of labelled marks of an upright bar.
+const UPRIGHT_DISTANCE: f64 = 44.0;
+/// Between neighbouring labels of a lying bar.
+const BETWEEN: f64 = 14.0;
+
+/// Characters of a number that is short.
+const SHORT: usize = 6;
+/// Rounding of the borders of bands, in parts of the range.
+const ROUNDING: f64 = 1e-12;
+
+/// What a colour bar explains.
+#[derive(Clone, Debug)]
+pub(super) struct Key {
+    normalization: Normalization,
+    colormap: Colormap,
+    one_value: Option<f64>,
+    has_values: bool,
+    has_below: bool,
+    has_above: bool,
+    name: String,
+    unit: String,
+}
+
+impl Key {
+    pub(super) fn new(picture: &Picture, labels: &Labels) -> Self {
+        let remark = match picture.one_value {
+            _ if !picture.has_values => "no values",
+            Some(_) => "one value",
+            None => "",
+        };
+        let words = [labels.quantity.as_str(), remark].into_iter().filter(|word| !word.is_empty());
+        let name = words.collect::<Vec<_>>().join(", ");
+        Self {
+            normalization: picture.normalization,
+            colormap: picture.colormap.clone(),
+            one_value: picture.one_value,
+            has_values: picture.has_values,
+            has_below: picture.has_below,
+            has_above: picture.has_above,
+            name,
+            unit: labels.unit.clone(),
+        }
+    }
+
+    /// One key for two pictures; none if a colour means one value here and another one there.
+    pub(super) fn shared(mut self, other: &Self) -> Option<Self> {
+        self.has_below |= other.has_below;
+        self.has_above |= other.has_above;
+        self.has_values |= other.has_values;
+        if self.one_value != other.one_value {
+            self.one_value = None;
+        }
+        let is_same = self.normalization == other.normalization && self.colormap == other.colormap;
+        is_same.then_some(self)
+    }
+
+    /// Marks at the borders of bands, if there are no more than `most` and short numbers say where they are.
+    fn borders(&self, most: usize) -> Option<Ticks> {
+        let bands = self.colormap.bands().filter(|&n| usize::from(n) < most)?;
+        let norm = &self.normalization;
+        let tick = |k: u16| {
+            let at = f64::from(k) / f64::from(bands);
+            let (value, label) = (norm.value(at), trimmed(norm.value(at)));
+            let error = (label.parse::<f64>().ok()? - value).abs();
+            let is_exact = error <= ROUNDING * (norm.max() - norm.min());
+            let label = label.replace('-', "−");
+            (is_exact && label.chars().count() <= SHORT).then_some(Tick { at, label })
+        };
+        let major = (0..=bands).map(tick).collect::<Option<Vec<_>>>()?;
+        Some(Ticks { major, ..Ticks::default() })
+    }
+
+    /// The marks of a bar with room for `most` labels.
+    fn axis(&self, choice: &TickChoice, most: usize, scale: f64) -> Axis {
+        let norm = &self.normalization;
+        let found = match (choice, self.one_value) {
+            _ if !self.has_values => Ticks::default(),
+            (TickChoice::At(values), _) => ticks::at(values, norm),
+            (_, Some(value)) => ticks::of_one_value(norm, value),
+            (TickChoice::Count(count), None) => ticks::bar(norm, *count),
+            (TickChoice::Auto, None) => {
+                self.borders(most).unwrap_or_else(|| ticks::bar(norm, most))
+            }
+        };
+        let label = axis_label(&self.name, &found, &self.unit);
+        Axis::new(found, &label, self.name.len(), scale)
+    }
+}
+
+/// A colour bar of some length.
+pub(super) struct ColorBar {
+    key: Key,
+    pub(super) axis: Axis,
+    pub(super) is_upright: bool,
+    /// Length with the triangles.
+    pub(super) length: f64,
+}
+
+/// A bar at its place: `start` is its lower end's corner nearest to the picture.
+struct Placed<'b> {
+    bar: &'b ColorBar,
+    start: Vec2,
+    scale: f64,
+}
+
+impl ColorBar {
+    pub(super) fn upright(key: Key, design: &Design, length: f64) -> Self {
+        let scale = design.scale();
+        let most = (length / (UPRIGHT_DISTANCE * scale)) as usize;
+        let axis = key.axis(&design.bar_ticks, most.max(2), scale);
+        Self { key, axis, is_upright: true, length }
+    }
+
+    /// A lying bar; it has as many labels as do not touch.
+    pub(super) fn lying(key: Key, design: &Design, length: f64) -> Self {
+        let scale = design.scale();
+        let of = |most| key.axis(&design.bar_ticks, most, scale);
+        let is_apart = |axis: &Axis| {
+            let places = axis.ticks.major.windows(2).map(|pair| (pair[1].at - pair[0].at) * length);
+            places.fold(f64::INFINITY, f64::min) > axis.widest + BETWEEN * scale
+        };
+        let most = (2..=(length / (30.0 * scale)) as usize).rev().take(40);
+        let axis = most.map(of).find(is_apart).unwrap_or_else(|| of(2));
+        Self { key, axis, is_upright: false, length }
+    }
+
+    /// Draws the bar with its lower end's corner at a place; the label is no longer than `room`.
+    pub(super) fn draw(&self, ink: &mut Ink, start: Vec2, room: f64) {
+        let placed = Placed { bar: self, start, scale: ink.scale };
+        placed.colors(ink);
+        placed.frame(ink);
+        let end = placed.marks(ink);
+        placed.label(ink, end, room);
+    }
+}
+
+impl Placed<'_> {
+    /// The point so far along the bar and so far away from the picture.
+    fn point(&self, along: f64, across: f64) -> Vec2 {
+        match self.bar.is_upright {
+            true => self.start + vec2(across, -along),
+            false => self.start + vec2(along, across),
+        }
+    }
+
+    /// Lower and upper end of the evenly coloured part.
+    fn ends(&self) -> [f64; 2] {
+        let arrow = |shown: bool| if shown { (ARROW * self.scale).round() } else { 0.0 };
+        let Key { has_below, has_above, .. } = self.bar.key;
+        [arrow(has_below), self.bar.length - arrow(has_above)]
+    }
+
+    fn width(&self) -> f64 {
+        (BAR * self.scale).round()
+    }
+
+    /// Two opposite corners, the upper left one first, of a part of the bar.
+    fn corners(&self, [low, high]: [f64; 2]) -> [Vec2; 2] {
+        let (a, b) = (self.point(low, 0.0), self.point(high, self.width()));
+        [a.min(b), a.max(b)]
+    }
+
+    fn colors(&self, ink: &mut Ink) {
+        let [low, high] = self.ends();
+        let count = (high - low) as u32;
+        let at =
+            |k: u32| self.bar.key.colormap.color((f64::from(k) + 0.5) / f64::from(count.max(1)));
+        let width = self.width() as u32;
+        let size = if self.bar.is_upright { [width, count] } else { [count, width] };
+        let mut image = Image::filled(size, [0; 4]);
+        let pixels = image.rgba.as_chunks_mut::<4>().0;
+        for (row, line) in (0u32..).zip(pixels.chunks_mut(size[0].max(1) as usize)) {
+            for (column, pixel) in (0u32..).zip(line) {
+                *pixel = at(if self.bar.is_upright { count - 1 - row } else { column });
+            }
+        }
+        let corner = self.corners([low, high])[0];
+        ink.items.push(Item::Picture { image, corner: [corner.x as u32, corner.y as u32] });
+        for (corners, color) in self.arrows() {
+            ink.items.push(Item::Fill { outline: Path::through(corners.to_vec()), color });
+        }
+    }
+
+    /// The triangles at the bar's ends: base, tip, base, and colour.
+    fn arrows(&self) -> Vec<([Vec2; 3], Rgba)> {
+        let ([low, high], width, key) = (self.ends(), self.width(), &self.bar.key);
+        let triangle = |base: f64, tip: f64| {
+            [self.point(base, 0.0), self.point(tip, 0.5 * width), self.point(base, width)]
+        };
+        let below = key.has_below.then(|| (triangle(low, 0.0), key.colormap.below));
+        let above = key.has_above.then(|| (triangle(high, self.bar.length), key.colormap.above));
+        below.into_iter().chain(above).collect()
+    }
+
+    fn frame(&self, ink: &mut Ink) {
+        let [min, max] = self.corners(self.ends());
+        ink.outline(min, max);
+        for (corners, _) in self.arrows() {
+            ink.line(corners.to_vec());
+        }
+    }
+
+    /// The marks and their labels; returns how far from the picture they end.
+    fn marks(&self, ink: &mut Ink) -> f64 {
+        let ticks = &self.bar.axis.ticks;
+        for &position in &ticks.minor {
+            self.mark(ink, position, MINOR_TICK);
+        }
+        let base = self.width() + ink.stroke + (TICK + GAP) * ink.scale;
+        for tick in &ticks.major {
+            let along = self.mark(ink, tick.at, TICK);
+            if self.bar.is_upright {
+                ink.at_height(&tick.label, self.point(along, base), Align::Start);
+            } else {
+                let base = base + CAP_HEIGHT * TICK_TEXT * ink.scale;
+                ink.text(&tick.label, TICK_TEXT, self.point(along, base), Align::Middle);
+            }
+        }
+        base + if self.bar.is_upright {
+            self.bar.axis.widest
+        } else {
+            CAP_HEIGHT * TICK_TEXT * ink.scale
+        }
+    }
+
+    /// A mark at a position from 0 to 1; returns how far along the bar it lies.
+    fn mark(&self, ink: &mut Ink, position: f64, length: f64) -> f64 {
+        let [low, high] = self.ends();
+        let along = low + position * (high - low);
+        let length = (length * ink.scale).round();
+        let (from, at) = (self.width() + ink.stroke, self.point(along, 0.0));
+        let middle = self.point(0.5 * (low + high), 0.0);
+        if self.bar.is_upright {
+            let top = snapped(at.y, ink.stroke, middle.y);
+            let left = self.start.x + from;
+            ink.rect(vec2(left, top), vec2(left + length, top + ink.stroke));
+        } else {
+            let left = snapped(at.x, ink.stroke, middle.x);
+            let top = self.start.y + from;
+            ink.rect(vec2(left, top), vec2(left + ink.stroke, top + length));
+        }
+        along
+    }
+
+    fn label(&self, ink: &mut Ink, end: f64, room: f64) {
+        let label = self.bar.axis.fitted(LABEL_TEXT * ink.scale, room);
+        let base = end + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * ink.scale;
+        let at = self.point(0.5 * self.bar.length, base);
+        if self.bar.is_upright {
+            ink.upwards(&label, LABEL_TEXT, at);
+        } else {
+            ink.text(&label, LABEL_TEXT, at, Align::Middle);
+        }
+    }
+}
+
+/// Width of the widest label.
+pub(super) fn widest(ticks: &Ticks, scale: f64) -> f64 {
+    let widths = ticks.major.iter().map(|tick| text::width(&tick.label, TICK_TEXT * scale));
+    widths.fold(0.0, f64::max)
+}

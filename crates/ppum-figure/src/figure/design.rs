@@ -1,0 +1,183 @@
+//! The look of figures, and their words.
+
+use crate::overlay::line_scale;
+use ppum_render::image::{Image, Rgba};
+
+/// The look of a figure: everything but what it shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// Columns and rows of the page.
+    pub size: [u32; 2],
+    /// Pixels per inch: the size on paper.
+    pub dpi: f64,
+    /// Size of the labels of axes \[points, 1/72 inch\]; titles, tick labels and lines follow it.
+    pub font_size: f64,
+    /// The colours around the picture.
+    pub theme: Theme,
+    /// True if the page has no colour of its own.
+    pub transparent: bool,
+    /// The place of the colour bar.
+    pub bar: BarPlace,
+    /// Marks of the axis x.
+    pub x_ticks: TickChoice,
+    /// Marks of the axis y.
+    pub y_ticks: TickChoice,
+    /// Marks of the colour bar.
+    pub bar_ticks: TickChoice,
+}
+
+/// The colours of page, lines and letters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    /// Dark on white.
+    #[default]
+    Light,
+    /// Light on almost black.
+    Dark,
+}
+
+/// The place of the colour bar.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BarPlace {
+    /// Right of the picture, upright.
+    #[default]
+    Right,
+    /// Below the picture, lying.
+    Bottom,
+    /// There is none.
+    None,
+}
+
+/// Labelled marks of an axis or of the colour bar.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum TickChoice {
+    /// As many as fit, at round numbers.
+    #[default]
+    Auto,
+    /// About that many, at round numbers.
+    Count(usize),
+    /// At these values; those outside are left out.
+    At(Vec<f64>),
+}
+
+/// The words of a figure; empty ones are left out. `_{…}` sets a subscript: `σ_{yy}`. Characters are
+/// those of Latin, Greek and mathematics; others appear as boxes ([`missing`](crate::text::missing)).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Labels {
+    /// Lines above the picture; of a panel its caption.
+    pub title: String,
+    /// The quantity that the colours show, e.g. `von Mises stress`.
+    pub quantity: String,
+    /// Unit of the values.
+    pub unit: String,
+    /// Name of the axis x.
+    pub x: String,
+    /// Name of the axis y.
+    pub y: String,
+    /// Unit of lengths.
+    pub length_unit: String,
+}
+
+impl Default for Labels {
+    /// x and y, and no other words.
+    fn default() -> Self {
+        let [title, quantity, unit, length_unit] = [const { String::new() }; 4];
+        Self { title, quantity, unit, x: "x".to_owned(), y: "y".to_owned(), length_unit }
+    }
+}
+
+/// Size of an axis' label in pixels of a figure of 1024 × 768, in which all lengths are given.
+pub(super) const LABEL_TEXT: f64 = 14.0;
+/// Pixels per inch of screens, where nothing else is known: that of CSS.
+const SCREEN_DPI: f64 = 96.0;
+/// Size of labels in print \[points\]: that of captions in journals.
+const PRINT_SIZE: f64 = 9.0;
+/// Pictures at least this much longer than high have their bar below.
+const LONG: f64 = 2.2;
+
+impl Design {
+    /// A figure for screens, of so many columns and rows; letters and lines grow with it.
+    #[must_use]
+    pub fn pixels(size: [u32; 2]) -> Self {
+        let font_size = LABEL_TEXT * line_scale(size) * 72.0 / SCREEN_DPI;
+        Self { font_size, ..Self::new(size, SCREEN_DPI) }
+    }
+
+    /// A figure for paper: width and height in inches, pixels per inch. Labels have 9 points.
+    #[must_use]
+    pub fn inches(size: [f64; 2], dpi: f64) -> Self {
+        Self::new(size.map(|length| (length * dpi).round() as u32), dpi)
+    }
+
+    /// The same in pixels, with so many of them per inch.
+    #[must_use]
+    pub fn at(self, dpi: f64) -> Self {
+        Self { font_size: self.font_size * self.dpi / dpi, dpi, ..self }
+    }
+
+    fn new(size: [u32; 2], dpi: f64) -> Self {
+        Self {
+            size,
+            dpi,
+            font_size: PRINT_SIZE,
+            theme: Theme::Light,
+            transparent: false,
+            bar: BarPlace::Right,
+            x_ticks: TickChoice::Auto,
+            y_ticks: TickChoice::Auto,
+            bar_ticks: TickChoice::Auto,
+        }
+    }
+
+    /// Lengths in units of their length in a figure of 1024 × 768 pixels.
+    pub(super) fn scale(&self) -> f64 {
+        self.font_size * self.dpi / 72.0 / LABEL_TEXT
+    }
+
+    /// The page's colour.
+    pub(super) fn paper(&self) -> Rgba {
+        match self.theme {
+            _ if self.transparent => [0; 4],
+            Theme::Light => [255, 255, 255, 255],
+            Theme::Dark => [22, 22, 26, 255],
+        }
+    }
+
+    /// The colour of lines and letters.
+    pub(super) fn ink(&self) -> Rgba {
+        match self.theme {
+            Theme::Light => [38, 38, 42, 255],
+            Theme::Dark => [226, 226, 230, 255],
+        }
+    }
+
+    /// A ground with diagonal lines: what shows outside the plate.
+    pub(super) fn hatched(&self, size: [u32; 2]) -> Image {
+        let line = match self.theme {
+            Theme::Light => [214, 214, 218, 255],
+            Theme::Dark => [62, 62, 70, 255],
+        };
+        let width = (self.scale().round() as u32).max(1);
+        let mut image = Image::filled(size, self.paper());
+        let pixels = image.rgba.as_chunks_mut().0;
+        for (row, colors) in (0u32..).zip(pixels.chunks_mut(size[0].max(1) as usize)) {
+            for (column, pixel) in (0u32..).zip(colors) {
+                if (column + row) % (HATCH_STEP * width) < width {
+                    *pixel = line;
+                }
+            }
+        }
+        image
+    }
+}
+
+/// Distance of the hatching's lines in units of their width.
+pub(super) const HATCH_STEP: u32 = 8;
+
+impl BarPlace {
+    /// The place for pictures of a shape, width over height: below those that are long.
+    #[must_use]
+    pub fn fitting(aspect: f64) -> Self {
+        if aspect > LONG { Self::Bottom } else { Self::Right }
+    }
+}

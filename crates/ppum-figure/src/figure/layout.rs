@@ -1,0 +1,288 @@
+//! Several panels on one page.
+//!
+//! ```text
+//!   title
+//!   (a) caption      (b) caption
+//!   ┌───────┐        ┌───────┐
+//!   │       │ ▐      │       │ ▐        a bar each, or one for all
+//!   └───────┘        └───────┘
+//!   (c) caption      (d) caption
+//!   …                …
+//! ```
+//!
+//! Panels fill the grid row by row. Plots of a column begin at one line, and so do those of a row.
+
+use ppum::vec2::{Vec2, vec2};
+
+use super::color_bar::{ColorBar, Key};
+use super::design::{BarPlace, Design, LABEL_TEXT};
+use super::ink::{Ink, LINE, TITLE_TEXT, bounds};
+use super::sheet::{self, Extents, Sheet, TITLE_GAP};
+use super::{FigureError, Panel};
+use crate::canvas::{Canvas, Item};
+use crate::text;
+
+/// The arrangement of panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
+    /// Number of columns.
+    pub columns: u32,
+    /// Number of rows.
+    pub rows: u32,
+    /// True if one colour bar explains all panels, which then have one range.
+    pub shared_bar: bool,
+}
+
+impl Grid {
+    /// One panel.
+    pub const ONE: Self = Self { columns: 1, rows: 1, shared_bar: false };
+
+    /// Number of panels that fit.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+}
+
+// Room kept around a picture, in pixels of a figure of 1024 × 768.
+/// Left of it, for y and its labels, and right of it.
+const LEFT: f64 = 96.0;
+const RIGHT: f64 = 36.0;
+/// Right of it with a bar, and what is more below it with one there.
+const RIGHT_BAR: f64 = 150.0;
+const BELOW_BAR: f64 = 88.0;
+/// Above it and below it, the first line of a title included.
+const ABOVE: f64 = 52.0;
+const BELOW: f64 = 68.0;
+/// Between a title and what stands below it.
+const TITLE_OVER: f64 = 12.0;
+/// Around everything.
+const MARGIN: f64 = 12.0;
+/// Least side of a picture.
+const LEAST: u32 = 48;
+/// Lines of a title, and of a caption, at most.
+const TITLE_LINES: usize = 4;
+const CAPTION_LINES: usize = 2;
+
+/// The largest picture that a figure of one panel has room for, whatever its range.
+///
+/// # Errors
+/// If that is less than 48 pixels wide or high.
+pub fn plot_area(title: &str, design: &Design) -> Result<[u32; 2], FigureError> {
+    panel_area(title, &[""], Grid::ONE, design)
+}
+
+/// The largest picture that each panel of a figure has room for, by the figure's title and the panels' captions.
+///
+/// # Errors
+/// If that is less than 48 pixels wide or high.
+pub fn panel_area(
+    title: &str,
+    captions: &[&str],
+    grid: Grid,
+    design: &Design,
+) -> Result<[u32; 2], FigureError> {
+    let [across, down] = [grid.columns.max(1), grid.rows.max(1)];
+    let taken = kept(title, captions, grid, design).map(|room| room.ceil() as u32);
+    let least = [taken[0] + across * LEAST, taken[1] + down * LEAST];
+    if design.size[0] < least[0] || design.size[1] < least[1] {
+        return Err(FigureError::TooSmall { size: design.size, least });
+    }
+    Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
+}
+
+/// Pixels across and down that no picture has.
+fn kept(title: &str, captions: &[&str], grid: Grid, design: &Design) -> [f64; 2] {
+    let scale = design.scale();
+    let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
+    let (bars_across, bars_down) = if grid.shared_bar { (1.0, 1.0) } else { (across, down) };
+    let is = |place: BarPlace| f64::from(u8::from(design.bar == place));
+    let wide =
+        LEFT * across + RIGHT * across + (RIGHT_BAR - RIGHT) * bars_across * is(BarPlace::Right);
+    // without a title, too, the room for its first line: ticks reach into it
+    let more_lines = title_lines(title, design).len().saturating_sub(1) as f64;
+    let captioned = captions.iter().map(|text| caption_lines(text, grid, design).len()).max();
+    let caption = match captioned.unwrap_or(0) {
+        0 => 0.0,
+        lines => (lines as f64 * LINE * LABEL_TEXT) + TITLE_GAP,
+    };
+    let high = ABOVE
+        + more_lines * LINE * TITLE_TEXT
+        + BELOW * down
+        + caption * down
+        + BELOW_BAR * bars_down * is(BarPlace::Bottom);
+    [wide, high].map(|room| room * scale)
+}
+
+fn title_lines(title: &str, design: &Design) -> Vec<String> {
+    let scale = design.scale();
+    let room = f64::from(design.size[0]) - 2.0 * MARGIN * scale;
+    sheet::lines(title, TITLE_TEXT * scale, room, TITLE_LINES)
+}
+
+/// A caption as long as its cell right of where plots begin.
+fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
+    let scale = design.scale();
+    let cell = f64::from(design.size[0]) / f64::from(grid.columns.max(1));
+    let room = cell - (LEFT + MARGIN) * scale;
+    sheet::lines(caption, LABEL_TEXT * scale, room, CAPTION_LINES)
+}
+
+/// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures have at most
+/// the size that [`panel_area`] gives.
+///
+/// # Errors
+/// A page without room, a picture that is too large, more panels than cells, no panels; one bar for pictures
+/// of several ranges or colour maps.
+pub fn panels(
+    title: &str,
+    panels: &[Panel<'_>],
+    grid: Grid,
+    design: &Design,
+) -> Result<Canvas, FigureError> {
+    if panels.is_empty() || panels.len() > grid.cells() {
+        return Err(FigureError::Panels { panels: panels.len(), cells: grid.cells() });
+    }
+    let captions: Vec<&str> = panels.iter().map(|panel| panel.labels.title.as_str()).collect();
+    let room = panel_area(title, &captions, grid, design)?;
+    if let Some(panel) = panels.iter().find(|p| (0..2).any(|k| p.picture.image.size[k] > room[k])) {
+        return Err(FigureError::TooLarge { plot: panel.picture.image.size, room });
+    }
+    let sheets = panels.iter().map(|panel| {
+        let caption = caption_lines(&panel.labels.title, grid, design);
+        Sheet::new(panel, caption, design, room, !grid.shared_bar)
+    });
+    let lines = title_lines(title, design);
+    Ok(Page::new(sheets.collect(), panels, lines, grid, design)?.draw())
+}
+
+/// Sheets on a page.
+struct Page<'a> {
+    design: &'a Design,
+    sheets: Vec<Sheet<'a>>,
+    columns: Vec<Track>,
+    rows: Vec<Track>,
+    /// The bar for all.
+    bar: Option<ColorBar>,
+    /// The title, line by line.
+    lines: Vec<String>,
+}
+
+/// A column's or a row's room before its plots, theirs, and after them.
+type Track = [f64; 3];
+
+/// The length of all tracks.
+fn length(tracks: &[Track]) -> f64 {
+    tracks.iter().flatten().sum()
+}
+
+/// From the first plot to the end of the last one.
+fn plots(tracks: &[Track]) -> [f64; 2] {
+    let [before, after] =
+        [tracks.first().map_or(0.0, |t| t[0]), tracks.last().map_or(0.0, |t| t[2])];
+    [before, length(tracks) - after]
+}
+
+impl<'a> Page<'a> {
+    fn new(
+        sheets: Vec<Sheet<'a>>,
+        panels: &[Panel<'_>],
+        lines: Vec<String>,
+        grid: Grid,
+        design: &'a Design,
+    ) -> Result<Self, FigureError> {
+        let [columns, rows] = tracks(&sheets, grid, design);
+        let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
+        let bar = match grid.shared_bar {
+            true => sheet::bar(shared_key(panels)?, design.bar, design, sides, sides),
+            false => None,
+        };
+        Ok(Self { design, sheets, columns, rows, bar, lines })
+    }
+
+    /// The page with everything in its middle.
+    fn draw(&self) -> Canvas {
+        let size = Vec2::from(self.design.size.map(f64::from));
+        // measured at a place far from the borders
+        let far = vec2(f64::from(1 << 24), f64::from(1 << 24));
+        let [lo, hi] = bounds(&self.around(far));
+        let start = (size - (hi - lo)) * 0.5 + (far - lo);
+        let start = vec2(start.x.round(), start.y.round());
+        let mut page = Canvas::new(self.design.size, self.design.paper());
+        let origins = self.origins(start);
+        page.items.extend(self.sheets.iter().zip(origins).map(|(sheet, at)| sheet.plot(at)));
+        page.items.extend(self.around(start));
+        page
+    }
+
+    /// The upper left corner of each plot if the grid begins at a place.
+    fn origins(&self, start: Vec2) -> Vec<[u32; 2]> {
+        let before = |tracks: &[Track], k: usize| length(&tracks[..k]) + tracks[k][0];
+        let at = |k: usize| {
+            let (column, row) = (k % self.columns.len(), k / self.columns.len());
+            let corner = start + vec2(before(&self.columns, column), before(&self.rows, row));
+            [corner.x as u32, corner.y as u32]
+        };
+        (0..self.sheets.len()).map(at).collect()
+    }
+
+    /// Everything but the plots.
+    fn around(&self, start: Vec2) -> Vec<Item> {
+        let mut ink = Ink::new(self.design);
+        let origins = self.origins(start);
+        for (sheet, at) in self.sheets.iter().zip(&origins) {
+            ink.items.extend(sheet.around(*at));
+        }
+        let ([left, right], [top, bottom]) = (plots(&self.columns), plots(&self.rows));
+        if let Some(bar) = &self.bar {
+            let end = start + vec2(length(&self.columns), length(&self.rows));
+            // an upright bar is beside all panels
+            let max = vec2(if bar.is_upright { end.x } else { start.x + right }, start.y + bottom);
+            let room = [right - left, bottom - top];
+            sheet::draw_bar(bar, &mut ink, [start + vec2(left, top), max], end, room);
+        }
+        self.title(&mut ink, start.x + left);
+        ink.items
+    }
+
+    /// The title above everything, from the left of the first plot if it ends where the rest does, else in the
+    /// middle.
+    fn title(&self, ink: &mut Ink, left: f64) {
+        let widths = self.lines.iter().map(|line| text::width(line, TITLE_TEXT * ink.scale));
+        let longest = widths.fold(0.0, f64::max);
+        let [lo, hi] = bounds(&ink.items);
+        let fits = left + longest <= hi.x;
+        let left = if fits { left } else { (0.5 * (lo.x + hi.x - longest)).round() };
+        ink.lines(&self.lines, TITLE_TEXT, vec2(left, lo.y - TITLE_OVER * ink.scale));
+    }
+}
+
+/// The rooms of columns and of rows, whole pixels.
+fn tracks(sheets: &[Sheet<'_>], grid: Grid, design: &Design) -> [Vec<Track>; 2] {
+    let mut columns = vec![[0.0; 3]; grid.columns as usize];
+    let mut rows = vec![[0.0; 3]; grid.rows as usize];
+    for (k, sheet) in sheets.iter().enumerate() {
+        let (Extents { before, after }, plot) = (sheet.extents(), sheet.sides());
+        let (column, row) = (k % columns.len(), k / columns.len());
+        for (track, parts) in [
+            (&mut columns[column], [before.x, plot.x, after.x]),
+            (&mut rows[row], [before.y, plot.y, after.y]),
+        ] {
+            for (room, part) in track.iter_mut().zip(parts) {
+                *room = f64::max(*room, part.ceil());
+            }
+        }
+    }
+    let gap = (MARGIN * design.scale()).ceil();
+    for tracks in [&mut columns, &mut rows] {
+        tracks.iter_mut().skip(1).for_each(|track| track[0] += gap);
+    }
+    [columns, rows]
+}
+
+/// What one bar explains.
+fn shared_key(panels: &[Panel<'_>]) -> Result<Key, FigureError> {
+    let mut keys = panels.iter().map(|panel| Key::new(panel.picture, &panel.labels));
+    let first = keys.next().ok_or(FigureError::Ranges)?;
+    keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
+}

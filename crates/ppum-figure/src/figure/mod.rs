@@ -1,0 +1,98 @@
+//! Figures: a picture with axes, a colour bar, a title and the cracks.
+//!
+//! The picture's pixels are shown as they are, one to one; frame and ticks lie outside them. Pixels
+//! without a value are hatched where the picture is transparent. At deep zoom axes count from the
+//! tip nearest to the view's centre ("x − 0.5 \[×10⁻¹²\]"), without one from a rounded centre.
+//!
+//! ```text
+//!      title
+//!      ┌──────────────┐  ▲  above the range
+//!    y ┤              │  █─
+//!      ┤   picture    │  █─  quantity [unit]
+//!      └──┬────┬────┬─┘  ▼  below the range
+//!              x
+//! ```
+
+mod axis;
+mod color_bar;
+mod design;
+mod ink;
+mod layout;
+mod sheet;
+
+use ppum::crack::Crack;
+
+use crate::canvas::{Canvas, Item};
+use ppum_render::picture::Picture;
+
+pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
+pub use layout::{Grid, panel_area, panels, plot_area};
+
+/// The reason why there is no such figure.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// No room for the pictures between the labels.
+    #[error("a figure of {}x{} pixels leaves no room; give at least {}x{}",
+        size[0], size[1], least[0], least[1])]
+    TooSmall {
+        /// The size asked for.
+        size: [u32; 2],
+        /// The smallest size.
+        least: [u32; 2],
+    },
+    /// The picture is larger than the room between the labels.
+    #[error("a picture of {}x{} pixels does not fit a figure with room for {}x{}; \
+        draw it with the size that plot_area gives", plot[0], plot[1], room[0], room[1])]
+    TooLarge {
+        /// The picture's size.
+        plot: [u32; 2],
+        /// The room.
+        room: [u32; 2],
+    },
+    /// A number of panels that the grid has no cells for, or none.
+    #[error("{panels} panels do not fit a grid of {cells} cells")]
+    Panels {
+        /// Number of panels.
+        panels: usize,
+        /// Number of cells.
+        cells: usize,
+    },
+    /// One bar for pictures with several ranges, scales or colour maps.
+    #[error("one colour bar cannot explain pictures with different ranges or colours")]
+    Ranges,
+}
+
+/// A picture and what belongs to it.
+#[derive(Clone, Debug)]
+pub struct Panel<'a> {
+    /// The picture.
+    pub picture: &'a Picture,
+    /// What is drawn over it; positions are pixels of the picture.
+    pub layers: Vec<Item>,
+    /// Its words.
+    pub labels: Labels,
+    /// The cracks from whose tips the axes count at deep zoom.
+    pub cracks: &'a [Crack],
+}
+
+/// A figure around a picture of at most [`plot_area`], in the middle, its title above it.
+///
+/// # Errors
+/// A size without room for the picture.
+pub fn figure(mut panel: Panel<'_>, design: &Design) -> Result<Canvas, FigureError> {
+    let title = std::mem::take(&mut panel.labels.title);
+    panels(&title, &[panel], Grid::ONE, design)
+}
+
+/// A picture with layers over it, and nothing around it.
+#[must_use]
+pub fn bare(picture: &Picture, layers: Vec<Item>) -> Canvas {
+    let mut page = Canvas::new(picture.image.size, [0; 4]);
+    page.items.push(Item::Picture { image: picture.image.clone(), corner: [0, 0] });
+    page.items.extend(layers);
+    page
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,184 @@
+//! A panel: a plot with its axes, its colour bar and its caption.
+
+use ppum::vec2::{Vec2, vec2};
+
+use super::Panel;
+use super::axis::{Axis, axes};
+use super::color_bar::{ColorBar, Key, LEAST_BAR};
+use super::design::{BarPlace, Design, LABEL_TEXT};
+use super::ink::{Ink, TICK_TEXT, bounds, snapped};
+use crate::canvas::{Align, Item};
+use crate::text::{self, CAP_HEIGHT};
+
+// Lengths in pixels of a figure of 1024 × 768; others are scaled.
+pub(super) const TICK: f64 = 5.0;
+/// Between a tick and its label.
+pub(super) const GAP: f64 = 5.0;
+/// Between tick labels and the label of the axis.
+pub(super) const LABEL_GAP: f64 = 10.0;
+/// Between a plot and the lines above it.
+pub(super) const TITLE_GAP: f64 = 14.0;
+pub(super) const BAR_GAP: f64 = 24.0;
+/// Between what stands below a plot and a bar below that.
+const BAR_BELOW_GAP: f64 = 16.0;
+
+/// Everything around a plot.
+pub(super) struct Sheet<'a> {
+    panel: &'a Panel<'a>,
+    design: &'a Design,
+    x: Axis,
+    y: Axis,
+    bar: Option<ColorBar>,
+    /// The caption, line by line.
+    caption: Vec<String>,
+    /// What labels of axes and bars may take.
+    room: [f64; 2],
+}
+
+/// The room that a sheet takes left, above, right and below its plot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Extents {
+    pub(super) before: Vec2,
+    pub(super) after: Vec2,
+}
+
+impl<'a> Sheet<'a> {
+    /// A panel whose plot may have as many pixels as `room`; it has no bar of its own if `has_bar` is false.
+    pub(super) fn new(
+        panel: &'a Panel<'a>,
+        caption: Vec<String>,
+        design: &'a Design,
+        room: [u32; 2],
+        has_bar: bool,
+    ) -> Self {
+        let picture = panel.picture;
+        let [x, y] = axes(picture, &panel.labels, panel.cracks, design);
+        let (sides, room) = (picture.image.size.map(f64::from), room.map(f64::from));
+        let place = if has_bar { design.bar } else { BarPlace::None };
+        let bar = bar(Key::new(picture, &panel.labels), place, design, sides, room);
+        Self { panel, design, x, y, bar, caption, room }
+    }
+
+    /// The plot on its hatched ground with the layers over it, its upper left pixel at a place.
+    pub(super) fn plot(&self, origin: [u32; 2]) -> Item {
+        let mut canvas = super::bare(self.panel.picture, self.panel.layers.clone());
+        let (corner, ground) = ([0, 0], self.design.hatched(canvas.size));
+        canvas.items.insert(0, Item::Picture { image: ground, corner });
+        Item::Inset { corner: origin, canvas }
+    }
+
+    /// All that stands around the plot.
+    pub(super) fn around(&self, origin: [u32; 2]) -> Vec<Item> {
+        let mut ink = Ink::new(self.design);
+        let min = vec2(f64::from(origin[0]), f64::from(origin[1]));
+        let max = min + self.sides();
+        ink.outline(min, max);
+        self.draw_x_axis(&mut ink, min, max);
+        self.draw_y_axis(&mut ink, min, max);
+        if let Some(bar) = &self.bar {
+            let end = bounds(&ink.items)[1];
+            draw_bar(bar, &mut ink, [min, max], end, self.room);
+        }
+        let top = bounds(&ink.items)[0].y.min(min.y);
+        let gap = if self.caption.is_empty() { 0.0 } else { 0.6 * TITLE_GAP * ink.scale };
+        ink.lines(&self.caption, LABEL_TEXT, vec2(min.x, (top - gap).round()));
+        ink.items
+    }
+
+    /// The room around the plot, measured where it has enough.
+    pub(super) fn extents(&self) -> Extents {
+        const FAR: u32 = 1 << 24;
+        let origin = vec2(f64::from(FAR), f64::from(FAR));
+        let [lo, hi] = bounds(&self.around([FAR; 2]));
+        Extents { before: origin - lo, after: hi - origin - self.sides() }
+    }
+
+    /// Columns and rows of the plot.
+    pub(super) fn sides(&self) -> Vec2 {
+        Vec2::from(self.panel.picture.image.size.map(f64::from))
+    }
+
+    fn draw_x_axis(&self, ink: &mut Ink, min: Vec2, max: Vec2) {
+        let (scale, stroke) = (ink.scale, ink.stroke);
+        let top = max.y + stroke;
+        let base = top + (TICK + GAP + TICK_TEXT * CAP_HEIGHT) * scale;
+        let middle = 0.5 * (min.x + max.x);
+        for tick in &self.x.ticks.major {
+            let at = min.x + self.panel.picture.view.pixel_of_offset(vec2(tick.at, 0.0)).x;
+            let left = snapped(at, stroke, middle);
+            ink.rect(vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
+            ink.text(&tick.label, TICK_TEXT, vec2(at, base), Align::Middle);
+        }
+        let label = self.x.fitted(LABEL_TEXT * scale, self.room[0]);
+        let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
+        ink.text(&label, LABEL_TEXT, at, Align::Middle);
+    }
+
+    fn draw_y_axis(&self, ink: &mut Ink, min: Vec2, max: Vec2) {
+        let (scale, stroke) = (ink.scale, ink.stroke);
+        let right = min.x - stroke;
+        let end = right - (TICK + GAP) * scale;
+        let middle = 0.5 * (min.y + max.y);
+        for tick in &self.y.ticks.major {
+            let at = min.y + self.panel.picture.view.pixel_of_offset(vec2(0.0, tick.at)).y;
+            let top = snapped(at, stroke, middle);
+            ink.rect(vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
+            ink.at_height(&tick.label, vec2(end, at), Align::End);
+        }
+        let label = self.y.fitted(LABEL_TEXT * scale, self.room[1]);
+        let base = end - self.y.widest - LABEL_GAP * scale;
+        ink.upwards(&label, LABEL_TEXT, vec2(base, middle));
+    }
+}
+
+/// The bar beside or below a plot: as long as that, and never shorter than its labels need.
+pub(super) fn bar(
+    key: Key,
+    place: BarPlace,
+    design: &Design,
+    sides: [f64; 2],
+    room: [f64; 2],
+) -> Option<ColorBar> {
+    let [upright, lying] = LEAST_BAR.map(|length| length * design.scale());
+    match place {
+        BarPlace::Right => {
+            Some(ColorBar::upright(key, design, sides[1].max(upright.min(room[1])).round()))
+        }
+        BarPlace::Bottom => {
+            Some(ColorBar::lying(key, design, sides[0].max(lying.min(room[0])).round()))
+        }
+        BarPlace::None => None,
+    }
+}
+
+/// Draws a bar beside a box, or below it. What stands around the box ends at `end`: a lying bar is below
+/// that, and an upright one beside it if it reaches beyond the box.
+pub(super) fn draw_bar(
+    bar: &ColorBar,
+    ink: &mut Ink,
+    [min, max]: [Vec2; 2],
+    end: Vec2,
+    room: [f64; 2],
+) {
+    let (middle, scale) = ((min + max) * 0.5, ink.scale);
+    if bar.is_upright {
+        let beside = if bar.length > max.y - min.y { end.x + GAP * scale } else { max.x };
+        let left = (max.x + BAR_GAP * scale).max(beside).round();
+        let start = vec2(left, (middle.y + 0.5 * bar.length).round());
+        bar.draw(ink, start, room[1].max(bar.length));
+    } else {
+        let top = (end.y + BAR_BELOW_GAP * scale).round();
+        let start = vec2((middle.x - 0.5 * bar.length).round(), top);
+        bar.draw(ink, start, room[0].max(bar.length));
+    }
+}
+
+/// The lines of a caption or title: wrapped, and cut after some lines, lest it take the page.
+pub(super) fn lines(title: &str, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines = text::wrapped(title, size, room);
+    if lines.len() > most {
+        let rest = lines.split_off(most - 1).join(" ");
+        lines.push(text::fitted(&rest, size, room));
+    }
+    lines
+}

@@ -1,0 +1,370 @@
+//! Figures as they are seen, and the rules that all of them keep.
+
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_render::colormap::Colormap;
+use ppum_render::image::{Image, Rgba};
+use ppum_render::picture::Style;
+use ppum_render::range::Range;
+use ppum_render::raster::Raster;
+use ppum_render::scale::Scale;
+use ppum_render::view::View;
+use ppum_testkit::random::Random;
+
+use super::color_bar::{ARROW, BAR};
+use super::design::HATCH_STEP;
+use super::sheet::BAR_GAP;
+use super::*;
+use crate::canvas::Lettering;
+
+const SIZE: [u32; 2] = [640, 480];
+const PAGE: Rgba = [255, 255, 255, 255];
+const INK: Rgba = [38, 38, 42, 255];
+const HATCH: Rgba = [214, 214, 218, 255];
+const LONG: &str = "A plate with a title that is much longer than the figure is wide, as they are";
+
+fn labels() -> Labels {
+    let word = |text: &str| text.to_owned();
+    Labels {
+        title: word(LONG),
+        quantity: word("a quantity whose name is longer than the figure is high, von Mises say"),
+        unit: word("MPa"),
+        length_unit: word("mm"),
+        ..Labels::default()
+    }
+}
+
+/// x on a plate, NaN in its upper left quarter.
+fn plate(half: Vec2, room: [u32; 2], style: &Style) -> Picture {
+    let view = View::hug(Rect::around(Vec2::ZERO, half), room).unwrap();
+    let raster = Raster::from_fn(view.pixels, |i, j| match view.offset(i, j) {
+        p if p.x < 0.0 && p.y > 0.0 => f64::NAN,
+        p => p.x,
+    });
+    Picture::bare(&raster, &view, style).unwrap()
+}
+
+fn picture(half: f64, range: Range) -> Picture {
+    let style = Style { range, ..Style::default() };
+    plate(vec2(half, half), plot_area(LONG, &Design::pixels(SIZE)).unwrap(), &style)
+}
+
+fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
+    Panel { picture, layers: vec![], labels, cracks: &[] }
+}
+
+fn drawn(picture: &Picture) -> Image {
+    figure(panel(picture, labels()), &Design::pixels(SIZE)).unwrap().image()
+}
+
+/// The corner of the plot, found as the first place with the picture's last row of colours.
+fn plot_corner(page: &Image, picture: &Picture) -> [u32; 2] {
+    let [columns, rows] = picture.image.size;
+    let last_row = |x: u32, y: u32| {
+        (0..columns).all(|i| page.pixel(x + i, y) == picture.image.pixel(i, rows - 1))
+    };
+    let mut places = (rows..SIZE[1]).flat_map(|y| (0..SIZE[0] - columns).map(move |x| [x, y]));
+    let found = places.rfind(|&[x, y]| last_row(x, y)).expect("the plot is on the page");
+    [found[0], found[1] + 1 - rows]
+}
+
+#[test]
+fn the_picture_is_shown_pixel_for_pixel() {
+    let picture = picture(1.0, Range::Auto);
+    let page = drawn(&picture);
+    let [x, y] = plot_corner(&page, &picture);
+    let [columns, rows] = picture.image.size;
+    assert_eq!(page.size, SIZE);
+    for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
+        let (shown, color) = (page.pixel(x + i, y + j), picture.image.pixel(i, j));
+        let expected = match (color[3], (i + j) % HATCH_STEP) {
+            (0, 0) => HATCH,
+            (0, _) => PAGE,
+            _ => color,
+        };
+        assert_eq!(shown, expected, "{i}, {j}");
+    }
+    for (i, j) in [(x - 1, y - 1), (x + columns, y + rows), (x - 1, y + 7)] {
+        assert_eq!(page.pixel(i, j), INK, "the frame");
+    }
+}
+
+#[test]
+fn ticks_are_at_their_values() {
+    let picture = picture(1.0, Range::Auto);
+    let page = drawn(&picture);
+    let [x, y] = plot_corner(&page, &picture);
+    let [columns, rows] = picture.image.size;
+    let below = y + rows + 3;
+    let marked: Vec<u32> =
+        (0..=columns + 1).filter(|&i| page.pixel(x + i - 1, below) == INK).collect();
+    let expected = [0, columns / 4, columns / 2, 3 * columns / 4, columns];
+    assert_eq!(marked.len(), 5);
+    for (found, place) in marked.into_iter().zip(expected) {
+        assert!(found.abs_diff(place) <= 1, "{found} {place}");
+    }
+}
+
+/// Below and above: in the colours of the ends, or in contrasting ones.
+#[test]
+fn the_bar_runs_from_low_to_high_and_ends_in_arrows() {
+    let plain = picture(1.0, Range::Fixed(-0.5, 0.5));
+    let mut contrasting = plain.clone();
+    contrasting.colormap = contrasting.colormap.contrasting();
+    for picture in [plain, contrasting] {
+        let page = drawn(&picture);
+        let [x, y] = plot_corner(&page, &picture);
+        let [columns, rows] = picture.image.size;
+        let column = x + columns + (BAR_GAP + BAR / 2.0) as u32;
+        let map = &picture.colormap;
+        assert_eq!(page.pixel(column, y + ARROW as u32 - 3), map.above);
+        assert_eq!(page.pixel(column, y + rows - ARROW as u32 + 3), map.below);
+        let near = |a: Rgba, b: Rgba| (0..3).all(|k| a[k].abs_diff(b[k]) < 6);
+        assert!(near(page.pixel(column, y + ARROW as u32 + 1), map.color(1.0)));
+        assert!(near(page.pixel(column, y + rows - ARROW as u32 - 2), map.color(0.0)));
+        assert!(near(page.pixel(column, y + rows / 2), map.color(0.5)));
+    }
+}
+
+#[test]
+fn figures_without_room_are_refused() {
+    let picture = picture(1.0, Range::Auto);
+    let refused = |size| figure(panel(&picture, labels()), &Design::pixels(size)).unwrap_err();
+    assert!(matches!(refused([200, 480]), FigureError::TooSmall { .. }));
+    assert!(matches!(refused([500, 400]), FigureError::TooLarge { .. }));
+    let FigureError::TooSmall { least, .. } = refused([10, 10]) else { unreachable!() };
+    let room = plot_area(LONG, &Design::pixels(least)).unwrap();
+    assert_eq!(room.iter().min(), Some(&48));
+    let design = Design::pixels(SIZE);
+    let grid = Grid { columns: 2, rows: 1, shared_bar: false };
+    let error = panels("", &vec![panel(&picture, labels()); 3], grid, &design).unwrap_err();
+    assert_eq!(error, FigureError::Panels { panels: 3, cells: 2 });
+    assert!(matches!(panels("", &[], grid, &design), Err(FigureError::Panels { .. })));
+}
+
+#[test]
+fn one_bar_explains_one_range() {
+    let design = Design::pixels([1200, 900]);
+    let grid = Grid { columns: 2, rows: 1, shared_bar: true };
+    let room = panel_area("", &[""], grid, &design).unwrap();
+    let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
+    let [a, b, c] =
+        [Range::Fixed(-2.0, 0.5), Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
+    let both = |a, b| {
+        panels("", &[panel(a, Labels::default()), panel(b, Labels::default())], grid, &design)
+    };
+    assert!(both(&a, &b).is_ok());
+    assert_eq!(both(&a, &c).unwrap_err(), FigureError::Ranges);
+}
+
+/// Sizes on paper: nine points are nine points, whatever the number of pixels.
+#[test]
+fn lengths_follow_the_size_on_paper() {
+    for dpi in [72.0, 150.0, 600.0] {
+        let design = Design::inches([6.5, 4.5], dpi);
+        assert_eq!(design.size, [6.5 * dpi, 4.5 * dpi].map(|n| n.round() as u32));
+        let picture = plate(vec2(1.0, 1.0), plot_area("", &design).unwrap(), &Style::default());
+        let page = figure(panel(&picture, Labels::default()), &design).unwrap();
+        let size = |name: &str| texts(&page).iter().find(|t| t.text == name).unwrap().size;
+        assert!((size("x") / dpi * 72.0 - 9.0).abs() < 1e-9);
+    }
+}
+
+/// Where bands end at short numbers these are the marks, else round ones are.
+#[test]
+fn bands_are_marked_at_their_borders() {
+    let marks = |max: f64, bands: u16| {
+        let colormap = Colormap::named("batlow").unwrap().banded(bands);
+        let style = Style { colormap, range: Range::Fixed(-0.5, max), ..Style::default() };
+        let none = TickChoice::At(vec![]);
+        let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels([1024, 768]) };
+        let picture = plate(vec2(1.0, 1.0), plot_area("", &design).unwrap(), &style);
+        let page = figure(panel(&picture, Labels::default()), &design).unwrap();
+        let mut words: Vec<String> = texts(&page).iter().map(|line| line.text.clone()).collect();
+        words.retain(|word| word.len() > 1);
+        words
+    };
+    assert_eq!(marks(1.0, 6), ["−0.5", "−0.25", "0.25", "0.5", "0.75"]);
+    assert_eq!(marks(0.1, 3), ["−0.5", "−0.3", "−0.1", "0.1"]);
+    // a seventh is no short number, and forty are too many
+    assert!(marks(0.5, 7).contains(&"−0.4".to_owned()));
+    assert!(marks(1.5, 40).contains(&"0.2".to_owned()));
+}
+
+/// A picture of nothing says so, and its bar has no marks.
+#[test]
+fn a_picture_without_values_says_so() {
+    let none = TickChoice::At(vec![]);
+    let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels(SIZE) };
+    let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
+    let words = |value: f64, quantity: &str| {
+        let raster = Raster::from_fn(view.pixels, |_, _| value);
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = [String::new(), String::new()];
+        let labels = Labels { quantity: quantity.to_owned(), x, y, ..Labels::default() };
+        let page = figure(panel(&picture, labels), &design).unwrap();
+        texts(&page).iter().map(|line| line.text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(words(f64::NAN, "q"), ["q, no values"]);
+    assert_eq!(words(f64::NAN, ""), ["no values"]);
+    assert_eq!(words(3.5, "q"), ["3.5", "q, one value"]);
+}
+
+/// A transparent page shows what is behind it, in holes too; a dark one is dark to its corners.
+#[test]
+fn pages_have_the_colours_of_their_theme() {
+    let picture = picture(1.0, Range::Auto);
+    let corner = |design: Design| {
+        let image = figure(panel(&picture, labels()), &design).unwrap().image();
+        (image.pixel(0, 0), image)
+    };
+    let (seen, image) = corner(Design { transparent: true, ..Design::pixels(SIZE) });
+    assert_eq!(seen, [0; 4]);
+    let clear = image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let undefined = picture.image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
+    let outside = image.rgba.len() / 4 - picture.image.rgba.len() / 4;
+    assert!(clear > outside * 9 / 10 && clear > undefined * 3 / 4, "{clear}");
+    let (seen, image) = corner(Design { theme: Theme::Dark, ..Design::pixels(SIZE) });
+    assert!(seen[..3].iter().all(|c| *c < 40) && seen[3] == 255);
+    assert!(!image.rgba.as_chunks::<4>().0.contains(&PAGE), "no white is left");
+}
+
+/// More or fewer pixels per inch change nothing but the size on paper.
+#[test]
+fn pixels_do_not_depend_on_the_size_on_paper() {
+    let picture = picture(1.0, Range::Auto);
+    let drawn = |design: &Design| figure(panel(&picture, labels()), design).unwrap().image();
+    let plain = Design::pixels(SIZE);
+    assert_eq!(drawn(&plain), drawn(&plain.clone().at(300.0)));
+}
+
+fn texts(page: &Canvas) -> Vec<&Lettering> {
+    let mut lines = Vec::new();
+    for item in &page.items {
+        if let Item::Text(line) = item {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// True if two boxes share more than a pixel's rounding.
+fn overlap([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
+    let depth = b.min(d) - a.max(c);
+    depth.x > 1.0 && depth.y > 1.0
+}
+
+/// Nothing leaves the page, no line of text touches another one, a plot, or a bar.
+fn check(page: &Canvas, what: &str) {
+    let size = Vec2::from(page.size.map(f64::from));
+    for item in &page.items {
+        let [lo, hi] = item.bounds();
+        let inside = lo.x >= 0.0 && lo.y >= 0.0 && hi.x <= size.x && hi.y <= size.y;
+        assert!(inside || lo.x > hi.x, "{what}: {lo:?} {hi:?} leaves {size:?}");
+    }
+    let is_text = |item: &&Item| matches!(item, Item::Text(_));
+    let is_area = |item: &&Item| matches!(item, Item::Inset { .. } | Item::Picture { .. });
+    let lines: Vec<&Item> = page.items.iter().filter(is_text).collect();
+    let areas: Vec<&Item> = page.items.iter().filter(is_area).collect();
+    for (k, line) in lines.iter().enumerate() {
+        for other in lines[k + 1..].iter().chain(&areas) {
+            assert!(
+                !overlap(line.bounds(), other.bounds()),
+                "{what}: {line:?} on {:?}",
+                other.bounds()
+            );
+        }
+    }
+    for (k, area) in areas.iter().enumerate() {
+        assert!(
+            areas[k + 1..].iter().all(|other| !overlap(area.bounds(), other.bounds())),
+            "{what}"
+        );
+    }
+}
+
+/// A text of some words.
+fn words(random: &mut Random, most: usize) -> String {
+    let all = ["σ_{xy}", "plate", "a", "of", "Kerbspannungskonzentration", "板", "3·10⁻⁴", "(MPa)"];
+    (0..random.below(most + 1)).map(|_| random.pick(&all)).collect::<Vec<_>>().join(" ")
+}
+
+fn random_design(random: &mut Random) -> Design {
+    let size = [random.between(320.0, 1500.0) as u32, random.between(320.0, 1500.0) as u32];
+    let mut design = Design::pixels(size);
+    design.font_size *= random.between(0.7, 1.1);
+    design.bar = random.pick(&[BarPlace::Right, BarPlace::Bottom, BarPlace::None]);
+    design.theme = random.pick(&[Theme::Light, Theme::Dark]);
+    design.transparent = random.below(2) == 0;
+    let ticks = [TickChoice::Auto, TickChoice::Count(3), TickChoice::At(vec![0.0, 1e9])];
+    design.bar_ticks = ticks[random.below(3)].clone();
+    design
+}
+
+fn random_style(random: &mut Random, half: Vec2) -> Style {
+    let range =
+        if random.below(2) == 0 { Range::Auto } else { Range::Fixed(-0.3 * half.x, 0.4 * half.x) };
+    let scale = random.pick(&[Scale::Linear, Scale::SymLog]);
+    let map = Colormap::named(random.pick(&["viridis", "vik", "twilight"])).unwrap();
+    let colormap = if random.below(3) == 0 { map.banded(5) } else { map };
+    Style { range, scale, colormap, ..Style::default() }
+}
+
+fn random_labels(random: &mut Random) -> Labels {
+    Labels {
+        title: words(random, 30),
+        quantity: words(random, 12),
+        unit: random.pick(&["", "MPa"]).to_owned(),
+        x: random.pick(&["", "x", "a long name of the axis x"]).to_owned(),
+        y: random.pick(&["", "y", "a very long name of the axis y"]).to_owned(),
+        length_unit: random.pick(&["", "mm"]).to_owned(),
+    }
+}
+
+/// Plates from a thousandth to a million across, from 1:60 to 60:1.
+fn random_half(random: &mut Random) -> Vec2 {
+    let (size, shape) = (random.between(-3.0, 6.0), random.between(-0.9, 0.9));
+    vec2(10f64.powf(size + shape), 10f64.powf(size - shape))
+}
+
+#[test]
+fn figures_keep_to_their_page() {
+    let mut random = Random(41);
+    let mut count = 0;
+    for case in 0..300 {
+        let (design, labels, half) =
+            (random_design(&mut random), random_labels(&mut random), random_half(&mut random));
+        let Ok(room) = plot_area(&labels.title, &design) else { continue };
+        let picture = plate(half, room, &random_style(&mut random, half));
+        let page = figure(panel(&picture, labels.clone()), &design).unwrap();
+        check(&page, &format!("case {case}, {half:?}, {design:?}, {labels:?}"));
+        let shown: String = texts(&page).iter().map(|line| line.text.as_str()).collect();
+        let first: String =
+            labels.title.split_whitespace().next().unwrap_or("").chars().take(3).collect();
+        assert!(shown.contains(&first), "case {case}: the title is there");
+        count += 1;
+    }
+    assert!(count > 200, "{count}");
+}
+
+#[test]
+fn panels_keep_to_their_page() {
+    let mut random = Random(43);
+    let mut count = 0;
+    for case in 0..60 {
+        let [columns, rows] = [1 + random.below(3) as u32, 1 + random.below(3) as u32];
+        let grid = Grid { columns, rows, shared_bar: random.below(2) == 0 };
+        let mut design = random_design(&mut random);
+        design.size = design.size.map(|n| n + 900);
+        let (half, title) = (random_half(&mut random), words(&mut random, 20));
+        let all: Vec<Labels> =
+            (0..1 + random.below(grid.cells())).map(|_| random_labels(&mut random)).collect();
+        let captions: Vec<&str> = all.iter().map(|labels| labels.title.as_str()).collect();
+        let Ok(room) = panel_area(&title, &captions, grid, &design) else { continue };
+        let picture = plate(half, room, &random_style(&mut random, half));
+        let all: Vec<Panel<'_>> = all.into_iter().map(|labels| panel(&picture, labels)).collect();
+        let page = panels(&title, &all, grid, &design).unwrap();
+        check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));
+        count += 1;
+    }
+    assert!(count > 30, "{count}");
+}

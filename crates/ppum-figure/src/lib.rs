@@ -1,0 +1,44 @@
+//! Figures: everything that is drawn on and around a picture of a field.
+//!
+//! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its cracks,
+//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)), or several
+//! pictures stand on one page ([`panels`](figure::panels)). All of it is first put on a
+//! [`Canvas`](canvas::Canvas), which is then drawn as pixels or written as SVG or PDF.
+
+pub mod canvas;
+pub mod figure;
+pub mod levels;
+pub mod overlay;
+pub mod plot;
+pub mod text;
+pub mod ticks;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[("text", &[]), ("ticks", &[])],
+        &[("canvas", &["text"]), ("levels", &["ticks"])],
+        &[("overlay", &["canvas", "text"])],
+        &[
+            ("figure", &["canvas", "overlay", "text", "ticks"]),
+            ("plot", &["canvas", "overlay", "text", "ticks"]),
+        ],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
+
+    #[test]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<super::figure::FigureError>();
+    }
+}

@@ -1,0 +1,230 @@
+//! The cover: points, cells, patches and their centres.
+
+use ppum::dataset::Partition;
+use ppum::decompose::Part;
+use ppum::field::Field;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_render::image::Rgba;
+use ppum_render::view::View;
+
+use super::legend::{Entry, Symbol};
+use super::line_scale;
+use crate::canvas::{Item, Path, Pen};
+
+/// Lines of cells, and their seam; both paler where cells are small.
+const CELL: Rgba = [24, 24, 30, 210];
+const SEAM: Rgba = [255, 255, 255, 120];
+/// Borders and insides of patches: they overlap, so the insides add up.
+const PATCH: Rgba = [30, 60, 140, 150];
+const PATCH_INSIDE: Rgba = [60, 110, 200, 18];
+const POINT: Rgba = [16, 16, 20, 255];
+const WIDTH: f64 = 1.0;
+const POINT_RADIUS: f64 = 2.0;
+/// Side of a centre's square, and its largest part of the cell.
+const CENTER: f64 = 7.0;
+const CENTER_PART: f64 = 0.5;
+/// Side of a cell from which on its lines are drawn in full.
+const FULL: f64 = 24.0;
+
+/// The kind of enrichment of a patch, by the functions of its blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Enrichment {
+    /// Polynomials alone.
+    None,
+    /// Polynomials times the side of a crack: multiplicative enrichment.
+    Jump,
+    /// Functions of a crack tip: additive enrichment.
+    Tip,
+    /// Both.
+    JumpAndTip,
+    /// Other functions, whatever else there is.
+    Other,
+}
+
+impl Enrichment {
+    /// All kinds.
+    pub const ALL: [Self; 5] = [Self::None, Self::Jump, Self::Tip, Self::JumpAndTip, Self::Other];
+
+    /// The colour, that of Üffinger et al. 2011, figure 2, where it has one.
+    #[must_use]
+    pub fn color(self) -> Rgba {
+        match self {
+            Self::None => [150, 150, 155, 255],
+            Self::Jump => [208, 38, 42, 255],
+            Self::Tip => [38, 78, 205, 255],
+            Self::JumpAndTip => [140, 50, 165, 255],
+            Self::Other => [24, 140, 80, 255],
+        }
+    }
+
+    /// The words of a legend.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::None => "polynomials",
+            Self::Jump => "jump",
+            Self::Tip => "tip functions",
+            Self::JumpAndTip => "jump and tip functions",
+            Self::Other => "own functions",
+        }
+    }
+
+    /// The kind of the functions of a patch.
+    fn of(parts: impl Iterator<Item = Part>) -> Self {
+        let add = |kind, part| match (kind, part) {
+            (Self::Other, _) | (_, Part::Other | Part::Patch(_)) => Self::Other,
+            (Self::Jump | Self::JumpAndTip, Part::Tip) | (Self::Tip, Part::Jump) => {
+                Self::JumpAndTip
+            }
+            (Self::None, Part::Jump) => Self::Jump,
+            (Self::None, Part::Tip) => Self::Tip,
+            (kind, _) => kind,
+        };
+        parts.fold(Self::None, add)
+    }
+}
+
+/// The kind of enrichment of each patch of a field.
+#[must_use]
+pub fn enrichments(field: &Field<'_>) -> Vec<Enrichment> {
+    let (data, functions) = (field.data, &field.step.functions);
+    let part = |block: usize| Part::of(&functions[data.block_function[block] as usize].kind);
+    (0..field.step.partition.len()).map(|i| Enrichment::of(data.blocks(i).map(part))).collect()
+}
+
+/// The points the cover was made from; nothing of a uniform cover.
+#[must_use]
+pub fn points(view: &View, partition: &Partition) -> Vec<Item> {
+    let scale = line_scale(view.pixels);
+    let seen = partition.points.iter().filter(|&&p| is_near(view, Rect::new(p, p)));
+    let path = Path { pieces: seen.map(|&p| vec![view.pixel(p)]).collect() };
+    let pen = Pen::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
+    vec![Item::Line { path, pen }]
+}
+
+/// The borders of the cells.
+#[must_use]
+pub fn cells(view: &View, partition: &Partition) -> Vec<Item> {
+    let mut path = Path::default();
+    let seen = partition.cell.iter().filter(|cell| is_near(view, **cell));
+    seen.clone().for_each(|cell| frame(&mut path, view, *cell));
+    let smallest = seen.map(|cell| cell.size().x.min(cell.size().y)).fold(f64::INFINITY, f64::min);
+    let scale = line_scale(view.pixels);
+    let strength = (smallest / view.pixel_size() / (FULL * scale)).clamp(0.35, 1.0);
+    let [line, seam] = [CELL, SEAM].map(|[r, g, b, a]| [r, g, b, (f64::from(a) * strength) as u8]);
+    let pen = Pen::new(line, WIDTH * scale).with_halo(seam, 0.6 * scale * strength);
+    vec![Item::Line { path, pen }]
+}
+
+/// The supports ω_i of the patches, translucent: darker where more of them overlap.
+#[must_use]
+pub fn patches(view: &View, partition: &Partition) -> Vec<Item> {
+    let (mut insides, mut borders) = (Vec::new(), Path::default());
+    for support in (0..partition.len()).map(|i| partition.support(i)) {
+        if is_near(view, support) {
+            let mut outline = Path::default();
+            frame(&mut outline, view, support);
+            borders.pieces.extend(outline.pieces.iter().cloned());
+            insides.push(Item::Fill { outline, color: PATCH_INSIDE });
+        }
+    }
+    let pen = Pen::new(PATCH, WIDTH * line_scale(view.pixels));
+    insides.push(Item::Line { path: borders, pen });
+    insides
+}
+
+/// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours mean.
+/// Üffinger et al. 2011, figure 2.
+#[must_use]
+pub fn centers(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+    let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
+    let scale = line_scale(view.pixels);
+    let (mut items, mut entries) = (Vec::new(), Vec::new());
+    for kind in Enrichment::ALL {
+        let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
+        let mut outline = Path::default();
+        for cell in of_kind.filter(|cell| is_near(view, *cell)) {
+            let side = cell.size().x.min(cell.size().y) / view.pixel_size();
+            let half = 0.5 * (CENTER * scale).min(CENTER_PART * side);
+            let at = view.pixel_of_offset(cell.center() - view.center);
+            outline.rect(at - vec2(half, half), at + vec2(half, half));
+        }
+        if !outline.is_empty() {
+            entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
+            items.push(Item::Fill { outline, color: kind.color() });
+        }
+    }
+    (items, entries)
+}
+
+/// Adds a box that may be larger than the view by far.
+fn frame(path: &mut Path, view: &View, rect: Rect) {
+    let around = reach(view);
+    let corner = |p: Vec2| view.pixel_of_offset((p - view.center).max(-around).min(around));
+    path.rect(corner(rect.min), corner(rect.max));
+}
+
+/// Half a view, and some pixels for lines at its border.
+fn reach(view: &View) -> Vec2 {
+    let margin = 12.0 * line_scale(view.pixels) * view.pixel_size();
+    view.half() + vec2(margin, margin)
+}
+
+fn is_near(view: &View, rect: Rect) -> bool {
+    let (min, max, around) = (rect.min - view.center, rect.max - view.center, reach(view));
+    max.x >= -around.x && min.x <= around.x && max.y >= -around.y && min.y <= around.y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::on;
+    use super::*;
+    use ppum::weight::WeightFunction;
+
+    fn cover(cell: Vec<Rect>) -> Partition {
+        let n = cell.len();
+        Partition {
+            weight: WeightFunction::Linear,
+            center: cell.iter().map(Rect::center).collect(),
+            half: cell.iter().map(|c| c.size() * 0.65).collect(),
+            origin: cell.iter().map(Rect::center).collect(),
+            scale: cell.iter().map(|c| c.size() * 0.65).collect(),
+            cell,
+            level: vec![1; n],
+            point: vec![None; n],
+            points: vec![],
+        }
+    }
+
+    /// Darker than a light ground, lighter than a dark one: by the line or by its seam; the same line on both.
+    #[test]
+    fn cell_borders_show_on_any_colour_and_do_not_add_up() {
+        let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
+        let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
+        let cover = cover(vec![unit, next]);
+        let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
+        for color in [[0, 0, 0, 255], [128, 128, 128, 255], [255, 255, 255, 255]] {
+            let image = on(color, &view, cells(&view, &cover));
+            let seen =
+                |i: u32| (0..3).map(|k| image.pixel(i, 50)[k].abs_diff(color[k])).max().unwrap();
+            assert!(seen(100).max(seen(99)) > 40, "{color:?}");
+            assert_eq!(image.pixel(50, 50), color);
+            let alone =
+                on(color, &view, cells(&view, &Partition { cell: vec![unit], ..cover.clone() }));
+            assert_eq!(image.pixel(100, 50), alone.pixel(100, 50), "the shared border, drawn once");
+        }
+    }
+
+    #[test]
+    fn cell_borders_are_in_place_at_a_width_of_1e_12() {
+        let corner = vec2(0.3, 0.7);
+        let cover = cover(vec![Rect::new(Vec2::ZERO, corner), Rect::new(corner, vec2(1.0, 1.0))]);
+        let view = View::new(corner, 1e-12, [101, 101]).unwrap();
+        let image = on([255; 4], &view, cells(&view, &cover));
+        // The first cell lies left of and below its corner, the second right of and above it.
+        for (column, row) in [(50, 80), (20, 50), (50, 20), (80, 50)] {
+            assert!(image.pixel(column, row)[0] < 120, "{column} {row}");
+        }
+        assert_eq!(image.pixel(20, 20)[0], 255);
+    }
+}

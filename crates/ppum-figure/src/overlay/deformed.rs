@@ -1,0 +1,131 @@
+//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the cover, and where the
+//! border was.
+
+use ppum::vec2::{Vec2, vec2};
+use ppum_render::deform::{DeformError, Deformation, DeformedView, Paths};
+use ppum_render::image::Rgba;
+use ppum_render::view::View;
+
+use super::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, line_scale};
+use crate::canvas::{Item, Path, Pen};
+
+/// Colour of the cells' borders, and of the undeformed plate.
+const CELL: Rgba = [16, 16, 20, 110];
+const BEFORE: Rgba = [120, 120, 128, 255];
+/// Dashes and gaps of the undeformed border.
+const DASHES: [f64; 2] = [7.0, 5.0];
+
+/// The faces of all cracks where they have moved to.
+#[must_use]
+pub fn faces(view: &DeformedView<'_>) -> Vec<Item> {
+    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
+    let lines = view.faces_of(&cracks).into_iter().flatten().flatten().collect();
+    let scale = line_scale(view.view.pixels);
+    let pen = Pen::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
+    vec![line(view, lines, pen)]
+}
+
+/// The border of the plate and the rims of its holes where they have moved to.
+#[must_use]
+pub fn deformed_outline(view: &DeformedView<'_>) -> Vec<Item> {
+    let width = RIM_WIDTH * line_scale(view.view.pixels);
+    vec![line(view, view.outline(), Pen::new(CRACK, width))]
+}
+
+/// The border of the plate, the rims and the cracks where they are without displacement, dashed.
+///
+/// # Errors
+/// As [`Deformation::new`].
+pub fn undeformed_outline(view: &DeformedView<'_>) -> Result<Vec<Item>, DeformError> {
+    let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
+    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
+    let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
+    let scale = line_scale(view.view.pixels);
+    let [dash, gap] = DASHES.map(|length| length * scale);
+    let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
+    Ok(vec![line(&before, before.outline().into_iter().chain(above).collect(), pen)])
+}
+
+/// The borders of the cover's cells where they have moved to.
+#[must_use]
+pub fn deformed_cells(view: &DeformedView<'_>) -> Vec<Item> {
+    let offset = |p: Vec2| p - view.anchor;
+    // the border of a cell on the right or above is that of its neighbour, or of the plate
+    let sides: Vec<[Vec2; 3]> = (view.field().step.partition.cell.iter())
+        .map(|c| [vec2(c.min.x, c.max.y), c.min, vec2(c.max.x, c.min.y)].map(offset))
+        .collect();
+    let width = line_scale(view.view.pixels);
+    let mut items = vec![line(view, view.paths(&sides), Pen::new(CELL, width))];
+    items.extend(deformed_outline(view));
+    items
+}
+
+/// The parts of paths in and near the picture, as lines.
+fn line(view: &DeformedView<'_>, paths: Paths, pen: Pen) -> Item {
+    let seen = &view.view;
+    let pieces = paths.iter().flat_map(|path| in_picture(seen, path)).collect();
+    Item::Line { path: Path { pieces }, pen }
+}
+
+/// Runs of a path that come near the picture, in pixels.
+fn in_picture(view: &View, path: &[Vec2]) -> Vec<Vec<Vec2>> {
+    let reach = 2.0 * view.half().length();
+    let is_near = |pair: &[Vec2]| {
+        let (a, b) = (pair[0], pair[1]);
+        let nearest = ppum::segment::distance([a, b], Vec2::ZERO);
+        nearest <= reach
+    };
+    let clamped =
+        |p: Vec2| if p.length() > 1e6 * reach { p * (1e6 * reach / p.length()) } else { p };
+    let mut runs: Vec<Vec<Vec2>> = Vec::new();
+    let mut goes_on = false;
+    for pair in path.windows(2) {
+        if is_near(pair) {
+            let [a, b] = [pair[0], pair[1]].map(|p| view.pixel_of_offset(clamped(p)));
+            match runs.last_mut() {
+                Some(run) if goes_on => run.push(b),
+                _ => runs.push(vec![a, b]),
+            }
+        }
+        goes_on = is_near(pair);
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::overlay::tests::on;
+    use ppum::field::Field;
+    use ppum_testkit::synthetic::{Coefficients, Recipe};
+
+    /// A plate that is only moved: its border, rims and cells are those of the undeformed plate, shifted.
+    #[test]
+    fn lines_of_a_moved_plate_are_moved() {
+        let zeros = |constant: f64| [constant, 0.0, 0.0, 0.0, 0.0, 0.0].to_vec();
+        let coefficients = Coefficients::Polynomial(vec![zeros(0.25), zeros(-0.125)]);
+        let dataset = Recipe { coefficients, ..Recipe::default() }.dataset();
+        let field = Field::new(&dataset, 0).unwrap();
+        let view = View::fit(dataset.domain.bounds, [200, 150]).unwrap();
+        let moved = View { center: view.center + vec2(0.5, -0.25), ..view };
+        let draw = |factor: f64, view: &View| {
+            let seen = Deformation::new(&field, factor).unwrap().seen(view);
+            let items = [deformed_outline(&seen), deformed_cells(&seen), faces(&seen)].concat();
+            on([255; 4], view, items)
+        };
+        let [before, after] = [draw(0.0, &view), draw(2.0, &moved)];
+        let apart = before.rgba.iter().zip(&after.rgba).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(apart <= Some(3), "{apart:?}");
+        // the middle of the crack's first segment, and a place away from all lines
+        let [x, y] = {
+            let ends = &dataset.steps[0].cracks[0].points;
+            <[f64; 2]>::from(view.pixel((ends[0] + ends[1]) * 0.5)).map(|c| c as u32)
+        };
+        assert!(before.pixel(x, y)[0] < 90, "{:?}", before.pixel(x, y));
+        assert!(before.rgba.chunks(4).filter(|p| p[0] > 250).count() > 10_000);
+        let seen = Deformation::new(&field, 2.0).unwrap().seen(&moved);
+        let outline = on([255; 4], &moved, undeformed_outline(&seen).unwrap());
+        let grey = outline.rgba.chunks(4).filter(|p| p[0] < 200).count();
+        assert!(grey > 50, "{grey}");
+    }
+}

@@ -1,0 +1,36 @@
+//! The rings that stress intensity factors are integrated over.
+
+use ppum::crack::Crack;
+use ppum::dataset::TipIntensity;
+use ppum_render::image::Rgba;
+use ppum_render::view::View;
+
+use super::{arc, line_scale};
+use crate::canvas::{Item, Path, Pen};
+
+const RING: Rgba = [225, 95, 20, 255];
+const SEAM: Rgba = [255, 255, 255, 170];
+const WIDTH: f64 = 1.2;
+
+/// The borders of the rings of each tip: full lines around the disc that the integral covers, dashed ones
+/// inside of which the cut-off function is one.
+#[must_use]
+pub fn rings(view: &View, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec<Item> {
+    let (mut outer, mut inner) = (Path::default(), Path::default());
+    for intensity in intensities {
+        let Some(crack) = cracks.get(intensity.tip.crack as usize) else { continue };
+        let tip = crack.end_point(intensity.tip.end);
+        for ring in &intensity.rings {
+            outer.pieces.push(arc(view, tip, ring.r2));
+            if ring.r1 > 0.0 {
+                inner.pieces.push(arc(view, tip, ring.r1));
+            }
+        }
+    }
+    let scale = line_scale(view.pixels);
+    let pen = Pen::new(RING, WIDTH * scale).with_halo(SEAM, 0.8 * scale);
+    vec![
+        Item::Line { path: outer, pen },
+        Item::Line { path: inner, pen: pen.dashed(6.0 * scale, 4.0 * scale) },
+    ]
+}

@@ -1,0 +1,333 @@
+//! Plots: curves over axes.
+//!
+//! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`Curve`]s in colours that people with
+//! any colour vision tell apart. Curves break where a value is missing, and are cut off at the frame.
+
+mod frame;
+
+use ppum_render::image::Rgba;
+use ppum_render::scale::{Normalization, Scale};
+
+use crate::canvas::{Canvas, Item, Path, Pen};
+use crate::overlay::{Entry, Symbol, legend_in};
+use frame::Frame;
+
+/// Curves over axes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// Line above the plot; may be empty.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: PlotAxis,
+    /// The vertical axis.
+    pub y: PlotAxis,
+    /// The curves, the lowest first.
+    pub curves: Vec<Curve>,
+}
+
+/// An axis of a plot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlotAxis {
+    /// The quantity.
+    pub label: String,
+    /// The unit; may be empty.
+    pub unit: String,
+    /// Linear, or logarithmic: then only positive values are seen.
+    pub scale: Scale,
+    /// The values from its start to its end; found from the curves if there are none.
+    pub range: Option<[f64; 2]>,
+    /// Names of the values 0, 1, 2, … in place of numbers; none of an axis of numbers.
+    pub names: Vec<String>,
+}
+
+impl Default for PlotAxis {
+    fn default() -> Self {
+        let (label, unit, names) = (String::new(), String::new(), Vec::new());
+        Self { label, unit, scale: Scale::Linear, range: None, names }
+    }
+}
+
+impl PlotAxis {
+    /// A linear axis.
+    #[must_use]
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), unit: unit.into(), ..Self::default() }
+    }
+
+    /// The axis with a logarithmic scale.
+    #[must_use]
+    pub fn logarithmic(self) -> Self {
+        Self { scale: Scale::Log, ..self }
+    }
+}
+
+/// A curve of a plot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Its name in the legend; none if empty.
+    pub label: String,
+    /// Its points; it breaks where one has a coordinate that is no number or is infinite.
+    pub points: Vec<[f64; 2]>,
+    /// The way it is drawn.
+    pub look: Look,
+}
+
+/// The way a curve is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Look {
+    /// A line.
+    #[default]
+    Line,
+    /// A dashed line, for what is compared with.
+    Dashed,
+    /// A line with a dot at each point.
+    Dotted,
+    /// Bars from zero, those of several curves side by side.
+    Bars,
+}
+
+impl Curve {
+    /// A line.
+    #[must_use]
+    pub fn new(label: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        Self { label: label.into(), points, look: Look::Line }
+    }
+
+    /// The curve drawn in another way.
+    #[must_use]
+    pub fn with_look(self, look: Look) -> Self {
+        Self { look, ..self }
+    }
+}
+
+/// Exponent p of the power law y = c x^p nearest to points in the logarithms of both (least squares). None with
+/// fewer than two different x among the points whose coordinates are both positive.
+#[must_use]
+pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
+    let positive = points.iter().filter(|p| p.iter().all(|v| *v > 0.0 && v.is_finite()));
+    let logs: Vec<[f64; 2]> = positive.map(|p| p.map(f64::ln)).collect();
+    let count = logs.len() as f64;
+    let mean = |k: usize| logs.iter().map(|p| p[k]).sum::<f64>() / count;
+    let (x, y) = (mean(0), mean(1));
+    let spread: f64 = logs.iter().map(|p| (p[0] - x).powi(2)).sum();
+    let both: f64 = logs.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    (logs.len() > 1 && spread > 1e-20 * count).then(|| both / spread)
+}
+
+/// Colours by M. Okabe and K. Ito (2008), told apart with any colour vision.
+const COLORS: [Rgba; 7] = [
+    [0, 114, 178, 255],
+    [213, 94, 0, 255],
+    [0, 158, 115, 255],
+    [204, 121, 167, 255],
+    [230, 159, 0, 255],
+    [86, 180, 233, 255],
+    [38, 38, 42, 255],
+];
+const WIDTH: f64 = 1.8;
+const DOT: f64 = 3.2;
+/// Room between the outermost values and the frame, in parts of the axis.
+const MARGIN: f64 = 0.04;
+
+/// The least size of a plot.
+pub const LEAST: [u32; 2] = [240, 180];
+
+/// Draws a plot of at least [`LEAST`] pixels; a smaller size is enlarged.
+#[must_use]
+pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
+    let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
+    let [x, y] = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| scale_of(axis, &plot.curves, k));
+    let frame = Frame::new(plot, [x, y], size);
+    let mut page = Canvas::new(size, frame::PAPER);
+    page.items.extend(frame.grid());
+    page.items.push(inside(plot, &frame));
+    page.items.extend(frame.lines());
+    page.items.extend(frame.words(plot));
+    page
+}
+
+/// The curves with their legend, on a page of the frame's size.
+fn inside(plot: &Plot, frame: &Frame) -> Item {
+    let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
+    let mut entries = Vec::new();
+    let bars = plot.curves.iter().filter(|curve| curve.look == Look::Bars).count();
+    for (k, curve) in plot.curves.iter().enumerate() {
+        let color = COLORS[k % COLORS.len()];
+        let pen = pen(curve, color, frame.scale);
+        let is_bar = curve.look == Look::Bars;
+        canvas.items.extend(if is_bar {
+            vec![Item::Fill { outline: bars_of(curve, [k, bars], frame), color }]
+        } else {
+            drawn(curve, pen, frame)
+        });
+        if !curve.label.is_empty() {
+            let symbol = if is_bar { Symbol::Square(color) } else { Symbol::Line(pen) };
+            entries.push(Entry::new(symbol, &curve.label));
+        }
+    }
+    if plot.curves.len() > 1 || entries.len() > 1 {
+        canvas.items.extend(legend_in(frame.pixels(), &entries, frame.scale));
+    }
+    Item::Inset { corner: frame.corner(), canvas }
+}
+
+fn pen(curve: &Curve, color: Rgba, scale: f64) -> Pen {
+    let pen = Pen::new(color, WIDTH * scale);
+    if curve.look == Look::Dashed { pen.dashed(7.0 * scale, 4.0 * scale) } else { pen }
+}
+
+/// The bars of curve k of `count`, side by side around their places.
+fn bars_of(curve: &Curve, [k, count]: [usize; 2], frame: &Frame) -> Path {
+    let width = 0.8 / count as f64;
+    let mut path = Path::default();
+    for &[x, y] in curve.points.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+        let left = x - 0.4 + k as f64 * width;
+        path.rect(frame.position([left, 0.0]), frame.position([left + 0.9 * width, y]));
+    }
+    path
+}
+
+/// The unbroken pieces of a curve, and its dots.
+fn drawn(curve: &Curve, pen: Pen, frame: &Frame) -> Vec<Item> {
+    let is_missing = |p: &[f64; 2]| p.map(|v| v.is_finite()) != [true; 2];
+    let pieces = curve.points.split(is_missing).filter(|piece| !piece.is_empty());
+    let positions = |piece: &[[f64; 2]]| piece.iter().map(|&p| frame.position(p)).collect();
+    let path = Path { pieces: pieces.map(positions).collect() };
+    let mut items = vec![Item::Line { path: path.clone(), pen }];
+    if curve.look == Look::Dotted {
+        let dots = path.pieces.into_iter().flatten().map(|p| vec![p]).collect();
+        let pen = Pen::new(pen.color, 2.0 * DOT * frame.scale);
+        items.push(Item::Line { path: Path { pieces: dots }, pen });
+    }
+    items
+}
+
+/// The scale of an axis: its range, or that of the curves' values with some room.
+fn scale_of(axis: &PlotAxis, curves: &[Curve], k: usize) -> Normalization {
+    let is_log = axis.scale == Scale::Log;
+    let is_seen = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
+    let whole = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite());
+    let points = curves.iter().flat_map(|curve| &curve.points).filter(whole);
+    let have_bars = !is_log && curves.iter().any(|curve| curve.look == Look::Bars);
+    let [min, max] = axis.range.unwrap_or_else(|| {
+        if !axis.names.is_empty() {
+            return [-0.6, axis.names.len() as f64 - 0.4];
+        }
+        let zero = (have_bars && k == 1).then_some(0.0);
+        let values = points.map(|p| p[k]).filter(is_seen).chain(zero);
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        roomy(values.fold(start, |[a, b], v| [a.min(v), b.max(v)]), is_log)
+    });
+    let usable = min < max && (max - min).is_normal() && (!is_log || min > 0.0);
+    let [min, max] = if usable { [min, max] } else { [0.1, 1.0] };
+    Normalization::new(axis.scale, min, max)
+}
+
+/// A range with some room at its ends; around a single value, or where there is none, some range.
+fn roomy([min, max]: [f64; 2], is_log: bool) -> [f64; 2] {
+    if min > max {
+        return if is_log { [0.1, 1.0] } else { [0.0, 1.0] };
+    }
+    if is_log {
+        let factor = (max / min).powf(MARGIN).max(if max / min < 1.01 { 2.0 } else { 1.0 });
+        return [min / factor, max * factor];
+    }
+    let size = min.abs().max(max.abs());
+    let room = match max - min {
+        span if span > 1e-12 * size && span > 0.0 => MARGIN * span,
+        _ if size > 0.0 => 0.5 * size,
+        _ => 0.5,
+    };
+    [min - room, max + room]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::{Vec2, vec2};
+
+    fn line(points: &[[f64; 2]]) -> Plot {
+        let curves = vec![Curve::new("a", points.to_vec())];
+        let (x, y) = (PlotAxis::new("x", "m"), PlotAxis::new("σ_{yy}", "MPa"));
+        Plot { title: "A plot".into(), x, y, curves }
+    }
+
+    /// The curves' paths, in pixels of the page.
+    fn paths(page: &Canvas) -> Vec<Vec<Vec2>> {
+        let mut found = Vec::new();
+        for item in &page.items {
+            let Item::Inset { corner, canvas } = item else { continue };
+            let shift = vec2(f64::from(corner[0]), f64::from(corner[1]));
+            for item in &canvas.items {
+                if let Item::Line { path, .. } = item {
+                    let moved = path.pieces.iter();
+                    found.extend(moved.map(|p| p.iter().map(|&q| q + shift).collect::<Vec<_>>()));
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn slopes_are_those_of_power_laws() {
+        let law = |p: f64| (1..20).map(move |k| [f64::from(k), 3.0 * f64::from(k).powf(p)]);
+        for p in [-0.5, 0.0, 1.5, -3.0] {
+            assert!((slope(&law(p).collect::<Vec<_>>()).unwrap() - p).abs() < 1e-12);
+        }
+        let with_gaps: Vec<_> =
+            law(-0.5).chain([[0.0, 1.0], [2.0, f64::NAN], [-1.0, 5.0]]).collect();
+        assert!((slope(&with_gaps).unwrap() + 0.5).abs() < 1e-12);
+        assert_eq!(slope(&[[1.0, 2.0]]), None);
+        assert_eq!(slope(&[[1.0, 2.0], [1.0, 3.0]]), None);
+    }
+
+    /// Equal steps of values are equal steps of pixels; logarithmic axes make power laws straight.
+    #[test]
+    fn points_are_where_their_values_say() {
+        let drawn = paths(&plot(&line(&[[0.0, 1.0], [1.0, 3.0], [2.0, 5.0]]), [640, 480]));
+        assert_eq!(drawn.len(), 1);
+        let [a, b, c] = drawn[0][..] else { panic!("three points") };
+        assert!((b - a - (c - b)).length() < 1e-9 && c.x > a.x && c.y < a.y);
+        let mut law = line(&[[1e-9, 2e4], [1e-6, 2e4 / 1e1_f64.powf(1.5)], [1e-3, 2e1]]);
+        (law.x, law.y) = (law.x.logarithmic(), law.y.logarithmic());
+        let [a, b, c] = paths(&plot(&law, [640, 480]))[0][..] else { panic!("three points") };
+        assert!((b - a - (c - b)).length() < 1e-6, "{a:?} {b:?} {c:?}");
+    }
+
+    #[test]
+    fn curves_break_where_values_are_missing() {
+        let gaps =
+            [[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, f64::INFINITY], [4.0, 1.0], [5.0, 2.0]];
+        let drawn = paths(&plot(&line(&gaps), [640, 480]));
+        assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+    }
+
+    /// Nothing but numbers that can be drawn, whatever is plotted, and everything on the page.
+    #[test]
+    fn odd_data_still_make_a_plot() {
+        let huge: Vec<_> = (0..5).map(|k| [f64::from(k) * 1e300, -1e300 * f64::from(k)]).collect();
+        for points in [
+            vec![],
+            vec![[1.0, 1.0]],
+            vec![[0.0, 0.0], [1.0, 0.0]],
+            vec![[f64::NAN, 1.0]],
+            vec![[1.0, 1.0 + 1e-15], [2.0, 1.0]],
+            vec![[1e-320, 1e-320], [2e-320, 1e-320]],
+            huge,
+        ] {
+            for scale in [Scale::Linear, Scale::Log] {
+                let mut odd = line(&points);
+                (odd.x.scale, odd.y.scale) = (scale, scale);
+                let page = plot(&odd, [10, 10]);
+                assert_eq!(page.size, LEAST);
+                assert!(paths(&page).iter().flatten().all(|p| p.is_finite()), "{points:?}");
+                let image = page.image();
+                let border = (0..LEAST[0]).flat_map(|i| [(i, 0), (i, LEAST[1] - 1)]);
+                assert!(
+                    border.clone().all(|(i, j)| image.pixel(i, j) == frame::PAPER),
+                    "{points:?}"
+                );
+            }
+        }
+    }
+}

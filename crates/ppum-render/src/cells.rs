@@ -1,0 +1,129 @@
+//! Values of patches as pictures: each pixel has that of the cell its centre lies in.
+
+use ppum::field::Field;
+
+use crate::raster::Raster;
+use crate::view::View;
+
+/// A value per patch of a field, by its name: `level`, `order` (the largest degree of its blocks), `functions`
+/// (their number), or an attribute of the step. None if there is none of this name, or not one per patch.
+#[must_use]
+pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
+    let (partition, data) = (&field.step.partition, field.data);
+    let patches = 0..partition.len();
+    let degree = |block: usize| data.block_degree[block];
+    Some(match name {
+        "level" => partition.level.iter().map(|&level| level.into()).collect(),
+        "order" => patches.map(|i| data.blocks(i).map(degree).max().unwrap_or(0).into()).collect(),
+        "functions" => patches.map(|i| data.blocks(i).len() as f64).collect(),
+        _ => {
+            let found = field.step.attributes.iter().find(|attribute| attribute.name == name)?;
+            found.values.clone()
+        }
+    })
+}
+
+/// The names that [`values`] knows for a field.
+#[must_use]
+pub fn names(field: &Field<'_>) -> Vec<String> {
+    let own = field.step.attributes.iter().map(|attribute| attribute.name.clone());
+    let mut names: Vec<_> = ["level", "order", "functions"].map(str::to_owned).into();
+    names.extend(own.filter(|name| !["level", "order", "functions"].contains(&name.as_str())));
+    names
+}
+
+/// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders belong to
+/// the right and upper cell.
+///
+/// # Panics
+/// If there is not one value per patch.
+#[must_use]
+pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
+    let cells = &field.step.partition.cell;
+    assert_eq!(values.len(), cells.len(), "one value per patch");
+    let (domain, last) = (field.domain.at(view.center), field.domain.bounds.max - view.center);
+    let [columns, rows] = view.pixels.map(|n| n as usize);
+    let mut raster = Raster::new(view.pixels, vec![f64::NAN; columns * rows]);
+    for (cell, &value) in cells.iter().zip(values) {
+        let [across, down] = view.inside(cell);
+        for (row, column) in down.flat_map(|row| across.clone().map(move |column| (row, column))) {
+            let (offset, max) = (view.offset(column as u32, row as u32), cell.max - view.center);
+            let is_left = offset.x < max.x || max.x >= last.x;
+            let is_below = offset.y < max.y || max.y >= last.y;
+            if is_left && is_below && domain.contains(offset) {
+                raster.values[row * columns + column] = value;
+            }
+        }
+    }
+    raster
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::cover::Cover;
+    use ppum::dataset::{Attribute, Dataset, Equation, FieldData, Step};
+    use ppum::domain::{Domain, Hole};
+    use ppum::vec2::{Rect, vec2};
+    use ppum::weight::WeightFunction;
+
+    fn dataset() -> Dataset {
+        let bounds = Rect::new(vec2(0.0, 0.0), vec2(4.0, 4.0));
+        let holes = vec![Hole::Circle { center: vec2(3.0, 3.0), radius: 0.7 }];
+        let cover = Cover::uniform(bounds, 2).expect("a cover");
+        let partition = cover.partition(1.3, WeightFunction::Linear).expect("a partition");
+        let mut field = FieldData::new("potential", &["u"]);
+        (0..partition.len()).for_each(|i| field.push_patch(&[(0, (i % 3) as u8)]));
+        let values = (0..partition.len()).map(|i| i as f64).collect();
+        let mut step = Step::new(partition).with_function("one", ppum::function::FunctionKind::One);
+        step = step.with_field(field);
+        step.attributes = vec![Attribute { name: "number".into(), values }];
+        let domain = Domain { bounds, holes };
+        Dataset::new(domain, Equation::poisson(1.0)).with_step(step)
+    }
+
+    /// Against the definition, pixel by pixel, also where pixel centres lie on borders of cells.
+    #[test]
+    fn pixels_have_the_values_of_their_cells() {
+        let dataset = dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let numbers = values(&field, "number").expect("the attribute");
+        for view in [
+            View::window(-0.5, -0.5, 4.5, 4.5, [50, 50]).unwrap(),
+            View::new(vec2(2.0, 2.0), 4.5, [9, 9]).unwrap(),
+            View::new(vec2(1.0, 1.0), 1e-12, [5, 5]).unwrap(),
+        ] {
+            let found = raster(&field, &numbers, &view);
+            for (i, j) in (0..view.pixels[0]).flat_map(|i| (0..view.pixels[1]).map(move |j| (i, j)))
+            {
+                let p = view.center + view.offset(i, j);
+                let column = |x: f64| x.floor().clamp(0.0, 3.0);
+                let holds = |cell: &Rect| cell.min == vec2(column(p.x), column(p.y));
+                let cell = field.step.partition.cell.iter().position(holds);
+                let expected = match cell {
+                    Some(cell) if field.domain.contains(p) => numbers[cell],
+                    _ => f64::NAN,
+                };
+                let value = found.value(i, j);
+                assert!(
+                    value == expected || value.is_nan() && expected.is_nan(),
+                    "{p:?} {value} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn values_have_names() {
+        let dataset = dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        assert_eq!(names(&field), ["level", "order", "functions", "number"]);
+        for name in names(&field) {
+            let found = values(&field, &name).expect("known");
+            assert_eq!(found.len(), field.step.partition.len(), "{name}");
+        }
+        assert_eq!(values(&field, "order").expect("orders")[..4], [0.0, 1.0, 2.0, 0.0]);
+        assert_eq!(values(&field, "functions").expect("numbers")[5], 1.0);
+        assert!(values(&field, "weight").is_none());
+    }
+}

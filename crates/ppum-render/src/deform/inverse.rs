@@ -1,0 +1,164 @@
+//! From a place in the deformed plane to the point of the plate.
+
+use ppum::domain::LocalDomain;
+use ppum::vec2::{Rect, Vec2};
+
+use super::leaf::Leaf;
+use super::map::{Image, Map};
+use super::{DeformedView, TOLERANCE};
+
+/// Most steps of Newton's method, and most halvings of one.
+const STEPS: usize = 40;
+const HALVINGS: usize = 8;
+/// Where det F is smaller than this part of |F|² the plate may fold inside a leaf.
+const THIN: f64 = 0.1;
+/// Between leaves, as seen from inside, there is less than this part of a pixel.
+const GAP: f64 = 1e-3;
+/// Rims of round holes lie behind the sides of pieces by less than this part of a pixel.
+const BEHIND: f64 = 0.3;
+
+/// A point of a leaf that moves to a given place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    /// Offset from the anchor.
+    pub(super) offset: Vec2,
+    pub(super) image: Image,
+}
+
+/// The inverse of a deformation on one leaf.
+pub(super) struct Inverse<'a, 'f> {
+    pub(super) view: &'a DeformedView<'f>,
+    pub(super) leaf: &'a Leaf,
+    pub(super) domain: &'a LocalDomain,
+}
+
+impl Inverse<'_, '_> {
+    /// The place, widened by what the image is bent, in which images of the leaf lie.
+    pub(super) fn reach(&self) -> Rect {
+        let margin = self.margin();
+        let margin = Vec2 { x: margin, y: margin };
+        Rect::new(self.leaf.bounds.min - margin, self.leaf.bounds.max + margin)
+    }
+
+    fn margin(&self) -> f64 {
+        let behind = if self.leaf.at_rim { BEHIND } else { 0.0 };
+        2.0 * self.leaf.bent + (0.05 + behind) * self.view.view.pixel_size()
+    }
+
+    /// False if a place lies too far from the leaf's image.
+    pub(super) fn may_hold(&self, place: Vec2) -> bool {
+        let (images, pixel) = (&self.leaf.images, self.view.view.pixel_size());
+        if self.leaf.bent > 0.3 * pixel {
+            return true;
+        }
+        let sign = self.leaf.image.determinant().signum();
+        sides(images).all(|[a, b]| {
+            let along = (b - a) * sign;
+            let length = along.length();
+            // sides of no length hold everything
+            length <= 1e-3 * pixel || along.cross(place - a) >= -self.margin() * length
+        })
+    }
+
+    /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's method is started at the corners too.
+    pub(super) fn find(&self, map: &mut Map<'_>, place: Vec2) -> Option<Found> {
+        let Leaf { corners, center, image, .. } = self.leaf;
+        let start = image.pulled_back(place - image.at);
+        let start = if start.is_finite() { *center + start } else { *center };
+        let more = corners.iter().filter(|_| self.is_thin());
+        std::iter::once(&start).chain(more).find_map(|start| self.newton(map, *start, place))
+    }
+
+    /// True if the plate may fold inside the leaf.
+    fn is_thin(&self) -> bool {
+        let [a, b] = self.leaf.image.gradient;
+        self.leaf.image.determinant().abs() < THIN * (a.dot(a) + b.dot(b))
+    }
+
+    fn newton(&self, map: &mut Map<'_>, start: Vec2, place: Vec2) -> Option<Found> {
+        let pixel = self.view.view.pixel_size();
+        let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
+        for _ in 0..STEPS {
+            let miss = place - here.image.at;
+            let step = here.image.pulled_back(miss);
+            if miss.length() <= TOLERANCE * pixel && holds(&self.leaf.corners, here.offset + step) {
+                // the step is known already, and far smaller than a pixel
+                return Some(Found { offset: here.offset + step, ..here });
+            }
+            if miss.length() <= GAP * pixel {
+                return Some(here);
+            }
+            if !step.is_finite() {
+                here = self.image(map, (here.offset + self.leaf.center) * 0.5)?;
+                continue;
+            }
+            let Some(nearer) = self.step(map, here, step, place) else { break };
+            here = nearer;
+        }
+        // at a cusp of a fold steps lead nowhere
+        let is_near = self.is_thin() && (place - here.image.at).length() <= TOLERANCE * pixel;
+        if is_near { Some(here) } else { self.behind_rim(map, here, place) }
+    }
+
+    /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place; none if it cannot.
+    fn step(&self, map: &mut Map<'_>, here: Found, step: Vec2, place: Vec2) -> Option<Found> {
+        let target = nearest(&self.leaf.corners, here.offset + step);
+        let way = target - here.offset;
+        let miss = (place - here.image.at).length();
+        let mut part = 1.0;
+        for _ in 0..HALVINGS {
+            let next = self.image(map, here.offset + way * part)?;
+            if (place - next.image.at).length() < miss {
+                return Some(next);
+            }
+            part *= 0.5;
+        }
+        None
+    }
+
+    /// A point of the plate between a piece's side and the round rim that it stands for.
+    fn behind_rim(&self, map: &mut Map<'_>, mut here: Found, place: Vec2) -> Option<Found> {
+        let pixel = self.view.view.pixel_size();
+        if !self.leaf.at_rim {
+            return None;
+        }
+        for _ in 0..4 {
+            let miss = place - here.image.at;
+            if miss.length() > BEHIND * pixel {
+                return None;
+            }
+            if miss.length() <= GAP * pixel {
+                return self.domain.contains(here.offset).then_some(here);
+            }
+            here = self.image(map, here.offset + here.image.pulled_back(miss))?;
+        }
+        None
+    }
+
+    fn image(&self, map: &mut Map<'_>, offset: Vec2) -> Option<Found> {
+        Some(Found { offset, image: map.image(self.view, offset)? })
+    }
+}
+
+/// True if a point lies in a convex polygon, counter-clockwise.
+fn holds(corners: &[Vec2], p: Vec2) -> bool {
+    sides(corners).all(|[a, b]| (b - a).cross(p - a) >= 0.0)
+}
+
+/// The point of a convex polygon that is nearest to a point.
+fn nearest(corners: &[Vec2], p: Vec2) -> Vec2 {
+    if holds(corners, p) {
+        return p;
+    }
+    let foot = |[a, b]: [Vec2; 2]| {
+        let (d, q) = (b - a, p - a);
+        let square = d.dot(d);
+        a + d * if square > 0.0 { (q.dot(d) / square).clamp(0.0, 1.0) } else { 0.0 }
+    };
+    let nearer = |a: &Vec2, b: &Vec2| (*a - p).length().total_cmp(&(*b - p).length());
+    sides(corners).map(foot).min_by(nearer).unwrap_or(p)
+}
+
+fn sides(corners: &[Vec2]) -> impl Iterator<Item = [Vec2; 2]> {
+    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
+}

@@ -1,0 +1,91 @@
+//! Displacements and images of single points.
+
+use ppum::crack::Side;
+use ppum::field::{Field, LocalField};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+use super::DeformedView;
+
+/// A place in the deformed plane with the deformation gradient there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Image {
+    /// Offset from the view's centre.
+    pub(super) at: Vec2,
+    /// The columns of F: images of the unit vectors.
+    pub(super) gradient: [Vec2; 2],
+}
+
+impl Image {
+    /// det F
+    pub(super) fn determinant(&self) -> f64 {
+        self.gradient[0].cross(self.gradient[1])
+    }
+
+    /// F d
+    pub(super) fn carried(&self, d: Vec2) -> Vec2 {
+        self.gradient[0] * d.x + self.gradient[1] * d.y
+    }
+
+    /// F⁻¹ d; not finite where F is singular.
+    pub(super) fn pulled_back(&self, d: Vec2) -> Vec2 {
+        let [a, b] = self.gradient;
+        vec2(d.cross(b), a.cross(d)) / self.determinant()
+    }
+}
+
+/// A displacement seen from an anchor, on the rims of the domain and just beyond them too.
+pub(super) struct Map<'f> {
+    local: LocalField<'f>,
+    patches: Vec<u32>,
+    jets: Vec<Jet<f64>>,
+}
+
+impl<'f> Map<'f> {
+    pub(super) fn new(field: &'f Field<'f>, anchor: Vec2) -> Self {
+        let local = field.at(anchor);
+        let jets = vec![Jet::constant(0.0); local.field.components()];
+        Self { local, patches: Vec::new(), jets }
+    }
+
+    /// u at the anchor plus an offset; nothing where no patch lies.
+    pub(super) fn displacement(&mut self, offset: Vec2, side: Side) -> Option<[f64; 2]> {
+        self.evaluate::<0>(offset, side).then(|| [self.jets[0].v, self.jets[1].v])
+    }
+
+    /// The image of a point without its gradient; nothing where the field is not finite.
+    pub(super) fn place(
+        &mut self,
+        view: &DeformedView<'_>,
+        offset: Vec2,
+        side: Side,
+    ) -> Option<Vec2> {
+        let place = moved(view, offset, self.displacement(offset, side)?);
+        place.is_finite().then_some(place)
+    }
+
+    /// The image of a point.
+    pub(super) fn image(&mut self, view: &DeformedView<'_>, offset: Vec2) -> Option<Image> {
+        if !self.evaluate::<1>(offset, Side::Above) {
+            return None;
+        }
+        let (s, [u, v]) = (view.factor(), [self.jets[0], self.jets[1]]);
+        let gradient = [vec2(1.0 + s * u.x, s * v.x), vec2(s * u.y, 1.0 + s * v.y)];
+        Some(Image { at: moved(view, offset, [u.v, v.v]), gradient })
+    }
+
+    /// As [`LocalField::evaluate`], also where rounding has put a point of a rim outside the domain.
+    fn evaluate<const D: usize>(&mut self, offset: Vec2, side: Side) -> bool {
+        let Self { local, patches, jets } = self;
+        patches.clear();
+        local.field.tree.query_point(local.anchor + offset, patches);
+        local.over_patches::<f64, D>([offset.x, offset.y], side, patches, jets);
+        !patches.is_empty()
+    }
+}
+
+/// shift + O + s (u − u(A))
+fn moved(view: &DeformedView<'_>, offset: Vec2, [x, y]: [f64; 2]) -> Vec2 {
+    let [x0, y0] = view.reference;
+    view.shift + offset + vec2(x - x0, y - y0) * view.factor()
+}

@@ -1,0 +1,274 @@
+//! Lines of the plate in the deformed plane.
+
+use ppum::crack::{Crack, CrackEnd, Side};
+use ppum::domain::{Hole, LocalDomain};
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use super::DeformedView;
+use super::map::Map;
+
+/// Largest distance of a path from the curve that it stands for \[pixels\].
+const CHORD: f64 = 0.1;
+/// Parts of a curve that are looked at, however straight it seems; fewer of one that is short in the picture.
+const PARTS: usize = 16;
+/// Least length of such a part in pixels.
+const PART: f64 = 8.0;
+/// Most halvings of a part; f64 has no more numbers beside those that are not small.
+const HALVINGS: usize = 200;
+/// Most points of a part: no curve that a screen shows has as many, but one that jumps everywhere would.
+const MOST: usize = 1 << 14;
+/// Way from a border into the plate, in parts of the plate's size, that decides whether the border belongs to it.
+const INWARD: f64 = 1e-9;
+
+/// Polylines, as offsets from the view's centre. They end where the plate does and where it has come apart.
+pub type Paths = Vec<Vec<Vec2>>;
+
+impl DeformedView<'_> {
+    /// The image of a polyline of offsets from the anchor, to a tenth of a pixel; what is far outside the picture is coarser.
+    /// It is interrupted outside the plate and where it crosses a crack that has opened.
+    #[must_use]
+    pub fn path(&self, points: &[Vec2]) -> Paths {
+        self.paths(std::slice::from_ref(&points))
+    }
+
+    /// The images of several polylines, as [`path`](Self::path) has them, one after the other.
+    #[must_use]
+    pub fn paths(&self, polylines: &[impl AsRef<[Vec2]>]) -> Paths {
+        let domain = self.field().domain.at(self.anchor);
+        let mut map = Map::new(self.field(), self.anchor);
+        let mut all = Vec::new();
+        for points in polylines {
+            let mut paths = Joined::new(self);
+            for line in points.as_ref().windows(2) {
+                let mut place =
+                    |o: Vec2| domain.contains(o).then(|| map.place(self, o, Side::Above)).flatten();
+                paths.add(self.line([line[0], line[1]], &mut place));
+            }
+            all.extend(paths.all);
+        }
+        all
+    }
+
+    /// The images of a crack's faces, above and below.
+    ///
+    /// # Panics
+    /// If there is no such crack.
+    #[must_use]
+    pub fn faces(&self, crack: usize) -> [Paths; 2] {
+        let [faces] = self.faces_of(&[crack]).try_into().unwrap_or_default();
+        faces
+    }
+
+    /// The images of the faces of several cracks, above and below.
+    ///
+    /// # Panics
+    /// If there is no such crack.
+    #[must_use]
+    pub fn faces_of(&self, cracks: &[usize]) -> Vec<[Paths; 2]> {
+        let (mut map, domain) =
+            (Map::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
+        let mut face = |crack: &Crack, side: Side| {
+            let mut paths = Joined::new(self);
+            for face in Face::all(crack, side, self.anchor) {
+                let mut place = |o: Vec2| {
+                    let is_plate = domain.contains(o);
+                    is_plate.then(|| map.place(self, face.beside(o), side)).flatten()
+                };
+                paths.add(self.line(face.ends, &mut place));
+            }
+            paths.all
+        };
+        let cracks = cracks.iter().map(|&crack| &self.field().step.cracks[crack]);
+        cracks.map(|crack| [Side::Above, Side::Below].map(|side| face(crack, side))).collect()
+    }
+
+    /// The image of the plate's border: of the box and of the rims of holes, where they bound the plate.
+    #[must_use]
+    pub fn outline(&self) -> Paths {
+        let mut border = Border::new(self);
+        let Rect { min, max } = self.field().domain.bounds;
+        let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
+        let mut all = border.polygon(&corners, 1.0);
+        for hole in &self.field().domain.holes {
+            all.extend(match hole {
+                Hole::Circle { center, radius } => border.circle(*center, *radius),
+                Hole::Polygon { points } => border.polygon(points, -hole.orientation()),
+            });
+        }
+        all
+    }
+
+    /// The image of a segment.
+    fn line(&self, [a, b]: [Vec2; 2], place: &mut dyn FnMut(Vec2) -> Option<Vec2>) -> Paths {
+        let parts = ((b - a).length() / (PART * self.view.pixel_size())).min(PARTS as f64) as usize;
+        self.trace([a, b], parts.max(1), |a: Vec2, b: Vec2| (a + b) * 0.5, place)
+    }
+
+    /// The image of a curve between two parameters that can be halved, in so many parts at least.
+    fn trace<P: Copy + PartialEq>(
+        &self,
+        ends: [P; 2],
+        least: usize,
+        half: impl Fn(P, P) -> P,
+        place: &mut dyn FnMut(P) -> Option<Vec2>,
+    ) -> Paths {
+        let mut parts = vec![ends];
+        while parts.len() < least {
+            parts = parts.iter().flat_map(|&[a, b]| [[a, half(a, b)], [half(a, b), b]]).collect();
+        }
+        let mut paths = Joined::new(self);
+        for ends in parts {
+            let places = ends.map(&mut *place);
+            let (mut stack, mut looked_at) = (vec![(ends, places, 0)], 0);
+            while let Some(([a, b], [from, to], depth)) = stack.pop() {
+                looked_at += 1;
+                let middle = half(a, b);
+                let at = place(middle);
+                match (from, at, to) {
+                    (None, None, None) => continue,
+                    (Some(from), Some(at), Some(to)) if self.is_straight(from, at, to) => {
+                        paths.add(vec![vec![from, at, to]]);
+                        continue;
+                    }
+                    _ => {}
+                }
+                if depth < HALVINGS && looked_at < MOST && middle != a && middle != b {
+                    stack.push(([middle, b], [at, to], depth + 1));
+                    stack.push(([a, middle], [from, at], depth + 1));
+                }
+            }
+        }
+        paths.all
+    }
+
+    /// True if a piece of a curve needs no more points, or is not seen.
+    fn is_straight(&self, from: Vec2, at: Vec2, to: Vec2) -> bool {
+        let pixel = self.view.pixel_size();
+        let size = (at - from).length() + (to - at).length();
+        let bent = (at - (from + to) * 0.5).length();
+        let hull = Rect::new(from.min(at).min(to), from.max(at).max(to));
+        let reach = vec2(size, size);
+        let around = Rect::new(hull.min - reach, hull.max + reach);
+        let is_seen = around.overlaps(&Rect::new(-self.view.half() * 1.1, self.view.half() * 1.1));
+        bent <= CHORD * pixel && size <= LONGEST * pixel || !is_seen
+    }
+}
+
+/// One side of one segment of a crack; offsets from the anchor.
+struct Face {
+    ends: [Vec2; 2],
+    /// True for ends that are tips.
+    tips: [bool; 2],
+    /// Unit vector away from the crack.
+    away: Vec2,
+}
+
+impl Face {
+    fn all(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
+        let sign = if side == Side::Above { 1.0 } else { -1.0 };
+        let last = crack.points.len() - 2;
+        crack.points.windows(2).enumerate().map(move |(k, ends)| {
+            let is_tip = |end: usize| crack.ends[end] == CrackEnd::Tip;
+            let tips = [k == 0 && is_tip(0), k == last && is_tip(1)];
+            let away = (ends[1] - ends[0]).unit().left() * sign;
+            Self { ends: [ends[0] - anchor, ends[1] - anchor], tips, away }
+        })
+    }
+
+    /// A point of the face moved off the crack by [`BESIDE`] of its distance to a tip, or of the segment's length.
+    fn beside(&self, offset: Vec2) -> Vec2 {
+        let [a, b] = self.ends;
+        let of_tip = |(end, is_tip): (Vec2, bool)| {
+            if is_tip { (offset - end).length() } else { f64::INFINITY }
+        };
+        let distance =
+            self.ends.into_iter().zip(self.tips).map(of_tip).fold((b - a).length(), f64::min);
+        offset + self.away * (BESIDE * distance)
+    }
+}
+
+/// Enough for rounding not to choose the side, and nothing to be seen.
+const BESIDE: f64 = 1e-9;
+
+/// Longest part of a path in the picture \[pixels\]: what bends within it would be seen.
+const LONGEST: f64 = 40.0;
+
+/// Paths that are joined where one begins at the end of the other.
+struct Joined {
+    all: Paths,
+    same: f64,
+}
+
+impl Joined {
+    fn new(view: &DeformedView<'_>) -> Self {
+        Self { all: Vec::new(), same: CHORD * view.view.pixel_size() }
+    }
+
+    fn add(&mut self, paths: Paths) {
+        for path in paths {
+            match self.all.last_mut() {
+                Some(last) if is_near(last, &path, self.same) => last.extend_from_slice(&path[1..]),
+                _ => self.all.push(path),
+            }
+        }
+    }
+}
+
+/// True if a path begins where another ends.
+fn is_near(last: &[Vec2], next: &[Vec2], same: f64) -> bool {
+    matches!((last.last(), next.first()), (Some(a), Some(b)) if (*a - *b).length() <= same)
+}
+
+/// The border of the plate.
+struct Border<'a, 'f> {
+    view: &'a DeformedView<'f>,
+    map: Map<'f>,
+    domain: LocalDomain,
+    /// Way into the plate.
+    inward: f64,
+}
+
+impl<'a, 'f> Border<'a, 'f> {
+    fn new(view: &'a DeformedView<'f>) -> Self {
+        let (field, size) = (view.field(), view.field().domain.bounds.size());
+        let (map, domain) = (Map::new(field, view.anchor), field.domain.at(view.anchor));
+        Self { view, map, domain, inward: INWARD * size.x.min(size.y) }
+    }
+
+    /// The image of a point of the border, if the plate lies in a direction from it.
+    fn place(&mut self, offset: Vec2, inward: Vec2) -> Option<Vec2> {
+        let is_border = self.domain.contains(offset + inward * self.inward);
+        is_border.then(|| self.map.place(self.view, offset, Side::Above)).flatten()
+    }
+
+    /// The sides of a polygon; the plate lies on the left of them, or on the right if `left` is −1.
+    fn polygon(&mut self, corners: &[Vec2], left: f64) -> Paths {
+        let (view, mut paths) = (self.view, Joined::new(self.view));
+        for (k, &a) in corners.iter().enumerate() {
+            let b = corners[(k + 1) % corners.len()];
+            let inward = (b - a).unit().left() * left;
+            let ends = [a - view.anchor, b - view.anchor];
+            paths.add(view.line(ends, &mut |o| self.place(o, inward)));
+        }
+        paths.all
+    }
+
+    /// A circle with the plate around it. Angles are counted from the direction of the anchor, near which points differ from the
+    /// nearest one by little.
+    fn circle(&mut self, center: Vec2, radius: f64) -> Paths {
+        let away = self.view.anchor - center;
+        let far = away.length();
+        let toward = if far > 0.0 { away / far } else { vec2(1.0, 0.0) };
+        let view = self.view;
+        let mut place = |angle: f64| {
+            let normal = toward * angle.cos() + toward.left() * angle.sin();
+            let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
+            self.place(toward * (radius - far) + beside * radius, normal)
+        };
+        let mut paths = Joined::new(view);
+        for ends in [[-std::f64::consts::PI, 0.0], [0.0, std::f64::consts::PI]] {
+            paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut place));
+        }
+        paths.all
+    }
+}

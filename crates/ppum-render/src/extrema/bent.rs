@@ -1,0 +1,119 @@
+//! Curved interfaces: chords of their course, between which points are pulled onto them.
+
+use ppum::field::Field;
+use ppum::formula::Formula;
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::sync::Arc;
+
+use super::On;
+use super::curves::{BESIDE, Curve};
+
+/// Chords on which extrema are looked for: those with the largest and those with the smallest values.
+const CHORDS: usize = 16;
+
+/// Most steps of the grid on which the course is looked for, in each direction.
+const STEPS: usize = 1024;
+
+/// Bisections of a step, to rounding.
+const BISECTIONS: usize = 52;
+
+/// A part of the zeros of a formula, seen from one side.
+pub(super) struct Bent {
+    level: Arc<Formula>,
+    anchor: Vec2,
+    chord: [Vec2; 2],
+    /// To the side from which it is seen, a unit vector.
+    toward: Vec2,
+}
+
+impl Bent {
+    /// The point at a part of the way of the chord, pulled onto the curve along the chord's normal, and `beside` it.
+    pub(super) fn at(&self, t: f64, beside: f64) -> Vec2 {
+        let [a, b] = self.chord;
+        let (middle, reach) = (a + (b - a) * t, (b - a).left() * 0.25);
+        let on_curve = root(&self.level, self.anchor, middle - reach, middle + reach);
+        on_curve.unwrap_or(middle) + self.toward * beside
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        (self.chord[1] - self.chord[0]).length()
+    }
+}
+
+/// The parts of curved interfaces in a rectangle of offsets from an anchor on which a quantity is largest or smallest.
+pub(super) fn all(
+    field: &Field<'_>,
+    anchor: Vec2,
+    rect: &Rect,
+    pixel: f64,
+    value: &mut dyn FnMut(Vec2) -> f64,
+) -> Vec<Curve> {
+    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+    let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
+    let mut found: Vec<(f64, Bent)> = Vec::new();
+    for kink in kinks.filter(|kink| kink.line().is_none()) {
+        let level = Arc::new(kink.value);
+        for chord in chords(&level, anchor, rect, pixel) {
+            let normal = (chord[1] - chord[0]).unit().left();
+            for toward in [normal, -normal] {
+                let bent = Bent { level: Arc::clone(&level), anchor, chord, toward };
+                let at = value(bent.at(0.5, BESIDE * pixel));
+                if at.is_finite() {
+                    found.push((at, bent));
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let count = found.len();
+    let is_best = |k: usize| k < CHORDS || k + CHORDS >= count;
+    let best = found.into_iter().enumerate().filter(|(k, _)| is_best(*k));
+    best.map(|(_, (_, bent))| Curve::bent(bent, On::Interface)).collect()
+}
+
+/// Chords of the course of a curve through the squares of a grid, where it crosses two sides.
+fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<[Vec2; 2]> {
+    let size = rect.size();
+    let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, STEPS);
+    let [columns, rows] = [count(size.x), count(size.y)];
+    let node = |i: usize, j: usize| {
+        let (x, y) = (i as f64 / columns as f64, j as f64 / rows as f64);
+        rect.min + vec2(size.x * x, size.y * y)
+    };
+    let row = |j: usize| (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect();
+    let (mut below, mut all): (Vec<bool>, _) = (row(0), Vec::new());
+    for j in 1..=rows {
+        let above: Vec<bool> = row(j);
+        for i in 1..=columns {
+            let signs = [below[i - 1], below[i], above[i], above[i - 1]];
+            let corners = [node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)];
+            if signs.iter().all(|&sign| sign == signs[0]) {
+                continue;
+            }
+            let root = |k: usize| root(level, anchor, corners[k], corners[(k + 1) % 4]);
+            if let [a, b] = (0..4).filter_map(root).collect::<Vec<_>>()[..] {
+                all.push([a, b]);
+            }
+        }
+        below = above;
+    }
+    all
+}
+
+fn is_above(level: &Formula, anchor: Vec2, offset: Vec2) -> bool {
+    let p = anchor + offset;
+    level.evaluate(&[p.x, p.y]) > 0.0
+}
+
+/// The change of sign between two points, by bisection; `None` if there is none.
+fn root(level: &Formula, anchor: Vec2, mut a: Vec2, mut b: Vec2) -> Option<Vec2> {
+    let above = is_above(level, anchor, a);
+    if is_above(level, anchor, b) == above {
+        return None;
+    }
+    for _ in 0..BISECTIONS {
+        let middle = (a + b) * 0.5;
+        if is_above(level, anchor, middle) == above { a = middle } else { b = middle }
+    }
+    Some((a + b) * 0.5)
+}

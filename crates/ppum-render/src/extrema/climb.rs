@@ -1,0 +1,157 @@
+//! Uphill from a pixel.
+
+use ppum::crack::Side;
+use ppum::field::LocalField;
+use ppum::quantity::QuantityGradient;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use crate::raster::{Raster, Sample};
+
+/// Most steps of Newton's method.
+const NEWTON: usize = 12;
+
+/// Step of the differences that make the Hessian, pixels.
+const DIFFERENCE: f64 = 1e-3;
+
+/// Directions that are tried together, and how often they are turned before the step is halved.
+const DIRECTIONS: usize = 6;
+const TURNS: usize = 3;
+
+/// Turn from one set of directions to the next, in turns: no direction comes back.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Steps below this part of a pixel change nothing that is seen in the value.
+const LEAST: f64 = 1e-7;
+
+/// Most rounds of directions.
+const ROUNDS: usize = 2000;
+
+/// The pixels that are not below (for the sign −1 above) any of their neighbours, the most promising first, at most so
+/// many: by their value and what the differences to their neighbours say it may still rise.
+pub(super) fn starts<T: Sample>(raster: &Raster<T>, sign: f64, most: usize) -> Vec<[u32; 2]> {
+    let [columns, rows] = raster.size;
+    let value = |i: u32, j: u32| finite(sign * raster.value(i, j).into());
+    let mut found: Vec<(f64, [u32; 2])> = Vec::new();
+    for (j, i) in (0..rows).flat_map(|j| (0..columns).map(move |i| (j, i))) {
+        let here = value(i, j);
+        let around = (j.saturating_sub(1)..(j + 2).min(rows))
+            .flat_map(|j| (i.saturating_sub(1)..(i + 2).min(columns)).map(move |i| (i, j)));
+        let (mut is_top, mut least) = (!here.is_nan(), here);
+        for (i, j) in around {
+            let there = value(i, j);
+            is_top &= there <= here || there.is_nan();
+            least = least.min(there);
+        }
+        if is_top {
+            found.push((here + (here - least), [i, j]));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.truncate(most);
+    found.into_iter().map(|(_, pixel)| pixel).collect()
+}
+
+/// NaN for what is infinite: singular points are looked at apart, since at a tip all quantities of the gradient are.
+pub(super) fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { f64::NAN }
+}
+
+/// Climbs in a rectangle of offsets; down for the sign −1.
+pub(super) struct Climber<'a, 'f, H> {
+    pub(super) slope: &'a QuantityGradient,
+    pub(super) local: LocalField<'f>,
+    pub(super) rect: Rect,
+    pub(super) sign: f64,
+    /// Says where not to go.
+    pub(super) is_hidden: H,
+}
+
+impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
+    /// The highest place that is found from a point, and its value; `None` where there is none.
+    pub(super) fn climb(&mut self, from: Vec2, pixel: f64) -> Option<(f64, Vec2)> {
+        let start = self.inside(from);
+        let mut best = (self.height(start), start);
+        if best.0.is_nan() {
+            return None;
+        }
+        best = self.newton(best, pixel);
+        best = self.turn(best, pixel);
+        Some((self.sign * best.0, best.1))
+    }
+
+    /// Steps to where the gradient vanishes, as long as they lead up.
+    fn newton(&mut self, mut best: (f64, Vec2), pixel: f64) -> (f64, Vec2) {
+        for _ in 0..NEWTON {
+            let Some(step) = self.newton_step(best.1, DIFFERENCE * pixel) else { break };
+            if step.length() > 2.0 * pixel {
+                break;
+            }
+            let there = self.inside(best.1 + step);
+            let height = self.height(there);
+            if height.is_nan() || height <= best.0 {
+                break;
+            }
+            best = (height, there);
+        }
+        best
+    }
+
+    /// −H⁻¹ ∇q if the Hessian H is negative definite.
+    fn newton_step(&mut self, at: Vec2, h: f64) -> Option<Vec2> {
+        let g = self.gradient(at);
+        let [right, left] = [h, -h].map(|h| self.gradient(at + vec2(h, 0.0)));
+        let [up, down] = [h, -h].map(|h| self.gradient(at + vec2(0.0, h)));
+        let (in_x, in_y) = ((right - left) / (2.0 * h), (up - down) / (2.0 * h));
+        let (xx, yy, xy) = (in_x.x, in_y.y, 0.5 * (in_x.y + in_y.x));
+        let determinant = xx * yy - xy * xy;
+        let is_peak = determinant > 0.0 && xx + yy < 0.0;
+        let step = vec2(xy * g.y - yy * g.x, xy * g.x - xx * g.y) / determinant;
+        (is_peak && step.is_finite()).then_some(step)
+    }
+
+    /// Tries directions, ever closer, until steps are nothing.
+    fn turn(&mut self, mut best: (f64, Vec2), pixel: f64) -> (f64, Vec2) {
+        let (mut step, mut failed, mut turned) = (0.5 * pixel, 0, 0.0);
+        for _ in 0..ROUNDS {
+            let found = self.best_around(best, step, turned);
+            turned = (turned + GOLDEN).fract();
+            if found.0 > best.0 {
+                (best, failed) = (found, 0);
+                continue;
+            }
+            failed += 1;
+            if failed == TURNS {
+                (step, failed) = (0.5 * step, 0);
+            }
+            if step < LEAST * pixel {
+                break;
+            }
+        }
+        best
+    }
+
+    fn best_around(&mut self, best: (f64, Vec2), step: f64, turned: f64) -> (f64, Vec2) {
+        (0..DIRECTIONS).fold(best, |best_so_far, k| {
+            let (sin, cos) =
+                ((k as f64 + turned) / DIRECTIONS as f64 * std::f64::consts::TAU).sin_cos();
+            let there = self.inside(best.1 + vec2(cos, sin) * step);
+            let height = self.height(there);
+            if height > best_so_far.0 { (height, there) } else { best_so_far }
+        })
+    }
+
+    fn inside(&self, p: Vec2) -> Vec2 {
+        p.max(self.rect.min).min(self.rect.max)
+    }
+
+    fn height(&mut self, at: Vec2) -> f64 {
+        if (self.is_hidden)(at) {
+            return f64::NAN;
+        }
+        finite(self.sign * self.slope.quantity().at(&mut self.local, at, Side::Above))
+    }
+
+    fn gradient(&mut self, at: Vec2) -> Vec2 {
+        self.slope.at(&mut self.local, at, Side::Above).gradient * self.sign
+    }
+}

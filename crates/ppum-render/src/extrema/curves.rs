@@ -1,0 +1,280 @@
+//! Boundaries on which an extremum may lie, and extreme values along them.
+
+use ppum::crack::{LocalCrack, SegmentId, Side};
+use ppum::domain::{Hole, LocalRim};
+use ppum::field::{Field, LocalField};
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::{PI, TAU};
+
+use super::On;
+use super::bent::Bent;
+
+/// Fewest and most samples of a curve.
+const SAMPLES: [usize; 2] = [32, 1 << 14];
+
+/// Distance from a rim or an interface at which values are taken, pixels: to be on one side of it.
+pub(super) const BESIDE: f64 = 1e-9;
+
+/// Samples that are refined, at most.
+const REFINED: usize = 16;
+
+/// Steps of the golden section: the value is then exact to rounding where it is smooth.
+const SECTIONS: usize = 48;
+
+/// A boundary, or a part of it.
+pub(super) struct Curve {
+    shape: Shape,
+    /// Unit vector to the side from which it is seen, of straight ones; zero if it is exact.
+    toward: Vec2,
+    pub(super) on: On,
+}
+
+enum Shape {
+    Straight([Vec2; 2]),
+    Arc(Arc),
+    Bent(Bent),
+}
+
+/// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a from the centre, is, relative to the
+/// anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without cancellation where ψ is small.
+struct Arc {
+    direction: Vec2,
+    radius: f64,
+    /// r − a
+    inward: f64,
+    angles: [f64; 2],
+}
+
+impl Curve {
+    fn straight(ends: [Vec2; 2], toward: Vec2, on: On) -> Self {
+        Self { shape: Shape::Straight(ends), toward, on }
+    }
+
+    pub(super) fn bent(bent: Bent, on: On) -> Self {
+        Self { shape: Shape::Bent(bent), toward: Vec2::ZERO, on }
+    }
+
+    /// The point at a part of the way, beside the curve by [`BESIDE`] pixels where it has to be.
+    pub(super) fn at(&self, t: f64, pixel: f64) -> Vec2 {
+        match &self.shape {
+            Shape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
+            Shape::Arc(arc) => arc.at(t, BESIDE * pixel),
+            Shape::Bent(bent) => bent.at(t, BESIDE * pixel),
+        }
+    }
+
+    /// The field as it is evaluated along the curve.
+    pub(super) fn local<'a>(&self, field: &'a Field<'_>, anchor: Vec2) -> LocalField<'a> {
+        match self.on {
+            On::Face(segment, _) => field.on(segment, anchor),
+            _ => field.at(anchor),
+        }
+    }
+
+    pub(super) fn side(&self) -> Side {
+        if let On::Face(_, side) = self.on { side } else { Side::Above }
+    }
+
+    /// Number of samples: two a pixel.
+    pub(super) fn samples(&self, pixel: f64) -> usize {
+        let length = match &self.shape {
+            Shape::Straight([a, b]) => (*b - *a).length(),
+            Shape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
+            Shape::Bent(bent) => bent.length(),
+        };
+        ((2.0 * length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
+    }
+}
+
+impl Arc {
+    fn at(&self, t: f64, beside: f64) -> Vec2 {
+        let angle = self.angles[0] + (self.angles[1] - self.angles[0]) * t;
+        let (sin, cos) = angle.sin_cos();
+        let fall = 2.0 * self.radius * (0.5 * angle).sin().powi(2);
+        let along = self.direction * (self.inward - fall + beside * cos);
+        along + self.direction.left() * ((self.radius + beside) * sin)
+    }
+}
+
+/// All boundaries in a rectangle of offsets from an anchor.
+pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<Curve> {
+    let mut curves = borders(rect);
+    for (index, crack) in (0..).zip(&field.step.cracks) {
+        let local = LocalCrack::new(crack, anchor);
+        for (segment, (s, ends)) in (0..).zip(local.segments().iter().zip(crack.points.windows(2)))
+        {
+            let range = [ends[0], ends[1]].map(|end| s.tangent.dot(end - anchor));
+            let foot = s.tangent.left() * -s.distance;
+            let id = SegmentId { crack: index, segment };
+            let faces = |ends| {
+                [Side::Above, Side::Below]
+                    .map(|side| Curve::straight(ends, Vec2::ZERO, On::Face(id, side)))
+            };
+            curves.extend(clipped(foot, s.tangent, range, rect).into_iter().flat_map(faces));
+        }
+    }
+    for (index, hole) in field.domain.holes.iter().enumerate() {
+        add_rim(hole, index, anchor, rect, &mut curves);
+    }
+    add_interfaces(field, anchor, rect, &mut curves);
+    curves
+}
+
+fn borders(rect: &Rect) -> Vec<Curve> {
+    let (min, max) = (rect.min, rect.max);
+    let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
+    let side =
+        |k: usize| Curve::straight([corners[k], corners[(k + 1) % 4]], Vec2::ZERO, On::Border);
+    (0..4).map(side).collect()
+}
+
+fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<Curve>) {
+    let local = hole.at(anchor);
+    match (hole, local.rim()) {
+        (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
+            let (shape, toward) = (arc(*radius, *d, *excess, rect).map(Shape::Arc), Vec2::ZERO);
+            curves.extend(shape.map(|shape| Curve { shape, toward, on: On::Rim(index) }));
+        }
+        (_, LocalRim::Polygon(sides)) => {
+            let orientation = hole.orientation();
+            for side in sides {
+                let length = side.direction.length();
+                let tangent = side.direction / length;
+                let foot = tangent.left() * (-side.cross / length);
+                let range = [tangent.dot(side.a), tangent.dot(side.b)];
+                let outward = tangent.left() * -orientation;
+                let rim = |ends| Curve::straight(ends, outward, On::Rim(index));
+                curves.extend(clipped(foot, tangent, range, rect).map(rim));
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no smaller than the hole.
+fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
+    let away = d.length();
+    let direction = if away > 0.0 { d / away } else { vec2(1.0, 0.0) };
+    let (inward, center) = (-excess / (away + radius), -d);
+    let nearest = center.max(rect.min).min(rect.max);
+    if (nearest - center).length() > radius * (1.0 + 1e-9) {
+        return None;
+    }
+    let size = rect.size();
+    if rect.contains(center) || size.x.max(size.y) > radius {
+        return Some(Arc { direction, radius, inward, angles: [-PI, PI] });
+    }
+    let (min, max) = (rect.min, rect.max);
+    let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
+    let angles = corners.map(|p| direction.cross(p).atan2(away + direction.dot(p)));
+    let turns = angles.map(|angle| {
+        let turn = angle - angles[0];
+        if turn > PI {
+            turn - TAU
+        } else if turn < -PI {
+            turn + TAU
+        } else {
+            turn
+        }
+    });
+    let range = turns.iter().fold([0.0f64; 2], |[a, b], &t| [a.min(t), b.max(t)]);
+    Some(Arc { direction, radius, inward, angles: range.map(|turn| angles[0] + turn) })
+}
+
+/// Both sides of the straight lines on which the material's formulas are not smooth.
+fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec<Curve>) {
+    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+    let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
+    for [a, b, c] in kinks.filter_map(|kink| kink.line()) {
+        let normal = vec2(a, b);
+        let distance = a.mul_add(anchor.x, b.mul_add(anchor.y, c)) / normal.length();
+        let normal = normal.unit();
+        let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+        let ends = clipped(normal * -distance, normal.left(), everywhere, rect);
+        let both =
+            |ends| [normal, -normal].map(|toward| Curve::straight(ends, toward, On::Interface));
+        curves.extend(ends.into_iter().flat_map(both));
+    }
+}
+
+/// The ends of the part of a line's range in a closed rectangle.
+fn clipped(
+    foot: Vec2,
+    tangent: Vec2,
+    [mut lo, mut hi]: [f64; 2],
+    rect: &Rect,
+) -> Option<[Vec2; 2]> {
+    for (from, step, min, max) in
+        [(foot.x, tangent.x, rect.min.x, rect.max.x), (foot.y, tangent.y, rect.min.y, rect.max.y)]
+    {
+        if step == 0.0 {
+            if from < min || from > max {
+                return None;
+            }
+        } else {
+            let (a, b) = ((min - from) / step, (max - from) / step);
+            (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
+        }
+    }
+    (lo <= hi).then(|| [lo, hi].map(|t| foot + tangent * t))
+}
+
+/// Smallest and largest value on \[0, 1\] with their places; `None` where there are none. Values that are not defined are
+/// passed over.
+pub(super) fn extremes(f: &mut dyn FnMut(f64) -> f64, samples: usize) -> [Option<(f64, f64)>; 2] {
+    let step = 1.0 / (samples - 1) as f64;
+    let values: Vec<f64> = (0..samples).map(|k| f((k as f64 * step).min(1.0))).collect();
+    [-1.0, 1.0].map(|sign| {
+        let height = |k: usize| sign * values[k];
+        let around = |k: usize| [k.saturating_sub(1), (k + 1).min(samples - 1)];
+        let is_top = |&k: &usize| {
+            !values[k].is_nan()
+                && around(k).iter().all(|&n| values[n].is_nan() || height(n) <= height(k))
+        };
+        let promise = |k: usize| {
+            let least = around(k).iter().map(|&n| height(n)).fold(height(k), f64::min);
+            2.0 * height(k) - least
+        };
+        let mut tops: Vec<usize> = (0..samples).filter(is_top).collect();
+        tops.sort_by(|&a, &b| promise(b).total_cmp(&promise(a)));
+        tops.truncate(REFINED);
+        let refined = tops.into_iter().map(|k| {
+            let [lo, hi] = around(k).map(|n| n as f64 * step);
+            golden(f, sign, [lo, hi], (height(k), k as f64 * step))
+        });
+        refined.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(height, t)| (sign * height, t))
+    })
+}
+
+/// The largest sign · f in an interval by the golden section, or what is known already.
+fn golden(
+    f: &mut dyn FnMut(f64) -> f64,
+    sign: f64,
+    range: [f64; 2],
+    known: (f64, f64),
+) -> (f64, f64) {
+    const RATIO: f64 = 0.618_033_988_749_895;
+    let mut best = known;
+    let mut height = |t: f64| {
+        let height = sign * f(t);
+        if height > best.0 {
+            best = (height, t);
+        }
+        if height.is_nan() { f64::NEG_INFINITY } else { height }
+    };
+    let [mut lo, mut hi] = range;
+    let (mut a, mut b) = (hi - RATIO * (hi - lo), lo + RATIO * (hi - lo));
+    let (mut at_a, mut at_b) = (height(a), height(b));
+    for _ in 0..SECTIONS {
+        if at_a > at_b {
+            (hi, b, at_b) = (b, a, at_a);
+            a = hi - RATIO * (hi - lo);
+            at_a = height(a);
+        } else {
+            (lo, a, at_a) = (a, b, at_b);
+            b = lo + RATIO * (hi - lo);
+            at_b = height(b);
+        }
+    }
+    best
+}

@@ -1,0 +1,280 @@
+//! Extrema against closed forms and brute force.
+
+use super::*;
+use crate::reference::reference;
+use ppum::cover::Cover;
+use ppum::crack::{Crack, CrackEnd, End, TipId};
+use ppum::dataset::{Dataset, FieldData, Step};
+use ppum::domain::Hole;
+use ppum::equation::{Elasticity, Equation, Material, StressState};
+use ppum::function::{Frame, FunctionKind, WESTERGAARD};
+use ppum::progress::unwatched;
+use ppum::vec2::vec2;
+use ppum::weight::WeightFunction;
+use ppum_testkit::exact::{ElasticField, RoundHole};
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::{Coefficients, Recipe};
+
+const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+
+/// Extrema from a raster of the reference; one in f32 leads to the same values.
+fn found(field: &Field<'_>, view: &View, text: &str) -> Extrema {
+    let quantity = Quantity::parse(text, field).expect("a quantity");
+    let raster = reference(field, view, &quantity, unwatched()).expect("a raster");
+    let found = extrema(field, view, &quantity, &raster, unwatched()).expect("a search");
+    let narrow = f32::render(field, view, &quantity, unwatched()).expect("a raster");
+    let same = extrema(field, view, &quantity, &narrow, unwatched()).expect("a search");
+    let (found, same) = (found.expect("values"), same.expect("values"));
+    let close = |a: f64, b: f64| {
+        a == b || (a - b).abs() <= 1e-9 * (found.max.value - found.min.value).abs()
+    };
+    assert!(close(found.min.value, same.min.value) && close(found.max.value, same.max.value));
+    found
+}
+
+fn polynomial(ux: &[f64]) -> Dataset {
+    let coefficients = Coefficients::Polynomial(vec![ux.to_vec(), vec![]]);
+    Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
+}
+
+#[test]
+fn a_peak_inside_and_a_corner() {
+    // 2 − (x − 0.1)² − 3 (y + 0.2)² − (x − 0.1)(y + 0.2)
+    let (a, b) = (0.1, -0.2);
+    let dataset = polynomial(&[
+        2.0 - a * a - 3.0 * b * b - a * b,
+        2.0 * a + b,
+        6.0 * b + a,
+        -1.0,
+        -1.0,
+        -3.0,
+    ]);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let bounds = dataset.domain.bounds;
+    let view = View::fit(bounds, [37, 31]).expect("a view");
+    let all = found(&field, &view, "ux");
+    assert!((all.max.value - 2.0).abs() < 1e-13, "{all:?}");
+    assert!((all.max.offset - vec2(a, b)).length() < 1e-6 && all.max.on == On::Inside);
+    // concave: least at a corner
+    let half = bounds.size() * 0.5;
+    let at = |x: f64, y: f64| {
+        let d = vec2(x * half.x, y * half.y) - vec2(a, b);
+        2.0 - d.x * d.x - 3.0 * d.y * d.y - d.x * d.y
+    };
+    let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
+    let least = corners.into_iter().fold(f64::INFINITY, f64::min);
+    assert!((all.min.value - least).abs() < 1e-12 && all.min.on == On::Border, "{all:?} {least}");
+    assert!(all.singular.is_empty());
+    // outside there is nothing
+    let outside = View::new(vec2(9.0, 9.0), 1.0, [8, 8]).expect("a view");
+    let quantity = Quantity::parse("ux", &field).expect("a quantity");
+    let raster = reference(&field, &outside, &quantity, unwatched()).expect("a raster");
+    assert_eq!(extrema(&field, &outside, &quantity, &raster, unwatched()), Ok(None));
+}
+
+/// Smooth random fields, and stresses that jump on borders of patches: nothing on a dense grid is beyond, and nothing near them either.
+#[test]
+fn random_fields_against_brute_force() {
+    let mut random = Random(5);
+    for seed in 0..6 {
+        let is_smooth = seed % 2 == 0;
+        let weight = if is_smooth { WeightFunction::Cubic } else { WeightFunction::Linear };
+        let recipe = Recipe {
+            cracks: vec![],
+            weight,
+            level: 1,
+            tip_level: 1,
+            seed,
+            coefficients: Coefficients::Random,
+            degrees: vec![2],
+            ..Recipe::default()
+        };
+        let dataset = recipe.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let view = View::hug(dataset.domain.bounds, [140, 110]).expect("a view");
+        for text in ["ux", "syy"] {
+            let all = found(&field, &view, text);
+            let quantity = Quantity::parse(text, &field).expect("a quantity");
+            let mut local = field.at(view.center);
+            let mut value = |p| quantity.at(&mut local, p, Side::Above);
+            let fine = View::hug(dataset.domain.bounds, [900, 700]).expect("a view");
+            let every = (0..fine.pixels[1]).flat_map(|j| (0..fine.pixels[0]).map(move |i| (i, j)));
+            let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+            for v in every.map(|(i, j)| value(fine.offset(i, j))) {
+                (lo, hi) = (lo.min(v), hi.max(v));
+            }
+            // attained, and not exceeded
+            assert!(all.max.value >= hi && all.min.value <= lo, "{seed} {text} {all:?} {lo} {hi}");
+            let (near, slack) = (vec2(1.0, 1.0) * view.pixel_size(), 1e-6 * (hi - lo));
+            for (k, part) in (0..4000).map(|k| (k, [1.0, 0.1, 1e-2, 1e-3][k % 4])) {
+                let (sign, at) = if k % 8 < 4 { (1.0, all.max) } else { (-1.0, all.min) };
+                let p = at.offset + random.point(&Rect::around(Vec2::ZERO, near * part));
+                let beyond = sign * (value(p) - at.value);
+                assert!(beyond.is_nan() || beyond <= slack, "{seed} {text} {all:?} {beyond:e}");
+            }
+            for extremum in [all.min, all.max].into_iter().filter(|e| e.on == On::Inside) {
+                assert_eq!(value(extremum.offset), extremum.value);
+            }
+        }
+    }
+}
+
+/// u = e √r sin(θ/2) about a tip, its crack along the direction d.
+fn opening(tip: Vec2, d: Vec2) -> Dataset {
+    let domain = Rect::around(tip, vec2(1.0, 1.0));
+    let partition = Cover::uniform(domain, 3).expect("a cover");
+    let partition = partition.partition(1.3, WeightFunction::Quadratic).expect("a partition");
+    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
+    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
+    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
+    (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
+    displacement.coefficients[0].fill(d.left().x);
+    displacement.coefficients[1].fill(d.left().y);
+    let step = Step::new(partition).with_crack(crack);
+    let step = step.with_function("opening", FunctionKind::formula(WESTERGAARD[1], frame));
+    Dataset::new(domain, Equation::elasticity(MATERIAL)).with_step(step.with_field(displacement))
+}
+
+/// √r − 3 (r − 0.04)² along the upper face, and its negative on the lower one; looked at from both sides.
+#[test]
+fn on_the_faces_of_a_crack() {
+    let (tip, d) = (vec2(0.1, 0.2), vec2(0.8, 0.6));
+    let dataset = opening(tip, d);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::new(tip - d * 0.2, 0.31, [45, 41]).expect("a view");
+    let at = tip - d * 0.04;
+    let opened = format!("(ux*{} + uy*{})", d.left().x, d.left().y);
+    let hill = format!("3*((x - {})^2 + (y - {})^2)", at.x, at.y);
+    let along = |r: f64| r.sqrt() - 3.0 * (r - 0.04).powi(2);
+    let expected = (0..1_000_000).map(|k| along(1e-6 * f64::from(k))).fold(0.0, f64::max);
+    let high = found(&field, &view, &format!("{opened} - {hill}")).max;
+    let low = found(&field, &view, &format!("{opened} + {hill}")).min;
+    let segment = SegmentId { crack: 0, segment: 0 };
+    assert!((high.value / expected - 1.0).abs() < 1e-9, "{high:?} {expected}");
+    assert!((low.value / -expected - 1.0).abs() < 1e-9, "{low:?} {expected}");
+    assert_eq!((high.on, low.on), (On::Face(segment, Side::Above), On::Face(segment, Side::Below)));
+    assert!(d.cross(high.offset + (view.center - tip)).abs() < 1e-15);
+}
+
+/// Kirsch's plate: 3 σ on the rim at the hole's side, −σ at its top; the hole in the middle, over the border, and tiny in the view.
+#[test]
+fn on_the_rim_of_a_hole() {
+    let (center, radius) = (vec2(0.8, 0.2), 0.07);
+    let plate = RoundHole::new(MATERIAL, center, radius).with_remote([0.0, 1.0, 0.0]);
+    // the text's own names must not be those of quantities
+    let [sxx, syy, _] = plate.stress_formulas().map(|text| text.replace("s2", "p2"));
+    let mut dataset = polynomial(&[]);
+    dataset.domain.holes = vec![Hole::Circle { center, radius }];
+    let field = Field::new(&dataset, 0).expect("a field");
+    let shift = vec2(0.01, 0.003);
+    let views = [
+        View::fit(dataset.domain.bounds, [64, 51]).expect("a view"),
+        View::new(center + vec2(radius, 0.0) + shift, 0.05, [33, 31]).expect("a view"),
+        View::new(center + vec2(radius, 0.0) + shift * 1e-7, 5e-9, [33, 31]).expect("a view"),
+    ];
+    for view in &views {
+        let all = found(&field, view, &syy);
+        assert!((all.max.value - 3.0).abs() < 1e-6, "{all:?}");
+        assert_eq!(all.max.on, On::Rim(0));
+        let place = view.center + all.max.offset - center;
+        assert!(
+            place.y.abs() < 1e-3 * radius && (place.x.abs() - radius).abs() < 1e-7 * radius,
+            "{place:?}"
+        );
+    }
+    let all = found(&field, &views[0], &sxx);
+    assert!((all.min.value + 1.0).abs() < 1e-6 && all.min.on == On::Rim(0), "{all:?}");
+}
+
+#[test]
+fn infinite_at_a_tip() {
+    let tip = vec2(0.3, -0.7);
+    let dataset = opening(tip, vec2(0.8, 0.6));
+    let field = Field::new(&dataset, 0).expect("a field");
+    let kind = SingularKind::Tip(TipId { crack: 0, end: End::Last });
+    for width in [1.0, 1e-9] {
+        let view = View::new(tip + vec2(0.1, 0.05) * width, width, [33, 31]).expect("a view");
+        let mises = found(&field, &view, "von-mises");
+        assert_eq!((mises.max.value, mises.max.on), (f64::INFINITY, On::Singular(kind)));
+        assert!((mises.max.offset + view.center - tip).length() < 1e-16);
+        assert!(mises.min.value > 0.0 && mises.min.on == On::Border, "{mises:?}");
+        let shear = found(&field, &view, "sxy");
+        assert_eq!((shear.min.value, shear.max.value), (f64::NEG_INFINITY, f64::INFINITY));
+        // rounding next to the tip is no minimum
+        let stress = found(&field, &view, "syy");
+        for extremum in [stress.min, stress.max].into_iter().filter(|e| e.value.is_finite()) {
+            let away = (extremum.offset + (view.center - tip)).length();
+            assert!(away > 0.999e-3 * view.pixel_size(), "{stress:?}");
+        }
+        let value = found(&field, &view, "uy");
+        assert!(value.singular.is_empty() && value.max.value.is_finite());
+        let beside =
+            View::new(tip + vec2(3.0, 3.0) * width * 0.2, width, [33, 31]).expect("a view");
+        let beside = found(&field, &beside, "von-mises");
+        assert!(beside.max.value.is_finite() && beside.singular.is_empty());
+        let angle = found(&field, &view, "direction");
+        let quarter = std::f64::consts::FRAC_PI_2;
+        assert!(angle.max.value <= quarter && angle.min.value >= -quarter, "{angle:?}");
+    }
+}
+
+/// σ_xx = E of u_x = x jumps at a line, E = 2 + x − y on one side of it: the largest value lies on that side, at the border.
+#[test]
+fn at_an_interface_and_at_corners() {
+    let mut dataset = polynomial(&[0.0, 1.0]);
+    let young = "if(x > 0.7123, 1, 2 + x - (y - 0.1)^2)";
+    let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
+    dataset.equation =
+        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    dataset.domain.holes = vec![Hole::Polygon {
+        points: [[1.0, 0.3], [1.2, 0.3], [1.1, 0.5]].map(Vec2::from).to_vec(),
+    }];
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::fit(dataset.domain.bounds, [64, 51]).expect("a view");
+    let all = found(&field, &view, "sxx");
+    assert!((all.max.value - 2.7123).abs() < 1e-6 && all.max.on == On::Interface, "{all:?}");
+    assert!((all.max.offset + view.center - vec2(0.7123, 0.1)).length() < 1e-4);
+    assert!((all.min.value - 1.0).abs() < 1e-12);
+    // the corners of the hole are told of; the represented field is finite there
+    let told = all.singular.iter().filter(|p| p.kind == SingularKind::Corner(0));
+    assert_eq!(told.filter(|p| !p.max_infinite && !p.min_infinite).count(), 3);
+}
+
+/// σ_xx = E of u_x = x of a round inclusion, E = 2 + x y inside it and 1 outside: at the point of the rim where x y is largest.
+#[test]
+fn at_a_round_interface() {
+    let mut dataset = polynomial(&[0.0, 1.0]);
+    let center = dataset.domain.bounds.center();
+    let (x, y) = (format!("(x - {})", center.x), format!("(y - {})", center.y));
+    let young = format!("if(hypot({x}, {y}) > 0.21, 1, 2 + {x}*{y})");
+    let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
+    dataset.equation =
+        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");
+    let all = found(&field, &view, "sxx");
+    let expected = 2.0 + 0.5 * 0.21 * 0.21;
+    assert!((all.max.value - expected).abs() < 1e-8 && all.max.on == On::Interface, "{all:?}");
+    let far = all.max.offset.length() - 0.21;
+    assert!(far.abs() < 1e-9 && (all.max.offset.x - all.max.offset.y).abs() < 1e-3, "{all:?}");
+}
+
+/// Curves are sampled in random order of magnitude: the extremes of sums of waves, against many more samples.
+#[test]
+fn extremes_along_curves() {
+    let mut random = Random(11);
+    for _ in 0..200 {
+        let waves: Vec<[f64; 3]> = (0..4)
+            .map(|_| [random.unit(), random.between(1.0, 25.0), random.between(0.0, 6.0)])
+            .collect();
+        let mut f = |t: f64| waves.iter().map(|[a, k, s]| a * (k * t + s).sin()).sum::<f64>();
+        let [min, max] = curves::extremes(&mut f, 64).map(|found| found.expect("a value").0);
+        let all: Vec<f64> = (0..=20000).map(|k| f(f64::from(k) / 20000.0)).collect();
+        let (lo, hi) =
+            all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
+        assert!(
+            min <= lo + 1e-12 && lo - min < 2e-6 && max >= hi - 1e-12 && max - hi < 2e-6,
+            "{min} {lo} {max} {hi}"
+        );
+    }
+}

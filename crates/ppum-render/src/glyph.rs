@@ -1,0 +1,246 @@
+//! Points for arrows and crosses, with their values: vectors, and principal stresses with their directions.
+//!
+//! The points are those of a lattice that lie in the view and the domain. It is at rest in the world: its points are multiples of
+//! the spacing from the origin, so panning moves the arrows with the field, and no arrow jumps. Values are evaluated at
+//! the points, each by itself; those that are not finite, as stresses at a tip, have no glyph.
+//!
+//! A point on a crack stands for one of its faces: that on the left of the crack's direction, and says so.
+
+use ppum::crack::{SegmentId, Side};
+use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
+use ppum::sides::Segments;
+use ppum::vec2::{Vec2, vec2};
+use rayon::prelude::*;
+
+use crate::error::RenderError;
+use crate::parts::Parts;
+use crate::view::View;
+
+/// Least distance of the points, pixels.
+pub const LEAST_SPACING: f64 = 2.0;
+
+/// A point with a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glyph<V> {
+    /// Its offset from the view's centre.
+    pub offset: Vec2,
+    /// The value there.
+    pub value: V,
+    /// The face that it stands for, if it lies on a crack.
+    pub face: Option<(SegmentId, Side)>,
+}
+
+/// Principal stresses in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Principal {
+    /// The larger one.
+    pub s1: f64,
+    /// The smaller one.
+    pub s2: f64,
+    /// Angle of the direction of σ₁ from the x axis, in (−π/2, π/2]; σ₂ is perpendicular.
+    pub angle: f64,
+}
+
+/// Vectors of two quantities, such as `ux` and `uy`, at the points of a lattice with a spacing in pixels, at least
+/// [`LEAST_SPACING`]; row by row from below.
+///
+/// # Errors
+/// A quantity has no meaning for the field; the watcher stops the call.
+pub fn vectors(
+    field: &Field<'_>,
+    view: &View,
+    spacing: f64,
+    quantities: &[Quantity; 2],
+    watcher: &dyn Watcher,
+) -> Result<Vec<Glyph<Vec2>>, RenderError> {
+    glyphs(field, view, spacing, quantities, watcher, |[x, y]| vec2(x, y))
+}
+
+/// Principal stresses at the points of a lattice, as [`vectors`].
+///
+/// # Errors
+/// The field has no stresses; the watcher stops the call.
+pub fn principal(
+    field: &Field<'_>,
+    view: &View,
+    spacing: f64,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Glyph<Principal>>, RenderError> {
+    let named = |name| Quantity::from_name(name, field.equation, &field.data.components);
+    let quantities = [named("s1")?, named("s2")?, named("direction")?];
+    let value = |[s1, s2, angle]: [f64; 3]| Principal { s1, s2, angle };
+    glyphs(field, view, spacing, &quantities, watcher, value)
+}
+
+fn glyphs<const N: usize, V: Send>(
+    field: &Field<'_>,
+    view: &View,
+    spacing: f64,
+    quantities: &[Quantity; N],
+    watcher: &dyn Watcher,
+    value: impl Fn([f64; N]) -> V + Sync,
+) -> Result<Vec<Glyph<V>>, RenderError> {
+    quantities.iter().try_for_each(|quantity| quantity.check(field))?;
+    let step = spacing.max(LEAST_SPACING) * view.pixel_size();
+    let half = view.half();
+    let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
+        .map(|(center, half)| multiples(center, half, step));
+    let parts = Parts::start(watcher, y.len())?;
+    let segments = Segments::new(&field.step.cracks);
+    let rows: Result<Vec<_>, RenderError> = y
+        .into_par_iter()
+        .map(|y| {
+            let row = row(field, view, &segments, x.iter().map(|&x| vec2(x, y)), quantities);
+            parts.finish_one()?;
+            Ok(row)
+        })
+        .collect();
+    let all = rows?.into_iter().flatten();
+    Ok(all
+        .map(|Glyph { offset, value: v, face }| Glyph { offset, value: value(v), face })
+        .collect())
+}
+
+fn row<const N: usize>(
+    field: &Field<'_>,
+    view: &View,
+    segments: &Segments<'_>,
+    offsets: impl Iterator<Item = Vec2>,
+    quantities: &[Quantity; N],
+) -> Vec<Glyph<[f64; N]>> {
+    let mut local = field.at(view.center);
+    let side = Side::default();
+    let glyph = |offset| {
+        let segment = segments.at(view.center, offset);
+        let mut on_face = segment.map(|segment| field.on(segment, view.center));
+        let local = on_face.as_mut().unwrap_or(&mut local);
+        let value = quantities.each_ref().map(|quantity| quantity.at(local, offset, side));
+        let face = segment.map(|segment| (segment, side));
+        value.iter().all(|v| v.is_finite()).then_some(Glyph { offset, value, face })
+    };
+    offsets.filter_map(glyph).collect()
+}
+
+/// The multiples of a step within `center ± half`, from the centre; the rest of the division is exact, however large the quotient.
+fn multiples(center: f64, half: f64, step: f64) -> Vec<f64> {
+    let rest = center.rem_euclid(step);
+    let (first, last) =
+        (((rest - half) / step).ceil() as i64, ((rest + half) / step).floor() as i64);
+    (first..=last).map(|k| k as f64 * step - rest).filter(|at| at.abs() <= half).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::CrackEnd;
+    use ppum::domain::Hole;
+    use ppum::progress::{Progress, Verdict, unwatched};
+    use ppum::vec2::Rect;
+    use ppum_testkit::synthetic::{Recipe, crack};
+
+    const SPACING: f64 = 17.0;
+
+    fn displacement(field: &Field<'_>) -> [Quantity; 2] {
+        ["ux", "uy"].map(|name| Quantity::parse(name, field).expect("a quantity"))
+    }
+
+    #[test]
+    fn values_are_those_of_the_points() {
+        for seed in 0..3 {
+            let mut dataset = Recipe::random(seed).dataset();
+            let (center, radius) = (vec2(0.6, 0.1), 0.2);
+            dataset.domain.holes = vec![Hole::Circle { center, radius }];
+            let field = Field::new(&dataset, 0).expect("a field");
+            let view = View::hug(dataset.domain.bounds, [400, 300]).expect("a view");
+            let quantities = displacement(&field);
+            let arrows = vectors(&field, &view, SPACING, &quantities, unwatched()).expect("arrows");
+            let crosses = principal(&field, &view, SPACING, unwatched()).expect("crosses");
+            assert_eq!(arrows.len(), crosses.len());
+            // the area of the domain, without the hole, over that of a square of the lattice
+            let area = dataset.domain.bounds.size().x * dataset.domain.bounds.size().y;
+            let area = area - std::f64::consts::PI * radius * radius;
+            let expected = area / (SPACING * view.pixel_size()).powi(2);
+            assert!((arrows.len() as f64 / expected - 1.0).abs() < 0.05, "{expected}");
+            let mut local = field.at(view.center);
+            let mut at = |text: &str, offset| {
+                let quantity = Quantity::parse(text, &field).expect("a quantity");
+                quantity.at(&mut local, offset, Side::Above)
+            };
+            for (arrow, cross) in arrows.iter().zip(&crosses) {
+                let p = arrow.offset;
+                assert_eq!(arrow.offset, cross.offset);
+                assert!(dataset.domain.contains(view.center + p));
+                assert_eq!(arrow.value, vec2(at("ux", p), at("uy", p)));
+                let found = [cross.value.s1, cross.value.s2, cross.value.angle];
+                assert_eq!(found, ["s1", "s2", "direction"].map(|text| at(text, p)));
+            }
+        }
+    }
+
+    /// Panned, zoomed to 10⁻¹² and panned there, points stay where they are in the world.
+    #[test]
+    fn the_lattice_rests_in_the_world() {
+        let dataset = Recipe::default().dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let quantities = displacement(&field);
+        for width in [0.5, 1e-6, 1e-12] {
+            let start = dataset.steps[0].cracks[0].points[1];
+            let seen = |center| {
+                let view = View::new(center, width, [200, 150]).expect("a view");
+                let all = vectors(&field, &view, SPACING, &quantities, unwatched());
+                (view, all.expect("arrows"))
+            };
+            let (first, arrows) = seen(start);
+            assert!((90..130).contains(&arrows.len()), "{}", arrows.len());
+            let (second, panned) = seen(start + vec2(0.3137, -0.2071) * width);
+            let shift = second.center - first.center;
+            let inner = Rect::around(Vec2::ZERO, second.half() * 0.99);
+            for arrow in arrows.iter().filter(|arrow| inner.contains(arrow.offset - shift)) {
+                let same = |other: &&Glyph<Vec2>| {
+                    (other.offset + shift - arrow.offset).length() < 1e-9 * first.pixel_size()
+                };
+                let there = panned.iter().find(same).expect("the same arrow");
+                assert!((there.value - arrow.value).length() < 1e-12, "{there:?} {arrow:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_on_a_crack_say_so() {
+        // a crack along the lattice's own line y = 0
+        let cracks = vec![crack(&[[0.4, 0.0], [1.1, 0.0]], [CrackEnd::Tip; 2])];
+        let dataset = Recipe { cracks, ..Recipe::default() }.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let view = View::new(vec2(0.75, 0.0), 0.8, [200, 100]).expect("a view");
+        let quantities = displacement(&field);
+        let all = vectors(&field, &view, 10.0, &quantities, unwatched()).expect("arrows");
+        let on: Vec<_> = all.iter().filter(|glyph| glyph.face.is_some()).collect();
+        assert_eq!(on.len(), 17);
+        let id = SegmentId { crack: 0, segment: 0 };
+        let mut local = field.on(id, view.center);
+        for glyph in on {
+            assert_eq!((glyph.offset.y, glyph.face), (0.0, Some((id, Side::Above))));
+            let value = quantities.each_ref().map(|q| q.at(&mut local, glyph.offset, Side::Above));
+            assert_eq!(glyph.value, value.into());
+        }
+    }
+
+    #[test]
+    fn what_has_no_stress_is_refused_and_calls_can_be_stopped() {
+        let dataset = Recipe { components: 1, ..Recipe::default() }.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let view = View::hug(dataset.domain.bounds, [40, 30]).expect("a view");
+        let found = principal(&field, &view, SPACING, unwatched());
+        assert!(matches!(found, Err(RenderError::Quantity(_))));
+        let quantities =
+            ["du_dx", "du_dy"].map(|q| Quantity::parse(q, &field).expect("a quantity"));
+        let stop = |_: Progress| Verdict::Stop;
+        let found = vectors(&field, &view, SPACING, &quantities, &stop);
+        assert!(matches!(found, Err(RenderError::Cancelled(_))));
+        // a spacing of nothing is one of two pixels
+        let dense = vectors(&field, &view, 0.0, &quantities, unwatched()).expect("arrows");
+        assert!(dense.len() <= 16 * 21, "{}", dense.len());
+    }
+}

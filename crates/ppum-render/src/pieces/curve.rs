@@ -1,0 +1,115 @@
+//! Curved interfaces: chords between the places where a level function changes its sign.
+
+use super::cut::{Cut, Polygon};
+use super::{SAGITTA, centroid};
+use ppum::formula::Formula;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+/// Bisections of a change of sign, to rounding.
+const BISECTIONS: usize = 50;
+
+/// Samples in each direction of a rectangle that tell whether a curve may be near.
+const SAMPLES: usize = 4;
+
+/// Most divisions in four, one inside the other.
+const DEPTH: usize = 4;
+
+/// The zeros of a formula of x and y. What shows no change of sign on corners, middles of sides and centroid of a
+/// polygon is not seen.
+#[derive(Debug)]
+pub(super) struct Curve {
+    pub(super) level: Formula,
+    pub(super) anchor: Vec2,
+}
+
+impl Curve {
+    fn is_positive(&self, offset: Vec2) -> bool {
+        let p = self.anchor + offset;
+        self.level.evaluate(&[p.x, p.y]) > 0.0
+    }
+
+    /// False if samples say that the curve stays away from a rectangle: their least value is more than neighbours differ.
+    pub(super) fn may_meet(&self, rect: &Rect) -> bool {
+        let step = rect.size() / (SAMPLES - 1) as f64;
+        let value = |k: usize| {
+            let (i, j) = (k % SAMPLES, k / SAMPLES);
+            let p = self.anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
+            self.level.evaluate(&[p.x, p.y])
+        };
+        let values: Vec<f64> = (0..SAMPLES * SAMPLES).map(value).collect();
+        let least = values.iter().fold(f64::INFINITY, |a, v| a.min(v.abs()));
+        let right =
+            (0..values.len()).filter(|k| k % SAMPLES > 0).map(|k| [values[k - 1], values[k]]);
+        let up = (SAMPLES..values.len()).map(|k| [values[k - SAMPLES], values[k]]);
+        right.chain(up).any(|[a, b]| (a > 0.0) != (b > 0.0) || (a - b).abs() >= least)
+    }
+
+    /// The parts of a polygon on both sides.
+    pub(super) fn split(&self, polygon: Polygon, least: f64) -> Vec<Polygon> {
+        let mut parts = Vec::new();
+        self.divide(polygon, least, DEPTH, &mut parts);
+        parts
+    }
+
+    fn divide(&self, polygon: Polygon, least: f64, depth: usize, parts: &mut Vec<Polygon>) {
+        let crossings = self.crossings(&polygon);
+        let inside = self.is_positive(centroid(&polygon.corners));
+        let unseen = crossings.is_empty() && inside == self.is_positive(polygon.corners[0]);
+        if unseen {
+            parts.push(polygon);
+            return;
+        }
+        if let [a, b] = crossings[..] {
+            let sagitta = self.sagitta(a, b);
+            if sagitta <= SAGITTA * size(&polygon) || depth == 0 {
+                let cut = Cut::chord(a, b, sagitta.max(f64::MIN_POSITIVE));
+                parts.extend(polygon.split(&cut, least).into_iter().flatten());
+                return;
+            }
+        }
+        if depth == 0 {
+            parts.push(polygon);
+            return;
+        }
+        let center = centroid(&polygon.corners);
+        let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)].map(|axis| Cut::through(center, axis));
+        let halves = polygon.split(&axes[0], least).into_iter().flatten();
+        let quarters = halves.flat_map(|half| half.split(&axes[1], least)).flatten();
+        quarters.for_each(|quarter| self.divide(quarter, least, depth - 1, parts));
+    }
+
+    /// The places on a polygon's sides where the sign changes.
+    fn crossings(&self, polygon: &Polygon) -> Vec<Vec2> {
+        let halves = (0..polygon.corners.len()).flat_map(|k| {
+            let (a, middle, b) = (polygon.corners[k], polygon.middle(k), polygon.next(k));
+            [[a, middle], [middle, b]]
+        });
+        halves.filter_map(|[a, b]| self.root(a, b)).collect()
+    }
+
+    /// The change of sign between two points, by bisection, whichever comes first; `None` if there is none.
+    fn root(&self, a: Vec2, b: Vec2) -> Option<Vec2> {
+        let (mut a, mut b) = if (b.x, b.y) < (a.x, a.y) { (b, a) } else { (a, b) };
+        let positive = self.is_positive(a);
+        if self.is_positive(b) == positive {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = (a + b) * 0.5;
+            if self.is_positive(middle) == positive { a = middle } else { b = middle }
+        }
+        Some((a + b) * 0.5)
+    }
+
+    /// Distance of the middle of a chord from the curve; ∞ if it is more than a quarter of the chord.
+    fn sagitta(&self, a: Vec2, b: Vec2) -> f64 {
+        let (middle, reach) = ((a + b) * 0.5, (b - a).left() * 0.25);
+        let root = self.root(middle - reach, middle + reach);
+        root.map_or(f64::INFINITY, |root| (root - middle).length())
+    }
+}
+
+fn size(polygon: &Polygon) -> f64 {
+    let first = polygon.corners[0];
+    polygon.corners.iter().fold(0.0, |a: f64, &corner| a.max((corner - first).length()))
+}

@@ -1,0 +1,298 @@
+//! Squares of a lattice cut into convex pieces, each on one side of every crack, interface and rim.
+//!
+//! What follows a field through a square, an isoline or the square's image in the deformed plate, must not jump on the
+//! way. A square that nothing crosses is its own only piece. Others are cut by
+//!
+//! - the lines of the segments of cracks that meet it: their extensions too, which does no harm,
+//! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than [`SAGITTA`] of the square,
+//! - the border of the domain,
+//! - the sets on which the material's formulas may jump, curved ones by chords;
+//!
+//! and what lies outside the domain is dropped. All points are offsets from the anchor, as everywhere: pieces at a tip are as
+//! good in a view 10⁻¹² of the domain wide.
+//!
+//! A corner of a piece may lie on a crack. Its values are those *seen from inside*: at the corner moved by [`INSET`] of its way to
+//! the piece's centroid, so that no side has to be named.
+
+mod curve;
+mod cut;
+mod round;
+
+use ppum::box_tree::BoxTree;
+use ppum::crack::{Crack, LocalCrack};
+use ppum::domain::{Hole, LocalDomain, LocalRim, LocalSide};
+use ppum::equation::Equation;
+use ppum::field::Field;
+use ppum::formula::Kink;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use curve::Curve;
+use cut::{Cut, Polygon};
+use round::Round;
+
+/// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
+pub const INSET: f64 = 1e-6;
+
+/// Largest distance of a piece's straight side from the curve it stands for, in parts of the square's side.
+pub const SAGITTA: f64 = 0.01;
+
+/// Squares with more lines in them than this are divided into four, again and again, up to [`DEPTH`] times:
+/// the lines of a corner with many sides do not all cut all pieces then.
+const LINES: usize = 8;
+const DEPTH: usize = 6;
+
+/// Parts that a cut leaves thinner than this part of the square are dropped: nobody sees them, and points could not be told to be
+/// inside them.
+const SLIVER: f64 = 1e-5;
+
+/// A convex part of a square, wholly on one side of everything that a field jumps on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Offsets from the anchor, counter-clockwise; three or more. Some may lie between their neighbours: a tip is a corner.
+    pub corners: Vec<Vec2>,
+    /// For the side from each corner to the next whether the field may jump there or ends: a face of a crack, a
+    /// rim, an interface. The others lead on to a neighbour, in this square or the next.
+    pub faces: Vec<bool>,
+    /// Part of the way to the centroid for what is seen from inside: [`INSET`], or more at chords of curves.
+    pub inset: f64,
+}
+
+/// What a field may jump on, as seen from an anchor, ready to cut squares.
+#[derive(Debug)]
+pub struct Pieces<'f> {
+    equation: &'f Equation,
+    anchor: Vec2,
+    domain: LocalDomain,
+    /// The box of the domain, relative to the anchor.
+    bounds: Rect,
+    /// Segments of cracks and sides of holes, found by their boxes.
+    lines: Vec<Cut>,
+    tree: BoxTree,
+    rounds: Vec<Round>,
+    round_tree: BoxTree,
+    /// Straight interfaces, and the others.
+    interfaces: Vec<Cut>,
+    curves: Vec<Curve>,
+}
+
+impl<'f> Pieces<'f> {
+    /// For quantities of the gradient: pieces end at cracks, rims and interfaces of the material.
+    /// O(n log n) for n segments and sides.
+    #[must_use]
+    pub fn new(field: &Field<'f>, anchor: Vec2) -> Self {
+        let mut pieces = Self::of_values(field, anchor);
+        let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+        for kink in formulas.flat_map(|(_, expression)| expression.formula().kinks()) {
+            pieces.add_interface(kink);
+        }
+        pieces
+    }
+
+    /// For the field's values, which are continuous across interfaces: pieces end at cracks and rims only.
+    #[must_use]
+    pub fn of_values(field: &Field<'f>, anchor: Vec2) -> Self {
+        let (domain, holes) = (field.domain, &field.domain.holes);
+        let (mut lines, mut boxes) = (Vec::new(), Vec::new());
+        for crack in &field.step.cracks {
+            add_crack(crack, anchor, &mut lines, &mut boxes);
+        }
+        for hole in holes {
+            add_sides(hole, anchor, &mut lines, &mut boxes);
+        }
+        let is_round = |hole: &&Hole| matches!(hole, Hole::Circle { .. });
+        let round_boxes: Vec<Rect> = holes.iter().filter(is_round).map(Hole::bounds).collect();
+        Self {
+            equation: field.equation,
+            anchor,
+            domain: domain.at(anchor),
+            bounds: Rect::new(domain.bounds.min - anchor, domain.bounds.max - anchor),
+            lines,
+            tree: BoxTree::new(&boxes),
+            rounds: holes.iter().filter_map(|hole| Round::new(hole, anchor)).collect(),
+            round_tree: BoxTree::new(&round_boxes),
+            interfaces: Vec::new(),
+            curves: Vec::new(),
+        }
+    }
+
+    fn add_interface(&mut self, kink: Kink) {
+        match kink.line() {
+            Some(line) => self.interfaces.extend(Cut::interface(line, self.anchor)),
+            None => self.curves.push(Curve { level: kink.value, anchor: self.anchor }),
+        }
+    }
+
+    /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies in the domain then, or all
+    /// outside. Of curved interfaces samples tell.
+    #[must_use]
+    pub fn may_cut(&self, rect: &Rect) -> bool {
+        let near = self.bounds.intersection(rect);
+        if near.min.x > near.max.x || near.min.y > near.max.y {
+            return false;
+        }
+        let is_inside = self.bounds.contains(rect.min) && self.bounds.contains(rect.max);
+        !is_inside
+            || self.curves.iter().any(|curve| curve.may_meet(rect))
+            || self.interfaces.iter().any(|cut| cut.meets(rect))
+            || !self.lines_in(rect).is_empty()
+            || self.rounds_in(rect).next().is_some()
+    }
+
+    /// The pieces of a square, or another rectangle, of offsets from the anchor; none if all of it lies outside the
+    /// domain. O(log n) to find what cuts it.
+    #[must_use]
+    pub fn of(&self, square: &Rect) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        self.divide(square, DEPTH, &mut pieces);
+        pieces
+    }
+
+    fn divide(&self, square: &Rect, depth: usize, pieces: &mut Vec<Piece>) {
+        let lines = self.lines_in(square);
+        if lines.len() > LINES && depth > 0 {
+            quarters(square).iter().for_each(|quarter| self.divide(quarter, depth - 1, pieces));
+            return;
+        }
+        let size = square.size();
+        let size = size.x.min(size.y);
+        let least = SLIVER * size;
+        let mut all = vec![Polygon::rectangle(square)];
+        for border in Cut::borders(&self.bounds) {
+            let inside = |polygon: Polygon| {
+                let [_, inside] = polygon.split(&border, least);
+                inside
+            };
+            all = all.into_iter().filter_map(inside).collect();
+        }
+        for round in self.rounds_in(square) {
+            all = all.into_iter().flat_map(|polygon| round.outside(polygon, size, least)).collect();
+        }
+        let straight = self.interfaces.iter().filter(|cut| cut.meets(square));
+        for cut in lines.into_iter().chain(straight) {
+            all = all.into_iter().flat_map(|polygon| polygon.split(cut, least)).flatten().collect();
+        }
+        for curve in &self.curves {
+            all = all.into_iter().flat_map(|polygon| curve.split(polygon, least)).collect();
+        }
+        pieces.extend(all.into_iter().filter_map(|polygon| self.finished(polygon)));
+    }
+
+    /// The piece of a polygon that nothing cuts any more; none outside the domain.
+    fn finished(&self, polygon: Polygon) -> Option<Piece> {
+        let polygon = polygon.with_ends();
+        let center = centroid(&polygon.corners);
+        if !self.domain.contains(center) {
+            return None;
+        }
+        let faces = (0..polygon.corners.len()).map(|k| self.is_face(&polygon, k, center)).collect();
+        Some(Piece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
+    }
+
+    /// True if the field may jump on a side, or ends there.
+    fn is_face(&self, polygon: &Polygon, side: usize, center: Vec2) -> bool {
+        let middle = polygon.middle(side);
+        polygon.sides[side].as_ref().is_some_and(|cut| {
+            cut.holds(middle) && (!cut.is_interface || self.material_jumps(cut, middle, center))
+        })
+    }
+
+    /// True if the material differs on the two sides of an interface, as seen from as far as chords of curves are from them.
+    fn material_jumps(&self, cut: &Cut, middle: Vec2, center: Vec2) -> bool {
+        let inward = (center - middle) * (2.0 * INSET).max(cut.inset(center));
+        let [a, b] = [inward, -inward].map(|step| {
+            let at = middle + step;
+            let moduli = self.equation.moduli(self.anchor, [at.x, at.y]);
+            [moduli.young, moduli.poisson, moduli.conductivity]
+        });
+        a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
+    }
+
+    fn lines_in(&self, square: &Rect) -> Vec<&Cut> {
+        let mut found = Vec::new();
+        self.tree.query_box(&self.in_world(square), &mut found);
+        found.iter().map(|&k| &self.lines[k as usize]).filter(|cut| cut.meets(square)).collect()
+    }
+
+    fn rounds_in(&self, square: &Rect) -> impl Iterator<Item = &Round> {
+        let mut found = Vec::new();
+        self.round_tree.query_box(&self.in_world(square), &mut found);
+        let square = *square;
+        found.into_iter().map(|k| &self.rounds[k as usize]).filter(move |r| r.meets(&square))
+    }
+
+    /// A box in world coordinates that holds a rectangle in spite of rounding.
+    fn in_world(&self, rect: &Rect) -> Rect {
+        let (min, max) = (self.anchor + rect.min, self.anchor + rect.max);
+        let size = [min.x, min.y, max.x, max.y, self.anchor.x, self.anchor.y].into_iter();
+        let reach = 8.0 * f64::EPSILON * size.fold(f64::MIN_POSITIVE, |a, b| a.max(b.abs()));
+        Rect::new(min - vec2(reach, reach), max + vec2(reach, reach))
+    }
+}
+
+/// Relative difference of the moduli on two sides above which a material jumps.
+const JUMP: f64 = 1e-4;
+
+impl Piece {
+    /// The mean of the corners: inside, and well away from all sides.
+    #[must_use]
+    pub fn center(&self) -> Vec2 {
+        centroid(&self.corners)
+    }
+
+    /// A point of the piece as it is seen from inside: moved by [`INSET`] of its way to the centre.
+    #[must_use]
+    pub fn seen_from_inside(&self, point: Vec2) -> Vec2 {
+        point + (self.center() - point) * self.inset
+    }
+
+    /// Twice the area, positive.
+    #[must_use]
+    pub fn double_area(&self) -> f64 {
+        let next = self.corners.iter().cycle().skip(1);
+        let origin = self.corners[0];
+        self.corners.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin)).sum()
+    }
+}
+
+/// The mean of the corners of a convex polygon.
+fn centroid(corners: &[Vec2]) -> Vec2 {
+    let origin = corners[0];
+    let sum = corners.iter().fold(Vec2::ZERO, |sum, &corner| sum + (corner - origin));
+    origin + sum / corners.len() as f64
+}
+
+fn quarters(square: &Rect) -> [Rect; 4] {
+    let (min, middle, max) = (square.min, square.center(), square.max);
+    [
+        Rect::new(min, middle),
+        Rect::new(vec2(middle.x, min.y), vec2(max.x, middle.y)),
+        Rect::new(vec2(min.x, middle.y), vec2(middle.x, max.y)),
+        Rect::new(middle, max),
+    ]
+}
+
+fn add_crack(crack: &Crack, anchor: Vec2, lines: &mut Vec<Cut>, boxes: &mut Vec<Rect>) {
+    let local = LocalCrack::new(crack, anchor);
+    for (ends, segment) in crack.points.windows(2).zip(local.segments()) {
+        // those of the local crack are infinite at the crack's ends
+        let range = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
+        lines.push(Cut::along(segment.tangent, segment.distance, range));
+        boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
+    }
+}
+
+fn add_sides(hole: &Hole, anchor: Vec2, lines: &mut Vec<Cut>, boxes: &mut Vec<Rect>) {
+    let local = hole.at(anchor);
+    let LocalRim::Polygon(sides) = local.rim() else { return };
+    for (ends, &LocalSide { a, b, direction, cross }) in hole.sides().zip(sides) {
+        let length = direction.length();
+        if length > 0.0 {
+            let tangent = direction / length;
+            lines.push(Cut::along(tangent, cross / length, [tangent.dot(a), tangent.dot(b)]));
+            boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,224 @@
+//! Pieces of random squares: they fill them, and nothing runs through them.
+
+use super::*;
+use ppum::dataset::Dataset;
+use ppum::equation::{Elasticity, StressState};
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::Recipe;
+
+/// Cracks with kinks, tips and a mouth, round holes of many sizes, polygons, over each other and the border.
+fn dataset(seed: u64) -> Dataset {
+    let mut dataset = Recipe::random(seed).dataset();
+    let circle = |x, y, radius| Hole::Circle { center: vec2(x, y), radius };
+    let polygon =
+        |points: &[[f64; 2]]| Hole::Polygon { points: points.iter().map(|&p| p.into()).collect() };
+    dataset.domain.holes = vec![
+        circle(0.5, 0.6, 0.08),
+        circle(0.2, -0.3, 0.1),
+        circle(1.3, 0.1, 0.003),
+        polygon(&[[0.6, 0.55], [0.8, 0.5], [0.7, 0.6], [0.75, 0.68]]),
+        polygon(&[[0.54, 0.5], [0.5, 0.62], [0.6, 0.58]]),
+    ];
+    dataset
+}
+
+/// Squares of many sizes about places where something happens, as seen from there.
+fn places(dataset: &Dataset, random: &mut Random) -> Vec<(Vec2, Rect)> {
+    let cracks = dataset.steps[0].cracks.iter().flat_map(|crack| crack.points.windows(2));
+    let mut points: Vec<Vec2> =
+        cracks.flat_map(|s| [s[0], s[1], s[0] + (s[1] - s[0]) * 0.37]).collect();
+    for hole in &dataset.domain.holes {
+        match hole {
+            Hole::Circle { center, radius } => points.push(*center + vec2(0.6, 0.8) * *radius),
+            Hole::Polygon { points: corners } => {
+                points.extend(corners.iter().copied().chain([(corners[0] + corners[1]) * 0.5]));
+            }
+        }
+    }
+    points.extend((0..40).map(|_| random.point(&dataset.domain.bounds)));
+    let mut all = Vec::new();
+    for (point, size) in
+        points.into_iter().flat_map(|p| [0.1, 0.01, 1e-3, 1e-6, 1e-12].map(|s| (p, s)))
+    {
+        let shift = random.point(&Rect::around(Vec2::ZERO, vec2(0.45, 0.45))) * size;
+        all.push((point, Rect::around(shift, vec2(0.5, 0.5) * size)));
+        // and squares whose sides run through the point
+        all.push((point, Rect::new(Vec2::ZERO, vec2(size, size))));
+    }
+    all
+}
+
+fn random_point(piece: &Piece, random: &mut Random) -> Vec2 {
+    let weights: Vec<f64> = piece.corners.iter().map(|_| random.unit()).collect();
+    let sum: f64 = weights.iter().sum();
+    let origin = piece.corners[0];
+    let parts = piece.corners.iter().zip(&weights).map(|(&c, w)| (c - origin) * (w / sum));
+    origin + parts.fold(Vec2::ZERO, |a, b| a + b)
+}
+
+/// True if the way between two points crosses the crack.
+fn crosses(crack: &Crack, anchor: Vec2, [p, q]: [Vec2; 2]) -> bool {
+    let local = LocalCrack::new(crack, anchor);
+    crack.points.windows(2).zip(local.segments()).any(|(ends, segment)| {
+        let [a, b] = [p, q].map(|p| segment.distance + segment.tangent.cross(p));
+        let along = segment.tangent.dot(p + (q - p) * (a / (a - b)));
+        let [lo, hi] = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
+        a * b < 0.0 && lo < along && along < hi
+    })
+}
+
+#[test]
+fn pieces_are_convex_inside_and_on_one_side() {
+    let mut looked = 0;
+    for seed in 0..4 {
+        let dataset = dataset(seed);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let mut random = Random(seed);
+        for (anchor, square) in places(&dataset, &mut random) {
+            let domain = dataset.domain.at(anchor);
+            let pieces = Pieces::new(&field, anchor).of(&square);
+            for piece in &pieces {
+                looked += 1;
+                assert_eq!(piece.corners.len(), piece.faces.len());
+                assert!(piece.double_area() > 0.0);
+                let center = piece.center();
+                let seen: Vec<Vec2> =
+                    piece.corners.iter().map(|&c| piece.seen_from_inside(c)).collect();
+                let inner: Vec<Vec2> = (0..5).map(|_| random_point(piece, &mut random)).collect();
+                for &p in seen.iter().chain(&inner) {
+                    assert!(domain.contains(p), "{anchor:?} {square:?} {piece:?} {p:?}");
+                    for crack in field.step.cracks.iter() {
+                        let message = || format!("{anchor:?} {square:?} {piece:?} {p:?}");
+                        assert!(!crosses(crack, anchor, [center, p]), "{}", message());
+                    }
+                }
+            }
+        }
+    }
+    assert!(looked > 3000, "{looked}");
+}
+
+/// What no piece covers is outside the domain, or beside a round rim.
+#[test]
+fn pieces_fill_the_square_but_for_holes() {
+    for seed in 0..4 {
+        let dataset = dataset(seed);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let mut random = Random(seed);
+        for (anchor, square) in places(&dataset, &mut random) {
+            let domain = dataset.domain.at(anchor);
+            let pieces = Pieces::new(&field, anchor).of(&square);
+            let size = square.size().x;
+            let holds = |piece: &Piece, p: Vec2| {
+                let next = piece.corners.iter().cycle().skip(1);
+                piece
+                    .corners
+                    .iter()
+                    .zip(next)
+                    .all(|(a, b)| (*b - *a).unit().cross(p - *a) >= -2e-5 * size)
+            };
+            for _ in 0..20 {
+                let p = random.point(&square);
+                let covered = pieces.iter().filter(|piece| holds(piece, p)).count();
+                // moved out of the hole, as far as tangents are from rims
+                let around = [[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+                let well_inside =
+                    around.iter().all(|&d| domain.contains(p + Vec2::from(d) * (0.05 * size)));
+                let outside =
+                    around.iter().all(|&d| !domain.contains(p + Vec2::from(d) * (1e-4 * size)));
+                assert!(!well_inside || covered > 0, "{anchor:?} {square:?} {p:?} {pieces:?}");
+                assert!(!outside || covered == 0, "{anchor:?} {square:?} {p:?} {pieces:?}");
+            }
+        }
+    }
+}
+
+/// A square without anything is itself; one on a crack has faces along it, and a corner at the tip.
+#[test]
+fn faces_end_at_a_tip() {
+    let recipe = Recipe::default();
+    let dataset = recipe.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let crack = &recipe.cracks[0];
+    let tip = crack.points[2];
+    for size in [1e-3, 1e-9, 1e-13] {
+        let pieces = Pieces::new(&field, tip).of(&Rect::around(Vec2::ZERO, vec2(size, size)));
+        assert_eq!(pieces.len(), 2);
+        for piece in &pieces {
+            let at_tip = piece.corners.iter().filter(|c| c.length() < 1e-15 * size).count();
+            let faces = piece.faces.iter().filter(|&&face| face).count();
+            assert_eq!((at_tip, faces), (1, 1), "{piece:?}");
+        }
+        let beside = Rect::around(vec2(3.0, 3.0) * size, vec2(size, size));
+        let whole = Pieces::new(&field, tip);
+        assert!(!whole.may_cut(&beside));
+        assert!(
+            matches!(&whole.of(&beside)[..], [one] if one.corners.len() == 4 && !one.faces.contains(&true))
+        );
+    }
+}
+
+fn two_materials(young: &str) -> Dataset {
+    let mut dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
+    let (young, poisson) = (young.parse().expect("a formula"), 0.3.into());
+    dataset.equation =
+        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    dataset
+}
+
+/// Pieces lie on one side of interfaces, straight and round, as their values are taken; where nothing jumps there is no face.
+#[test]
+fn interfaces() {
+    for (young, level, jumps) in [
+        ("if(2*x - y < 1.3, 1, 5)", "2*x - y - 1.3", true),
+        ("if(hypot(x - 0.8, y - 0.2) < 0.21, 1, 5)", "hypot(x - 0.8, y - 0.2) - 0.21", true),
+        ("1 + abs(x - 0.8)", "x - 0.8", false),
+    ] {
+        let dataset = two_materials(young);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let level = young_level(level);
+        let (mut random, mut faces) = (Random(3), 0);
+        let pieces = Pieces::new(&field, vec2(0.7, 0.3));
+        for _ in 0..2000 {
+            let inner = Rect::new(vec2(0.25, -0.25), vec2(1.5, 0.65));
+            let center = random.point(&inner) - vec2(0.7, 0.3);
+            let square = Rect::around(center, vec2(0.01, 0.01));
+            for piece in pieces.of(&square) {
+                let sign = |p: Vec2| level.value(vec2(0.7, 0.3) + p) > 0.0;
+                let inside = sign(piece.center());
+                let seen = |k: usize| {
+                    let (a, b) = (piece.corners[k], piece.corners[(k + 1) % piece.corners.len()]);
+                    [a, a * 0.7 + b * 0.3, (a + b) * 0.5].map(|p| piece.seen_from_inside(p))
+                };
+                for p in (0..piece.corners.len()).flat_map(seen) {
+                    assert_eq!(sign(p), inside, "{young} {piece:?} {p:?}");
+                }
+                faces += piece.faces.iter().filter(|&&face| face).count();
+            }
+            assert!(Pieces::of_values(&field, vec2(0.7, 0.3)).of(&square).len() <= 1);
+        }
+        assert_eq!(faces > 60, jumps, "{young} {faces}");
+    }
+}
+
+fn young_level(text: &str) -> ppum::expression::Expression {
+    text.parse().expect("a formula")
+}
+
+/// Two hundred sides in one square.
+#[test]
+fn many_sides() {
+    let mut dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
+    let star = |k: usize| {
+        let (r, t) = (0.004 + 0.003 * (k % 2) as f64, std::f64::consts::TAU * k as f64 / 200.0);
+        vec2(0.7 + r * t.cos(), 0.2 + r * t.sin())
+    };
+    dataset.domain.holes = vec![Hole::Polygon { points: (0..200).map(star).collect() }];
+    let field = Field::new(&dataset, 0).expect("a field");
+    let square = Rect::around(vec2(0.001, 0.0), vec2(0.01, 0.01));
+    let pieces = Pieces::new(&field, vec2(0.7, 0.2)).of(&square);
+    let area: f64 = pieces.iter().map(|piece| 0.5 * piece.double_area()).sum();
+    let hole = 100.0 * 0.004 * 0.007 * (std::f64::consts::TAU / 200.0).sin();
+    assert!((area - (4e-4 - hole)).abs() < 1e-3 * hole, "{area:e}");
+    assert!(pieces.len() < 20000, "{}", pieces.len());
+}

@@ -1,0 +1,242 @@
+//! The grid that resampling would need for a given error, measured.
+//!
+//! [`converge`] doubles a grid and measures each time how far its picture is from the field, at pixels of the view
+//! (at most [`PIXELS`] in each direction, evenly spread). Only the grid's points that count at these pixels are
+//! evaluated, so a fine grid costs no more than a coarse one.
+//!
+//! What is measured at pixels falls for ever, since no pixel's centre lies at a tip or on a crack. The largest error
+//! between them does not where the quantity is infinite or jumps: [`Needed::Never`] says so for L∞.
+
+use std::collections::BTreeSet;
+
+use ppum::crack::{SegmentId, Side, tips};
+use ppum::field::Field;
+use ppum::function::{Frame, FunctionKind};
+use ppum::progress::Watcher;
+use ppum::quantity::{Quantity, Source};
+use ppum::vec2::{Rect, Vec2};
+use rayon::prelude::*;
+
+use super::norms::{Norms, of_values};
+use super::stencil::Stencil;
+use super::{Grid, Interpolation, at_offsets};
+use crate::error::RenderError;
+use crate::parts::Parts;
+use crate::view::View;
+
+/// Most columns and rows of pixels that errors are measured at.
+pub const PIXELS: u32 = 128;
+/// Most points along the longer side of a grid that is measured.
+pub const LARGEST: u32 = 8192;
+/// Points along the longer side of the first grid.
+const FIRST: u32 = 8;
+
+/// The subject of a measurement.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The field.
+    pub field: &'a Field<'a>,
+    /// The part of the plane over which errors are measured.
+    pub view: &'a View,
+    /// The quantity.
+    pub quantity: &'a Quantity,
+    /// The rectangle of the grids, and the ratio of their columns and rows.
+    pub grid: Grid,
+    /// What is done between the points.
+    pub interpolation: Interpolation,
+}
+
+/// Errors of grids, each with twice the points of the one before in each direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convergence {
+    /// Sizes of the grids and the errors found.
+    pub steps: Vec<([u32; 2], Norms)>,
+    /// Why L∞ does not fall, if that is known.
+    pub obstacle: Option<Obstacle>,
+}
+
+/// The reason why an error does not fall below a bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The quantity is infinite at a point of the view: near it the error is larger than any bound.
+    Singular,
+    /// The quantity jumps across a crack in the view: there the error is half the jump or more.
+    Jump,
+    /// From one grid to the next the measured error no longer fell.
+    Stalled,
+}
+
+/// The grid for an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Needed {
+    /// The first of the measured grids with no larger error; one of half its points has a larger one.
+    Grid([u32; 2]),
+    /// The size to which the last two measured errors lead, if they go on falling by the same power.
+    Extrapolated([f64; 2]),
+    /// No grid.
+    Never(Obstacle),
+}
+
+/// Errors of finer and finer grids, up to the first with relative errors of at most `target` in all norms, or to
+/// [`LARGEST`]. The watcher hears of every grid.
+///
+/// # Errors
+/// As for [`render`](crate::scatter::render).
+pub fn converge(
+    subject: &Subject<'_>,
+    target: f64,
+    watcher: &dyn Watcher,
+) -> Result<Convergence, RenderError> {
+    subject.quantity.check(subject.field)?;
+    let pixels = pixels(subject.view);
+    let Subject { field, view, quantity, .. } = *subject;
+    let direct = at_offsets(field, quantity, view.center, &pixels);
+    let sizes = sizes(subject.grid.size);
+    let (parts, mut steps) = (Parts::start(watcher, sizes.len())?, Vec::new());
+    for size in sizes {
+        let Ok(grid) = subject.grid.with_size(size) else { break };
+        let norms = of_values(&direct, &interpolated(subject, &grid, &pixels));
+        steps.push((size, norms));
+        parts.finish_one()?;
+        if norms.relative().iter().all(|&error| error <= target) {
+            break;
+        }
+    }
+    let size = steps.last().map_or(0.0, |(_, norms): &(_, Norms)| norms.field[2]);
+    Ok(Convergence { steps, obstacle: obstacle(subject, size) })
+}
+
+impl Convergence {
+    /// The grid for a relative error of at most `target` in L1 (`norm` 0), L2 (1) or L∞ (2).
+    ///
+    /// # Panics
+    /// If there is no such norm.
+    #[must_use]
+    pub fn needed(&self, norm: usize, target: f64) -> Needed {
+        if let (2, Some(obstacle)) = (norm, self.obstacle) {
+            return Needed::Never(obstacle);
+        }
+        let error = |step: &([u32; 2], Norms)| step.1.relative()[norm];
+        if let Some(reached) = self.steps.iter().find(|step| error(step) <= target) {
+            return Needed::Grid(reached.0);
+        }
+        let [.., before, last] = &self.steps[..] else { return Needed::Never(Obstacle::Stalled) };
+        let order = (error(before) / error(last)).log2();
+        if order.is_nan() || order < LEAST_ORDER {
+            return Needed::Never(Obstacle::Stalled);
+        }
+        let finer = (error(last) / target).powf(order.recip());
+        Needed::Extrapolated(last.0.map(|n| f64::from(n) * finer))
+    }
+}
+
+/// An error that falls by a smaller power of the spacing does not fall: it takes 10¹⁰ times the points for a tenth.
+const LEAST_ORDER: f64 = 0.1;
+
+/// The sizes that are measured, of the shape of `size`.
+fn sizes(size: [u32; 2]) -> Vec<[u32; 2]> {
+    let longer = f64::from(size[0].max(size[1]));
+    let scaled =
+        |n: u32| size.map(|k| ((f64::from(k) / longer * f64::from(n)).round() as u32).max(2));
+    std::iter::successors(Some(FIRST), |n| (2 * n <= LARGEST).then_some(2 * n))
+        .map(scaled)
+        .collect()
+}
+
+/// Offsets of the pixels at which errors are measured.
+fn pixels(view: &View) -> Vec<Vec2> {
+    let spread = |n: u32| {
+        let count = n.min(PIXELS);
+        (0..count)
+            .map(move |k| ((2 * u64::from(k) + 1) * u64::from(n) / (2 * u64::from(count))) as u32)
+    };
+    let [columns, rows] = view.pixels;
+    spread(rows).flat_map(|j| spread(columns).map(move |i| view.offset(i, j))).collect()
+}
+
+/// What a grid gives at points `view.center + offset`: samples are taken only where they count.
+fn interpolated(subject: &Subject<'_>, grid: &Grid, offsets: &[Vec2]) -> Vec<f64> {
+    let shift = subject.view.center - grid.anchor;
+    let stencils: Vec<_> =
+        offsets.iter().map(|&o| grid.stencils(subject.interpolation, shift + o)).collect();
+    let places: Vec<_> =
+        stencils.iter().flatten().flat_map(points).collect::<BTreeSet<_>>().into_iter().collect();
+    let values = places.par_chunks(BLOCK).flat_map_iter(|block| {
+        let offsets: Vec<_> = block.iter().map(|&(row, column)| grid.offset(column, row)).collect();
+        at_offsets(subject.field, subject.quantity, grid.anchor, &offsets)
+    });
+    let values: Vec<f64> = values.collect();
+    let value =
+        |row, column| places.binary_search(&(row, column)).map_or(f64::NAN, |at| values[at]);
+    let sum = |[x, y]: &[Stencil; 2]| y.sum(|row| x.sum(|column| value(row, column)));
+    stencils.iter().map(|pair| pair.as_ref().map_or(f64::NAN, sum)).collect()
+}
+
+/// Points that are evaluated together.
+const BLOCK: usize = 1024;
+
+/// Rows and columns of the grid's points that count.
+fn points([x, y]: &[Stencil; 2]) -> Vec<(u32, u32)> {
+    y.points().flat_map(|(row, _)| x.points().map(move |(column, _)| (row, column))).collect()
+}
+
+/// What keeps the largest error of values up to `size` from falling, if the view shows it.
+fn obstacle(subject: &Subject<'_>, size: f64) -> Option<Obstacle> {
+    let Subject { field, view, quantity, .. } = *subject;
+    let cracks = &field.step.cracks;
+    let origins = field.step.functions.iter().filter_map(|function| match function.kind {
+        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } => Some(origin),
+        _ => None,
+    });
+    let tips = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
+    let shown = Rect::new(-view.half(), view.half());
+    let mut points = tips.chain(origins).filter(|&p| shown.contains(p - view.center));
+    let infinite = |p: Vec2| quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above).is_infinite();
+    if points.any(infinite) {
+        return Some(Obstacle::Singular);
+    }
+    jumps(subject, SAME * size).then_some(Obstacle::Jump)
+}
+
+/// Points of a segment at which its two sides are compared.
+const STATIONS: u32 = 16;
+/// Part of the largest value that two sides may differ by and still be the same.
+const SAME: f64 = 1e-9;
+
+/// True if the quantity differs by more than `least` between the sides of a crack in the view.
+fn jumps(subject: &Subject<'_>, least: f64) -> bool {
+    let Subject { field, view, quantity, .. } = *subject;
+    if quantity.source() == Source::Partition {
+        return false;
+    }
+    (0..).zip(&field.step.cracks).any(|(crack, c)| {
+        (0..).zip(c.points.windows(2)).any(|(segment, ends)| {
+            let Some([from, to]) = shown_part(view, [ends[0], ends[1]]) else { return false };
+            (0..STATIONS).any(|k| {
+                let t = from + (to - from) * (f64::from(k) + 0.5) / f64::from(STATIONS);
+                let point = ends[0] + (ends[1] - ends[0]) * t;
+                let mut local = field.on(SegmentId { crack, segment }, point);
+                let [a, b] =
+                    [Side::Above, Side::Below].map(|s| quantity.at(&mut local, Vec2::ZERO, s));
+                (a - b).abs() > least
+            })
+        })
+    })
+}
+
+/// The parameters in \[0, 1\] between which a segment lies in the view (Liang and Barsky 1984).
+fn shown_part(view: &View, [a, b]: [Vec2; 2]) -> Option<[f64; 2]> {
+    let (from, d, half) = (a - view.center, b - a, view.half());
+    let (mut lo, mut hi) = (0.0f64, 1.0f64);
+    for (p, q, h) in [(from.x, d.x, half.x), (from.y, d.y, half.y)] {
+        if q == 0.0 {
+            if p.abs() > h {
+                return None;
+            }
+        } else {
+            let [s, t] = [(-h - p) / q, (h - p) / q];
+            (lo, hi) = (lo.max(s.min(t)), hi.min(s.max(t)));
+        }
+    }
+    (lo < hi).then_some([lo, hi])
+}

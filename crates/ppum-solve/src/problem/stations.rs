@@ -1,0 +1,156 @@
+//! Points along the border with what the conditions say there, for drawings of supports and loads.
+
+use std::f64::consts::TAU;
+
+use ppum::crack::Side;
+use ppum::domain::Hole;
+use ppum::vec2::{Vec2, vec2};
+
+use super::{BorderPart, BoundaryCondition, Problem};
+
+/// A point of the border with what a condition says there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// The point.
+    pub at: Vec2,
+    /// Unit normal out of the material.
+    pub outward: Vec2,
+    /// Of each component, x and y, whether its value is given.
+    pub held: [bool; 2],
+    /// Traction on the plate, zero in components that are held: force per area.
+    pub traction: Vec2,
+}
+
+impl Problem {
+    /// Points along the parts of the border that have conditions, about `spacing` apart, each in the middle of
+    /// its piece of the border, those in holes left out; nothing of a potential.
+    #[must_use]
+    pub fn stations(&self, spacing: f64) -> Vec<Station> {
+        if self.equation.elastic().is_none() {
+            return Vec::new();
+        }
+        let of = |condition: &BoundaryCondition| {
+            let points = self.points_of(condition.on, spacing).into_iter();
+            let station = |(at, outward)| Station {
+                at,
+                outward,
+                held: condition.held(),
+                traction: condition.loads(at, outward).into(),
+            };
+            points.map(station).collect::<Vec<_>>()
+        };
+        self.boundary.iter().flat_map(of).collect()
+    }
+
+    /// Points of a part of the border with their normals out of the material.
+    fn points_of(&self, part: BorderPart, spacing: f64) -> Vec<(Vec2, Vec2)> {
+        let bounds = &self.domain.bounds;
+        match part {
+            BorderPart::Edge { edge, from, to } => {
+                let ends = [from, to].map(|s| edge.point(bounds, s));
+                let points = along(ends, spacing).map(|p| (p, edge.normal()));
+                points.filter(|&(p, _)| self.domain.contains(p)).collect()
+            }
+            BorderPart::Hole(index) => {
+                let rim = around(&self.domain.holes[index], spacing);
+                rim.into_iter().filter(|&(p, _)| bounds.contains(p)).collect()
+            }
+            BorderPart::Crack { crack, face } => {
+                let segments = self.cracks[crack].points.windows(2);
+                let sides = [Side::Above, Side::Below].into_iter();
+                let sides = sides.filter(|side| face.is_none_or(|face| face == *side));
+                let faces = sides.flat_map(|side| {
+                    segments.clone().flat_map(move |ends| {
+                        let left = (ends[1] - ends[0]).unit().left();
+                        let outward = if side == Side::Above { -left } else { left };
+                        along([ends[0], ends[1]], spacing).map(move |p| (p, outward))
+                    })
+                });
+                faces.collect()
+            }
+        }
+    }
+}
+
+/// Points of a straight piece: the middles of equal parts about as long as the spacing.
+fn along([a, b]: [Vec2; 2], spacing: f64) -> impl Iterator<Item = Vec2> {
+    let count = parts((b - a).length(), spacing);
+    (0..count).map(move |k| a + (b - a) * ((f64::from(k) + 0.5) / f64::from(count)))
+}
+
+/// Points of the rim of a hole with the normals out of the material, into the hole.
+fn around(hole: &Hole, spacing: f64) -> Vec<(Vec2, Vec2)> {
+    match hole {
+        Hole::Circle { center, radius } => {
+            let count = parts(TAU * radius, spacing).max(4);
+            let direction = |k: u32| {
+                let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
+                vec2(cos, sin)
+            };
+            (0..count).map(direction).map(|d| (*center + d * *radius, -d)).collect()
+        }
+        Hole::Polygon { .. } => {
+            let inward = |[a, b]: [Vec2; 2]| (b - a).unit().left() * hole.orientation();
+            hole.sides().flat_map(|s| along(s, spacing).map(move |p| (p, inward(s)))).collect()
+        }
+    }
+}
+
+/// Number of parts of a length, each about as long as the spacing.
+fn parts(length: f64, spacing: f64) -> u32 {
+    (length / spacing).round().clamp(1.0, 1000.0) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn stations(border: &str, spacing: f64) -> Vec<Station> {
+        let text = format!(
+            "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
+             state = \"plane-strain\"\n[[hole]]\ncenter = [0.5, 0.5]\nradius = 0.2\n[[hole]]\n\
+             points = [[-0.8, -0.8], [-0.4, -0.8], [-0.4, -0.4]]\n[[crack]]\n\
+             points = [[-0.5, 0.0], [0.1, 0.0]]\n[discretization]\nlevel = 3\n[[boundary]]\n{border}\n"
+        );
+        let problem = Problem::parse(&text, "test", Path::new("")).expect("a problem");
+        problem.stations(spacing)
+    }
+
+    #[test]
+    fn edges_are_divided_evenly() {
+        let found = stations("on = \"top\"\ntraction = [\"x\", 2.0]", 0.5);
+        let xs: Vec<_> = found.iter().map(|s| s.at.x).collect();
+        assert_eq!(xs, [-0.75, -0.25, 0.25, 0.75]);
+        for station in &found {
+            assert_eq!((station.at.y, station.outward), (1.0, vec2(0.0, 1.0)));
+            assert_eq!((station.held, station.traction), ([false; 2], vec2(station.at.x, 2.0)));
+        }
+        let held = stations("on = \"left\"\ndisplacement = [0.0, \"free\"]", 10.0);
+        assert_eq!((held.len(), held[0].at, held[0].held), (1, vec2(-1.0, 0.0), [true, false]));
+        assert_eq!(held[0].traction, Vec2::ZERO);
+    }
+
+    /// Normals point out of the material and tractions of a pressure into it, on rims and faces alike: a step
+    /// along the normal leaves the plate.
+    #[test]
+    fn pressure_presses_on_the_material() {
+        for (border, count) in [
+            ("on = { hole = 0 }\npressure = 3.0", 6),
+            ("on = { hole = 1 }\npressure = 3.0", 7),
+            ("on = { crack = 0 }\npressure = 3.0", 6),
+            ("on = { crack = 0, face = \"below\" }\npressure = 3.0", 3),
+        ] {
+            let found = stations(border, 0.2);
+            assert_eq!(found.len(), count, "{border}");
+            for s in found {
+                assert!((s.traction + s.outward * 3.0).length() < 1e-12, "{border}");
+                let inside_hole =
+                    |p: Vec2| (p - vec2(0.5, 0.5)).length() < 0.2 || (p.x < -0.4 && p.y < p.x);
+                let step = s.at + s.outward * 1e-3;
+                assert!(border.contains("crack") || inside_hole(step), "{border} {s:?}");
+            }
+        }
+    }
+}

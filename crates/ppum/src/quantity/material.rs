@@ -1,0 +1,80 @@
+//! Gradients of a material's constants.
+
+use super::QuantityFormulaError;
+use crate::equation::{Equation, Moduli, StressState};
+use crate::expression::Expression;
+use crate::library::{PLANE_STRAIN, PLANE_STRESS};
+use crate::vec2::{Vec2, vec2};
+use ppum_formula::{Formula, FormulaJets, Scope};
+
+/// The gradients of an equation's moduli: those of its formulas through the moduli's own.
+#[derive(Clone, Debug)]
+pub(super) struct MaterialGradient {
+    /// young and poisson, or conductivity; `None` if it is the same everywhere.
+    constants: Vec<Option<FormulaJets>>,
+    /// mu, lambda and out_of_plane as functions of young and poisson.
+    law: Option<FormulaJets>,
+}
+
+impl MaterialGradient {
+    /// That of an equation; `None` if its constants are the same everywhere.
+    ///
+    /// # Errors
+    /// Derivatives that are too large.
+    pub(super) fn new(equation: &Equation) -> Result<Option<Self>, QuantityFormulaError> {
+        if equation.is_uniform() {
+            return Ok(None);
+        }
+        let constants: Result<_, _> = equation.constants().map(|(_, e)| constant(e)).collect();
+        let law = equation.elastic().map(|elastic| law(elastic.state)).transpose()?;
+        Ok(Some(Self { constants: constants?, law }))
+    }
+
+    /// The gradients at a point.
+    pub(super) fn at(&self, p: Vec2, moduli: &Moduli<f64>) -> Moduli<Vec2> {
+        let gradient = |k: usize| match &self.constants[k] {
+            Some(jets) => evaluate::<3>(jets, [p.x, p.y]),
+            None => [0.0; 3],
+        };
+        let of = |k: usize| vec2(gradient(k)[1], gradient(k)[2]);
+        let zero = Vec2::ZERO;
+        let none = Moduli {
+            young: zero,
+            poisson: zero,
+            lambda: zero,
+            mu: zero,
+            out_of_plane: zero,
+            conductivity: zero,
+        };
+        let Some(law) = &self.law else { return Moduli { conductivity: of(0), ..none } };
+        let (young, poisson) = (of(0), of(1));
+        let law = evaluate::<9>(law, [moduli.young, moduli.poisson]);
+        // a term that is constant has no part, though its factor may be infinite
+        let part = |slope: f64, of: Vec2| if of == zero { zero } else { of * slope };
+        let chain = |k: usize| part(law[3 * k + 1], young) + part(law[3 * k + 2], poisson);
+        Moduli { young, poisson, mu: chain(0), lambda: chain(1), out_of_plane: chain(2), ..none }
+    }
+}
+
+fn constant(expression: &Expression) -> Result<Option<FormulaJets>, QuantityFormulaError> {
+    if expression.constant().is_some() {
+        return Ok(None);
+    }
+    Ok(Some(FormulaJets::new(&[expression.formula()], 1)?))
+}
+
+fn law(state: StressState) -> Result<FormulaJets, QuantityFormulaError> {
+    let texts = match state {
+        StressState::PlaneStrain => PLANE_STRAIN,
+        StressState::PlaneStress => PLANE_STRESS,
+    };
+    let scope = Scope::new(&["young", "poisson"])?;
+    let [mu, lambda, out_of_plane] = texts.map(|(_, text)| Formula::parse(text, &scope));
+    Ok(FormulaJets::new(&[&mu?, &lambda?, &out_of_plane?], 1)?)
+}
+
+fn evaluate<const N: usize>(jets: &FormulaJets, inputs: [f64; 2]) -> [f64; N] {
+    let mut out = [0.0; N];
+    jets.evaluate(&inputs, &mut Vec::new(), &mut out);
+    out
+}
