@@ -51,6 +51,18 @@ pub(crate) fn inches(text: &str) -> Result<[f64; 2], String> {
     parts.ok_or_else(|| "write two numbers above zero: WIDTHxHEIGHT, e.g. 3.4x2.6".into())
 }
 
+/// Most pixels of a page of plots and panels: a quarter of a gigabyte.
+const MOST_OF_PAGE: u64 = 1 << 26;
+
+/// `WxH` of a page, which is drawn whatever is on it.
+pub(crate) fn page(text: &str) -> Result<[u32; 2], String> {
+    let [columns, rows] = size(text)?;
+    if u64::from(columns) * u64::from(rows) > MOST_OF_PAGE {
+        return Err(format!("at most {MOST_OF_PAGE} pixels, such as 8192x8192"));
+    }
+    Ok([columns, rows])
+}
+
 /// A finite number above zero.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let value = numbers(text).map(|[v]| v).filter(|&v| v > 0.0);

@@ -88,6 +88,7 @@ fn plots_that_cannot_be_are_refused() {
         ("--line 0,0,1,1 --crack 0", "cannot be used with"),
         ("--history -q sxx", "cannot be used with"),
         ("--tip 0 --angle 181", "from -180 to 180"),
+        ("--crack 0 --size 100000x100000", "at most 67108864 pixels"),
     ] {
         let complaint = lab.fail(&format!("plot plate.h5 {options} -o a.png"));
         assert!(complaint.contains(part), "{options}: {complaint}");

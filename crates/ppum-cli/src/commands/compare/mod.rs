@@ -14,7 +14,7 @@ use ppum_figure::figure::{Design, plot_area};
 use ppum_render::png;
 use ppum_render::resample::Interpolation;
 
-use crate::arguments::{positive, size};
+use crate::arguments::{page, positive, size};
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
@@ -49,7 +49,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "E", value_parser = positive)]
     error: Option<f64>,
     /// Size of each panel in pixels
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "720x600")]
+    #[arg(long, value_name = "WxH", value_parser = page, default_value = "720x600")]
     size: [u32; 2],
     #[command(flatten)]
     window: Window,

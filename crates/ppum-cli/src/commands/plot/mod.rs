@@ -10,7 +10,7 @@ use anyhow::ensure;
 use ppum::dataset::Dataset;
 use ppum_figure::plot::{Plot, plot};
 
-use crate::arguments::size;
+use crate::arguments::page as page_size;
 use crate::dataset::open;
 use crate::given::{self, parts};
 use crate::output::Output;
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     log: Vec<Axis>,
     /// Size in pixels
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "900x600")]
+    #[arg(long, value_name = "WxH", value_parser = page_size, default_value = "900x600")]
     size: [u32; 2],
     /// File to write: .svg, .pdf or .png
     #[arg(short, long, value_name = "OUT")]
