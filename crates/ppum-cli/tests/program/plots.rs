@@ -96,3 +96,23 @@ fn plots_that_cannot_be_are_refused() {
     }
     assert!(lab.fail("plot plate.h5 --crack 0 -o a.csv").contains("PNG, SVG or PDF"));
 }
+
+/// Of quadratic local spaces the energy norm of the error falls like h², the L² norm like h³; unknowns grow like h⁻².
+#[test]
+fn convergence_has_its_rates() {
+    let lab = Lab::new();
+    let problem = include_str!("../../../../examples/smooth-field.toml");
+    let line = problem.lines().find(|line| line.starts_with("level = ")).unwrap();
+    for level in [2, 3, 4] {
+        lab.write(&format!("{level}.toml"), &problem.replace(line, &format!("level = {level}")));
+        lab.run(&format!("solve {level}.toml -o {level}.h5"));
+    }
+    let told = lab.run("plot 2.h5 4.h5 3.h5 --convergence -o rates.svg");
+    let slope = |name: &str| -> f64 {
+        let (_, rest) =
+            told.split_once(&format!("{name}, slope −")).unwrap_or_else(|| panic!("{told}"));
+        rest.split([',', '\n']).next().unwrap().trim().parse().unwrap()
+    };
+    assert!((slope("energy norm") - 1.0).abs() < 0.12, "{told}");
+    assert!((slope("L² norm") - 1.5).abs() < 0.2, "{told}");
+}
