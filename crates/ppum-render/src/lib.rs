@@ -76,13 +76,7 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[
-            ("image", &[]),
-            ("parts", &[]),
-            ("pieces", &[]),
-            ("scale", &[]),
-            ("view", &[]),
-        ],
+        &[("image", &[]), ("parts", &[]), ("pieces", &[]), ("scale", &[]), ("view", &[])],
         &[
             ("colormap", &["image"]),
             ("error", &["view"]),
@@ -103,7 +97,10 @@ mod tests {
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[("samples", &["error", "raster", "scatter", "view"])],
-        &[("picture", &["colormap", "image", "png", "range", "raster", "samples", "scale", "view"])],
+        &[(
+            "picture",
+            &["colormap", "image", "png", "range", "raster", "samples", "scale", "view"],
+        )],
     ];
 
     #[test]

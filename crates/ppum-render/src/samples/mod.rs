@@ -110,7 +110,8 @@ impl<T: Sample> Means<T> {
     #[must_use]
     pub fn undefined(&self) -> Vec<u32> {
         let pixels = (0u32..).zip(self.inside.iter().zip(&self.raster.values));
-        let without = pixels.filter(|(_, (inside, value))| **inside > 0 && (**value).into().is_nan());
+        let without =
+            pixels.filter(|(_, (inside, value))| **inside > 0 && (**value).into().is_nan());
         without.map(|(pixel, _)| pixel).collect()
     }
 
