@@ -94,14 +94,17 @@ mod tests {
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
-            ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
             ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
-        &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
+        &[("range", &["extrema", "raster", "scale"])],
+        &[(
+            "picture",
+            &["colormap", "extrema", "image", "png", "range", "raster", "scale", "view"],
+        )],
     ];
 
     #[test]

@@ -60,13 +60,7 @@ pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> V
 }
 
 /// Chords of the course of a curve through the squares of a grid of so many steps at most in each direction, where it crosses two sides.
-fn chords(
-    level: &Formula,
-    anchor: Vec2,
-    rect: &Rect,
-    pixel: f64,
-    steps: usize,
-) -> Vec<[Vec2; 2]> {
+fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) -> Vec<[Vec2; 2]> {
     let size = rect.size();
     let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, steps);
     let [columns, rows] = [count(size.x), count(size.y)];
@@ -74,9 +68,8 @@ fn chords(
         let (x, y) = (i as f64 / columns as f64, j as f64 / rows as f64);
         rect.min + vec2(size.x * x, size.y * y)
     };
-    let row = |j: usize| {
-        (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect::<Vec<_>>()
-    };
+    let row =
+        |j: usize| (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect::<Vec<_>>();
     let (signs, mut all): (Vec<_>, _) = ((0..=rows).into_par_iter().map(row).collect(), Vec::new());
     for (j, pair) in (1..).zip(signs.windows(2)) {
         let [below, above] = [&pair[0], &pair[1]];

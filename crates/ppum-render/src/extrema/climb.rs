@@ -61,7 +61,8 @@ pub(super) fn starts<T: Sample>(
         let promise = here + (here - least);
         (promise > highest || here == highest).then_some((promise, [i, j]))
     };
-    let found = (0..rows).into_par_iter().flat_map_iter(|j| (0..columns).filter_map(move |i| top(i, j)));
+    let found =
+        (0..rows).into_par_iter().flat_map_iter(|j| (0..columns).filter_map(move |i| top(i, j)));
     best_first(found.collect(), most)
 }
 

@@ -6,8 +6,8 @@ use ppum::field::{Field, LocalField};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
-use super::{On, Promise};
 use super::bent::Bent;
+use super::{On, Promise};
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];

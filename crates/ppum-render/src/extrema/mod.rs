@@ -19,6 +19,8 @@ mod climb;
 mod curves;
 mod singular;
 
+use std::fmt;
+
 use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
@@ -90,6 +92,33 @@ pub struct Extrema {
     pub singular: Vec<Singular>,
 }
 
+impl On {
+    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Inside => "inside",
+            Self::Border => "border",
+            Self::Face(..) => "face",
+            Self::Rim(_) => "rim",
+            Self::Interface => "interface",
+            Self::Singular(_) => "singular",
+            Self::Pixel => "pixel",
+        }
+    }
+}
+
+impl fmt::Display for Extrema {
+    /// `min 0.1 at -0.2,0.3 inside max inf at 0.5,0.0 singular`, with the shortest numbers that mean the doubles and places as offsets
+    /// from the view's centre.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let one = |Extremum { value, offset, on }: Extremum| {
+            format!("{value:?} at {:?},{:?} {}", offset.x, offset.y, on.name())
+        };
+        write!(f, "min {} max {}", one(self.min), one(self.max))
+    }
+}
+
 impl Extrema {
     /// The smallest and the largest value at the pixels of a view, infinite ones too; `None` if there are none.
     #[must_use]
@@ -123,7 +152,8 @@ impl Extrema {
 }
 
 /// Minimum and maximum of a quantity over the part of the domain that a view shows; `None` if that is nothing, or the quantity is nowhere
-/// defined. Where a search would take too long they are those of the pixels ([module](self)).
+/// defined. Where a search would take too long, and of formulas whose derivatives are too large, they are those of the pixels
+/// ([module](self)).
 ///
 /// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. The result depends on the raster only in
 /// where searches begin.
@@ -141,7 +171,11 @@ pub fn extrema<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
     assert_eq!(raster.size, view.pixels, "a raster of the view");
-    let slope = QuantityGradient::new(quantity, field)?;
+    quantity.check(field)?;
+    // of a formula whose derivatives are too large
+    let Ok(slope) = QuantityGradient::new(quantity, field) else {
+        return Ok(Extrema::of_pixels(raster, view));
+    };
     let Some(rect) = seen(field, view) else { return Ok(None) };
     let points = singular::candidates(field, view.center, &rect);
     let mut curves = curves::all(field, view.center, &rect);
@@ -165,12 +199,7 @@ pub fn extrema<T: Sample>(
 }
 
 /// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.
-fn samples(
-    field: &Field<'_>,
-    view: &View,
-    curves: &[Curve],
-    points: usize,
-) -> Option<Vec<usize>> {
+fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> Option<Vec<usize>> {
     let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
     let is_face = |curve: &&Curve| matches!(curve.on, On::Face(..));
