@@ -89,17 +89,19 @@ mod tests {
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
-            ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
             ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
-        &[("samples", &["error", "raster", "scatter", "view"])],
+        &[
+            ("range", &["extrema", "raster", "scale"]),
+            ("samples", &["error", "raster", "scatter", "view"]),
+        ],
         &[(
             "picture",
-            &["colormap", "image", "png", "range", "raster", "samples", "scale", "view"],
+            &["colormap", "extrema", "image", "png", "range", "raster", "samples", "scale", "view"],
         )],
     ];
 

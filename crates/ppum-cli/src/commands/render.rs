@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use anyhow::ensure;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
 use ppum_render::deform::DeformedView;
@@ -23,6 +22,7 @@ use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
 use crate::page;
+use crate::range::{self, Telling};
 use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
@@ -146,7 +146,8 @@ impl Args {
         texts
             .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
         let [columns, rows] = page.size;
-        let (name, colors) = (&asked.name, colours(&picture));
+        let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
+        let colors = telling.colors(&picture);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
@@ -155,9 +156,11 @@ impl Args {
     fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
         let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
         let view = self.window.seen(field, frame)?;
-        let drawn = self.engine.draw(Job { field, view: &view, quantity: &asked.quantity })?;
+        let job = Job { field, view: &view, quantity: &asked.quantity };
+        let drawn = self.engine.draw(job)?;
         drawn.warn(&asked.name);
-        let mut picture = drawn.picture(&style)?;
+        let span = self.engine.with_threads(|| range::found(&drawn, job, &style))??;
+        let mut picture = drawn.picture(&style, span)?;
         let layers = self.layers(plate, asked, &drawn.values, &picture)?;
         self.blank(&mut picture);
         Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
@@ -189,7 +192,8 @@ impl Args {
     fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
         let (drawn, _) = draw(seen, &asked.quantity, &self.engine)?;
         drawn.warn(&asked.name);
-        let mut picture = drawn.picture(&self.colours.style(&asked.quantity)?)?;
+        let style = self.colours.style(&asked.quantity)?;
+        let mut picture = drawn.picture(&style, range::of_pixels(&drawn, &style))?;
         let outline = self.deformed.outline;
         let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
         self.blank(&mut picture);
@@ -226,19 +230,6 @@ fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
     match overlaps {
         0 => format!(", {}", words(seen)),
         n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
-    }
-}
-
-/// The meaning of the colours.
-fn colours(picture: &Picture) -> String {
-    let norm = &picture.normalization;
-    match picture.one_value {
-        _ if !picture.has_values => "no finite values".into(),
-        Some(value) => format!("one value, {}", trimmed(value)),
-        None => {
-            let [from, to] = apart(norm.min(), norm.max());
-            format!("colours from {from} to {to}")
-        }
     }
 }
 

@@ -135,8 +135,11 @@ impl Args {
         if let Some(path) = &self.output {
             let title = self.subject.replacements.title(&dataset.title);
             let labels = asked.labels(title, &field);
-            let bytes =
-                self.picture(&found, sheet::Look { field: &field, view, style, labels }, name)?;
+            let bytes = self.picture(
+                &found,
+                sheet::Look { field: &field, view, style, quantity, labels },
+                name,
+            )?;
             if is_standard(path) {
                 out.exact().write_all(&bytes)?;
             } else {

@@ -1,0 +1,145 @@
+//! The range of a picture's colours: found with the true extrema of the view, and told.
+
+use ppum::crack::{Crack, TipId, tips};
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::text::{Places, apart, beside, trimmed};
+use ppum_render::RenderError;
+use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::{Basis, Span};
+use ppum_render::view::View;
+
+use crate::drawing::{Drawn, Job, Values};
+use crate::number::places;
+use crate::progress::Bar;
+
+/// The range of what was drawn, with the true extrema of its view unless it is given.
+pub(crate) fn found(drawn: &Drawn, job: Job<'_>, style: &Style) -> Result<Span, RenderError> {
+    let Job { field, view, quantity } = job;
+    let search = || match &drawn.values {
+        Values::Double(raster) => extrema(field, view, quantity, raster, &Bar::new()),
+        Values::Single(raster) => extrema(field, view, quantity, raster, &Bar::new()),
+    };
+    let extrema = if style.range.is_found() { search()? } else { None };
+    Ok(drawn.span(style, extrema))
+}
+
+/// The range of what was drawn, by its pixels.
+pub(crate) fn of_pixels(drawn: &Drawn, style: &Style) -> Span {
+    let values = match &drawn.values {
+        Values::Double(raster) => Extrema::of_pixels(raster, &drawn.view),
+        Values::Single(raster) => Extrema::of_pixels(raster, &drawn.view),
+    };
+    drawn.span(style, values.filter(|_| style.range.is_found()))
+}
+
+/// What is known of places.
+pub(crate) struct Telling<'a> {
+    places: Places,
+    cracks: &'a [Crack],
+    /// Size of the plate.
+    size: f64,
+}
+
+/// Views narrower than this part of the plate have their places told from their centre.
+const DEEP: f64 = 1e-3;
+
+impl<'a> Telling<'a> {
+    pub(crate) fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
+        let size = field.domain.bounds.size();
+        let size = size.x.max(size.y);
+        Self { places: places(dataset), cracks: &field.step.cracks, size }
+    }
+
+    /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust); values from 0.1 at
+    /// (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
+    pub(crate) fn colors(&self, picture: &Picture) -> String {
+        let (norm, span) = (&picture.normalization, &picture.span);
+        let colors = match picture.one_value {
+            _ if !picture.has_values => return "no finite values".into(),
+            Some(value) => return format!("one value, {}", trimmed(value)),
+            None => {
+                let [from, to] = apart(norm.min(), norm.max());
+                format!("colours from {from} to {to}{}", basis(span.basis))
+            }
+        };
+        match &span.values {
+            Some(values) => format!("{colors}; {}", self.values(values, &picture.view)),
+            None => colors,
+        }
+    }
+
+    fn values(&self, values: &Extrema, view: &View) -> String {
+        let both = [&values.min, &values.max];
+        let finite = both.map(|extremum| extremum.value).into_iter().filter(|v| v.is_finite());
+        let size = finite.map(f64::abs).fold(0.0, f64::max);
+        let told = both.map(|extremum| {
+            format!("{} at {}", value(extremum.value, size), self.place(extremum, view))
+        });
+        let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
+        format!("{whose} from {} to {}", told[0], told[1])
+    }
+
+    /// Where an extremum lies.
+    fn place(&self, extremum: &Extremum, view: &View) -> String {
+        let at = match extremum.on {
+            // known exactly, and told by its number
+            On::Singular(_) => self.places.show(view.center + extremum.offset),
+            _ if view.width < DEEP * self.size => {
+                let [dx, dy] = [extremum.offset.x, extremum.offset.y].map(trimmed);
+                format!("{} + ({dx}, {dy})", self.places.show(view.center))
+            }
+            _ => self.places.show(view.center + extremum.offset),
+        };
+        match extremum.on {
+            On::Singular(kind) => format!("{} {at}", self.kind(kind)),
+            on => format!("{at}{}", words(on)),
+        }
+    }
+
+    fn kind(&self, kind: SingularKind) -> String {
+        match kind {
+            SingularKind::Tip(tip) => format!("tip {}", self.number(tip)),
+            SingularKind::Kink(crack) => format!("a kink of crack {crack}"),
+            SingularKind::Corner(hole) => format!("a corner of hole {hole}"),
+            SingularKind::Origin => "the origin of a function".into(),
+        }
+    }
+
+    /// The number of a tip, as in `ppum sif`.
+    fn number(&self, tip: TipId) -> usize {
+        tips(self.cracks).position(|known| known == tip).unwrap_or_default()
+    }
+}
+
+fn basis(basis: Basis) -> String {
+    match basis {
+        Basis::Given | Basis::All => String::new(),
+        Basis::Pixels => " (finite pixels)".into(),
+        Basis::Robust => " (robust)".into(),
+        Basis::Percentiles(p, q) => {
+            format!(" ({} % to {} % of the pixels)", trimmed(p), trimmed(q))
+        }
+    }
+}
+
+/// A value beside others of some size.
+pub(crate) fn value(value: f64, size: f64) -> String {
+    match value {
+        f64::INFINITY => "∞".into(),
+        f64::NEG_INFINITY => "−∞".into(),
+        value => trimmed(beside(value, size)),
+    }
+}
+
+/// What a place lies on, behind its coordinates.
+pub(crate) fn words(on: On) -> String {
+    match on {
+        On::Face(segment, side) => format!(", {} crack {}", side.name(), segment.crack),
+        On::Rim(hole) => format!(", on the rim of hole {hole}"),
+        On::Border => ", on the border".into(),
+        On::Interface => ", on an interface".into(),
+        On::Inside | On::Pixel | On::Singular(_) => String::new(),
+    }
+}
