@@ -2,6 +2,7 @@
 
 mod look;
 mod panels;
+mod series;
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +10,13 @@ use anyhow::ensure;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
+use ppum_figure::figure::{Design, Labels, Panel, bare, figure, plot_area};
 use ppum_render::deform::DeformedView;
-use ppum_render::picture::Picture;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
+use ppum_render::range::Span;
+use ppum_render::samples::Samples;
+use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::Engine;
@@ -28,6 +32,7 @@ use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
 use look::Look;
+use series::Series;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -38,9 +43,11 @@ use look::Look;
 pub(crate) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// Picture to write, - for standard output (PNG)
-    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
+    /// Picture to write, - for standard output (PNG); with --steps moving pictures too
+    #[arg(short, long, value_name = "OUT.png|svg|pdf|gif|apng")]
     output: PathBuf,
+    #[command(flatten)]
+    series: Series,
     #[command(flatten)]
     look: Look,
     /// Panels of a figure with several quantities: columns and rows
@@ -57,6 +64,9 @@ pub(crate) struct Args {
     overlays: Overlays,
     #[command(flatten)]
     deformed: Deformed,
+    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at its centre
+    #[arg(long, value_name = "N", default_value = "1")]
+    samples: Samples,
     #[command(flatten)]
     engine: Engine,
 }
@@ -76,6 +86,9 @@ Examples:
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
   ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
+  ppum render plate.h5 -o smooth.png --samples 4
+  ppum render growth.h5 -o growth.gif --steps all --figure
+  ppum render growth.h5 -o step.png --steps 0..20:5 --figure
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
@@ -83,87 +96,204 @@ Examples:
 struct Plate<'a> {
     dataset: &'a Dataset,
     field: &'a Field<'a>,
-    /// The title of figures, which tells of what was replaced.
+    /// The title of figures, which tells of what was replaced, and the step of a series.
     shown: String,
+    /// The number of the step, if there are several.
+    step: Option<usize>,
 }
 
-/// A picture with what belongs to it.
+/// A quantity of a plate in a view: what a picture shows.
+struct Shot<'a> {
+    plate: &'a Plate<'a>,
+    asked: Asked,
+    labels: Labels,
+    scene: Scene<'a>,
+}
+
+/// What is seen.
+enum Scene<'a> {
+    /// The plate as it was before it was loaded.
+    Still(View),
+    /// The plate moved by its displacements.
+    Moved(DeformedView<'a>),
+}
+
+/// The way values become colours.
+struct Coloring {
+    style: Style,
+    span: Span,
+    /// Of a series: true if values of some step lie below the range, and above it, so that all bars are alike.
+    ends: Option<[bool; 2]>,
+}
+
+/// A page with what is told of it.
 struct Sheet {
+    page: Canvas,
     picture: Picture,
-    by: String,
-    layers: Vec<Item>,
-    /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
+    texts: Vec<Text>,
+    /// Behind the quantity's name, in messages: the view of the deformed plate in words.
     told: String,
-    notes: Vec<Text>,
 }
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
         self.look.check(self.layout.is_some())?;
         ensure!(
             self.layout.is_none() || !self.deformed.is_given(),
             "--layout and --deformed do not go together yet; draw the panels one by one"
         );
+        ensure!(
+            self.samples == Samples::CENTER || !self.deformed.is_given(),
+            "--samples: the deformed plate is drawn at the pixels' centres; leave --samples or --deformed out"
+        );
+        if self.series.is_given() {
+            return self.all_steps(out);
+        }
+        series::refuse_moving(&self.output)?;
+        target::check(&self.output, target::Kind::Picture, self.inputs())?;
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
-        let shown = self.subject.replacements.title(&dataset.title);
-        let plate = Plate { dataset: &dataset, field: &field, shown };
+        let last = dataset.steps.len().saturating_sub(1);
+        let plate = self.plate(&dataset, &field, self.subject.step.unwrap_or(last));
         match self.layout {
             None => self.one(&plate, out),
             Some(layout) => self.panels(&plate, layout, out),
         }
     }
 
+    fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>, step: usize) -> Plate<'a> {
+        let title = series::title(dataset, step);
+        let shown = self.subject.replacements.title(&title);
+        Plate { dataset, field, shown, step: (dataset.steps.len() > 1).then_some(step) }
+    }
+
     /// Draws one quantity.
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
-        let field = plate.field;
-        let asked = self.subject.quantity(field)?;
-        let mut labels = asked.labels(plate.shown.clone(), field);
-        let design = self.look.design(self.window.aspect(field));
-        let room = |title: &str| {
-            if self.look.figure { plot_area(title, &design) } else { Ok(self.look.size()) }
-        };
-        let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
-        let seen = self.deformed.view(field, &self.window, frame)?;
-        if let Some(seen) = &seen {
-            labels.title = format!("{} ({})", labels.title, words(seen)).trim_start().to_owned();
-        }
-        let labels = self.look.worded(labels);
-        let sheet = match &seen {
-            None => self.undeformed(plate, &asked, frame)?,
-            Some(seen) => self.moved(seen, &asked)?,
-        };
-        let cracks =
-            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
-        let Sheet { picture, by, layers, told, notes } = sheet;
-        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
-        let page = self.page(panel, &design)?;
-        let mut texts =
-            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
-        texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts
-            .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
+        let (shots, design) = self.shots(std::slice::from_ref(plate))?;
+        let shot = &shots[0];
+        let drawn = self.values(shot)?;
+        drawn.warn(&shot.asked.name);
+        let style = self.colours.style(&shot.asked.quantity)?;
+        let span = self.span(shot, &drawn, &style)?;
+        let coloring = Coloring { style, span, ends: None };
+        let Sheet { page, picture, texts, told } = self.sheet(shot, &drawn, &coloring, &design)?;
         let [columns, rows] = page.size;
-        let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
-        let colors = telling.colors(&picture);
+        let (name, telling) = (&shot.asked.name, Telling::new(plate.dataset, plate.field));
+        let (colors, by) = (telling.colors(&picture), drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// Draws the plate as it was before it was loaded.
-    fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
-        let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
-        let view = self.window.seen(field, frame)?;
-        let job = Job { field, view: &view, quantity: &asked.quantity };
-        let drawn = self.engine.draw(job)?;
-        drawn.warn(&asked.name);
-        let span = self.engine.with_threads(|| range::found(&drawn, job, &style))??;
-        let mut picture = drawn.picture(&style, span)?;
-        let layers = self.layers(plate, asked, &drawn.values, &picture)?;
+    /// What pictures of plates show, which have one size and one look.
+    fn shots<'a>(&self, plates: &'a [Plate<'a>]) -> anyhow::Result<(Vec<Shot<'a>>, Design)> {
+        let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
+        let deforming = self.deformed.of(&fields)?;
+        let moved = deforming.as_ref().map(|d| format!(" ({})", d.words())).unwrap_or_default();
+        let design = self.look.design(self.window.aspect(fields[0]));
+        let words = |plate: &Plate<'_>| {
+            let asked = self.subject.quantity(plate.field)?;
+            let title = format!("{}{moved}", plate.shown).trim_start().to_owned();
+            let labels = self.look.worded(asked.labels(title, plate.field));
+            anyhow::Ok((asked, plate.filled(labels)))
+        };
+        let words = plates.iter().map(words).collect::<anyhow::Result<Vec<_>>>()?;
+        let titles = words.iter().map(|(_, labels)| labels.title.as_str());
+        let frame = self.frame(self.room(titles, &design)?);
+        let shot = |(plate, (asked, labels)): (&'a Plate<'a>, (Asked, Labels))| {
+            let scene = match &deforming {
+                None => Scene::Still(self.window.seen(plate.field, frame)?),
+                Some(deforming) => {
+                    Scene::Moved(deforming.view(plate.field, &self.window, frame)?)
+                }
+            };
+            Ok(Shot { plate, asked, labels, scene })
+        };
+        let shots = plates.iter().zip(words).map(shot).collect::<anyhow::Result<_>>()?;
+        Ok((shots, design))
+    }
+
+    /// The room that all titles leave.
+    fn room<'t>(
+        &self,
+        titles: impl Iterator<Item = &'t str>,
+        design: &Design,
+    ) -> anyhow::Result<[u32; 2]> {
+        let mut room = self.look.size();
+        for title in titles.filter(|_| self.look.figure) {
+            let [columns, rows] = plot_area(title, design)?;
+            room = [room[0].min(columns), room[1].min(rows)];
+        }
+        Ok(room)
+    }
+
+    /// The values that a picture shows.
+    fn values(&self, shot: &Shot<'_>) -> anyhow::Result<Drawn> {
+        match &shot.scene {
+            Scene::Still(_) => self.engine.average(shot.job(), self.samples),
+            Scene::Moved(seen) => Ok(draw(seen, &shot.asked.quantity, &self.engine)?.0),
+        }
+    }
+
+    /// The range of these values.
+    fn span(&self, shot: &Shot<'_>, drawn: &Drawn, style: &Style) -> anyhow::Result<Span> {
+        match &shot.scene {
+            Scene::Still(_) => {
+                let job = shot.job();
+                Ok(self.engine.with_threads(|| range::found(drawn, job, style))??)
+            }
+            Scene::Moved(_) => Ok(range::of_pixels(drawn, style)),
+        }
+    }
+
+    /// The values in colours, with all that belongs to them.
+    fn sheet(
+        &self,
+        shot: &Shot<'_>,
+        drawn: &Drawn,
+        coloring: &Coloring,
+        design: &Design,
+    ) -> anyhow::Result<Sheet> {
+        let Shot { plate, asked, labels, scene } = shot;
+        let mut picture = coloring.picture(drawn)?;
+        let (layers, told) = match scene {
+            Scene::Still(_) => (self.over(plate, asked, drawn, &picture)?, String::new()),
+            Scene::Moved(seen) => {
+                let (figure, outline) = (self.look.figure, self.deformed.outline);
+                let layers = self.overlays.deformed_items(seen, figure, outline)?;
+                (layers, told_of(seen, drawn.overlap.len()))
+            }
+        };
         self.blank(&mut picture);
-        Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
+        let cracks = match scene {
+            Scene::Still(_) => plate.field.step.cracks.clone(),
+            Scene::Moved(seen) => seen.moved_cracks(),
+        };
+        let labels = labels.clone();
+        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
+        let page = self.page(panel, design)?;
+        let mut texts =
+            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
+        texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
+        texts.extend(asked.note().into_iter().chain(self.subject.replacements.notes()));
+        texts.extend(scene.note());
+        texts.extend(plate.notes());
+        Ok(Sheet { page, picture, texts, told })
+    }
+
+    /// What is drawn over the undeformed plate. Isolines are found from values at the pixels' centres.
+    fn over(
+        &self,
+        plate: &Plate<'_>,
+        asked: &Asked,
+        drawn: &Drawn,
+        picture: &Picture,
+    ) -> anyhow::Result<Vec<Item>> {
+        if self.samples == Samples::CENTER || !self.overlays.have_isolines() {
+            return self.layers(plate, asked, &drawn.values, picture);
+        }
+        let job = Job { field: plate.field, view: &drawn.view, quantity: &asked.quantity };
+        self.layers(plate, asked, &self.engine.draw(job)?.values, picture)
     }
 
     /// What is drawn over a picture.
@@ -184,22 +314,9 @@ impl Args {
     fn blank(&self, picture: &mut Picture) {
         if self.look.blank {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
-            pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
+            let seen = pixels.iter_mut().filter(|pixel| pixel[3] > 0);
+            seen.for_each(|pixel| pixel[..3].fill(255));
         }
-    }
-
-    /// Draws the plate moved by its displacements.
-    fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
-        let (drawn, _) = draw(seen, &asked.quantity, &self.engine)?;
-        drawn.warn(&asked.name);
-        let style = self.colours.style(&asked.quantity)?;
-        let mut picture = drawn.picture(&style, range::of_pixels(&drawn, &style))?;
-        let outline = self.deformed.outline;
-        let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
-        self.blank(&mut picture);
-        let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
-        let told = told_of(seen, drawn.overlap.len());
-        Ok(Sheet { picture, by: drawn.by, layers, told, notes })
     }
 
     /// The files that are read.
@@ -225,11 +342,45 @@ impl Args {
     }
 }
 
+impl Shot<'_> {
+    /// What is drawn of an undeformed plate.
+    fn job(&self) -> Job<'_> {
+        let view = match &self.scene {
+            Scene::Still(view) => view,
+            Scene::Moved(seen) => &seen.view,
+        };
+        Job { field: self.plate.field, view, quantity: &self.asked.quantity }
+    }
+}
+
+impl Coloring {
+    fn picture(&self, drawn: &Drawn) -> anyhow::Result<Picture> {
+        let mut picture = drawn.picture(&self.style, self.span.clone())?;
+        if let Some(ends) = self.ends {
+            [picture.has_below, picture.has_above] = ends;
+            picture.one_value = None;
+        }
+        Ok(picture)
+    }
+}
+
+impl Scene<'_> {
+    /// How it is deformed, as a note in the picture.
+    fn note(&self) -> Option<Text> {
+        let Self::Moved(seen) = self else { return None };
+        Some(("ppum:deformed".to_owned(), format!("{:?}", seen.factor())))
+    }
+}
+
 /// The factor, and at how many pixels the plate lies over itself.
 fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
     match overlaps {
-        0 => format!(", {}", words(seen)),
-        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
+        0 => format!(", {}", words(seen.factor())),
+        n => format!(
+            ", {}, over itself at {} (hatched)",
+            words(seen.factor()),
+            count(n, "pixel", "pixels")
+        ),
     }
 }
 

@@ -35,8 +35,8 @@ impl Args {
         let drawn = self.drawn(field, &view, &subjects)?;
         let mut pictures = self.pictures(field, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
-        let layers = layers
-            .map(|(asked, (drawn, picture))| self.layers(plate, asked, &drawn.values, picture));
+        let layers =
+            layers.map(|(asked, (drawn, picture))| self.over(plate, asked, drawn, picture));
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
         pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel = |((picture, labels), layers)| Panel {
@@ -59,6 +59,7 @@ impl Args {
         }
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.subject.replacements.notes());
+        texts.extend(plate.notes());
         let [columns, rows] = page.size;
         let colors = self.told(&Telling::new(plate.dataset, field), &subjects, &pictures);
         let told = format!("{names}, {columns}x{rows} pixels, {by}{colors}");
@@ -111,7 +112,9 @@ impl Args {
         subjects: &[Asked],
     ) -> anyhow::Result<Vec<Drawn>> {
         let draw = |subject: &Asked| {
-            let drawn = self.engine.draw(Job { field, view, quantity: &subject.quantity })?;
+            let drawn = self
+                .engine
+                .average(Job { field, view, quantity: &subject.quantity }, self.samples)?;
             drawn.warn(&subject.name);
             Ok(drawn)
         };
