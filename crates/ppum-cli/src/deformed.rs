@@ -11,7 +11,7 @@ use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_f
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::Drawn;
+use crate::drawing::{Drawn, Seen};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -48,9 +48,18 @@ impl FromStr for Factor {
 }
 
 impl Deformed {
-    /// True if the deformed plate is asked for.
-    pub(crate) fn is_given(&self) -> bool {
-        self.factor.is_some()
+    /// What is seen of the plate, undeformed unless the other is asked for.
+    pub(crate) fn seen<'f>(
+        &self,
+        field: &'f Field<'f>,
+        window: &Window,
+        frame: Frame,
+        engine: &Engine,
+    ) -> anyhow::Result<Seen<'f>> {
+        match self.of(&[field])? {
+            None => Ok(Seen::Plate(window.seen(field, frame)?)),
+            Some(deforming) => points(&deforming.view(field, window, frame)?, engine),
+        }
     }
 
     /// The factor, and the plane that pictures of all of these plates show, if they are asked for.
@@ -125,23 +134,23 @@ pub(crate) fn words(factor: f64) -> String {
     format!("deformed ×{}", trimmed(factor))
 }
 
-/// The values of a picture of the deformed plate, with the points of the plate that are seen.
-pub(crate) fn draw<'f>(
-    view: &DeformedView<'f>,
+/// The points of the deformed plate that are seen.
+pub(crate) fn points<'f>(view: &DeformedView<'f>, engine: &Engine) -> anyhow::Result<Seen<'f>> {
+    Ok(Seen::Moved(engine.on_processor(|| view.points(&Bar::new()))??))
+}
+
+/// The values of a picture of the deformed plate.
+pub(crate) fn draw(
+    points: &DeformedPoints<'_>,
     quantity: &Quantity,
     engine: &Engine,
-) -> anyhow::Result<(Drawn, DeformedPoints<'f>)> {
-    let (points, raster) = engine.on_processor(|| {
-        let points = view.points(&Bar::new())?;
-        let raster = points.raster(quantity, &Bar::new())?;
-        anyhow::Ok((points, raster))
-    })??;
-    let without = undefined(&points, &raster.values);
+) -> anyhow::Result<Drawn> {
+    let raster = engine.on_processor(|| points.raster(quantity, &Bar::new()))??;
+    let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
-    let (overlap, values) = (overlap.collect(), raster.values.into());
-    let drawn =
-        Drawn { view: view.view, values, by: "cpu f64".into(), without, overlap, opacity: None };
-    Ok((drawn, points))
+    let (view, overlap, by) = (points.view.view, overlap.collect(), "cpu f64".into());
+    let values = raster.values.into();
+    Ok(Drawn { view, values, by, without, overlap, opacity: None })
 }
 
 /// The pixels of the plate without a value.

@@ -92,10 +92,10 @@ mod tests {
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
-            ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
         &[
+            ("glyph", &["deform", "error", "parts", "view"]),
             ("range", &["extrema", "raster", "scale"]),
             ("samples", &["error", "raster", "scatter", "view"]),
         ],

@@ -6,7 +6,7 @@ mod series;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::ensure;
+use anyhow::bail;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_figure::canvas::{Canvas, Item};
@@ -20,8 +20,8 @@ use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::Engine;
-use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job, Values};
+use crate::deformed::{Deformed, Deforming, draw, points, words};
+use crate::drawing::{Drawn, Job, Seen};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
@@ -110,7 +110,7 @@ struct Shot<'a> {
     scene: Scene<'a>,
 }
 
-/// What is seen.
+/// What is to be seen.
 enum Scene<'a> {
     /// The plate as it was before it was loaded.
     Still(View),
@@ -131,22 +131,12 @@ struct Sheet {
     page: Canvas,
     picture: Picture,
     texts: Vec<Text>,
-    /// Behind the quantity's name, in messages: the view of the deformed plate in words.
-    told: String,
 }
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         self.engine.check()?;
         self.look.check(self.layout.is_some())?;
-        ensure!(
-            self.layout.is_none() || !self.deformed.is_given(),
-            "--layout and --deformed do not go together yet; draw the panels one by one"
-        );
-        ensure!(
-            self.samples == Samples::CENTER || !self.deformed.is_given(),
-            "--samples: the deformed plate is drawn at the pixels' centres; leave --samples or --deformed out"
-        );
         if self.series.is_given() {
             return self.all_steps(out);
         }
@@ -172,14 +162,17 @@ impl Args {
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
         let (shots, design) = self.shots(std::slice::from_ref(plate))?;
         let shot = &shots[0];
-        let drawn = self.values(shot)?;
-        drawn.warn(&shot.asked.name);
-        let style = self.colours.style(&shot.asked.quantity)?;
-        let span = self.span(shot, &drawn, &style)?;
+        let (field, asked) = (plate.field, &shot.asked);
+        let seen = self.seen(shot)?;
+        let drawn = self.drawn(field, &seen, asked)?;
+        warn(&asked.name, drawn.undefined());
+        let style = self.colours.style(&asked.quantity)?;
+        let span = self.span(field, &seen, asked, &drawn, &style)?;
         let coloring = Coloring { style, span, ends: None };
-        let Sheet { page, picture, texts, told } = self.sheet(shot, &drawn, &coloring, &design)?;
-        let [columns, rows] = page.size;
-        let (name, telling) = (&shot.asked.name, Telling::new(plate.dataset, plate.field));
+        let Sheet { page, picture, texts } =
+            self.sheet(shot, (&seen, &drawn), &coloring, &design)?;
+        let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
+        let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
         let (colors, by) = (telling.colors(&picture), drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
@@ -189,11 +182,11 @@ impl Args {
     fn shots<'a>(&self, plates: &'a [Plate<'a>]) -> anyhow::Result<(Vec<Shot<'a>>, Design)> {
         let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
         let deforming = self.deformed.of(&fields)?;
-        let moved = deforming.as_ref().map(|d| format!(" ({})", d.words())).unwrap_or_default();
+        let factor = deforming.as_ref().map(Deforming::words);
         let design = self.look.design(self.window.aspect(fields[0]));
         let words = |plate: &Plate<'_>| {
             let asked = self.subject.quantity(plate.field)?;
-            let title = format!("{}{moved}", plate.shown).trim_start().to_owned();
+            let title = titled(plate.shown.clone(), factor.as_deref());
             let labels = self.look.worded(asked.labels(title, plate.field));
             anyhow::Ok((asked, plate.filled(labels)))
         };
@@ -201,11 +194,10 @@ impl Args {
         let titles = words.iter().map(|(_, labels)| labels.title.as_str());
         let frame = self.frame(self.room(titles, &design)?);
         let shot = |(plate, (asked, labels)): (&'a Plate<'a>, (Asked, Labels))| {
+            let field = plate.field;
             let scene = match &deforming {
-                None => Scene::Still(self.window.seen(plate.field, frame)?),
-                Some(deforming) => {
-                    Scene::Moved(deforming.view(plate.field, &self.window, frame)?)
-                }
+                None => Scene::Still(self.window.seen(field, frame)?),
+                Some(deforming) => Scene::Moved(deforming.view(field, &self.window, frame)?),
             };
             Ok(Shot { plate, asked, labels, scene })
         };
@@ -227,22 +219,41 @@ impl Args {
         Ok(room)
     }
 
-    /// The values that a picture shows.
-    fn values(&self, shot: &Shot<'_>) -> anyhow::Result<Drawn> {
+    /// What is seen.
+    fn seen<'a>(&self, shot: &Shot<'a>) -> anyhow::Result<Seen<'a>> {
         match &shot.scene {
-            Scene::Still(_) => self.engine.average(shot.job(), self.samples),
-            Scene::Moved(seen) => Ok(draw(seen, &shot.asked.quantity, &self.engine)?.0),
+            Scene::Still(view) => Ok(Seen::Plate(*view)),
+            Scene::Moved(view) => points(view, &self.engine),
+        }
+    }
+
+    /// The values of a quantity where they are seen.
+    fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
+        let (quantity, samples) = (&asked.quantity, self.samples);
+        match seen {
+            Seen::Plate(view) => self.engine.average(Job { field, view, quantity }, samples),
+            Seen::Moved(_) if samples != Samples::CENTER => bail!(
+                "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
+            ),
+            Seen::Moved(points) => draw(points, quantity, &self.engine),
         }
     }
 
     /// The range of these values.
-    fn span(&self, shot: &Shot<'_>, drawn: &Drawn, style: &Style) -> anyhow::Result<Span> {
-        match &shot.scene {
-            Scene::Still(_) => {
-                let job = shot.job();
+    fn span(
+        &self,
+        field: &Field<'_>,
+        seen: &Seen<'_>,
+        asked: &Asked,
+        drawn: &Drawn,
+        style: &Style,
+    ) -> anyhow::Result<Span> {
+        match seen {
+            Seen::Plate(view) => {
+                let job = Job { field, view, quantity: &asked.quantity };
                 Ok(self.engine.with_threads(|| range::found(drawn, job, style))??)
             }
-            Scene::Moved(_) => Ok(range::of_pixels(drawn, style)),
+            Seen::Moved(_) => Ok(range::of_pixels(drawn, style)),
         }
     }
 
@@ -250,64 +261,56 @@ impl Args {
     fn sheet(
         &self,
         shot: &Shot<'_>,
-        drawn: &Drawn,
+        (seen, drawn): (&Seen<'_>, &Drawn),
         coloring: &Coloring,
         design: &Design,
     ) -> anyhow::Result<Sheet> {
-        let Shot { plate, asked, labels, scene } = shot;
+        let Shot { plate, asked, labels, .. } = shot;
         let mut picture = coloring.picture(drawn)?;
-        let (layers, told) = match scene {
-            Scene::Still(_) => (self.over(plate, asked, drawn, &picture)?, String::new()),
-            Scene::Moved(seen) => {
-                let (figure, outline) = (self.look.figure, self.deformed.outline);
-                let layers = self.overlays.deformed_items(seen, figure, outline)?;
-                (layers, told_of(seen, drawn.overlap.len()))
-            }
-        };
+        let layers = self.layers(plate, seen, asked, drawn, &picture)?;
         self.blank(&mut picture);
-        let cracks = match scene {
-            Scene::Still(_) => plate.field.step.cracks.clone(),
-            Scene::Moved(seen) => seen.moved_cracks(),
-        };
-        let labels = labels.clone();
-        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
-        let page = self.page(panel, design)?;
+        let (labels, cracks) = (labels.clone(), seen.cracks(plate.field));
+        let page =
+            self.page(Panel { picture: &picture, layers, labels, cracks: &cracks }, design)?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
         texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
-        texts.extend(asked.note().into_iter().chain(self.subject.replacements.notes()));
-        texts.extend(scene.note());
-        texts.extend(plate.notes());
-        Ok(Sheet { page, picture, texts, told })
-    }
-
-    /// What is drawn over the undeformed plate. Isolines are found from values at the pixels' centres.
-    fn over(
-        &self,
-        plate: &Plate<'_>,
-        asked: &Asked,
-        drawn: &Drawn,
-        picture: &Picture,
-    ) -> anyhow::Result<Vec<Item>> {
-        if self.samples == Samples::CENTER || !self.overlays.have_isolines() {
-            return self.layers(plate, asked, &drawn.values, picture);
-        }
-        let job = Job { field: plate.field, view: &drawn.view, quantity: &asked.quantity };
-        self.layers(plate, asked, &self.engine.draw(job)?.values, picture)
+        texts.extend(asked.note().into_iter().chain(self.notes(plate, seen)));
+        Ok(Sheet { page, picture, texts })
     }
 
     /// What is drawn over a picture.
     fn layers(
         &self,
         plate: &Plate<'_>,
+        seen: &Seen<'_>,
         asked: &Asked,
-        values: &Values,
+        drawn: &Drawn,
         picture: &Picture,
     ) -> anyhow::Result<Vec<Item>> {
         let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
         let is_figure = self.look.figure || self.layout.is_some();
+        let centers;
+        let values = if drawn.opacity.is_some() && self.overlays.have_isolines() {
+            // isolines are looked for between the pixels' centres
+            centers = self.engine.draw(Job { field, view: &drawn.view, quantity })?;
+            &centers.values
+        } else {
+            &drawn.values
+        };
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
-        self.engine.with_threads(|| self.overlays.items(ground))?
+        let outline = self.deformed.outline;
+        self.engine.with_threads(|| match seen {
+            Seen::Plate(_) => self.overlays.items(ground),
+            Seen::Moved(points) => self.overlays.deformed_items(ground, points, outline),
+        })?
+    }
+
+    /// What was done to the dataset and the plate, as texts of the picture.
+    fn notes(&self, plate: &Plate<'_>, seen: &Seen<'_>) -> impl Iterator<Item = Text> {
+        let factor = seen.moved().map(|points| format!("{:?}", points.view.factor()));
+        let deformed = factor.map(|factor| ("ppum:deformed".to_owned(), factor));
+        self.subject.replacements.notes().chain(deformed).chain(plate.notes())
     }
 
     /// Leaves out the colours if that is asked for: the plate is white.
@@ -342,14 +345,12 @@ impl Args {
     }
 }
 
-impl Shot<'_> {
-    /// What is drawn of an undeformed plate.
-    fn job(&self) -> Job<'_> {
-        let view = match &self.scene {
-            Scene::Still(view) => view,
-            Scene::Moved(seen) => &seen.view,
-        };
-        Job { field: self.plate.field, view, quantity: &self.asked.quantity }
+impl Scene<'_> {
+    fn view(&self) -> &View {
+        match self {
+            Self::Still(view) => view,
+            Self::Moved(seen) => &seen.view,
+        }
     }
 }
 
@@ -364,31 +365,30 @@ impl Coloring {
     }
 }
 
-impl Scene<'_> {
-    /// How it is deformed, as a note in the picture.
-    fn note(&self) -> Option<Text> {
-        let Self::Moved(seen) = self else { return None };
-        Some(("ppum:deformed".to_owned(), format!("{:?}", seen.factor())))
+/// Tells that a quantity has no value at some pixels of the plate, of so many.
+fn warn(name: &str, undefined: [usize; 2]) {
+    if undefined[0] > 0 {
+        tell(&format!("warning: {}", undefined::message(name, undefined, "pixels")));
     }
 }
 
-/// The factor, and at how many pixels the plate lies over itself.
-fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
-    match overlaps {
-        0 => format!(", {}", words(seen.factor())),
-        n => format!(
-            ", {}, over itself at {} (hatched)",
-            words(seen.factor()),
-            count(n, "pixel", "pixels")
-        ),
+/// The title of a figure, of the deformed plate with the factor in words.
+fn titled(title: String, factor: Option<&str>) -> String {
+    match factor {
+        Some(factor) => format!("{title} ({factor})").trim_start().to_owned(),
+        None => title,
     }
 }
 
-impl Drawn {
-    /// Tells that a quantity has no value at some pixels.
-    fn warn(&self, name: &str) {
-        if !self.without.is_empty() {
-            tell(&format!("warning: {}", undefined::message(name, self.undefined(), "pixels")));
+/// Of the deformed plate the factor, and at how many pixels it lies over itself.
+fn told(seen: &Seen<'_>, overlaps: usize) -> String {
+    let factor = seen.moved().map(|points| words(points.view.factor()));
+    match (factor, overlaps) {
+        (None, _) => String::new(),
+        (Some(factor), 0) => format!(", {factor}"),
+        (Some(factor), n) => {
+            let pixels = count(n, "pixel", "pixels");
+            format!(", {factor}, over itself at {pixels} (hatched)")
         }
     }
 }

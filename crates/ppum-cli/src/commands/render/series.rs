@@ -18,18 +18,17 @@ use ppum_render::png::Text;
 use ppum_render::range::{Basis, Span};
 use ppum_render::scale::Scale;
 
-use super::{Args, Coloring, Plate, Scene, Sheet, Shot};
+use super::{Args, Coloring, Plate, Scene, Sheet, Shot, warn};
 use crate::arguments::positive;
 use crate::dataset::{field, open};
 use crate::deformed::words;
-use crate::drawing::Drawn;
+use crate::drawing::{Drawn, Seen};
 use crate::number::count;
-use crate::output::{Output, tell};
+use crate::output::Output;
 use crate::page;
 use crate::progress;
 use crate::standard::is_standard;
 use crate::target;
-use crate::undefined;
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
@@ -280,13 +279,20 @@ impl<T> Kept<T> {
     }
 }
 
+/// Memory of what is kept of a step; a point of the deformed plate takes some 64 bytes.
+fn bytes(seen: &Seen<'_>, drawn: &Drawn) -> usize {
+    let [columns, rows] = drawn.view.pixels.map(|n| n as usize);
+    let points = seen.moved().map_or(0, |_| columns * rows * 64);
+    points + drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
+}
+
 /// The pictures of a series, once their values and their range are known.
 struct Film<'a> {
     args: &'a Args,
     shots: &'a [Shot<'a>],
     design: Design,
     coloring: Coloring,
-    drawn: Kept<Drawn>,
+    drawn: Kept<(Seen<'a>, Drawn)>,
     /// What drew the first one.
     by: String,
     bars: progress::Series,
@@ -302,16 +308,15 @@ impl<'a> Film<'a> {
         let mut by = None;
         for (part, shot) in shots.iter().enumerate() {
             bars.begin(part);
-            let values = args.values(shot)?;
-            found.add(args.span(shot, &values, &style)?, &values, style.scale);
+            let seen = args.seen(shot)?;
+            let values = args.drawn(shot.plate.field, &seen, &shot.asked)?;
+            let span = args.span(shot.plate.field, &seen, &shot.asked, &values, &style)?;
+            found.add(span, &values, style.scale);
             by.get_or_insert_with(|| values.by.clone());
-            let bytes = values.values.bytes();
-            drawn.push(values, bytes);
+            let bytes = bytes(&seen, &values);
+            drawn.push((seen, values), bytes);
         }
-        if found.undefined[0] > 0 {
-            let message = undefined::message(&first.name, found.undefined, "pixels");
-            tell(&format!("warning: {message}"));
-        }
+        warn(&first.name, found.undefined);
         let coloring = found.coloring(style);
         let by = by.unwrap_or_default();
         Ok(Self { args, shots, design, coloring, drawn, by, bars })
@@ -322,15 +327,17 @@ impl<'a> Film<'a> {
         self.bars.begin(part);
         let shot = &self.shots[part];
         let again;
-        let drawn = match &self.drawn.all[part] {
-            Some(drawn) => drawn,
+        let (seen, drawn) = match &self.drawn.all[part] {
+            Some(known) => known,
             None => {
-                again = self.args.values(shot)?;
+                let seen = self.args.seen(shot)?;
+                let drawn = self.args.drawn(shot.plate.field, &seen, &shot.asked)?;
+                again = (seen, drawn);
                 &again
             }
         };
         let _bar = progress::Bar::new();
-        self.args.sheet(shot, drawn, &self.coloring, &self.design)
+        self.args.sheet(shot, (seen, drawn), &self.coloring, &self.design)
     }
 
     /// The second pass.
@@ -424,7 +431,7 @@ impl<'a> Film<'a> {
         let is_own = |key: &str| match key {
             "ppum:step" | "ppum:load" => true,
             "ppum:view" => {
-                self.shots.iter().any(|shot| shot.job().view != self.shots[0].job().view)
+                self.shots.iter().any(|shot| shot.scene.view() != self.shots[0].scene.view())
             }
             _ => false,
         };
