@@ -279,10 +279,10 @@ impl<T> Kept<T> {
     }
 }
 
-/// Memory of what is kept of a step; a point of the deformed plate takes some 64 bytes.
+/// Memory of what is kept of a step; a point of the deformed plate takes some 32 bytes.
 fn bytes(seen: &Seen<'_>, drawn: &Drawn) -> usize {
     let [columns, rows] = drawn.view.pixels.map(|n| n as usize);
-    let points = seen.moved().map_or(0, |_| columns * rows * 64);
+    let points = seen.moved().map_or(0, |_| columns * rows * 32);
     points + drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
 }
 
