@@ -186,7 +186,9 @@ fn steps_are_chosen() {
 fn moving_pictures() {
     let lab = Lab::holding(&growing(5));
     let draw = |name: &str, more: &str| {
-        lab.run(&format!("render plate.h5 -o {name} --steps all -q uy --size 60x45 {more}"))
+        let steps = if more.contains("--steps") { "" } else { "--steps all" };
+        let size = if more.contains("--size") { "" } else { "--size 60x45" };
+        lab.run(&format!("render plate.h5 -o {name} -q uy {steps} {size} {more}"))
     };
     draw("a.png", "");
     let told = draw("a.apng", "--fps 10 --threads 1");
