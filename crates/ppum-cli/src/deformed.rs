@@ -11,7 +11,7 @@ use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_f
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::Drawn;
+use crate::drawing::{Drawn, Seen};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -48,13 +48,22 @@ impl FromStr for Factor {
 }
 
 impl Deformed {
-    /// True if the deformed plate is asked for.
-    pub(crate) fn is_given(&self) -> bool {
-        self.factor.is_some()
+    /// What is seen of the plate, undeformed unless the other is asked for.
+    pub(crate) fn seen<'f>(
+        &self,
+        field: &'f Field<'f>,
+        window: &Window,
+        frame: Frame,
+        engine: &Engine,
+    ) -> anyhow::Result<Seen<'f>> {
+        let Some(view) = self.view(field, window, frame)? else {
+            return Ok(Seen::Plate(window.seen(field, frame)?));
+        };
+        Ok(Seen::Moved(engine.on_processor(|| view.points(&Bar::new()))??))
     }
 
     /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
-    pub(crate) fn view<'f>(
+    fn view<'f>(
         &self,
         field: &'f Field<'f>,
         window: &Window,
@@ -104,22 +113,17 @@ pub(crate) fn words(view: &DeformedView<'_>) -> String {
     format!("deformed ×{}", trimmed(view.factor()))
 }
 
-/// The values of a picture of the deformed plate, with the points of the plate that are seen.
-pub(crate) fn draw<'f>(
-    view: &DeformedView<'f>,
+/// The values of a picture of the deformed plate.
+pub(crate) fn draw(
+    points: &DeformedPoints<'_>,
     quantity: &Quantity,
     engine: &Engine,
-) -> anyhow::Result<(Drawn, DeformedPoints<'f>)> {
-    let (points, raster) = engine.on_processor(|| {
-        let points = view.points(&Bar::new())?;
-        let raster = points.raster(quantity, &Bar::new())?;
-        anyhow::Ok((points, raster))
-    })??;
-    let without = undefined(&points, &raster.values);
+) -> anyhow::Result<Drawn> {
+    let raster = engine.on_processor(|| points.raster(quantity, &Bar::new()))??;
+    let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
-    let (overlap, values) = (overlap.collect(), raster.values.into());
-    let drawn = Drawn { view: view.view, values, by: "cpu f64".into(), without, overlap };
-    Ok((drawn, points))
+    let (view, overlap) = (points.view.view, overlap.collect());
+    Ok(Drawn { view, values: raster.values.into(), by: "cpu f64".into(), without, overlap })
 }
 
 /// The pixels of the plate without a value.

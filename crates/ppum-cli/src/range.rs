@@ -3,36 +3,50 @@
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::quantity::Quantity;
 use ppum::text::{Places, apart, beside, trimmed};
 use ppum::vec2::vec2;
 use ppum_render::RenderError;
 use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, Span};
+use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 
-use crate::drawing::{Drawn, Job, Values};
+use crate::drawing::{Drawn, Seen, Values};
 use crate::number::places;
 use crate::progress::Bar;
 
-/// The range of what was drawn, with the true extrema of its view unless it is given.
-pub(crate) fn found(drawn: &Drawn, job: Job<'_>, style: &Style) -> Result<Span, RenderError> {
-    let Job { field, view, quantity } = job;
-    let search = || match &drawn.values {
-        Values::Double(raster) => extrema(field, view, quantity, raster, &Bar::new()),
-        Values::Single(raster) => extrema(field, view, quantity, raster, &Bar::new()),
+/// The range of what was drawn; one that has to be found with the extrema of the view, which are the true ones of the plate as it was, and
+/// those of the pixels of the deformed one.
+pub(crate) fn found(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    drawn: &Drawn,
+    style: &Style,
+) -> Result<Span, RenderError> {
+    let extrema = match &drawn.values {
+        _ if !style.range.is_found() => None,
+        Values::Double(raster) => extrema_of(field, seen, quantity, raster)?,
+        Values::Single(raster) => extrema_of(field, seen, quantity, raster)?,
     };
-    let extrema = if style.range.is_found() { search()? } else { None };
     Ok(drawn.span(style, extrema))
 }
 
-/// The range of what was drawn, by its pixels.
-pub(crate) fn of_pixels(drawn: &Drawn, style: &Style) -> Span {
-    let values = match &drawn.values {
-        Values::Double(raster) => Extrema::of_pixels(raster, &drawn.view),
-        Values::Single(raster) => Extrema::of_pixels(raster, &drawn.view),
-    };
-    drawn.span(style, values.filter(|_| style.range.is_found()))
+fn extrema_of<T: Sample>(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    raster: &Raster<T>,
+) -> Result<Option<Extrema>, RenderError> {
+    let search = |view| extrema(field, view, quantity, raster, &Bar::new());
+    match seen {
+        Seen::Plate(view) => search(view),
+        // nothing has moved
+        Seen::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
+        Seen::Moved(points) => Ok(Extrema::of_pixels(raster, &points.view.view)),
+    }
 }
 
 /// What is known of places.

@@ -97,10 +97,12 @@ mod tests {
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
-            ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
-        &[("range", &["extrema", "raster", "scale"])],
+        &[
+            ("glyph", &["deform", "error", "parts", "view"]),
+            ("range", &["extrema", "raster", "scale"]),
+        ],
         &[(
             "picture",
             &["colormap", "extrema", "image", "png", "range", "raster", "scale", "view"],

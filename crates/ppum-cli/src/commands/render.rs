@@ -5,19 +5,18 @@ mod panels;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::ensure;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
-use ppum_render::deform::DeformedView;
-use ppum_render::picture::Picture;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
+use ppum_render::range::Span;
 
 use crate::arguments::size;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job, Values};
+use crate::drawing::{Drawn, Job, Seen, Values};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
@@ -87,25 +86,11 @@ struct Plate<'a> {
     shown: String,
 }
 
-/// A picture with what belongs to it.
-struct Sheet {
-    picture: Picture,
-    by: String,
-    layers: Vec<Item>,
-    /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
-    told: String,
-    notes: Vec<Text>,
-}
-
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
         self.look.check(self.layout.is_some())?;
-        ensure!(
-            self.layout.is_none() || !self.deformed.is_given(),
-            "--layout and --deformed do not go together yet; draw the panels one by one"
-        );
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
         let shown = self.subject.replacements.title(&dataset.title);
@@ -126,50 +111,60 @@ impl Args {
             if self.look.figure { plot_area(title, &design) } else { Ok(self.look.size()) }
         };
         let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
-        let seen = self.deformed.view(field, &self.window, frame)?;
-        if let Some(seen) = &seen {
-            labels.title = format!("{} ({})", labels.title, words(seen)).trim_start().to_owned();
-        }
+        let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
+        labels.title = titled(labels.title, &seen);
         let labels = self.look.worded(labels);
-        let sheet = match &seen {
-            None => self.undeformed(plate, &asked, frame)?,
-            Some(seen) => self.moved(seen, &asked)?,
-        };
-        let cracks =
-            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
-        let Sheet { picture, by, layers, told, notes } = sheet;
-        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
+        let drawn = self.drawn(field, &seen, &asked)?;
+        let style = self.colours.style(&asked.quantity)?;
+        let mut picture =
+            drawn.picture(&style, self.span(field, &seen, &asked, &drawn, &style)?)?;
+        let layers = self.layers(plate, &seen, &asked, &drawn.values, &picture)?;
+        self.blank(&mut picture);
+        let panel = Panel { picture: &picture, layers, labels, cracks: &seen.cracks(field) };
         let page = self.page(panel, &design)?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
-        texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts
-            .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
-        let [columns, rows] = page.size;
-        let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
-        let colors = telling.colors(&picture);
+        texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
+        texts.extend(asked.note().into_iter().chain(self.notes(&seen)));
+        let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
+        let colors = Telling::new(plate.dataset, field).colors(&picture);
+        let (name, by) = (&asked.name, drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// Draws the plate as it was before it was loaded.
-    fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
-        let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
-        let view = self.window.seen(field, frame)?;
-        let job = Job { field, view: &view, quantity: &asked.quantity };
-        let drawn = self.engine.draw(job)?;
-        drawn.warn(&asked.name);
-        let span = self.engine.with_threads(|| range::found(&drawn, job, &style))??;
-        let mut picture = drawn.picture(&style, span)?;
-        let layers = self.layers(plate, asked, &drawn.values, &picture)?;
-        self.blank(&mut picture);
-        Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
+    /// The values of a quantity where they are seen.
+    fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
+        let quantity = &asked.quantity;
+        let drawn = match seen {
+            Seen::Plate(view) => self.engine.draw(Job { field, view, quantity }),
+            Seen::Moved(points) => draw(points, quantity, &self.engine),
+        }?;
+        if !drawn.without.is_empty() {
+            let message = undefined::message(&asked.name, drawn.undefined(), "pixels");
+            tell(&format!("warning: {message}"));
+        }
+        Ok(drawn)
+    }
+
+    /// The range of a quantity's colours.
+    fn span(
+        &self,
+        field: &Field<'_>,
+        seen: &Seen<'_>,
+        asked: &Asked,
+        drawn: &Drawn,
+        style: &Style,
+    ) -> anyhow::Result<Span> {
+        let found = || range::found(field, seen, &asked.quantity, drawn, style);
+        Ok(self.engine.with_threads(found)??)
     }
 
     /// What is drawn over a picture.
     fn layers(
         &self,
         plate: &Plate<'_>,
+        seen: &Seen<'_>,
         asked: &Asked,
         values: &Values,
         picture: &Picture,
@@ -177,7 +172,18 @@ impl Args {
         let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
         let is_figure = self.look.figure || self.layout.is_some();
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
-        self.engine.with_threads(|| self.overlays.items(ground))?
+        let outline = self.deformed.outline;
+        self.engine.with_threads(|| match seen {
+            Seen::Plate(_) => self.overlays.items(ground),
+            Seen::Moved(points) => self.overlays.deformed_items(ground, points, outline),
+        })?
+    }
+
+    /// What was done to the dataset and the plate, as texts of the picture.
+    fn notes(&self, seen: &Seen<'_>) -> impl Iterator<Item = Text> {
+        let factor = seen.moved().map(|points| format!("{:?}", points.view.factor()));
+        let deformed = factor.map(|factor| ("ppum:deformed".to_owned(), factor));
+        self.subject.replacements.notes().chain(deformed)
     }
 
     /// Leaves out the colours if that is asked for: the plate is white.
@@ -186,20 +192,6 @@ impl Args {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
             pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
         }
-    }
-
-    /// Draws the plate moved by its displacements.
-    fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
-        let (drawn, _) = draw(seen, &asked.quantity, &self.engine)?;
-        drawn.warn(&asked.name);
-        let style = self.colours.style(&asked.quantity)?;
-        let mut picture = drawn.picture(&style, range::of_pixels(&drawn, &style))?;
-        let outline = self.deformed.outline;
-        let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
-        self.blank(&mut picture);
-        let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
-        let told = told_of(seen, drawn.overlap.len());
-        Ok(Sheet { picture, by: drawn.by, layers, told, notes })
     }
 
     /// The files that are read.
@@ -225,19 +217,22 @@ impl Args {
     }
 }
 
-/// The factor, and at how many pixels the plate lies over itself.
-fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
-    match overlaps {
-        0 => format!(", {}", words(seen)),
-        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
+/// The title of a figure, of the deformed plate with the factor.
+fn titled(title: String, seen: &Seen<'_>) -> String {
+    match seen.moved() {
+        Some(points) => format!("{title} ({})", words(&points.view)).trim_start().to_owned(),
+        None => title,
     }
 }
 
-impl Drawn {
-    /// Tells that a quantity has no value at some pixels.
-    fn warn(&self, name: &str) {
-        if !self.without.is_empty() {
-            tell(&format!("warning: {}", undefined::message(name, self.undefined(), "pixels")));
+/// Of the deformed plate the factor, and at how many pixels it lies over itself.
+fn told(seen: &Seen<'_>, overlaps: usize) -> String {
+    match (seen.moved(), overlaps) {
+        (None, _) => String::new(),
+        (Some(points), 0) => format!(", {}", words(&points.view)),
+        (Some(points), n) => {
+            let pixels = count(n, "pixel", "pixels");
+            format!(", {}, over itself at {pixels} (hatched)", words(&points.view))
         }
     }
 }

@@ -170,8 +170,6 @@ fn overlays_are_drawn_over_the_colours() {
     ] {
         lab.fail(&format!("render plate.h5 -o w.png {wrong}"));
     }
-    let complaint = lab.fail("render plate.h5 -o w.png --deformed auto --arrows");
-    assert!(complaint.contains("--arrows"), "{complaint}");
 }
 
 /// The isolines of a linear potential are straight, at the values asked for.

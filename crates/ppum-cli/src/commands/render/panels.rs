@@ -5,13 +5,12 @@ use ppum::field::Field;
 use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Span;
-use ppum_render::view::View;
 
-use super::{Args, Plate};
-use crate::drawing::{Drawn, Job};
+use super::{Args, Plate, titled, told};
+use crate::drawing::{Drawn, Seen};
 use crate::output::Output;
 use crate::page;
-use crate::range::{self, Telling};
+use crate::range::Telling;
 use crate::subject::Asked;
 
 impl Args {
@@ -25,28 +24,27 @@ impl Args {
         let (field, title) = (plate.field, plate.shown.clone());
         let grid = Grid { columns, rows, shared_bar: self.shared_range };
         let subjects = self.asked(field, grid)?;
-        let title = self.look.worded(Labels { title, ..Labels::default() }).title;
+        let worded = |title| self.look.worded(Labels { title, ..Labels::default() }).title;
         let labels: Vec<Labels> =
             subjects.iter().zip(0..).map(|(s, k)| self.words(s, k, field)).collect();
         let design = self.look.design(self.window.aspect(field));
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
-        let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
-        let view = self.window.seen(field, frame)?;
-        let drawn = self.drawn(field, &view, &subjects)?;
-        let mut pictures = self.pictures(field, &subjects, &drawn)?;
+        let frame = self.frame(panel_area(&worded(title.clone()), &captions, grid, &design)?);
+        let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
+        let drawn = subjects.iter().map(|subject| self.drawn(field, &seen, subject));
+        let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
+        let mut pictures = self.pictures(field, &seen, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
-        let layers = layers
-            .map(|(asked, (drawn, picture))| self.layers(plate, asked, &drawn.values, picture));
+        let layers = layers.map(|(asked, (drawn, picture))| {
+            self.layers(plate, &seen, asked, &drawn.values, picture)
+        });
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
+        let cracks = seen.cracks(field);
         pictures.iter_mut().for_each(|picture| self.blank(picture));
-        let panel = |((picture, labels), layers)| Panel {
-            picture,
-            layers,
-            labels,
-            cracks: &field.step.cracks,
-        };
+        let panel =
+            |((picture, labels), layers)| Panel { picture, layers, labels, cracks: &cracks };
         let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
-        let page = panels(&title, &all, grid, &design)?;
+        let page = panels(&worded(titled(title, &seen)), &all, grid, &design)?;
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
         let (names, picture, by) = (names.join(", "), &pictures[0], &drawn[0].by);
         let mut texts =
@@ -58,10 +56,11 @@ impl Args {
             texts.retain(|(key, _)| !is_own(key));
         }
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.subject.replacements.notes());
+        texts.extend(self.notes(&seen));
         let [columns, rows] = page.size;
-        let colors = self.told(&Telling::new(plate.dataset, field), &subjects, &pictures);
-        let told = format!("{names}, {columns}x{rows} pixels, {by}{colors}");
+        let told = told(&seen, drawn[0].overlap.len());
+        let colors = self.colors(&Telling::new(plate.dataset, field), &subjects, &pictures);
+        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}{colors}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
@@ -92,7 +91,7 @@ impl Args {
     }
 
     /// What the colours of each panel mean, in lines of their own; those of one range once.
-    fn told(&self, telling: &Telling<'_>, subjects: &[Asked], pictures: &[Picture]) -> String {
+    fn colors(&self, telling: &Telling<'_>, subjects: &[Asked], pictures: &[Picture]) -> String {
         let line = |(subject, picture): (&Asked, &Picture)| {
             format!("\n  {}: {}", subject.name, telling.colors(picture))
         };
@@ -103,37 +102,19 @@ impl Args {
         }
     }
 
-    /// The values of each panel.
-    fn drawn(
-        &self,
-        field: &Field<'_>,
-        view: &View,
-        subjects: &[Asked],
-    ) -> anyhow::Result<Vec<Drawn>> {
-        let draw = |subject: &Asked| {
-            let drawn = self.engine.draw(Job { field, view, quantity: &subject.quantity })?;
-            drawn.warn(&subject.name);
-            Ok(drawn)
-        };
-        subjects.iter().map(draw).collect()
-    }
-
     /// The values in colours, of one range for all if that is asked for.
     fn pictures(
         &self,
         field: &Field<'_>,
+        seen: &Seen<'_>,
         subjects: &[Asked],
         drawn: &[Drawn],
     ) -> anyhow::Result<Vec<Picture>> {
         let styles = subjects.iter().map(|subject| self.colours.style(&subject.quantity));
         let mut styles = styles.collect::<anyhow::Result<Vec<_>>>()?;
-        let all = || subjects.iter().zip(drawn).zip(&styles);
-        let span = |((subject, drawn), style): ((&Asked, &Drawn), &Style)| {
-            let job = Job { field, view: &drawn.view, quantity: &subject.quantity };
-            range::found(drawn, job, style)
-        };
-        let found = self.engine.with_threads(|| all().map(span).collect::<Result<Vec<_>, _>>())?;
-        let mut spans = found?;
+        let all = subjects.iter().zip(drawn).zip(&styles);
+        let spans = all.map(|((asked, drawn), style)| self.span(field, seen, asked, drawn, style));
+        let mut spans = spans.collect::<anyhow::Result<Vec<_>>>()?;
         if self.shared_range {
             let first = styles.first().context("there is a quantity")?.clone();
             let shared = Span::shared(&spans, first.colormap.diverging);
