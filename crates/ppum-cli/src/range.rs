@@ -3,35 +3,50 @@
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::quantity::Quantity;
 use ppum::text::{Places, apart, beside, trimmed};
+use ppum::vec2::vec2;
 use ppum_render::RenderError;
 use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, Span};
+use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 
-use crate::drawing::{Drawn, Job, Values};
+use crate::drawing::{Drawn, Seen, Values};
 use crate::number::places;
 use crate::progress::Bar;
 
-/// The range of what was drawn, with the true extrema of its view unless it is given.
-pub(crate) fn found(drawn: &Drawn, job: Job<'_>, style: &Style) -> Result<Span, RenderError> {
-    let Job { field, view, quantity } = job;
-    let search = || match &drawn.values {
-        Values::Double(raster) => extrema(field, view, quantity, raster, &Bar::new()),
-        Values::Single(raster) => extrema(field, view, quantity, raster, &Bar::new()),
+/// The range of what was drawn; one that has to be found with the extrema of the view, which are the true ones of the plate as it was, and
+/// those of the pixels of the deformed one.
+pub(crate) fn found(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    drawn: &Drawn,
+    style: &Style,
+) -> Result<Span, RenderError> {
+    let extrema = match &drawn.values {
+        _ if !style.range.is_found() => None,
+        Values::Double(raster) => extrema_of(field, seen, quantity, raster)?,
+        Values::Single(raster) => extrema_of(field, seen, quantity, raster)?,
     };
-    let extrema = if style.range.is_found() { search()? } else { None };
     Ok(drawn.span(style, extrema))
 }
 
-/// The range of what was drawn, by its pixels.
-pub(crate) fn of_pixels(drawn: &Drawn, style: &Style) -> Span {
-    let values = match &drawn.values {
-        Values::Double(raster) => Extrema::of_pixels(raster, &drawn.view),
-        Values::Single(raster) => Extrema::of_pixels(raster, &drawn.view),
-    };
-    drawn.span(style, values.filter(|_| style.range.is_found()))
+fn extrema_of<T: Sample>(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    raster: &Raster<T>,
+) -> Result<Option<Extrema>, RenderError> {
+    let search = |view| extrema(field, view, quantity, raster, &Bar::new());
+    match seen {
+        Seen::Plate(view) => search(view),
+        // nothing has moved
+        Seen::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
+        Seen::Moved(points) => Ok(Extrema::of_pixels(raster, &points.view.view)),
+    }
 }
 
 /// What is known of places.
@@ -74,9 +89,13 @@ impl<'a> Telling<'a> {
         let both = [&values.min, &values.max];
         let finite = both.map(|extremum| extremum.value).into_iter().filter(|v| v.is_finite());
         let size = finite.map(f64::abs).fold(0.0, f64::max);
-        let told = both.map(|extremum| {
-            format!("{} at {}", value(extremum.value, size), self.place(extremum, view))
-        });
+        let all_finite = both.iter().all(|extremum| extremum.value.is_finite());
+        let shown = match all_finite {
+            true => apart(beside(values.min.value, size), beside(values.max.value, size)),
+            false => both.map(|extremum| value(extremum.value, size)),
+        };
+        let place = |k: usize| format!("{} at {}", shown[k], self.place(both[k], view));
+        let told = [place(0), place(1)];
         let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
         format!("{whose} from {} to {}", told[0], told[1])
     }
@@ -87,14 +106,18 @@ impl<'a> Telling<'a> {
             // known exactly, and told by its number
             On::Singular(_) => self.places.show(view.center + extremum.offset),
             _ if view.width < DEEP * self.size => {
-                let [dx, dy] = [extremum.offset.x, extremum.offset.y].map(trimmed);
+                let offset = [extremum.offset.x, extremum.offset.y];
+                let [dx, dy] = offset.map(|v| trimmed(rounded(v, view.width)));
                 format!("{} + ({dx}, {dy})", self.places.show(view.center))
             }
-            _ => self.places.show(view.center + extremum.offset),
+            _ => {
+                let at = view.center + extremum.offset;
+                self.places.show(vec2(rounded(at.x, view.width), rounded(at.y, view.width)))
+            }
         };
         match extremum.on {
             On::Singular(kind) => format!("{} {at}", self.kind(kind)),
-            on => format!("{at}{}", words(on)),
+            on => [at].into_iter().chain(words(on)).collect::<Vec<_>>().join(" "),
         }
     }
 
@@ -133,13 +156,23 @@ pub(crate) fn value(value: f64, size: f64) -> String {
     }
 }
 
-/// What a place lies on, behind its coordinates.
-pub(crate) fn words(on: On) -> String {
+/// What a place lies on, if that is anything.
+pub(crate) fn words(on: On) -> Option<String> {
     match on {
-        On::Face(segment, side) => format!(", {} crack {}", side.name(), segment.crack),
-        On::Rim(hole) => format!(", on the rim of hole {hole}"),
-        On::Border => ", on the border".into(),
-        On::Interface => ", on an interface".into(),
-        On::Inside | On::Pixel | On::Singular(_) => String::new(),
+        On::Face(segment, side) => Some(format!("{} crack {}", side.name(), segment.crack)),
+        On::Rim(hole) => Some(format!("on the rim of hole {hole}")),
+        On::Border => Some("on the border".into()),
+        On::Interface => Some("on an interface".into()),
+        On::Inside | On::Pixel | On::Singular(_) => None,
     }
 }
+
+/// A coordinate with the digits that it is known to in a view of some width: an extremum's place is that of a flat top.
+fn rounded(x: f64, width: f64) -> f64 {
+    let step = 10f64.powi((KNOWN * width).log10().floor() as i32);
+    let rounded = (x / step).round() * step;
+    if rounded.is_finite() { rounded } else { x }
+}
+
+/// Part of a view that the place of an extremum is told to.
+const KNOWN: f64 = 1e-5;

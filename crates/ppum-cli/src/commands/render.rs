@@ -239,7 +239,7 @@ impl Args {
         }
     }
 
-    /// The range of these values.
+    /// The range of a quantity's colours.
     fn span(
         &self,
         field: &Field<'_>,
@@ -248,13 +248,8 @@ impl Args {
         drawn: &Drawn,
         style: &Style,
     ) -> anyhow::Result<Span> {
-        match seen {
-            Seen::Plate(view) => {
-                let job = Job { field, view, quantity: &asked.quantity };
-                Ok(self.engine.with_threads(|| range::found(drawn, job, style))??)
-            }
-            Seen::Moved(_) => Ok(range::of_pixels(drawn, style)),
-        }
+        let found = || range::found(field, seen, &asked.quantity, drawn, style);
+        Ok(self.engine.with_threads(found)??)
     }
 
     /// The values in colours, with all that belongs to them.

@@ -114,7 +114,8 @@ fn numbered_pictures_have_one_range() {
     let [b, c] = ["b-001.png", "c.png"].map(|name| Png::read(&lab.path(name)));
     assert_eq!((b.rgba, b.texts), (c.rgba, c.texts));
     // of no values at all
-    let (_, warning) = lab.warned("render plate.h5 -o d.png --steps all -q sqrt(-1-u^2) --size 9x9");
+    let (_, warning) =
+        lab.warned("render plate.h5 -o d.png --steps all -q sqrt(-1-u^2) --size 9x9");
     assert!(warning.contains("at all") && warning.lines().count() == 1, "{warning}");
 }
 

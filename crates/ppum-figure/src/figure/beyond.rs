@@ -1,7 +1,5 @@
 //! What a colour bar says of values beyond its ends: `to ∞`, `to 12.3`.
 
-use ppum::text::trimmed_to;
-
 use super::color_bar::Key;
 use super::ink::TICK_TEXT;
 use crate::text;
@@ -51,17 +49,26 @@ fn number(value: f64, ticks: &Ticks, digits: usize) -> (f64, String) {
     if value.is_infinite() {
         return (value, if value > 0.0 { "∞" } else { "−∞" }.to_owned());
     }
-    let text = trimmed_to(in_units(value, ticks), digits);
-    let rounded = text.parse().unwrap_or(value);
-    let written = match text.split_once('e') {
-        None => text,
-        Some((factor, power)) => match (factor, power.parse()) {
-            ("1", Ok(power)) => power_of_ten(power),
-            (_, Ok(power)) => format!("{factor}×{}", power_of_ten(power)),
-            _ => text,
-        },
+    let text = format!("{:.*e}", digits - 1, in_units(value, ticks));
+    let (factor, power) = text.split_once('e').unwrap_or((&text, "0"));
+    let (rounded, power) = (text.parse().unwrap_or(value), power.parse().unwrap_or(0));
+    let written = match (short(factor), power) {
+        (_, -3..=5) => {
+            let behind = (digits as i32 - 1 - power).max(0) as usize;
+            short(&format!("{rounded:.behind$}")).to_owned()
+        }
+        ("1", power) => power_of_ten(power),
+        (factor, power) => format!("{factor}×{}", power_of_ten(power)),
     };
     (rounded, written.replace('-', "−"))
+}
+
+/// A decimal number without zeros at its end.
+fn short(text: &str) -> &str {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
+    }
 }
 
 #[cfg(test)]

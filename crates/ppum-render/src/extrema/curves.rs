@@ -77,14 +77,14 @@ impl Curve {
         if let On::Face(_, side) = self.on { side } else { Side::Above }
     }
 
-    /// Number of samples: two a pixel.
+    /// Number of samples that it should have: one a pixel.
     pub(super) fn samples(&self, pixel: f64) -> usize {
         let length = match &self.shape {
             Shape::Straight([a, b]) => (*b - *a).length(),
             Shape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
             Shape::Bent(bent) => bent.length(),
         };
-        ((2.0 * length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
+        ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
     }
 }
 

@@ -3,7 +3,7 @@
 //! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the best pixels are where a search
 //! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
 //! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
-//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled twice a pixel
+//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel
 //! and refined. Peaks and valleys narrower than a pixel are not seen.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
@@ -38,7 +38,7 @@ pub use singular::{Singular, SingularKind};
 
 /// Pixels and samples of boundaries from which the search begins, at most, and how many of them before the rest is looked at again:
 /// the most promising ones first.
-const STARTS: usize = 64;
+const STARTS: usize = 32;
 const ROUND: usize = 8;
 
 /// Samples of boundaries, at most: one for so many pixels, or this number.
@@ -304,7 +304,10 @@ impl Search<'_, '_> {
         let is_hidden = |at| self.is_hidden(at);
         let mut climber = Climber { slope: self.slope, local, rect: self.rect, sign, is_hidden };
         let (value, offset) = climber.climb(start, self.view.pixel_size())?;
-        Some(Extremum { value, offset, on: On::Inside })
+        let Rect { min, max } = self.rect;
+        let is_end = |v: f64, [a, b]: [f64; 2]| v == a || v == b;
+        let on_border = is_end(offset.x, [min.x, max.x]) || is_end(offset.y, [min.y, max.y]);
+        Some(Extremum { value, offset, on: if on_border { On::Border } else { On::Inside } })
     }
 
     /// True next to a singular point.

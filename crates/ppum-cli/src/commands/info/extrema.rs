@@ -94,7 +94,7 @@ impl Row {
             _ => (None, None),
         };
         let on = extremum.on.name();
-        let words = words(extremum.on);
+        let words = words(extremum.on).map_or_else(String::new, |words| format!(", {words}"));
         Self { value: Number(extremum.value), at, on, index, side, words }
     }
 }

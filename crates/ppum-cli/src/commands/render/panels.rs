@@ -63,8 +63,8 @@ impl Args {
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.notes(plate, &seen));
         let [columns, rows] = page.size;
-        let colors = self.told(&Telling::new(plate.dataset, field), &subjects, &pictures);
         let told = told(&seen, drawn[0].overlap.len());
+        let colors = self.colors(&Telling::new(plate.dataset, field), &subjects, &pictures);
         let told = format!("{names}{told}, {columns}x{rows} pixels, {by}{colors}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
@@ -96,7 +96,7 @@ impl Args {
     }
 
     /// What the colours of each panel mean, in lines of their own; those of one range once.
-    fn told(&self, telling: &Telling<'_>, subjects: &[Asked], pictures: &[Picture]) -> String {
+    fn colors(&self, telling: &Telling<'_>, subjects: &[Asked], pictures: &[Picture]) -> String {
         let line = |(subject, picture): (&Asked, &Picture)| {
             format!("\n  {}: {}", subject.name, telling.colors(picture))
         };
@@ -117,11 +117,9 @@ impl Args {
     ) -> anyhow::Result<Vec<Picture>> {
         let styles = subjects.iter().map(|subject| self.colours.style(&subject.quantity));
         let mut styles = styles.collect::<anyhow::Result<Vec<_>>>()?;
-        let all = || subjects.iter().zip(drawn).zip(&styles);
-        let span = |((subject, drawn), style): ((&Asked, &Drawn), &Style)| {
-            self.span(field, seen, subject, drawn, style)
-        };
-        let mut spans = all().map(span).collect::<anyhow::Result<Vec<_>>>()?;
+        let all = subjects.iter().zip(drawn).zip(&styles);
+        let spans = all.map(|((asked, drawn), style)| self.span(field, seen, asked, drawn, style));
+        let mut spans = spans.collect::<anyhow::Result<Vec<_>>>()?;
         if self.shared_range {
             let first = styles.first().context("there is a quantity")?.clone();
             let shared = Span::shared(&spans, first.colormap.diverging);
