@@ -4,9 +4,10 @@ use ppum::crack::Crack;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_render::deform::DeformedPoints;
+use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::RangeError;
+use ppum_render::range::{RangeError, Span};
 use ppum_render::raster::{Raster, Statistics};
 use ppum_render::view::View;
 
@@ -79,11 +80,20 @@ impl Drawn {
         Self { view: *job.view, values, by: by.to_owned(), without, overlap: Vec::new() }
     }
 
-    /// Gives the values colours.
-    pub(crate) fn picture(&self, style: &Style) -> Result<Picture, RangeError> {
+    /// The range of the values, with the extrema of the view if these are known.
+    pub(crate) fn span(&self, style: &Style, values: Option<Extrema>) -> Span {
+        let Style { range, scale, colormap, .. } = style;
+        match &self.values {
+            Values::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
+            Values::Single(raster) => range.span(*scale, colormap.diverging, raster, values),
+        }
+    }
+
+    /// Gives the values colours of a range.
+    pub(crate) fn picture(&self, style: &Style, span: Span) -> Result<Picture, RangeError> {
         let mut picture = match &self.values {
-            Values::Double(raster) => Picture::bare(raster, &self.view, style),
-            Values::Single(raster) => Picture::bare(raster, &self.view, style),
+            Values::Double(raster) => Picture::spanning(raster, &self.view, style, span),
+            Values::Single(raster) => Picture::spanning(raster, &self.view, style, span),
         }?;
         picture.hatch(&self.without);
         hatch(&mut picture.image, &self.overlap);

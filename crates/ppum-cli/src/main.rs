@@ -23,6 +23,7 @@ mod page;
 mod panics;
 mod profile;
 mod progress;
+mod range;
 mod remedy;
 mod replacements;
 mod signals;
@@ -120,6 +121,7 @@ mod tests {
         &[
             ("dataset", &["given", "standard"]),
             ("graphics", &["drawing", "progress"]),
+            ("range", &["drawing", "number", "progress"]),
             ("overlays", &["arguments", "drawing", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
             (
@@ -152,6 +154,7 @@ mod tests {
                 "page",
                 "profile",
                 "progress",
+                "range",
                 "replacements",
                 "standard",
                 "subject",

@@ -125,8 +125,14 @@ fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
 pub(crate) struct Colors {
     #[arg(long, value_name = "NAME", help = colormaps())]
     colormap: Option<String>,
-    /// Values that the colours span; `auto` is robust against peaks at tips
-    #[arg(long, value_name = "A,B|auto", default_value = "auto", allow_hyphen_values = true)]
+    /// Values that the colours span: auto for all, but robust against peaks that are infinite; full; two values; two percentiles, or
+    /// one for both ends
+    #[arg(
+        long,
+        value_name = "auto|full|A,B|P%,Q%|P%",
+        default_value = "auto",
+        allow_hyphen_values = true
+    )]
     range: Range,
     /// How values spread over the colours: linear, log or symlog
     #[arg(long, default_value = "linear")]
@@ -177,11 +183,6 @@ impl Colors {
     /// The file of the colour map, if it is one.
     pub(crate) fn input(&self) -> Option<&Path> {
         self.colormap.as_deref().map(Path::new)
-    }
-
-    /// True if the range is found from the picture.
-    pub(crate) fn is_automatic(&self) -> bool {
-        self.range == Range::Auto
     }
 }
 

@@ -94,7 +94,6 @@ mod tests {
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
-            ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
@@ -102,8 +101,12 @@ mod tests {
         ],
         &[
             ("glyph", &["deform", "error", "parts", "view"]),
-            ("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"]),
+            ("range", &["extrema", "raster", "scale"]),
         ],
+        &[(
+            "picture",
+            &["colormap", "extrema", "image", "png", "range", "raster", "scale", "view"],
+        )],
     ];
 
     #[test]

@@ -4,9 +4,10 @@ use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
 use crate::colormap::{Colormap, ColormapError};
+use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
-use crate::range::{Range, RangeError};
+use crate::range::{Range, RangeError, Span};
 use crate::raster::{Raster, Sample};
 use crate::scale::{Normalization, Scale};
 use crate::view::View;
@@ -51,15 +52,17 @@ pub struct Picture {
     pub view: View,
     /// Position of a value among the colours, the range found.
     pub normalization: Normalization,
+    /// The range, how it came about, and what is known of the values.
+    pub span: Span,
     /// The colours.
     pub colormap: Colormap,
     /// The one value that is seen, if there is no other but for rounding.
     pub one_value: Option<f64>,
     /// True if some value is finite.
     pub has_values: bool,
-    /// True if some value lies below the range.
+    /// True if some value lies below the range, at a pixel or not.
     pub has_below: bool,
-    /// True if some value lies above the range; an infinite one always does.
+    /// True if some value lies above the range, at a pixel or not; an infinite one always does.
     pub has_above: bool,
 }
 
@@ -73,7 +76,8 @@ const HATCHED: Rgba = [196, 196, 200, 255];
 const HATCH_STEP: u32 = 6;
 
 impl Picture {
-    /// The bare picture of a raster: one pixel a value, nothing else.
+    /// The bare picture of a raster: one pixel a value, nothing else. A range that is found is found from the pixels alone;
+    /// [`spanning`](Self::spanning) takes one that knows the extrema between them.
     ///
     /// # Errors
     /// A fixed range that does not fit the scale.
@@ -85,9 +89,28 @@ impl Picture {
         view: &View,
         style: &Style,
     ) -> Result<Self, RangeError> {
+        let values = style.range.is_found().then(|| Extrema::of_pixels(raster, view)).flatten();
+        let Style { colormap, scale, range, .. } = style;
+        let span = range.span(*scale, colormap.diverging, raster, values);
+        Self::spanning(raster, view, style, span)
+    }
+
+    /// The bare picture of a raster with a range that was found for it, or for others too.
+    ///
+    /// # Errors
+    /// A range that does not fit the scale.
+    ///
+    /// # Panics
+    /// If the raster does not have the view's size.
+    pub fn spanning<T: Sample>(
+        raster: &Raster<T>,
+        view: &View,
+        style: &Style,
+        span: Span,
+    ) -> Result<Self, RangeError> {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
-        let Style { colormap, scale, range, undefined } = style;
-        let norm = range.normalization(*scale, colormap.diverging, raster)?;
+        let Style { colormap, scale, undefined, .. } = style;
+        let norm = span.normalization(*scale)?;
         let shades = Shades {
             palette: colormap.palette(PALETTE),
             jumping: colormap.has_jumps().then_some(colormap),
@@ -100,11 +123,14 @@ impl Picture {
         let columns = raster.size[0].max(1) as usize;
         let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
         let found = rows.map(|(pixels, values)| shades.paint(values, pixels.as_chunks_mut().0));
-        let (has_below, has_above) = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        let seen = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        let between = span.beyond().map(|value| value.is_some());
+        let (has_below, has_above) = (seen.0 | between[0], seen.1 | between[1]);
         Ok(Self {
             image: Image { size: raster.size, rgba },
             view: *view,
             normalization: norm,
+            span,
             colormap: colormap.clone(),
             one_value: raster.one_value(),
             has_values: raster.values.iter().any(|&v| v.into().is_finite()),
@@ -128,7 +154,8 @@ impl Picture {
 
     /// A description of the picture, for the texts of its file: `Title`, `Software` and `Description`, then
     /// under `ppum:` the dataset, quantity, view (centre, width, pixels: enough to draw it again to
-    /// the last bit), meaning of a pixel, range, scale and colour map.
+    /// the last bit), meaning of a pixel, range, scale and colour map; how the range came about, and the extrema
+    /// if they were looked for.
     #[must_use]
     pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<Text> {
         let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;
@@ -147,7 +174,10 @@ impl Picture {
             ("ppum:scale", norm.scale().to_string()),
             ("ppum:colormap", self.colormap.name.clone()),
         ];
-        entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
+        let known = self.span.values.as_ref().map(|values| ("ppum:extrema", values.to_string()));
+        let basis = ("ppum:range-basis", self.span.basis.to_string());
+        let entries = entries.into_iter().chain([basis]).chain(known);
+        entries.map(|(key, text)| (key.to_owned(), text)).collect()
     }
 }
 

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
-use ppum_render::picture::Picture;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
+use ppum_render::range::Span;
 
 use crate::arguments::size;
 use crate::backend::Engine;
@@ -21,6 +21,7 @@ use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
 use crate::page;
+use crate::range::{self, Telling};
 use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
@@ -114,7 +115,9 @@ impl Args {
         labels.title = titled(labels.title, &seen);
         let labels = self.look.worded(labels);
         let drawn = self.drawn(field, &seen, &asked)?;
-        let mut picture = drawn.picture(&self.colours.style(&asked.quantity)?)?;
+        let style = self.colours.style(&asked.quantity)?;
+        let mut picture =
+            drawn.picture(&style, self.span(field, &seen, &asked, &drawn, &style)?)?;
         let layers = self.layers(plate, &seen, &asked, &drawn.values, &picture)?;
         self.blank(&mut picture);
         let panel = Panel { picture: &picture, layers, labels, cracks: &seen.cracks(field) };
@@ -124,7 +127,8 @@ impl Args {
         texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
         texts.extend(asked.note().into_iter().chain(self.notes(&seen)));
         let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
-        let (name, colors, by) = (&asked.name, colours(&picture), drawn.by);
+        let colors = Telling::new(plate.dataset, field).colors(&picture);
+        let (name, by) = (&asked.name, drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
@@ -141,6 +145,19 @@ impl Args {
             tell(&format!("warning: {message}"));
         }
         Ok(drawn)
+    }
+
+    /// The range of a quantity's colours.
+    fn span(
+        &self,
+        field: &Field<'_>,
+        seen: &Seen<'_>,
+        asked: &Asked,
+        drawn: &Drawn,
+        style: &Style,
+    ) -> anyhow::Result<Span> {
+        let found = || range::found(field, seen, &asked.quantity, drawn, style);
+        Ok(self.engine.with_threads(found)??)
     }
 
     /// What is drawn over a picture.
@@ -216,19 +233,6 @@ fn told(seen: &Seen<'_>, overlaps: usize) -> String {
         (Some(points), n) => {
             let pixels = count(n, "pixel", "pixels");
             format!(", {}, over itself at {pixels} (hatched)", words(&points.view))
-        }
-    }
-}
-
-/// The meaning of the colours.
-fn colours(picture: &Picture) -> String {
-    let norm = &picture.normalization;
-    match picture.one_value {
-        _ if !picture.has_values => "no finite values".into(),
-        Some(value) => format!("one value, {}", trimmed(value)),
-        None => {
-            let [from, to] = apart(norm.min(), norm.max());
-            format!("colours from {from} to {to}")
         }
     }
 }

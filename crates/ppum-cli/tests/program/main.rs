@@ -20,6 +20,7 @@ mod parts;
 mod plots;
 mod printable;
 mod probe;
+mod ranges;
 mod readme;
 mod render;
 mod replacements;

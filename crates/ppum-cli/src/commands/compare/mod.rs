@@ -11,12 +11,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use clap::ValueEnum;
 use ppum_figure::figure::{Design, plot_area};
+use ppum_render::picture::Picture;
 use ppum_render::png;
 use ppum_render::resample::Interpolation;
 
 use crate::arguments::{page, positive, size};
 use crate::number::json;
 use crate::output::{Output, tell};
+use crate::range::Telling;
 use crate::standard::is_standard;
 use crate::subject::{Colors, Subject};
 use crate::window::{Frame, Window};
@@ -132,27 +134,29 @@ impl Args {
         let job = measure::Job { field: &field, view, quantity, args: self };
         let found = threads::with(self.threads, || measure(job))??;
         let report = Report::new(&self.subject.file_name(), name, &view, &found);
+        let mut colors = String::new();
         if let Some(path) = &self.output {
             let title = self.subject.replacements.title(&dataset.title);
             let labels = asked.labels(title, &field);
-            let bytes =
-                self.picture(&found, sheet::Look { field: &field, view, style, labels }, name)?;
+            let look = sheet::Look { field: &field, view, style, quantity, labels };
+            let (bytes, direct) = self.picture(&found, look, name)?;
             if is_standard(path) {
                 out.exact().write_all(&bytes)?;
             } else {
                 target::save(path, |out| out.write_all(&bytes))?;
             }
+            colors = format!("direct: {}\n", Telling::new(&dataset, &field).colors(&direct));
         }
-        self.tell(&report, out)
+        self.tell(&report, &colors, out)
     }
 
-    /// The figure as a file.
+    /// The figure as a file, and the direct picture in it.
     fn picture(
         &self,
         found: &Measurements,
         look: sheet::Look<'_>,
         name: &str,
-    ) -> anyhow::Result<Vec<u8>> {
+    ) -> anyhow::Result<(Vec<u8>, Picture)> {
         let (dataset, title) = (self.subject.file_name(), look.labels.title.clone());
         let (page, direct) = look.sheet(found, self.size)?;
         let mut texts = direct.description(&title, &dataset, name);
@@ -163,17 +167,22 @@ impl Args {
         }
         let methods = found.resampled.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
         texts.extend(methods.chain(self.subject.replacements.notes()));
-        png::encode(&page.image(), &texts).context("cannot encode the picture")
+        Ok((png::encode(&page.image(), &texts).context("cannot encode the picture")?, direct))
     }
 
-    /// Numbers on standard output, unless the picture goes there.
-    fn tell(&self, report: &Report, out: &mut Output) -> anyhow::Result<()> {
+    /// Numbers on standard output, unless the picture goes there, and what the colours of the direct picture mean.
+    fn tell(&self, report: &Report, colors: &str, out: &mut Output) -> anyhow::Result<()> {
         if self.json {
             return Ok(json(out, report)?);
         }
         match &self.output {
-            Some(path) if is_standard(path) => table(report).lines().for_each(tell),
-            Some(path) => writeln!(out, "wrote {}\n{}", path.display(), table(report).trim_end())?,
+            Some(path) if is_standard(path) => {
+                colors.lines().chain(table(report).lines()).for_each(tell);
+            }
+            Some(path) => {
+                let table = table(report);
+                writeln!(out, "wrote {}\n{colors}{}", path.display(), table.trim_end())?;
+            }
             None => write!(out, "{}", table(report))?,
         }
         Ok(())

@@ -1,9 +1,11 @@
 //! The figure of a comparison.
 
 use ppum::field::Field;
+use ppum::quantity::Quantity;
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{Design, Labels, Panel, figure};
 use ppum_figure::overlay;
+use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
@@ -12,12 +14,14 @@ use ppum_render::scale::Scale;
 use ppum_render::view::View;
 
 use super::measure::Measurements;
+use crate::progress::Bar;
 
 /// The look of the panels.
 pub(super) struct Look<'a> {
     pub(super) field: &'a Field<'a>,
     pub(super) view: View,
     pub(super) style: Style,
+    pub(super) quantity: &'a Quantity,
     /// Those of the direct picture.
     pub(super) labels: Labels,
 }
@@ -30,16 +34,18 @@ impl Look<'_> {
         found: &Measurements,
         size: [u32; 2],
     ) -> anyhow::Result<(Canvas, Picture)> {
-        let direct = Picture::bare(&found.direct, &self.view, &self.style)?;
+        let direct = self.direct(&found.direct)?;
         let norm = &direct.normalization;
         let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..self.style.clone() };
-        let mut first = vec![self.panel(&found.direct, &self.style, "direct", size)?];
+        let mut first = vec![self.panel(&direct, "direct", size)?];
         let mut second = vec![Canvas::new([0, 0], [0; 4])];
         for one in &found.resampled {
-            first.push(self.panel(&one.raster, &fixed, &one.name(), size)?);
+            let resampled = Picture::bare(&one.raster, &self.view, &fixed)?;
+            first.push(self.panel(&resampled, &one.name(), size)?);
             let apart = difference(&found.direct, &one.raster);
             let title = format!("{} − direct", one.name());
-            second.push(self.panel(&apart, &signed()?, &title, size)?);
+            let apart = Picture::bare(&apart, &self.view, &signed()?)?;
+            second.push(self.panel(&apart, &title, size)?);
         }
         let rows = match found.resampled.len() {
             1 => vec![first.into_iter().chain(second.into_iter().skip(1)).collect()],
@@ -48,19 +54,23 @@ impl Look<'_> {
         Ok((side_by_side(&rows, size), direct))
     }
 
-    fn panel(
-        &self,
-        raster: &Raster,
-        style: &Style,
-        title: &str,
-        size: [u32; 2],
-    ) -> anyhow::Result<Canvas> {
-        let picture = Picture::bare(raster, &self.view, style)?;
+    /// The direct picture; its range knows the true extrema.
+    fn direct(&self, raster: &Raster) -> anyhow::Result<Picture> {
+        let Self { field, view, style, quantity, .. } = self;
+        let values = match style.range.is_found() {
+            true => extrema(field, view, quantity, raster, &Bar::new())?,
+            false => None,
+        };
+        let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
+        Ok(Picture::spanning(raster, view, style, span)?)
+    }
+
+    fn panel(&self, picture: &Picture, title: &str, size: [u32; 2]) -> anyhow::Result<Canvas> {
         let labels = Labels { title: title.to_owned(), ..self.labels.clone() };
         let cracks = &self.field.step.cracks;
         let rims = overlay::rims(&self.view, &self.field.domain.holes);
         let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
-        let panel = Panel { picture: &picture, layers, labels, cracks };
+        let panel = Panel { picture, layers, labels, cracks };
         Ok(figure(panel, &Design::pixels(size))?)
     }
 }

@@ -3,13 +3,14 @@
 use anyhow::{Context as _, ensure};
 use ppum::field::Field;
 use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
-use ppum_render::picture::Picture;
-use ppum_render::range::Range;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::Span;
 
 use super::{Args, Plate, titled, told};
-use crate::drawing::Drawn;
+use crate::drawing::{Drawn, Seen};
 use crate::output::Output;
 use crate::page;
+use crate::range::Telling;
 use crate::subject::Asked;
 
 impl Args {
@@ -32,7 +33,7 @@ impl Args {
         let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
         let drawn = subjects.iter().map(|subject| self.drawn(field, &seen, subject));
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
-        let mut pictures = self.pictures(&subjects, &drawn)?;
+        let mut pictures = self.pictures(field, &seen, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
         let layers = layers.map(|(asked, (drawn, picture))| {
             self.layers(plate, &seen, asked, &drawn.values, picture)
@@ -50,13 +51,16 @@ impl Args {
             picture.description(&plate.dataset.title, &self.subject.file_name(), &names);
         if !self.shared_range {
             // each panel has its own, on its bar
-            texts.retain(|(key, _)| key != "ppum:range");
+            let is_own =
+                |key: &str| ["ppum:range", "ppum:range-basis", "ppum:extrema"].contains(&key);
+            texts.retain(|(key, _)| !is_own(key));
         }
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.notes(&seen));
         let [columns, rows] = page.size;
         let told = told(&seen, drawn[0].overlap.len());
-        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}");
+        let colors = self.colors(&Telling::new(plate.dataset, field), &subjects, &pictures);
+        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}{colors}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
@@ -86,23 +90,38 @@ impl Args {
         labels
     }
 
-    /// The values in colours, of one range for all if that is asked for.
-    fn pictures(&self, subjects: &[Asked], drawn: &[Drawn]) -> anyhow::Result<Vec<Picture>> {
-        let own = |(subject, drawn): (&Asked, &Drawn)| {
-            Ok(drawn.picture(&self.colours.style(&subject.quantity)?)?)
+    /// What the colours of each panel mean, in lines of their own; those of one range once.
+    fn colors(&self, telling: &Telling<'_>, subjects: &[Asked], pictures: &[Picture]) -> String {
+        let line = |(subject, picture): (&Asked, &Picture)| {
+            format!("\n  {}: {}", subject.name, telling.colors(picture))
         };
-        let own = subjects.iter().zip(drawn).map(own).collect::<anyhow::Result<Vec<_>>>()?;
-        if !self.shared_range {
-            return Ok(own);
+        let all = subjects.iter().zip(pictures).map(line);
+        match pictures.first() {
+            Some(first) if self.shared_range => format!("\n  {}", telling.colors(first)),
+            _ => all.collect(),
         }
-        let subject = subjects.first().context("there is a quantity")?;
-        let mut style = self.colours.style(&subject.quantity)?;
-        if self.colours.is_automatic() {
-            let norms = || own.iter().map(|picture| &picture.normalization);
-            let min = norms().map(|norm| norm.min()).fold(f64::INFINITY, f64::min);
-            let max = norms().map(|norm| norm.max()).fold(f64::NEG_INFINITY, f64::max);
-            style.range = Range::Fixed(min, max);
+    }
+
+    /// The values in colours, of one range for all if that is asked for.
+    fn pictures(
+        &self,
+        field: &Field<'_>,
+        seen: &Seen<'_>,
+        subjects: &[Asked],
+        drawn: &[Drawn],
+    ) -> anyhow::Result<Vec<Picture>> {
+        let styles = subjects.iter().map(|subject| self.colours.style(&subject.quantity));
+        let mut styles = styles.collect::<anyhow::Result<Vec<_>>>()?;
+        let all = subjects.iter().zip(drawn).zip(&styles);
+        let spans = all.map(|((asked, drawn), style)| self.span(field, seen, asked, drawn, style));
+        let mut spans = spans.collect::<anyhow::Result<Vec<_>>>()?;
+        if self.shared_range {
+            let first = styles.first().context("there is a quantity")?.clone();
+            let shared = Span::shared(&spans, first.colormap.diverging);
+            spans.fill(shared.context("there is a range")?);
+            styles.fill(first);
         }
-        Ok(drawn.iter().map(|drawn| drawn.picture(&style)).collect::<Result<_, _>>()?)
+        let picture = |(drawn, (style, span)): (&Drawn, (&Style, Span))| drawn.picture(style, span);
+        Ok(drawn.iter().zip(styles.iter().zip(spans)).map(picture).collect::<Result<_, _>>()?)
     }
 }
