@@ -262,6 +262,11 @@ impl Overlays {
         Ok(items)
     }
 
+    /// True if isolines are asked for.
+    pub(crate) fn have_isolines(&self) -> bool {
+        self.isolines.is_some()
+    }
+
     /// Room around the plate for what stands outside of it, in parts of the plate's larger side.
     pub(crate) fn margin(&self) -> f64 {
         if self.have_stations() { MARGIN } else { 0.0 }
