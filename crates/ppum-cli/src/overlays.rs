@@ -183,7 +183,7 @@ impl Overlays {
         points: &DeformedPoints<'_>,
     ) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
-        let Some(view) = points.material_view()? else { return Ok(Vec::new()) };
+        let Some(view) = points.material_view() else { return Ok(Vec::new()) };
         let Ground { field, quantity, .. } = ground;
         let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
