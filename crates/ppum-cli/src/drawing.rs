@@ -8,7 +8,8 @@ use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{RangeError, Span};
-use ppum_render::raster::{Raster, Statistics};
+use ppum_render::raster::{Raster, Sample, Statistics};
+use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 
 /// What is seen of a plate: as it was, or deformed.
@@ -49,6 +50,8 @@ pub(crate) struct Drawn {
     pub(crate) without: Vec<u32>,
     /// The pixels where the deformed plate lies over itself.
     pub(crate) overlap: Vec<u32>,
+    /// Of values that are means, of so many samples a pixel: how much of each pixel is plate.
+    pub(crate) opacity: Option<(Samples, Vec<u8>)>,
 }
 
 /// Values in the precision that they were computed in.
@@ -69,6 +72,44 @@ impl From<Raster<f32>> for Values {
     }
 }
 
+impl Values {
+    pub(crate) fn statistics(&self) -> Statistics {
+        match self {
+            Self::Double(raster) => raster.statistics(),
+            Self::Single(raster) => raster.statistics(),
+        }
+    }
+
+    /// The value that all pixels have, if there is no other.
+    pub(crate) fn one_value(&self) -> Option<f64> {
+        match self {
+            Self::Double(raster) => raster.one_value(),
+            Self::Single(raster) => raster.one_value(),
+        }
+    }
+
+    /// The smallest and the largest value, which may be infinite.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        fn of<T: Sample>(raster: &Raster<T>) -> [f64; 2] {
+            let start = [f64::INFINITY, f64::NEG_INFINITY];
+            let values = raster.values.iter().map(|&value| value.into());
+            values.fold(start, |[min, max], value: f64| [min.min(value), max.max(value)])
+        }
+        match self {
+            Self::Double(raster) => of(raster),
+            Self::Single(raster) => of(raster),
+        }
+    }
+
+    /// Memory that they take \[bytes\].
+    pub(crate) fn bytes(&self) -> usize {
+        match self {
+            Self::Double(raster) => size_of_val(raster.values.as_slice()),
+            Self::Single(raster) => size_of_val(raster.values.as_slice()),
+        }
+    }
+}
+
 impl Drawn {
     /// The values of an undeformed plate.
     pub(crate) fn new(values: impl Into<Values>, job: Job<'_>, by: &str) -> Self {
@@ -77,7 +118,18 @@ impl Drawn {
             Values::Double(raster) => raster.undefined(domain, job.view),
             Values::Single(raster) => raster.undefined(domain, job.view),
         };
-        Self { view: *job.view, values, by: by.to_owned(), without, overlap: Vec::new() }
+        let (by, overlap) = (by.to_owned(), Vec::new());
+        Self { view: *job.view, values, by, without, overlap, opacity: None }
+    }
+
+    /// The means of samples of an undeformed plate.
+    pub(crate) fn averaged<T: Sample>(means: Means<T>, job: Job<'_>, by: &str) -> Self
+    where
+        Values: From<Raster<T>>,
+    {
+        let (without, opacity) = (means.undefined(), Some((means.samples, means.opacity())));
+        let (values, by) = (means.raster.into(), by.to_owned());
+        Self { view: *job.view, values, by, without, overlap: Vec::new(), opacity }
     }
 
     /// The range of the values, with the extrema of the view if these are known.
@@ -97,15 +149,15 @@ impl Drawn {
         }?;
         picture.hatch(&self.without);
         hatch(&mut picture.image, &self.overlap);
+        if let Some((samples, opacity)) = &self.opacity {
+            picture.fade(*samples, opacity);
+        }
         Ok(picture)
     }
 
     /// The number of pixels of the plate without a value, and of all of them.
     pub(crate) fn undefined(&self) -> [usize; 2] {
-        let Statistics { finite, infinite, .. } = match &self.values {
-            Values::Double(raster) => raster.statistics(),
-            Values::Single(raster) => raster.statistics(),
-        };
+        let Statistics { finite, infinite, .. } = self.values.statistics();
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }

@@ -183,7 +183,7 @@ impl Overlays {
         points: &DeformedPoints<'_>,
     ) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
-        let Some(view) = points.material_view()? else { return Ok(Vec::new()) };
+        let Some(view) = points.material_view() else { return Ok(Vec::new()) };
         let Ground { field, quantity, .. } = ground;
         let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
@@ -260,6 +260,11 @@ impl Overlays {
         }
         items.extend(overlay::legend(&view.view, &legend));
         Ok(items)
+    }
+
+    /// True if isolines are asked for.
+    pub(crate) fn have_isolines(&self) -> bool {
+        self.isolines.is_some()
     }
 
     /// Room around the plate for what stands outside of it, in parts of the plate's larger side.

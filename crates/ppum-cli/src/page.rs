@@ -57,19 +57,29 @@ pub(crate) fn save(
 ) -> anyhow::Result<()> {
     let form = Form::of(path);
     warn_of_missing(page, form);
-    let bytes = form.bytes(page, dpi, texts)?;
     if is_standard(path) {
-        out.exact().write_all(&bytes)?;
+        out.exact().write_all(&form.bytes(page, dpi, texts)?)?;
         tell(&format!("wrote standard output: {told}"));
     } else {
-        target::save(path, |out| out.write_all(&bytes))?;
+        write(path, page, dpi, texts)?;
         writeln!(out, "wrote {}: {told}", path.display())?;
     }
     Ok(())
 }
 
+/// Writes a page to a file and tells nothing.
+pub(crate) fn write(
+    path: &Path,
+    page: &Canvas,
+    dpi: Option<f64>,
+    texts: &[Text],
+) -> anyhow::Result<()> {
+    let bytes = Form::of(path).bytes(page, dpi, texts)?;
+    target::save(path, |out| out.write_all(&bytes))
+}
+
 /// Tells which characters the font of figures lacks.
-fn warn_of_missing(page: &Canvas, form: Form) {
+pub(crate) fn warn_of_missing(page: &Canvas, form: Form) {
     let missing: Vec<String> = page.missing().iter().map(|c| format!("`{c}`")).collect();
     if missing.is_empty() {
         return;

@@ -34,7 +34,7 @@ pub(crate) struct Subject {
     pub(crate) replacements: Replacements,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
-    step: Option<usize>,
+    pub(crate) step: Option<usize>,
 }
 
 impl Subject {

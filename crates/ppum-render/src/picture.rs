@@ -9,6 +9,7 @@ use crate::image::{Image, Rgba};
 use crate::png::Text;
 use crate::range::{Range, RangeError, Span};
 use crate::raster::{Raster, Sample};
+use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
 use crate::view::View;
 
@@ -64,6 +65,8 @@ pub struct Picture {
     pub has_below: bool,
     /// True if some value lies above the range, at a pixel or not; an infinite one always does.
     pub has_above: bool,
+    /// What a pixel's value is: that at its centre, or a mean.
+    pub samples: Samples,
 }
 
 /// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
@@ -136,7 +139,22 @@ impl Picture {
             has_values: raster.values.iter().any(|&v| v.into().is_finite()),
             has_below,
             has_above,
+            samples: Samples::CENTER,
         })
+    }
+
+    /// Says that values are means, and gives each pixel the opacity that it has by its share of the plate
+    /// ([`Means`](crate::samples::Means)).
+    ///
+    /// # Panics
+    /// If there is not one opacity for each pixel.
+    pub fn fade(&mut self, samples: Samples, opacity: &[u8]) {
+        let pixels = self.image.rgba.as_chunks_mut::<4>().0;
+        assert_eq!(pixels.len(), opacity.len(), "one opacity for each pixel");
+        for (pixel, &share) in pixels.iter_mut().zip(opacity) {
+            pixel[3] = ((u16::from(pixel[3]) * u16::from(share) + 127) / 255) as u8;
+        }
+        self.samples = samples;
     }
 
     /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them from those
@@ -161,7 +179,12 @@ impl Picture {
         let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;
         let norm = &self.normalization;
         let software = concat!("ppum ", env!("CARGO_PKG_VERSION"));
-        let summary = format!("{quantity} of {dataset}, evaluated at every pixel's centre");
+        let summary = match self.samples {
+            Samples::CENTER => {
+                format!("{quantity} of {dataset}, evaluated at every pixel's centre")
+            }
+            samples => format!("{quantity} of {dataset}, {}", samples.meaning()),
+        };
         let entries = [
             ("Title", title.to_owned()),
             ("Software", software.to_owned()),
@@ -169,7 +192,7 @@ impl Picture {
             ("ppum:dataset", dataset.to_owned()),
             ("ppum:quantity", quantity.to_owned()),
             ("ppum:view", format!("center {x:?},{y:?} width {width:?} pixels {columns}x{rows}")),
-            ("ppum:pixel", "value at pixel centre".to_owned()),
+            ("ppum:pixel", self.samples.meaning()),
             ("ppum:range", format!("{:?},{:?}", norm.min(), norm.max())),
             ("ppum:scale", norm.scale().to_string()),
             ("ppum:colormap", self.colormap.name.clone()),

@@ -25,6 +25,7 @@ mod readme;
 mod render;
 mod replacements;
 mod sample;
+mod series;
 mod shell;
 mod sif;
 mod solve;

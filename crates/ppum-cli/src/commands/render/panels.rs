@@ -6,7 +6,8 @@ use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Span;
 
-use super::{Args, Plate, titled, told};
+use super::{Args, Plate, titled, told, warn};
+use crate::deformed::words;
 use crate::drawing::{Drawn, Seen};
 use crate::output::Output;
 use crate::page;
@@ -31,20 +32,24 @@ impl Args {
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let frame = self.frame(panel_area(&worded(title.clone()), &captions, grid, &design)?);
         let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
-        let drawn = subjects.iter().map(|subject| self.drawn(field, &seen, subject));
+        let drawn = subjects.iter().map(|subject| {
+            let drawn = self.drawn(field, &seen, subject)?;
+            warn(&subject.name, drawn.undefined());
+            Ok(drawn)
+        });
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
         let mut pictures = self.pictures(field, &seen, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
-        let layers = layers.map(|(asked, (drawn, picture))| {
-            self.layers(plate, &seen, asked, &drawn.values, picture)
-        });
+        let layers = layers
+            .map(|(asked, (drawn, picture))| self.layers(plate, &seen, asked, drawn, picture));
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
         let cracks = seen.cracks(field);
+        let factor = seen.moved().map(|points| words(points.view.factor()));
         pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel =
             |((picture, labels), layers)| Panel { picture, layers, labels, cracks: &cracks };
         let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
-        let page = panels(&worded(titled(title, &seen)), &all, grid, &design)?;
+        let page = panels(&worded(titled(title, factor.as_deref())), &all, grid, &design)?;
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
         let (names, picture, by) = (names.join(", "), &pictures[0], &drawn[0].by);
         let mut texts =
@@ -56,7 +61,7 @@ impl Args {
             texts.retain(|(key, _)| !is_own(key));
         }
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.notes(&seen));
+        texts.extend(self.notes(plate, &seen));
         let [columns, rows] = page.size;
         let told = told(&seen, drawn[0].overlap.len());
         let colors = self.colors(&Telling::new(plate.dataset, field), &subjects, &pictures);
