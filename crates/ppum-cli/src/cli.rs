@@ -40,7 +40,7 @@ pub(crate) enum Command {
     Sif(sif::Args),
     Probe(probe::Args),
     Sample(sample::Args),
-    Render(render::Args),
+    Render(Box<render::Args>),
     Compare(compare::Args),
     Plot(plot::Args),
     Gallery(gallery::Args),

@@ -54,6 +54,7 @@ fn backends_agree() {
     for options in [
         "--range 0,3",
         "-q uy --colormap coolwarm",
+        "-q uy --samples 3",
         "-q direction --range=-1.6,1.6",
         "--tip 1 --zoom 1e6 --scale log",
         "-q overlap --range 0,9",
