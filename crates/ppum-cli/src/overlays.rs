@@ -4,13 +4,14 @@ use std::str::FromStr;
 
 use anyhow::bail;
 use clap::ValueEnum;
+use ppum::crack::Crack;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::Item;
 use ppum_figure::levels;
-use ppum_figure::overlay::{self, Entry, Load, Support};
+use ppum_figure::overlay::{self, Entry, Load, Room, Support};
 use ppum_render::deform::DeformedPoints;
 use ppum_render::glyph::{LEAST_SPACING, Lattice};
 use ppum_render::isoline::isolines;
@@ -167,13 +168,15 @@ impl Overlays {
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
-        let Ground { field, quantity, picture: Picture { view, .. }, values, .. } = ground;
+        let Ground { field, quantity, picture, values, .. } = ground;
+        let view = &picture.view;
         let (levels, bar) = (levels.as_slice(), Bar::new());
         let lines = match values {
             Values::Double(raster) => isolines(field, view, quantity, levels, raster, &bar),
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
-        Ok(overlay::isolines(view, &lines, self.level_labels))
+        let room = self.room(picture, &field.step.cracks);
+        Ok(overlay::isolines(view, &lines, room))
     }
 
     /// Isolines of the plate as it was, where they have moved to.
@@ -188,7 +191,13 @@ impl Overlays {
         let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
-        Ok(overlay::isolines(&points.view.view, &lines, self.level_labels))
+        // cracks have opened, or closed: nothing can be said of their lines
+        Ok(overlay::isolines(&points.view.view, &lines, self.room(ground.picture, &[])))
+    }
+
+    /// Where labels of levels may stand, if they are asked for.
+    fn room(&self, picture: &Picture, cracks: &[Crack]) -> Option<Room> {
+        self.level_labels.then(|| Room::new(picture, cracks))
     }
 
     /// The levels of isolines, if they are asked for.
@@ -196,7 +205,7 @@ impl Overlays {
         let norm = &picture.normalization;
         self.isolines.as_ref().map(|levels| match levels {
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
-            Levels::Count(count) => levels::automatic(norm, *count),
+            Levels::Count(count) => levels::about(norm, *count),
             Levels::At(values) => values.clone(),
         })
     }

@@ -21,6 +21,14 @@ pub fn automatic(norm: &Normalization, most: usize) -> Vec<f64> {
     if found.len() < 2 { linear(min, max, most) } else { found }
 }
 
+/// Round values as [`automatic`] has them, as near to `count` of them as round steps allow.
+#[must_use]
+pub fn about(norm: &Normalization, count: usize) -> Vec<f64> {
+    let lists = (count..=3 * count).map(|most| automatic(norm, most));
+    let off = |list: &Vec<f64>| (list.len().max(1) as f64 / count.max(1) as f64).ln().abs();
+    lists.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
+}
+
 /// `count` values that divide the range into equal parts, on the scale of the colour bar; its ends are not among them.
 #[must_use]
 pub fn counted(norm: &Normalization, count: usize) -> Vec<f64> {
@@ -85,6 +93,20 @@ mod tests {
                 assert!(most < 5 || 3 * found.len() >= most, "{min} {span} {most}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn as_many_as_round_steps_allow() {
+        let signed = norm(Scale::Linear, -0.747, 0.747);
+        assert_eq!(about(&signed, 12).len(), 15);
+        assert_eq!(about(&signed, 7).len(), 7);
+        for count in 1..100 {
+            let found = about(&signed, count).len() as f64 / count as f64;
+            // steps are 2 or 2.5 times each other
+            assert!((0.6..1.6).contains(&found), "{count}: {found}");
+        }
+        assert_eq!(about(&norm(Scale::Log, 1e-3, 1e3), 6).len(), 7);
+        assert!(about(&signed, 0).is_empty());
     }
 
     #[test]

@@ -104,7 +104,8 @@ impl Places {
         };
         let most = texts(with(MOST_DIGITS));
         let enough = |digits: &usize| texts(with(*digits)) == most;
-        with((DIGITS..MOST_DIGITS).find(enough).unwrap_or(MOST_DIGITS))
+        let least = (DIGITS + far(size, bounds.size())).min(MOST_DIGITS);
+        with((least..MOST_DIGITS).find(enough).unwrap_or(MOST_DIGITS))
     }
 
     /// `(0.5, -0.25)`
@@ -116,6 +117,12 @@ impl Places {
         };
         format!("({}, {})", shown(p.x, self.size.x), shown(p.y, self.size.y))
     }
+}
+
+/// Leading digits that all places of a box share, which lies so far from the origin.
+fn far(size: Vec2, extent: Vec2) -> usize {
+    let digits = |size: f64, extent: f64| (size / extent).log10().ceil().max(0.0) as usize;
+    digits(size.x, extent.x).max(digits(size.y, extent.y))
 }
 
 #[cfg(test)]
@@ -175,5 +182,14 @@ mod tests {
         assert_eq!(places(1.0, &[0.3, 0.1 + 0.2]), ["(0.3, 0)", "(0.3, 0)"], "an ulp apart");
         assert_eq!(apart(1.0, 1.000_000_01), ["1", "1.00000001"]);
         assert_eq!(apart(1.0, 1.0), ["1", "1"]);
+    }
+
+    #[test]
+    fn places_far_from_the_origin_have_more_digits() {
+        let bounds = Rect::new(vec2(1e6, 1e6), vec2(1e6 + 1.0, 1e6 + 1.0));
+        let places = Places::new(&bounds, &[]);
+        assert_eq!(places.show(vec2(1e6 + 0.3, 1e6 + 0.512345)), "(1000000.3, 1000000.51234)");
+        let near = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 50.0));
+        assert_eq!(Places::new(&near, &[]).show(vec2(0.123_456_7, 1.0)), "(0.123457, 1)");
     }
 }

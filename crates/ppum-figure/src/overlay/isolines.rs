@@ -1,9 +1,11 @@
 //! Isolines with their levels.
 
+use ppum::crack::Crack;
 use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
+use ppum_render::picture::Picture;
 use ppum_render::view::View;
 
 use super::line_scale;
@@ -18,15 +20,85 @@ const TEXT: f64 = 11.5;
 /// A line this many times as long as its label, and as that is high, has one.
 const ROOM: [f64; 2] = [2.5, 6.0];
 
-/// Isolines as dark lines with a light seam, of one width everywhere; with their levels where there is room, if that is wanted.
+/// The pixels that labels may cover: those of the plate, away from cracks.
+#[derive(Clone, Debug)]
+pub struct Room {
+    columns: usize,
+    is_free: Vec<bool>,
+}
+
+impl Room {
+    /// The room of a picture: where it is not transparent.
+    #[must_use]
+    pub fn new(picture: &Picture, cracks: &[Crack]) -> Self {
+        let image = &picture.image;
+        let is_free = image.rgba.chunks_exact(4).map(|pixel| pixel[3] > 0).collect();
+        let mut room = Self { columns: image.size[0] as usize, is_free };
+        for ends in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
+            room.close([ends[0], ends[1]].map(|p| picture.view.pixel(p)));
+        }
+        room
+    }
+
+    /// Takes away the pixels along a line.
+    fn close(&mut self, line: [Vec2; 2]) {
+        let size = vec2(self.columns as f64, (self.is_free.len() / self.columns.max(1)) as f64);
+        let Some([a, b]) = clipped(line, size) else { return };
+        let steps = (b - a).length().ceil().max(1.0);
+        for k in 0..=steps as usize {
+            let p = a + (b - a) * (k as f64 / steps);
+            if let Some(pixel) = self.pixel(p) {
+                self.is_free[pixel] = false;
+            }
+        }
+    }
+
+    fn pixel(&self, p: Vec2) -> Option<usize> {
+        let is_inside = p.x >= 0.0 && p.y >= 0.0 && p.x < self.columns as f64;
+        let pixel = p.y.max(0.0) as usize * self.columns + p.x.max(0.0) as usize;
+        Some(pixel).filter(|&pixel| is_inside && pixel < self.is_free.len())
+    }
+
+    /// True if a rectangle about a point covers nothing else, `half` its sides' halves along a direction and across.
+    fn holds(&self, middle: Vec2, along: Vec2, half: Vec2) -> bool {
+        let [columns, rows] = [half.x, half.y].map(|half| half.ceil().max(1.0) as i32);
+        let part = |k: i32, n: i32| f64::from(k) / f64::from(n);
+        (-columns..=columns).all(|i| {
+            (-rows..=rows).all(|j| {
+                let across = along.left() * (half.y * part(j, rows));
+                let pixel = self.pixel(middle + along * (half.x * part(i, columns)) + across);
+                pixel.is_some_and(|pixel| self.is_free[pixel])
+            })
+        })
+    }
+}
+
+/// The part of a line within a box from the origin.
+fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
+    let d = b - a;
+    let within = |from: f64, way: f64, size: f64| match way {
+        0.0 if (0.0..=size).contains(&from) => [f64::NEG_INFINITY, f64::INFINITY],
+        0.0 => [f64::INFINITY, f64::NEG_INFINITY],
+        way => {
+            let ends = [-from / way, (size - from) / way];
+            [ends[0].min(ends[1]), ends[0].max(ends[1])]
+        }
+    };
+    let [x, y] = [within(a.x, d.x, size.x), within(a.y, d.y, size.y)];
+    let (enter, leave) = (x[0].max(y[0]).max(0.0), x[1].min(y[1]).min(1.0));
+    let ends = [enter, leave].map(|t| a + d * t);
+    (enter <= leave && ends.iter().all(|p| p.is_finite())).then_some(ends)
+}
+
+/// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is wanted, where there is room.
 #[must_use]
-pub fn isolines(view: &View, lines: &[Isoline], with_levels: bool) -> Vec<Item> {
+pub fn isolines(view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
     let scale = line_scale(view.pixels);
     let path = Path { pieces: lines.iter().map(|line| points(view, line)).collect() };
     let pen = Pen::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut items = vec![Item::Line { path: path.clone(), pen }];
-    if with_levels {
-        let mut taken: Vec<(Vec2, f64)> = Vec::new();
+    if let Some(room) = room {
+        let mut taken = Taken { room, labels: Vec::new() };
         for (line, points) in lines.iter().zip(&path.pieces) {
             items.extend(label(view, line.level, points, &mut taken).map(Item::Text));
         }
@@ -39,14 +111,16 @@ fn points(view: &View, line: &Isoline) -> Vec<Vec2> {
     line.polyline().into_iter().map(|offset| view.pixel_of_offset(offset)).collect()
 }
 
-/// The level along the straightest part of its line, away from other labels and from the picture's border; none
-/// where there is no room. `taken` holds middles and half lengths of labels.
-fn label(
-    view: &View,
-    level: f64,
-    points: &[Vec2],
-    taken: &mut Vec<(Vec2, f64)>,
-) -> Option<Lettering> {
+/// What labels keep away from.
+struct Taken {
+    room: Room,
+    /// Middles and half lengths of other labels.
+    labels: Vec<(Vec2, f64)>,
+}
+
+/// The level along the straightest part of its line, away from other labels, cracks and the plate's border; none
+/// where there is no room.
+fn label(view: &View, level: f64, points: &[Vec2], taken: &mut Taken) -> Option<Lettering> {
     let size = TEXT * line_scale(view.pixels);
     let line = Lettering::new(trimmed(level).replace('-', "−"), size, Vec2::ZERO, LINE);
     let half = 0.5 * line.width();
@@ -58,9 +132,18 @@ fn label(
     let at = |s: f64| point_at(points, &arcs, s);
     let margin = vec2(half + size, half + size);
     let most = vec2(f64::from(view.pixels[0]), f64::from(view.pixels[1])) - margin;
-    let is_free = |p: Vec2| {
+    // upright: read from left to right
+    let along = |s: f64| {
+        let way = at((s + half).min(length)) - at((s - half).max(0.0));
+        if way.x < 0.0 { -way.unit() } else { way.unit() }
+    };
+    let is_free = |s: f64| {
+        let p = at(s);
         let inside = p.x > margin.x && p.y > margin.y && p.x < most.x && p.y < most.y;
-        inside && taken.iter().all(|(q, r)| (p - *q).length() > half + r + 2.0 * size)
+        let is_apart = |(q, r): &(Vec2, f64)| (p - *q).length() > half + r + 2.0 * size;
+        inside
+            && taken.labels.iter().all(is_apart)
+            && taken.room.holds(p, along(s), vec2(half + 0.3 * size, 0.7 * size))
     };
     const PLACES: u32 = 24;
     let places = (1..PLACES).map(|k| length * f64::from(k) / f64::from(PLACES));
@@ -68,16 +151,14 @@ fn label(
         let (a, b) = (at((s - half).max(0.0)), at((s + half).min(length)));
         ((a + b) * 0.5 - at(s)).length()
     };
-    let best = places.filter(|&s| is_free(at(s))).min_by(|&a, &b| bend(a).total_cmp(&bend(b)))?;
+    let best = places.filter(|&s| is_free(s)).min_by(|&a, &b| bend(a).total_cmp(&bend(b)))?;
     if bend(best) > 0.6 * size {
         return None;
     }
-    let (middle, along) = (at(best), at((best + half).min(length)) - at((best - half).max(0.0)));
-    // upright: read from left to right
-    let along = if along.x < 0.0 { -along } else { along };
+    let (middle, along) = (at(best), along(best));
     let angle = (-along.y).atan2(along.x);
-    taken.push((middle, half));
-    let down = along.unit().left() * (0.36 * size);
+    taken.labels.push((middle, half));
+    let down = along.left() * (0.36 * size);
     let halo = Some(Halo { color: GROUND, width: 0.25 * size });
     Some(Lettering { at: middle + down, angle, halo, align: Align::Middle, ..line })
 }
@@ -101,6 +182,9 @@ fn point_at(points: &[Vec2], arcs: &[f64], s: f64) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum::crack::CrackEnd;
+    use ppum_render::picture::Style;
+    use ppum_render::raster::Raster;
 
     fn view() -> View {
         View::window(-1.0, -1.0, 1.0, 1.0, [600, 600]).unwrap()
@@ -117,7 +201,7 @@ mod tests {
     #[test]
     fn closed_lines_are_closed_and_labels_lie_on_their_lines() {
         let lines = [circle(0.8, 2.5), circle(0.5, -1.0), circle(0.01, 7.0)];
-        let items = isolines(&view(), &lines, true);
+        let items = isolines(&view(), &lines, Some(room(&[])));
         let Item::Line { path, .. } = &items[0] else { panic!("lines first") };
         assert!(path.pieces.iter().all(|p| p.len() == 101 && p.first() == p.last()));
         let texts: Vec<&Lettering> = items
@@ -133,7 +217,44 @@ mod tests {
             assert!((from_center - radius).abs() < 8.0, "{from_center}");
             assert!(text.angle.abs() <= std::f64::consts::FRAC_PI_2 + 1e-9, "upright");
         }
-        assert_eq!(isolines(&view(), &lines, false).len(), 1);
-        assert_eq!(isolines(&view(), &[], true).len(), 1);
+        assert_eq!(isolines(&view(), &lines, None).len(), 1);
+        assert_eq!(isolines(&view(), &[], Some(room(&[]))).len(), 1);
+    }
+
+    /// A white picture but for a hole at its right.
+    fn room(cracks: &[Crack]) -> Room {
+        let is_hole = |i: u32, j: u32| (f64::from(i) - 560.0).hypot(f64::from(j) - 300.0) < 100.0;
+        let value = |i, j| if is_hole(i, j) { f64::NAN } else { 1.0 };
+        let raster = Raster::from_fn([600, 600], value);
+        Room::new(&Picture::bare(&raster, &view(), &Style::default()).unwrap(), cracks)
+    }
+
+    /// Labels stand neither on holes nor on cracks, with all of their letters.
+    #[test]
+    fn labels_keep_clear_of_holes_and_cracks() {
+        let vertical = |x: f64| Isoline {
+            level: -0.004,
+            points: (0..=200).map(|k| vec2(x, f64::from(k) / 100.0 - 1.0)).collect(),
+            closed: false,
+        };
+        let places = |cracks: &[Crack], x: f64| -> Vec<Vec2> {
+            let items = isolines(&view(), &[vertical(x)], Some(room(cracks)));
+            let texts = items.iter().filter_map(|item| match item {
+                Item::Text(text) => Some(text.at),
+                _ => None,
+            });
+            texts.collect()
+        };
+        // through the hole's middle, and along its rim
+        for x in [0.86, 0.55] {
+            let at = places(&[], x)[0];
+            assert!((at - vec2(560.0, 300.0)).length() > 108.0, "{at:?}");
+        }
+        let crack = |ends: [Vec2; 2]| Crack { points: ends.to_vec(), ends: [CrackEnd::Tip; 2] };
+        // a crack along the line, far beyond the picture, leaves no room
+        assert!(places(&[crack([vec2(-0.2, -1e9), vec2(-0.2, 1e9)])], -0.2).is_empty());
+        assert_eq!(places(&[crack([vec2(0.2, -1.0), vec2(0.2, 1.0)])], -0.2).len(), 1);
+        let half = places(&[crack([vec2(-0.2, 0.1), vec2(-0.2, 5.0)])], -0.2);
+        assert!(half.len() == 1 && half[0].y > 280.0, "{half:?}");
     }
 }

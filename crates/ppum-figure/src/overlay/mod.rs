@@ -24,7 +24,7 @@ use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
-pub use isolines::isolines;
+pub use isolines::{Room, isolines};
 pub(crate) use legend::legend_in;
 pub use legend::{Entry, Symbol, legend};
 pub use rings::rings;
