@@ -289,10 +289,11 @@ impl Search<'_, '_> {
         Extremum { value, offset: curve.at(t, 0.0), on: curve.on }
     }
 
-    /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such a point.
+    /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such a point, and where the curve has
+    /// left the view, as rims may.
     fn on_curve(&self, local: &mut LocalField<'_>, curve: &Curve, t: f64) -> f64 {
         let at = curve.at(t, self.view.pixel_size());
-        if self.is_hidden(at) {
+        if self.is_hidden(at) || !self.is_seen(curve.at(t, 0.0)) {
             return f64::NAN;
         }
         climb::finite(self.slope.quantity().at(local, at, curve.side()))
@@ -308,6 +309,13 @@ impl Search<'_, '_> {
         let is_end = |v: f64, [a, b]: [f64; 2]| v == a || v == b;
         let on_border = is_end(offset.x, [min.x, max.x]) || is_end(offset.y, [min.y, max.y]);
         Some(Extremum { value, offset, on: if on_border { On::Border } else { On::Inside } })
+    }
+
+    /// True within the view, but for rounding.
+    fn is_seen(&self, at: Vec2) -> bool {
+        let rounding = 1e-6 * self.view.pixel_size();
+        let nearest = at.max(self.rect.min).min(self.rect.max);
+        (at - nearest).length() <= rounding
     }
 
     /// True next to a singular point.

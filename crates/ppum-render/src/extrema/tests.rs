@@ -186,6 +186,26 @@ fn on_the_rim_of_a_hole() {
     assert!((all.min.value + 1.0).abs() < 1e-6 && all.min.on == On::Rim(0), "{all:?}");
 }
 
+/// Of a rim that leaves the view only what is seen counts: on it σ_yy = (1 + 2 cos 2θ) cos² θ.
+#[test]
+fn rims_end_with_the_view() {
+    let (center, radius) = (vec2(0.8, 0.2), 0.07);
+    let plate = RoundHole::new(MATERIAL, center, radius).with_remote([0.0, 1.0, 0.0]);
+    let [_, syy, _] = plate.stress_formulas().map(|text| text.replace("s2", "p2"));
+    let mut dataset = polynomial(&[]);
+    dataset.domain.holes = vec![Hole::Circle { center, radius }];
+    let field = Field::new(&dataset, 0).expect("a field");
+    // from 0.3 to 2.1 radii right of the centre and above it
+    let view = View::new(center + vec2(1.2, 1.2) * radius, 1.8 * radius, [33, 33]).expect("a view");
+    let all = found(&field, &view, &syy);
+    let exact = (1.0 + 2.0 * (1.0 - 2.0 * 0.09)) * (1.0 - 0.09);
+    assert!((all.max.value - exact).abs() < 1e-5, "{all:?}, {exact}");
+    for extremum in [all.min, all.max] {
+        let far = extremum.offset.x.abs().max(extremum.offset.y.abs());
+        assert!(far <= 0.9 * radius * (1.0 + 1e-6), "{extremum:?}");
+    }
+}
+
 #[test]
 fn infinite_at_a_tip() {
     let tip = vec2(0.3, -0.7);
