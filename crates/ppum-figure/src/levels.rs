@@ -105,7 +105,7 @@ mod tests {
             // steps are 2 or 2.5 times each other
             assert!((0.6..1.6).contains(&found), "{count}: {found}");
         }
-        assert_eq!(about(&norm(Scale::Log, 1e-3, 1e3), 6).len(), 7);
+        assert_eq!(about(&norm(Scale::Log, 5e-4, 2e3), 6).len(), 7);
         assert!(about(&signed, 0).is_empty());
     }
 
