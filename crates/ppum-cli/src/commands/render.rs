@@ -138,7 +138,8 @@ impl Args {
         let cracks =
             seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
         let Sheet { drawn: Drawn { picture, by, is_finite, .. }, layers, told, notes } = sheet;
-        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks };
+        let panel =
+            Panel { picture: &picture, layers, labels, cracks: &cracks, shares_next: false };
         let page = self.page(panel, &design)?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);

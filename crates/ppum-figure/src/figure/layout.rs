@@ -10,7 +10,7 @@
 //!   …                …
 //! ```
 //!
-//! Panels fill the grid row by row. Plots of a column begin at one line, and so do those of a row.
+//! Panels fill the grid row by row. Neighbours may share a bar, beside the last of them. Plots of a column begin at one line, and so do those of a row.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -129,7 +129,7 @@ fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
 }
 
 /// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures have at most
-/// the size that [`panel_area`] gives.
+/// the size that [`panel_area`] gives. The bar that neighbours share has the words of the first.
 ///
 /// # Errors
 /// A page without room, a picture that is too large, more panels than cells, no panels; one bar for pictures
@@ -148,9 +148,9 @@ pub fn panels(
     if let Some(panel) = panels.iter().find(|p| (0..2).any(|k| p.picture.image.size[k] > room[k])) {
         return Err(FigureError::TooLarge { plot: panel.picture.image.size, room });
     }
-    let sheets = panels.iter().map(|panel| {
+    let sheets = panels.iter().zip(own_keys(panels)?).map(|(panel, key)| {
         let caption = caption_lines(&panel.labels.title, grid, design);
-        Sheet::new(panel, caption, design, room, !grid.shared_bar)
+        Sheet::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
     });
     let lines = title_lines(title, design);
     Ok(Page::new(sheets.collect(), panels, lines, grid, design)?.draw())
@@ -285,4 +285,14 @@ fn shared_key(panels: &[Panel<'_>]) -> Result<Key, FigureError> {
     let mut keys = panels.iter().map(|panel| Key::new(panel.picture, &panel.labels));
     let first = keys.next().ok_or(FigureError::Ranges)?;
     keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
+}
+
+/// What the bar of each panel explains; none of those that the next one's bar explains.
+fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<Key>>, FigureError> {
+    let groups = panels.split_inclusive(|panel| !panel.shares_next);
+    let keys = groups.map(|group| {
+        let none = std::iter::repeat_n(None, group.len() - 1);
+        Ok(none.chain([Some(shared_key(group)?)]))
+    });
+    Ok(keys.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }

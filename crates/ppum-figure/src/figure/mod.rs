@@ -74,6 +74,8 @@ pub struct Panel<'a> {
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.
     pub cracks: &'a [Crack],
+    /// True if the bar of the next panel explains this one too: it then has none of its own.
+    pub shares_next: bool,
 }
 
 /// A figure around a picture of at most [`plot_area`], in the middle, its title above it.

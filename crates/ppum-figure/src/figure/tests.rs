@@ -10,7 +10,7 @@ use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use ppum_testkit::random::Random;
 
-use super::color_bar::{ARROW, BAR};
+use super::color_bar::{ARROW, BAR, Key};
 use super::design::HATCH_STEP;
 use super::sheet::BAR_GAP;
 use super::*;
@@ -33,11 +33,13 @@ fn labels() -> Labels {
     }
 }
 
-/// x on a plate, NaN in its upper left quarter.
+/// x on a plate, or what classes there are, NaN in its upper left quarter.
 fn plate(half: Vec2, room: [u32; 2], style: &Style) -> Picture {
     let view = View::hug(Rect::around(Vec2::ZERO, half), room).unwrap();
+    let classes = style.colormap.classes();
     let raster = Raster::from_fn(view.pixels, |i, j| match view.offset(i, j) {
         p if p.x < 0.0 && p.y > 0.0 => f64::NAN,
+        _ if !classes.is_empty() => classes[(i + j) as usize % classes.len()],
         p => p.x,
     });
     Picture::bare(&raster, &view, style).unwrap()
@@ -49,7 +51,7 @@ fn picture(half: f64, range: Range) -> Picture {
 }
 
 fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
-    Panel { picture, layers: vec![], labels, cracks: &[] }
+    Panel { picture, layers: vec![], labels, cracks: &[], shares_next: false }
 }
 
 fn drawn(picture: &Picture) -> Image {
@@ -190,6 +192,63 @@ fn bands_are_marked_at_their_borders() {
     assert!(marks(1.5, 40).contains(&"0.2".to_owned()));
 }
 
+/// Values with a colour each have bands of one length, each with its label in the middle.
+#[test]
+fn classes_are_marked_in_their_middle() {
+    let classes = [0.0, 1.0, 5.0, 30.0];
+    for bar in [BarPlace::Right, BarPlace::Bottom] {
+        let none = TickChoice::At(vec![]);
+        let design = Design { x_ticks: none.clone(), y_ticks: none, bar, ..Design::pixels(SIZE) };
+        let room = plot_area("", &design).unwrap();
+        let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), room).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, j| classes[((i + j) % 4) as usize]);
+        let style = Style::default().classed(&raster.whole_numbers(4).unwrap());
+        let picture = Picture::bare(&raster, &view, &style).unwrap();
+        let page = figure(panel(&picture, Labels::default()), &design).unwrap();
+        let key = Key::new(&picture, &Labels::default());
+        let image = page.items.iter().find_map(|item| match item {
+            Item::Picture { image, corner } => Some((image.clone(), corner.map(f64::from))),
+            _ => None,
+        });
+        let (image, corner) = image.expect("the bar's colours");
+        let side = usize::from(bar == BarPlace::Right);
+        let length = f64::from(image.size[side]);
+        for (k, value) in classes.into_iter().enumerate() {
+            let label = ppum::text::trimmed(value);
+            let line = *texts(&page).iter().find(|line| line.text == label).expect("a label");
+            let [lo, hi] = Item::Text(line.clone()).bounds();
+            let middle = (lo + hi) * 0.5 - Vec2::from(corner);
+            let along = if side == 0 { middle.x / length } else { 1.0 - middle.y / length };
+            assert!((along - (k as f64 + 0.5) / 4.0).abs() < 0.02, "{bar:?} {value}: {along}");
+            assert_eq!(key.color(along), picture.colormap.class_color(k));
+            let colors = image.rgba.as_chunks::<4>().0;
+            let share = colors.iter().filter(|c| **c == key.color(along)).count() * 4;
+            assert!(share.abs_diff(colors.len()) <= 40 * BAR as usize / 2, "a quarter each");
+        }
+    }
+}
+
+/// A bar for the panels before it: it knows of the values of all.
+#[test]
+fn neighbours_share_a_bar() {
+    let design = Design::pixels([1500, 900]);
+    let grid = Grid { columns: 3, rows: 1, shared_bar: false };
+    let room = panel_area("", &[""], grid, &design).unwrap();
+    let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
+    let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
+    let draw = |shares: [bool; 3], pictures: [&Picture; 3]| {
+        let panel =
+            |(shares_next, picture)| Panel { shares_next, ..panel(picture, Labels::default()) };
+        let all: Vec<Panel<'_>> = shares.into_iter().zip(pictures).map(panel).collect();
+        let page = panels("", &all, grid, &design)?;
+        Ok(page.items.iter().filter(|item| matches!(item, Item::Picture { .. })).count())
+    };
+    assert_eq!(draw([false; 3], [&a, &a, &b]), Ok(3));
+    assert_eq!(draw([true, false, false], [&a, &a, &b]), Ok(2));
+    assert_eq!(draw([true; 3], [&a, &a, &a]), Ok(1));
+    assert_eq!(draw([true, true, false], [&a, &a, &b]), Err(FigureError::Ranges));
+}
+
 /// A picture of nothing says so, and its bar has no marks.
 #[test]
 fn a_picture_without_values_says_so() {
@@ -269,7 +328,7 @@ fn check(page: &Canvas, what: &str) {
         for other in lines[k + 1..].iter().chain(&areas) {
             assert!(
                 !overlap(line.bounds(), other.bounds()),
-                "{what}: {line:?} on {:?}",
+                "{what}: {line:?} on {other:?} at {:?}",
                 other.bounds()
             );
         }
@@ -306,7 +365,9 @@ fn random_style(random: &mut Random, half: Vec2) -> Style {
     let scale = random.pick(&[Scale::Linear, Scale::SymLog]);
     let map = Colormap::named(random.pick(&["viridis", "vik", "twilight"])).unwrap();
     let colormap = if random.below(3) == 0 { map.banded(5) } else { map };
-    Style { range, scale, colormap, ..Style::default() }
+    let style = Style { range, scale, colormap, ..Style::default() };
+    let classes: Vec<f64> = (0..random.below(12)).map(|k| (k * k) as f64).collect();
+    if random.below(3) == 0 { style.classed(&classes) } else { style }
 }
 
 fn random_labels(random: &mut Random) -> Labels {
@@ -361,7 +422,9 @@ fn panels_keep_to_their_page() {
         let captions: Vec<&str> = all.iter().map(|labels| labels.title.as_str()).collect();
         let Ok(room) = panel_area(&title, &captions, grid, &design) else { continue };
         let picture = plate(half, room, &random_style(&mut random, half));
-        let all: Vec<Panel<'_>> = all.into_iter().map(|labels| panel(&picture, labels)).collect();
+        let mut panel =
+            |labels| Panel { shares_next: random.below(3) == 0, ..panel(&picture, labels) };
+        let all: Vec<Panel<'_>> = all.into_iter().map(&mut panel).collect();
         let page = panels(&title, &all, grid, &design).unwrap();
         check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));
         count += 1;

@@ -60,7 +60,7 @@ impl Look<'_> {
         let cracks = &self.field.step.cracks;
         let rims = overlay::rims(&self.view, &self.field.domain.holes);
         let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
-        let panel = Panel { picture: &picture, layers, labels, cracks };
+        let panel = Panel { picture: &picture, layers, labels, cracks, shares_next: false };
         Ok(figure(panel, &Design::pixels(size))?)
     }
 }

@@ -45,6 +45,7 @@ impl Args {
             layers,
             labels,
             cracks: &field.step.cracks,
+            shares_next: false,
         };
         let all: Vec<Panel<'_>> = pictures.zip(labels).zip(layers).map(panel).collect();
         let page = panels(&title, &all, grid, &design)?;
