@@ -7,10 +7,10 @@ use std::num::NonZeroUsize;
 
 use clap::ValueEnum;
 use ppum::quantity::Source;
-use ppum_render::raster::Sample;
+use ppum_render::raster::{Raster, Sample};
 use ppum_render::scatter::render;
 
-use crate::drawing::{Drawn, Job};
+use crate::drawing::{Drawn, Job, Values};
 use crate::graphics::{Device, Method};
 use crate::output::tell;
 use crate::progress::Bar;
@@ -63,11 +63,11 @@ impl Engine {
     pub(crate) fn draw(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
         match self.backend {
             Backend::Cpu => self.on_cpu(job),
-            Backend::Gpu => graphics::draw(job, Device::Any, Method::Gather)?,
-            Backend::Splat => graphics::draw(job, Device::Any, Method::Splat)?,
+            Backend::Gpu => Ok(graphics::draw(job, Device::Any, Method::Gather)?),
+            Backend::Splat => Ok(graphics::draw(job, Device::Any, Method::Splat)?),
             Backend::Auto if self.needs_cpu(job) => self.on_cpu(job),
             Backend::Auto => match graphics::draw(job, Device::Hardware, Method::Gather) {
-                Ok(drawn) => drawn,
+                Ok(drawn) => Ok(drawn),
                 Err(error) => {
                     error.note().iter().for_each(|note| tell(note));
                     self.on_cpu(job)
@@ -110,6 +110,10 @@ impl Engine {
     }
 }
 
-fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn> {
-    Drawn::new(&render::<T>(job.field, job.view, job.quantity, &Bar::new())?, job, by)
+fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn>
+where
+    Values: From<Raster<T>>,
+{
+    let raster = render::<T>(job.field, job.view, job.quantity, &Bar::new())?;
+    Ok(Drawn::new(raster, job, by))
 }

@@ -4,15 +4,14 @@ use std::str::FromStr;
 
 use anyhow::ensure;
 use ppum::field::Field;
+use ppum::quantity::Quantity;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_factor};
-use ppum_render::image::Image;
-use ppum_render::picture::Picture;
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::{Drawn, Job};
+use crate::drawing::Drawn;
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -105,45 +104,28 @@ pub(crate) fn words(view: &DeformedView<'_>) -> String {
     format!("deformed ×{}", trimmed(view.factor()))
 }
 
-/// A picture of the deformed plate, and at how many pixels it lies over itself; these are hatched.
-pub(crate) fn draw(
-    view: &DeformedView<'_>,
-    job: Job<'_>,
+/// The values of a picture of the deformed plate, with the points of the plate that are seen.
+pub(crate) fn draw<'f>(
+    view: &DeformedView<'f>,
+    quantity: &Quantity,
     engine: &Engine,
-) -> anyhow::Result<(Drawn, usize)> {
-    let found = engine.on_processor(|| {
+) -> anyhow::Result<(Drawn, DeformedPoints<'f>)> {
+    let (points, raster) = engine.on_processor(|| {
         let points = view.points(&Bar::new())?;
-        let raster = points.raster(job.quantity, &Bar::new())?;
+        let raster = points.raster(quantity, &Bar::new())?;
         anyhow::Ok((points, raster))
     })??;
-    let (points, raster) = found;
-    let mut picture = Picture::bare(&raster.values, &view.view, job.style)?;
-    hatch(&mut picture.image, &raster.overlap);
-    let undefined = undefined(&points, &raster.values);
-    let is_finite = raster.values.statistics().finite > 0;
-    let drawn = Drawn { picture, by: "cpu f64".into(), undefined, is_finite };
-    Ok((drawn, raster.overlap.iter().filter(|overlap| **overlap).count()))
+    let without = undefined(&points, &raster.values);
+    let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
+    let (overlap, values) = (overlap.collect(), raster.values.into());
+    let drawn = Drawn { view: view.view, values, by: "cpu f64".into(), without, overlap };
+    Ok((drawn, points))
 }
 
-/// The number of pixels of the plate without a value, and of all of them.
-fn undefined(points: &DeformedPoints<'_>, values: &Raster) -> [usize; 2] {
+/// The pixels of the plate without a value.
+fn undefined(points: &DeformedPoints<'_>, values: &Raster) -> Vec<u32> {
     let [columns, rows] = values.size;
-    let plate = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-    let plate: Vec<_> = plate.filter(|&(i, j)| !points.at(i, j).is_empty()).collect();
-    let without = plate.iter().filter(|&&(i, j)| values.value(i, j).is_nan()).count();
-    [without, plate.len()]
+    let all = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+    let without = all.filter(|&(i, j)| values.value(i, j).is_nan() && !points.at(i, j).is_empty());
+    without.map(|(i, j)| j * columns + i).collect()
 }
-
-/// Dark lines across the pixels where the plate lies over itself.
-fn hatch(image: &mut Image, overlap: &[bool]) {
-    let columns = image.size[0] as usize;
-    let pixels = image.rgba.as_chunks_mut().0;
-    for (index, pixel) in pixels.iter_mut().enumerate().filter(|(index, _)| overlap[*index]) {
-        if (index % columns + index / columns).is_multiple_of(HATCH_STEP) {
-            *pixel = HATCH;
-        }
-    }
-}
-
-const HATCH: [u8; 4] = [16, 16, 20, 255];
-const HATCH_STEP: usize = 5;

@@ -113,7 +113,6 @@ mod tests {
             ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
-            ("overlays", &["arguments", "output", "progress"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
             ("warnings", &["number", "output"]),
@@ -121,6 +120,7 @@ mod tests {
         &[
             ("dataset", &["given", "standard"]),
             ("graphics", &["drawing", "progress"]),
+            ("overlays", &["arguments", "drawing", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
             (
                 "profile",

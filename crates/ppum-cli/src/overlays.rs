@@ -15,11 +15,11 @@ use ppum_render::deform::DeformedView;
 use ppum_render::glyph::{self, LEAST_SPACING};
 use ppum_render::isoline::isolines;
 use ppum_render::picture::Picture;
-use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_solve::problem::{Problem, Station};
 
 use crate::arguments::positive;
+use crate::drawing::Values;
 use crate::output::tell;
 use crate::progress::Bar;
 
@@ -90,6 +90,7 @@ pub(crate) struct Ground<'a> {
     pub(crate) field: &'a Field<'a>,
     pub(crate) quantity: &'a Quantity,
     pub(crate) picture: &'a Picture,
+    pub(crate) values: &'a Values,
     /// A figure has its cracks whatever is asked for.
     pub(crate) is_figure: bool,
 }
@@ -161,18 +162,21 @@ impl Overlays {
         Ok(items)
     }
 
-    /// Isolines, found on the exact field; the raster of the processor says where to look for them.
+    /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = &self.isolines else { return Ok(Vec::new()) };
-        let Ground { field, quantity, picture, .. } = ground;
+        let Ground { field, quantity, picture, values, .. } = ground;
         let (view, norm) = (&picture.view, &picture.normalization);
         let levels = match levels {
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
             Levels::Count(count) => levels::automatic(norm, *count),
             Levels::At(values) => values.clone(),
         };
-        let raster = render::<f64>(field, view, quantity, &Bar::new())?;
-        let lines = isolines(field, view, quantity, &levels, &raster, &Bar::new())?;
+        let (levels, bar) = (levels.as_slice(), Bar::new());
+        let lines = match values {
+            Values::Double(raster) => isolines(field, view, quantity, levels, raster, &bar),
+            Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
+        }?;
         Ok(overlay::isolines(view, &lines, self.level_labels))
     }
 

@@ -18,7 +18,7 @@ use ppum_render::png::Text;
 use crate::arguments::size;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job};
+use crate::drawing::{Drawn, Job, Values};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
@@ -89,7 +89,8 @@ struct Plate<'a> {
 
 /// A picture with what belongs to it.
 struct Sheet {
-    drawn: Drawn,
+    picture: Picture,
+    by: String,
     layers: Vec<Item>,
     /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
     told: String,
@@ -132,12 +133,11 @@ impl Args {
         let labels = self.look.worded(labels);
         let sheet = match &seen {
             None => self.undeformed(plate, &asked, frame)?,
-            Some(seen) => self.moved(seen, &asked, field)?,
+            Some(seen) => self.moved(seen, &asked)?,
         };
-        sheet.drawn.warn(&asked.name);
         let cracks =
             seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
-        let Sheet { drawn: Drawn { picture, by, is_finite, .. }, layers, told, notes } = sheet;
+        let Sheet { picture, by, layers, told, notes } = sheet;
         let panel =
             Panel { picture: &picture, layers, labels, cracks: &cracks, shares_next: false };
         let page = self.page(panel, &design)?;
@@ -147,7 +147,7 @@ impl Args {
         texts
             .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
         let [columns, rows] = page.size;
-        let (name, colors) = (&asked.name, colours(&picture, is_finite));
+        let (name, colors) = (&asked.name, colours(&picture));
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
@@ -156,38 +156,47 @@ impl Args {
     fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
         let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
         let view = self.window.seen(field, frame)?;
-        let job = Job { field, view: &view, quantity: &asked.quantity, style: &style };
-        let mut drawn = self.engine.draw(job)?;
-        let layers = self.layers(plate, asked, &drawn)?;
-        if self.look.blank {
-            drawn.blank();
-        }
-        Ok(Sheet { drawn, layers, told: String::new(), notes: Vec::new() })
+        let drawn = self.engine.draw(Job { field, view: &view, quantity: &asked.quantity })?;
+        drawn.warn(&asked.name);
+        let mut picture = drawn.picture(&style)?;
+        let layers = self.layers(plate, asked, &drawn.values, &picture)?;
+        self.blank(&mut picture);
+        Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
     }
 
     /// What is drawn over a picture.
-    fn layers(&self, plate: &Plate<'_>, asked: &Asked, drawn: &Drawn) -> anyhow::Result<Vec<Item>> {
+    fn layers(
+        &self,
+        plate: &Plate<'_>,
+        asked: &Asked,
+        values: &Values,
+        picture: &Picture,
+    ) -> anyhow::Result<Vec<Item>> {
         let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
         let is_figure = self.look.figure || self.layout.is_some();
-        let picture = &drawn.picture;
-        let ground = Ground { dataset, field, quantity, picture, is_figure };
+        let ground = Ground { dataset, field, quantity, picture, values, is_figure };
         self.engine.with_threads(|| self.overlays.items(ground))?
     }
 
+    /// Leaves out the colours if that is asked for: the plate is white.
+    fn blank(&self, picture: &mut Picture) {
+        if self.look.blank {
+            let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
+            pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
+        }
+    }
+
     /// Draws the plate moved by its displacements.
-    fn moved(
-        &self,
-        seen: &DeformedView<'_>,
-        asked: &Asked,
-        field: &Field<'_>,
-    ) -> anyhow::Result<Sheet> {
-        let style = self.colours.style(&asked.quantity)?;
-        let job = Job { field, view: &seen.view, quantity: &asked.quantity, style: &style };
-        let (drawn, overlaps) = draw(seen, job, &self.engine)?;
+    fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
+        let (drawn, _) = draw(seen, &asked.quantity, &self.engine)?;
+        drawn.warn(&asked.name);
+        let mut picture = drawn.picture(&self.colours.style(&asked.quantity)?)?;
         let outline = self.deformed.outline;
         let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
+        self.blank(&mut picture);
         let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
-        Ok(Sheet { drawn, layers, told: told_of(seen, overlaps), notes })
+        let told = told_of(seen, drawn.overlap.len());
+        Ok(Sheet { picture, by: drawn.by, layers, told, notes })
     }
 
     /// The files that are read.
@@ -222,10 +231,10 @@ fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
 }
 
 /// The meaning of the colours.
-fn colours(picture: &Picture, is_finite: bool) -> String {
+fn colours(picture: &Picture) -> String {
     let norm = &picture.normalization;
     match picture.one_value {
-        _ if !is_finite => "no finite values".into(),
+        _ if !picture.has_values => "no finite values".into(),
         Some(value) => format!("one value, {}", trimmed(value)),
         None => {
             let [from, to] = apart(norm.min(), norm.max());
@@ -235,16 +244,10 @@ fn colours(picture: &Picture, is_finite: bool) -> String {
 }
 
 impl Drawn {
-    /// Leaves out the colours: the plate is white.
-    fn blank(&mut self) {
-        let pixels = self.picture.image.rgba.as_chunks_mut::<4>().0;
-        pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
-    }
-
     /// Tells that a quantity has no value at some pixels.
     fn warn(&self, name: &str) {
-        if self.undefined[0] > 0 {
-            tell(&format!("warning: {}", undefined::message(name, self.undefined, "pixels")));
+        if !self.without.is_empty() {
+            tell(&format!("warning: {}", undefined::message(name, self.undefined(), "pixels")));
         }
     }
 }

@@ -35,19 +35,15 @@ impl From<RenderError> for Failure {
     }
 }
 
-/// Draws. The outer error is the device's, after which the CPU may try; the inner one is anything else.
-pub(crate) fn draw(
-    job: Job<'_>,
-    device: Device,
-    method: Method,
-) -> Result<anyhow::Result<Drawn>, Failure> {
+/// Draws. After an error the CPU may try.
+pub(crate) fn draw(job: Job<'_>, device: Device, method: Method) -> Result<Drawn, Failure> {
     let (renderer, raster) = drawn(job, device.into(), method.into())?;
     let name = &renderer.gpu().info().name;
     let by = match method {
         Method::Gather => format!("gpu f32, {name}"),
         Method::Splat => format!("gpu splat f32, {name}"),
     };
-    Ok(Drawn::new(&raster, job, &by))
+    Ok(Drawn::new(raster, job, &by))
 }
 
 fn drawn(

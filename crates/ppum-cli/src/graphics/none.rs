@@ -18,7 +18,7 @@ Pictures are drawn on the CPU, which is exact and quick.";
 const REASON: &str =
     "no graphics adapter: this program was built without graphics devices (feature `gpu`)";
 
-pub(crate) fn draw(_: Job<'_>, _: Device, _: Method) -> Result<anyhow::Result<Drawn>, Failure> {
+pub(crate) fn draw(_: Job<'_>, _: Device, _: Method) -> Result<Drawn, Failure> {
     Err(Failure { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })
 }
 

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, ensure};
 use ppum::field::Field;
 use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
-use ppum_render::picture::Style;
+use ppum_render::picture::Picture;
 use ppum_render::range::Range;
 use ppum_render::view::View;
 
@@ -31,15 +31,13 @@ impl Args {
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
         let view = self.window.seen(field, frame)?;
-        let mut drawn = self.drawn(field, &view, &subjects)?;
-        subjects.iter().zip(&drawn).for_each(|(subject, drawn)| drawn.warn(&subject.name));
-        let layers =
-            subjects.iter().zip(&drawn).map(|(asked, drawn)| self.layers(plate, asked, drawn));
+        let drawn = self.drawn(field, &view, &subjects)?;
+        let mut pictures = self.pictures(&subjects, &drawn)?;
+        let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
+        let layers = layers
+            .map(|(asked, (drawn, picture))| self.layers(plate, asked, &drawn.values, picture));
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
-        if self.look.blank {
-            drawn.iter_mut().for_each(Drawn::blank);
-        }
-        let pictures = drawn.iter().map(|drawn| &drawn.picture);
+        pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel = |((picture, labels), layers)| Panel {
             picture,
             layers,
@@ -47,10 +45,10 @@ impl Args {
             cracks: &field.step.cracks,
             shares_next: false,
         };
-        let all: Vec<Panel<'_>> = pictures.zip(labels).zip(layers).map(panel).collect();
+        let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
         let page = panels(&title, &all, grid, &design)?;
         let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
-        let (names, Drawn { picture, by, .. }) = (names.join(", "), &drawn[0]);
+        let (names, picture, by) = (names.join(", "), &pictures[0], &drawn[0].by);
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &names);
         if !self.shared_range {
@@ -90,30 +88,38 @@ impl Args {
         labels
     }
 
-    /// The pictures; where the range is shared and automatic they are drawn twice, to find it.
+    /// The values of each panel.
     fn drawn(
         &self,
         field: &Field<'_>,
         view: &View,
         subjects: &[Asked],
     ) -> anyhow::Result<Vec<Drawn>> {
-        let draw = |subject: &Asked, style: &Style| {
-            let quantity = &subject.quantity;
-            self.engine.draw(Job { field, view, quantity, style })
+        let draw = |subject: &Asked| {
+            let drawn = self.engine.draw(Job { field, view, quantity: &subject.quantity })?;
+            drawn.warn(&subject.name);
+            Ok(drawn)
         };
-        let own = |subject: &Asked| draw(subject, &self.colours.style(&subject.quantity)?);
-        let first = subjects.iter().map(own).collect::<anyhow::Result<Vec<_>>>()?;
+        subjects.iter().map(draw).collect()
+    }
+
+    /// The values in colours, of one range for all if that is asked for.
+    fn pictures(&self, subjects: &[Asked], drawn: &[Drawn]) -> anyhow::Result<Vec<Picture>> {
+        let own = |(subject, drawn): (&Asked, &Drawn)| {
+            Ok(drawn.picture(&self.colours.style(&subject.quantity)?)?)
+        };
+        let own = subjects.iter().zip(drawn).map(own).collect::<anyhow::Result<Vec<_>>>()?;
         if !self.shared_range {
-            return Ok(first);
+            return Ok(own);
         }
         let subject = subjects.first().context("there is a quantity")?;
         let mut style = self.colours.style(&subject.quantity)?;
         if self.colours.is_automatic() {
-            let norms = || first.iter().map(|drawn| &drawn.picture.normalization);
+            let norms = || own.iter().map(|picture| &picture.normalization);
             let min = norms().map(|norm| norm.min()).fold(f64::INFINITY, f64::min);
             let max = norms().map(|norm| norm.max()).fold(f64::NEG_INFINITY, f64::max);
             style.range = Range::Fixed(min, max);
         }
-        subjects.iter().map(|subject| draw(subject, &style)).collect()
+        Ok(drawn.iter().map(|drawn| drawn.picture(&style)).collect::<Result<_, _>>()?)
     }
 }
