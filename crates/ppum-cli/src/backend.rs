@@ -115,5 +115,5 @@ where
     Values: From<Raster<T>>,
 {
     let raster = render::<T>(job.field, job.view, job.quantity, &Bar::new())?;
-    Ok(Drawn::new(raster, job, by))
+    Ok(Drawn::new(raster, job.field, job.view, by))
 }

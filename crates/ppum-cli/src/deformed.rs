@@ -4,14 +4,13 @@ use std::str::FromStr;
 
 use anyhow::ensure;
 use ppum::field::Field;
-use ppum::quantity::Quantity;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_factor};
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::Drawn;
+use crate::drawing::{Drawn, PROCESSOR, Shown};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -107,18 +106,21 @@ pub(crate) fn words(view: &DeformedView<'_>) -> String {
 /// The values of a picture of the deformed plate, with the points of the plate that are seen.
 pub(crate) fn draw<'f>(
     view: &DeformedView<'f>,
-    quantity: &Quantity,
+    shown: &Shown,
     engine: &Engine,
 ) -> anyhow::Result<(Drawn, DeformedPoints<'f>)> {
     let (points, raster) = engine.on_processor(|| {
         let points = view.points(&Bar::new())?;
-        let raster = points.raster(quantity, &Bar::new())?;
+        let raster = match shown {
+            Shown::Quantity(quantity) => points.raster(quantity, &Bar::new())?,
+            Shown::Cells(_, values) => points.cells(values),
+        };
         anyhow::Ok((points, raster))
     })??;
     let without = undefined(&points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
     let (overlap, values) = (overlap.collect(), raster.values.into());
-    let drawn = Drawn { view: view.view, values, by: "cpu f64".into(), without, overlap };
+    let drawn = Drawn { view: view.view, values, by: PROCESSOR.into(), without, overlap };
     Ok((drawn, points))
 }
 

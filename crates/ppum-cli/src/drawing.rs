@@ -2,13 +2,58 @@
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
+use ppum_render::cells;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::RangeError;
 use ppum_render::raster::{Raster, Statistics};
 use ppum_render::view::View;
 
-/// The subject of a picture.
+/// What a picture shows.
+#[derive(Clone, Debug)]
+pub(crate) enum Shown {
+    /// A quantity, at every point.
+    Quantity(Quantity),
+    /// One value per patch, on its cell, with its name.
+    Cells(String, Vec<f64>),
+}
+
+impl Shown {
+    /// The quantity, if it is one.
+    pub(crate) fn quantity(&self) -> Option<&Quantity> {
+        match self {
+            Self::Quantity(quantity) => Some(quantity),
+            Self::Cells(..) => None,
+        }
+    }
+
+    /// True if its values are whole numbers by their nature.
+    fn is_whole(&self) -> bool {
+        match self {
+            Self::Quantity(quantity) => *quantity == Quantity::Overlap,
+            Self::Cells(_, values) => values.iter().all(|v| v.is_nan() || v.fract() == 0.0),
+        }
+    }
+}
+
+/// Most values that have a colour each: no more can be told apart.
+const MOST_CLASSES: usize = 20;
+
+/// The values that have a colour each in pictures of one range, rising: none unless they are few whole numbers in all of them.
+pub(crate) fn classes<'a>(
+    pictures: impl IntoIterator<Item = (&'a Shown, &'a Drawn)>,
+) -> Option<Vec<f64>> {
+    let values = |(shown, drawn): (&Shown, &Drawn)| {
+        shown.is_whole().then(|| drawn.values.whole_numbers(MOST_CLASSES))?
+    };
+    let found: Option<Vec<Vec<f64>>> = pictures.into_iter().map(values).collect();
+    let mut all = found?.concat();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    (all.len() <= MOST_CLASSES).then_some(all)
+}
+
+/// The subject of a picture of a quantity.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) field: &'a Field<'a>,
@@ -45,15 +90,30 @@ impl From<Raster<f32>> for Values {
     }
 }
 
+impl Values {
+    /// The different values, rising, if they are at most `most` whole numbers.
+    fn whole_numbers(&self, most: usize) -> Option<Vec<f64>> {
+        match self {
+            Self::Double(raster) => raster.whole_numbers(most),
+            Self::Single(raster) => raster.whole_numbers(most),
+        }
+    }
+}
+
 impl Drawn {
     /// The values of an undeformed plate.
-    pub(crate) fn new(values: impl Into<Values>, job: Job<'_>, by: &str) -> Self {
-        let (values, domain) = (values.into(), job.field.domain);
+    pub(crate) fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
+        let values = values.into();
         let without = match &values {
-            Values::Double(raster) => raster.undefined(domain, job.view),
-            Values::Single(raster) => raster.undefined(domain, job.view),
+            Values::Double(raster) => raster.undefined(field.domain, view),
+            Values::Single(raster) => raster.undefined(field.domain, view),
         };
-        Self { view: *job.view, values, by: by.to_owned(), without, overlap: Vec::new() }
+        Self { view: *view, values, by: by.to_owned(), without, overlap: Vec::new() }
+    }
+
+    /// One value per patch.
+    pub(crate) fn of_cells(values: &[f64], field: &Field<'_>, view: &View) -> Self {
+        Self::new(cells::raster(field, values, view), field, view, PROCESSOR)
     }
 
     /// Gives the values colours.
@@ -76,6 +136,9 @@ impl Drawn {
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }
+
+/// What draws all that is not drawn by a backend.
+pub(crate) const PROCESSOR: &str = "cpu f64";
 
 /// Dark lines across the pixels where the plate lies over itself.
 fn hatch(image: &mut Image, overlap: &[u32]) {

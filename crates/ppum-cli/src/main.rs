@@ -15,6 +15,7 @@ mod drawing;
 mod families;
 mod given;
 mod graphics;
+mod look;
 mod memory;
 mod number;
 mod output;
@@ -113,12 +114,13 @@ mod tests {
             ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
+            ("look", &["arguments"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
             ("warnings", &["number", "output"]),
         ],
         &[
-            ("dataset", &["given", "standard"]),
+            ("dataset", &["drawing", "given", "standard"]),
             ("graphics", &["drawing", "progress"]),
             ("overlays", &["arguments", "drawing", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
@@ -131,7 +133,7 @@ mod tests {
         ],
         &[
             ("backend", &["drawing", "graphics", "output", "progress", "threads"]),
-            ("subject", &["dataset", "given", "replacements", "standard"]),
+            ("subject", &["dataset", "drawing", "given", "replacements", "standard"]),
         ],
         &[("deformed", &["backend", "drawing", "progress", "window"])],
         &[(
@@ -145,6 +147,7 @@ mod tests {
                 "families",
                 "given",
                 "graphics",
+                "look",
                 "memory",
                 "number",
                 "output",

@@ -88,7 +88,8 @@ fn spacing(text: &str) -> Result<f64, String> {
 pub(crate) struct Ground<'a> {
     pub(crate) dataset: &'a Dataset,
     pub(crate) field: &'a Field<'a>,
-    pub(crate) quantity: &'a Quantity,
+    /// The quantity that is shown; none of values of cells, which have no isolines.
+    pub(crate) quantity: Option<&'a Quantity>,
     pub(crate) picture: &'a Picture,
     pub(crate) values: &'a Values,
     /// A figure has its cracks whatever is asked for.
@@ -165,7 +166,8 @@ impl Overlays {
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = &self.isolines else { return Ok(Vec::new()) };
-        let Ground { field, quantity, picture, values, .. } = ground;
+        let Ground { field, picture, values, .. } = ground;
+        let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
         let (view, norm) = (&picture.view, &picture.normalization);
         let levels = match levels {
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
@@ -238,6 +240,11 @@ impl Overlays {
             items.extend(overlay::faces(view));
         }
         Ok(items)
+    }
+
+    /// True if isolines are asked for.
+    pub(crate) fn have_isolines(&self) -> bool {
+        self.isolines.is_some()
     }
 
     /// Room around the plate for what stands outside of it, in parts of the plate's larger side.

@@ -55,15 +55,30 @@ pub(crate) fn save(
     told: &str,
     out: &mut Output,
 ) -> anyhow::Result<()> {
+    write(path, page, dpi, texts, out)?;
+    if is_standard(path) {
+        tell(&format!("wrote standard output: {told}"));
+    } else {
+        writeln!(out, "wrote {}: {told}", path.display())?;
+    }
+    Ok(())
+}
+
+/// Writes a page to a file or to standard output, and tells nothing but what its letters lack.
+pub(crate) fn write(
+    path: &Path,
+    page: &Canvas,
+    dpi: Option<f64>,
+    texts: &[Text],
+    out: &mut Output,
+) -> anyhow::Result<()> {
     let form = Form::of(path);
     warn_of_missing(page, form);
     let bytes = form.bytes(page, dpi, texts)?;
     if is_standard(path) {
         out.exact().write_all(&bytes)?;
-        tell(&format!("wrote standard output: {told}"));
     } else {
         target::save(path, |out| out.write_all(&bytes))?;
-        writeln!(out, "wrote {}: {told}", path.display())?;
     }
     Ok(())
 }

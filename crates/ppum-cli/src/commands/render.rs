@@ -1,6 +1,5 @@
 //! `ppum render`: a picture of a quantity.
 
-mod look;
 mod panels;
 
 use std::path::{Path, PathBuf};
@@ -10,15 +9,17 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Design, Panel, bare, figure, plot_area};
+use ppum_figure::figure::{BarPlace, Design, Panel, bare, figure, plot_area};
 use ppum_render::deform::DeformedView;
 use ppum_render::picture::Picture;
 use ppum_render::png::Text;
+use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job, Values};
+use crate::drawing::{Drawn, Job, Shown, Values};
+use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
@@ -27,7 +28,6 @@ use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
-use look::Look;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -43,11 +43,17 @@ pub(crate) struct Args {
     output: PathBuf,
     #[command(flatten)]
     look: Look,
-    /// Panels of a figure with several quantities: columns and rows
+    /// Add axes, a colour bar, a title and the cracks
+    #[arg(long)]
+    figure: bool,
+    /// Leave out the colours and their bar: the overlays alone
+    #[arg(long)]
+    blank: bool,
+    /// Panels of a figure with several quantities or parts: columns and rows [default: as large as fits]
     #[arg(long, value_name = "CxR", value_parser = size)]
     layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar
-    #[arg(long, requires = "layout")]
+    #[arg(long)]
     shared_range: bool,
     #[command(flatten)]
     window: Window,
@@ -76,6 +82,8 @@ Examples:
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
   ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
+  ppum render plate.h5 -o parts.png -q uy --part all,smooth,jump,tip --shared-range
+  ppum render plate.h5 -o method.png -q level,order,functions,overlap
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
@@ -101,29 +109,75 @@ impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
-        self.look.check(self.layout.is_some())?;
+        self.look.check(self.is_figure())?;
         ensure!(
-            self.layout.is_none() || !self.deformed.is_given(),
-            "--layout and --deformed do not go together yet; draw the panels one by one"
+            !self.has_panels() || !self.deformed.is_given(),
+            "several panels and --deformed do not go together yet; draw them one by one"
         );
-        let dataset = self.subject.open()?;
-        let field = self.subject.field(&dataset)?;
-        let shown = self.subject.replacements.title(&dataset.title);
-        let plate = Plate { dataset: &dataset, field: &field, shown };
-        match self.layout {
-            None => self.one(&plate, out),
-            Some(layout) => self.panels(&plate, layout, out),
+        ensure!(
+            self.has_panels() || !self.shared_range,
+            "--shared-range is for panels; give several quantities or parts"
+        );
+        let datasets = self.subject.open_parts()?;
+        let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
+        let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
+        let plates: Vec<_> = datasets.iter().zip(&fields).map(|(d, f)| self.plate(d, f)).collect();
+        match &plates[..] {
+            [plate] if !self.has_panels() => self.one(plate, out),
+            plates => self.panels(plates, out),
         }
+    }
+
+    /// True for a figure of several panels, or of one that is called so.
+    fn has_panels(&self) -> bool {
+        self.layout.is_some() || self.subject.count() > 1
+    }
+
+    fn is_figure(&self) -> bool {
+        self.figure || self.has_panels()
+    }
+
+    /// The look of a figure.
+    fn design(&self, field: &Field<'_>) -> Design {
+        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE);
+        if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
+    }
+
+    fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>) -> Plate<'a> {
+        let shown = self.subject.replacements.title(&dataset.title);
+        Plate { dataset, field, shown }
+    }
+
+    /// What is shown of a plate. Isolines of values of cells alone are refused.
+    fn asked(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
+        let asked = self.subject.asked(field)?;
+        let is_of_cells = |asked: &Asked| asked.shown.quantity().is_none();
+        ensure!(
+            !(self.overlays.have_isolines() && asked.iter().all(is_of_cells)),
+            "--isolines: `{}` is constant in each cell; --overlay cells draws the borders",
+            asked[0].name
+        );
+        Ok(asked)
+    }
+
+    /// The values at the pixels of a view.
+    fn values(&self, field: &Field<'_>, view: &View, asked: &Asked) -> anyhow::Result<Drawn> {
+        let drawn = match &asked.shown {
+            Shown::Quantity(quantity) => self.engine.draw(Job { field, view, quantity })?,
+            Shown::Cells(_, values) => Drawn::of_cells(values, field, view),
+        };
+        drawn.warn(&asked.name);
+        Ok(drawn)
     }
 
     /// Draws one quantity.
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
         let field = plate.field;
-        let asked = self.subject.quantity(field)?;
+        let asked = self.asked(field)?.swap_remove(0);
         let mut labels = asked.labels(plate.shown.clone(), field);
-        let design = self.look.design(self.window.aspect(field));
+        let design = self.design(field);
         let room = |title: &str| {
-            if self.look.figure { plot_area(title, &design) } else { Ok(self.look.size()) }
+            if self.figure { plot_area(title, &design) } else { Ok(design.size) }
         };
         let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
         let seen = self.deformed.view(field, &self.window, frame)?;
@@ -138,8 +192,7 @@ impl Args {
         let cracks =
             seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
         let Sheet { picture, by, layers, told, notes } = sheet;
-        let panel =
-            Panel { picture: &picture, layers, labels, cracks: &cracks, shares_next: false };
+        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None };
         let page = self.page(panel, &design)?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
@@ -154,11 +207,9 @@ impl Args {
 
     /// Draws the plate as it was before it was loaded.
     fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
-        let (field, style) = (plate.field, self.colours.style(&asked.quantity)?);
-        let view = self.window.seen(field, frame)?;
-        let drawn = self.engine.draw(Job { field, view: &view, quantity: &asked.quantity })?;
-        drawn.warn(&asked.name);
-        let mut picture = drawn.picture(&style)?;
+        let view = self.window.seen(plate.field, frame)?;
+        let drawn = self.values(plate.field, &view, asked)?;
+        let mut picture = drawn.picture(&self.colours.style_of(&[(asked, &drawn)])?)?;
         let layers = self.layers(plate, asked, &drawn.values, &picture)?;
         self.blank(&mut picture);
         Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
@@ -172,15 +223,15 @@ impl Args {
         values: &Values,
         picture: &Picture,
     ) -> anyhow::Result<Vec<Item>> {
-        let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
-        let is_figure = self.look.figure || self.layout.is_some();
+        let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
+        let is_figure = self.is_figure();
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
         self.engine.with_threads(|| self.overlays.items(ground))?
     }
 
     /// Leaves out the colours if that is asked for: the plate is white.
     fn blank(&self, picture: &mut Picture) {
-        if self.look.blank {
+        if self.blank {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
             pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
         }
@@ -188,11 +239,11 @@ impl Args {
 
     /// Draws the plate moved by its displacements.
     fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
-        let (drawn, _) = draw(seen, &asked.quantity, &self.engine)?;
+        let (drawn, _) = draw(seen, &asked.shown, &self.engine)?;
         drawn.warn(&asked.name);
-        let mut picture = drawn.picture(&self.colours.style(&asked.quantity)?)?;
+        let mut picture = drawn.picture(&self.colours.style_of(&[(asked, &drawn)])?)?;
         let outline = self.deformed.outline;
-        let layers = self.overlays.deformed_items(seen, self.look.figure, outline)?;
+        let layers = self.overlays.deformed_items(seen, self.figure, outline)?;
         self.blank(&mut picture);
         let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
         let told = told_of(seen, drawn.overlap.len());
@@ -207,18 +258,13 @@ impl Args {
     /// The room of a picture of so many pixels.
     fn frame(&self, pixels: [u32; 2]) -> Frame {
         // A figure centres what it is given; a bare picture has the size that was asked for.
-        let is_figure = self.look.figure || self.layout.is_some();
-        let may_shrink = is_figure || self.look.given_size().is_none();
+        let may_shrink = self.is_figure() || self.look.given_size().is_none();
         Frame { pixels, may_shrink, margin: self.overlays.margin() }
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
     fn page(&self, panel: Panel<'_>, design: &Design) -> anyhow::Result<Canvas> {
-        if self.look.figure {
-            Ok(figure(panel, design)?)
-        } else {
-            Ok(bare(panel.picture, panel.layers))
-        }
+        if self.figure { Ok(figure(panel, design)?) } else { Ok(bare(panel.picture, panel.layers)) }
     }
 }
 

@@ -43,7 +43,7 @@ pub(crate) fn draw(job: Job<'_>, device: Device, method: Method) -> Result<Drawn
         Method::Gather => format!("gpu f32, {name}"),
         Method::Splat => format!("gpu splat f32, {name}"),
     };
-    Ok(Drawn::new(raster, job, &by))
+    Ok(Drawn::new(raster, job.field, job.view, &by))
 }
 
 fn drawn(

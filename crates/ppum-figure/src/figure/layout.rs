@@ -10,7 +10,7 @@
 //!   …                …
 //! ```
 //!
-//! Panels fill the grid row by row. Neighbours may share a bar, beside the last of them. Plots of a column begin at one line, and so do those of a row.
+//! Panels fill the grid row by row. Several may share a bar beside one of them. Plots of a column begin at one line, and so do those of a row.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -129,7 +129,7 @@ fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
 }
 
 /// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures have at most
-/// the size that [`panel_area`] gives. The bar that neighbours share has the words of the first.
+/// the size that [`panel_area`] gives. A bar that several share has the words of the first.
 ///
 /// # Errors
 /// A page without room, a picture that is too large, more panels than cells, no panels; one bar for pictures
@@ -194,7 +194,7 @@ impl<'a> Page<'a> {
         let [columns, rows] = tracks(&sheets, grid, design);
         let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
         let bar = match grid.shared_bar {
-            true => sheet::bar(shared_key(panels)?, design.bar, design, sides, sides),
+            true => sheet::bar(shared_key(panels.iter())?, design.bar, design, sides, sides),
             false => None,
         };
         Ok(Self { design, sheets, columns, rows, bar, lines })
@@ -281,18 +281,19 @@ fn tracks(sheets: &[Sheet<'_>], grid: Grid, design: &Design) -> [Vec<Track>; 2] 
 }
 
 /// What one bar explains.
-fn shared_key(panels: &[Panel<'_>]) -> Result<Key, FigureError> {
-    let mut keys = panels.iter().map(|panel| Key::new(panel.picture, &panel.labels));
+fn shared_key<'a>(panels: impl Iterator<Item = &'a Panel<'a>>) -> Result<Key, FigureError> {
+    let mut keys = panels.map(|panel| Key::new(panel.picture, &panel.labels));
     let first = keys.next().ok_or(FigureError::Ranges)?;
     keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
 }
 
-/// What the bar of each panel explains; none of those that the next one's bar explains.
+/// What the bar of each panel explains; none of those that another one's bar explains.
 fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<Key>>, FigureError> {
-    let groups = panels.split_inclusive(|panel| !panel.shares_next);
-    let keys = groups.map(|group| {
-        let none = std::iter::repeat_n(None, group.len() - 1);
-        Ok(none.chain([Some(shared_key(group)?)]))
-    });
-    Ok(keys.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+    let has_own = |k: usize| panels.get(k).is_some_and(|panel| panel.bar_of.is_none());
+    let owner = |k: usize| panels[k].bar_of.filter(|&other| has_own(other)).unwrap_or(k);
+    let key = |k: usize| {
+        let explained = (0..panels.len()).filter(|&other| owner(other) == k);
+        (owner(k) == k).then(|| shared_key(explained.map(|other| &panels[other]))).transpose()
+    };
+    (0..panels.len()).map(key).collect()
 }

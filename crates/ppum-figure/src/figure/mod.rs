@@ -74,8 +74,9 @@ pub struct Panel<'a> {
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.
     pub cracks: &'a [Crack],
-    /// True if the bar of the next panel explains this one too: it then has none of its own.
-    pub shares_next: bool,
+    /// The panel, by its place in the figure, whose bar explains this one too; none, or one without a bar of its own, if
+    /// this one has its own.
+    pub bar_of: Option<usize>,
 }
 
 /// A figure around a picture of at most [`plot_area`], in the middle, its title above it.

@@ -51,7 +51,7 @@ fn picture(half: f64, range: Range) -> Picture {
 }
 
 fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
-    Panel { picture, layers: vec![], labels, cracks: &[], shares_next: false }
+    Panel { picture, layers: vec![], labels, cracks: &[], bar_of: None }
 }
 
 fn drawn(picture: &Picture) -> Image {
@@ -228,25 +228,27 @@ fn classes_are_marked_in_their_middle() {
     }
 }
 
-/// A bar for the panels before it: it knows of the values of all.
+/// A bar for several panels: it knows of the values of all.
 #[test]
-fn neighbours_share_a_bar() {
+fn panels_share_a_bar() {
     let design = Design::pixels([1500, 900]);
     let grid = Grid { columns: 3, rows: 1, shared_bar: false };
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
-    let draw = |shares: [bool; 3], pictures: [&Picture; 3]| {
-        let panel =
-            |(shares_next, picture)| Panel { shares_next, ..panel(picture, Labels::default()) };
-        let all: Vec<Panel<'_>> = shares.into_iter().zip(pictures).map(panel).collect();
+    let draw = |bars: [Option<usize>; 3], pictures: [&Picture; 3]| {
+        let panel = |(bar_of, picture)| Panel { bar_of, ..panel(picture, Labels::default()) };
+        let all: Vec<Panel<'_>> = bars.into_iter().zip(pictures).map(panel).collect();
         let page = panels("", &all, grid, &design)?;
         Ok(page.items.iter().filter(|item| matches!(item, Item::Picture { .. })).count())
     };
-    assert_eq!(draw([false; 3], [&a, &a, &b]), Ok(3));
-    assert_eq!(draw([true, false, false], [&a, &a, &b]), Ok(2));
-    assert_eq!(draw([true; 3], [&a, &a, &a]), Ok(1));
-    assert_eq!(draw([true, true, false], [&a, &a, &b]), Err(FigureError::Ranges));
+    assert_eq!(draw([None; 3], [&a, &a, &b]), Ok(3));
+    assert_eq!(draw([Some(1), None, None], [&a, &a, &b]), Ok(2));
+    assert_eq!(draw([None, None, Some(0)], [&a, &b, &a]), Ok(2));
+    assert_eq!(draw([Some(2), Some(2), None], [&a, &a, &a]), Ok(1));
+    assert_eq!(draw([Some(2), Some(2), None], [&a, &a, &b]), Err(FigureError::Ranges));
+    // nobody is left without
+    assert_eq!(draw([Some(7), Some(0), Some(2)], [&a, &a, &b]), Ok(3));
 }
 
 /// A picture of nothing says so, and its bar has no marks.

@@ -1,41 +1,40 @@
-//! Several quantities in one figure.
+//! Several quantities, or parts of a field, in one figure.
 
-use anyhow::{Context as _, ensure};
-use ppum::field::Field;
-use ppum_figure::figure::{Grid, Labels, Panel, panel_area, panels};
+use anyhow::ensure;
+use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
 use ppum_render::picture::Picture;
 use ppum_render::range::Range;
-use ppum_render::view::View;
 
 use super::{Args, Plate};
-use crate::drawing::{Drawn, Job};
+use crate::drawing::Drawn;
+use crate::look::letters;
 use crate::output::Output;
 use crate::page;
 use crate::subject::Asked;
 
+/// What a panel shows, and of which plate; several parts of a field are several plates.
+type Subject<'a> = (&'a Plate<'a>, Asked);
+
 impl Args {
-    /// Draws the quantities, each in a panel.
-    pub(super) fn panels(
-        &self,
-        plate: &Plate<'_>,
-        [columns, rows]: [u32; 2],
-        out: &mut Output,
-    ) -> anyhow::Result<()> {
-        let (field, title) = (plate.field, plate.shown.clone());
-        let grid = Grid { columns, rows, shared_bar: self.shared_range };
-        let subjects = self.asked(field, grid)?;
-        let title = self.look.worded(Labels { title, ..Labels::default() }).title;
-        let labels: Vec<Labels> =
-            subjects.iter().zip(0..).map(|(s, k)| self.words(s, k, field)).collect();
-        let design = self.look.design(self.window.aspect(field));
+    /// Draws each quantity of each plate in a panel.
+    pub(super) fn panels(&self, plates: &[Plate<'_>], out: &mut Output) -> anyhow::Result<()> {
+        let Plate { dataset, field, shown } = &plates[0];
+        let subjects = self.subjects(plates)?;
+        let title = Labels { title: shown.clone(), ..Labels::default() };
+        let title = self.look.worded(title).title;
+        let labels = self.labels(&subjects, plates.len());
+        let design = self.design(field);
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
+        let grid = self.grid(&title, &captions, plates, &design)?;
         let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
         let view = self.window.seen(field, frame)?;
-        let drawn = self.drawn(field, &view, &subjects)?;
+        let drawn = subjects.iter().map(|(plate, asked)| self.values(plate.field, &view, asked));
+        let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
         let mut pictures = self.pictures(&subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
-        let layers = layers
-            .map(|(asked, (drawn, picture))| self.layers(plate, asked, &drawn.values, picture));
+        let layers = layers.map(|((plate, asked), (drawn, picture))| {
+            self.layers(plate, asked, &drawn.values, picture)
+        });
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
         pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel = |((picture, labels), layers)| Panel {
@@ -43,78 +42,108 @@ impl Args {
             layers,
             labels,
             cracks: &field.step.cracks,
-            shares_next: false,
+            bar_of: None,
         };
         let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
         let page = panels(&title, &all, grid, &design)?;
-        let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
-        let (names, picture, by) = (names.join(", "), &pictures[0], &drawn[0].by);
-        let mut texts =
-            picture.description(&plate.dataset.title, &self.subject.file_name(), &names);
+        let names = subjects.iter().step_by(plates.len()).map(|(_, asked)| asked.name.as_str());
+        let names = names.collect::<Vec<_>>().join(", ");
+        let mut texts = pictures[0].description(&dataset.title, &self.subject.file_name(), &names);
         if !self.shared_range {
             // each panel has its own, on its bar
             texts.retain(|(key, _)| key != "ppum:range");
         }
+        let by = &drawn[0].by;
         texts.push(("ppum:backend".to_owned(), by.clone()));
         texts.extend(self.subject.replacements.notes());
-        let [columns, rows] = page.size;
+        let ([columns, rows], parts) = (page.size, self.subject.replacements.captions());
+        let names = [names].into_iter().chain(parts).collect::<Vec<_>>().join(", ");
         let told = format!("{names}, {columns}x{rows} pixels, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    fn asked(&self, field: &Field<'_>, grid: Grid) -> anyhow::Result<Vec<Asked>> {
-        ensure!(grid.columns.min(grid.rows) > 0, "--layout: give at least 1x1 panels");
-        let asked = self.subject.quantities(field)?;
-        ensure!(
-            asked.len() <= grid.cells(),
-            "--layout {}x{} has fewer panels than there are quantities, {}",
-            grid.columns,
-            grid.rows,
-            asked.len()
-        );
-        Ok(asked)
-    }
-
-    /// The words of a panel, `(a) σ_yy` above it; where one bar is for all it names nothing but the unit.
-    fn words(&self, subject: &Asked, number: u8, field: &Field<'_>) -> Labels {
-        let mut labels = subject.labels(String::new(), field);
-        let name = labels.quantity.clone();
-        if self.shared_range {
-            labels.quantity.clear();
+    /// What the panels show: all parts of a quantity, then those of the next one.
+    fn subjects<'a>(&self, plates: &'a [Plate<'a>]) -> anyhow::Result<Vec<Subject<'a>>> {
+        let of = plates.iter().map(|plate| Ok(self.asked(plate.field)?.into_iter()));
+        let mut of = of.collect::<anyhow::Result<Vec<_>>>()?;
+        let mut all = Vec::new();
+        while of[0].len() > 0 {
+            all.extend(plates.iter().zip(of.iter_mut().filter_map(Iterator::next)));
         }
-        let mut labels = self.look.worded(labels);
-        // after z comes {, but nobody has that many
-        labels.title = format!("({}) {name}", char::from(b'a'.saturating_add(number)));
-        labels
+        Ok(all)
     }
 
-    /// The values of each panel.
-    fn drawn(
+    /// The arrangement: as given; else a row for each of several quantities of several parts, or that with the largest
+    /// pictures.
+    fn grid(
         &self,
-        field: &Field<'_>,
-        view: &View,
-        subjects: &[Asked],
-    ) -> anyhow::Result<Vec<Drawn>> {
-        let draw = |subject: &Asked| {
-            let drawn = self.engine.draw(Job { field, view, quantity: &subject.quantity })?;
-            drawn.warn(&subject.name);
-            Ok(drawn)
+        title: &str,
+        captions: &[&str],
+        plates: &[Plate<'_>],
+        design: &Design,
+    ) -> anyhow::Result<Grid> {
+        let (count, parts, shared_bar) = (captions.len(), plates.len(), self.shared_range);
+        let of = |columns: usize| Grid {
+            columns: columns as u32,
+            rows: count.div_ceil(columns) as u32,
+            shared_bar,
         };
-        subjects.iter().map(draw).collect()
+        if let Some([columns, rows]) = self.layout {
+            ensure!(columns.min(rows) > 0, "--layout: give at least 1x1 panels");
+            let grid = Grid { columns, rows, shared_bar };
+            ensure!(
+                count <= grid.cells(),
+                "--layout {columns}x{rows} has fewer panels than there are pictures, {count}"
+            );
+            return Ok(grid);
+        }
+        if parts > 1 && count > parts {
+            return Ok(of(parts));
+        }
+        let aspect = self.window.aspect(plates[0].field);
+        let width = |grid: Grid| {
+            let [width, height] = panel_area(title, captions, grid, design)?.map(f64::from);
+            Ok::<_, FigureError>(width.min(height * aspect.unwrap_or(SHAPE)))
+        };
+        let fitting = (1..=count).filter_map(|n| Some((width(of(n)).ok()?, of(n))));
+        let best = fitting.reduce(|a, b| if b.0 > a.0 { b } else { a });
+        best.map_or_else(|| Ok(width(of(count)).map(|_| of(count))?), |(_, grid)| Ok(grid))
+    }
+
+    /// The words of the panels, `(a) σ_yy` above the first; where one bar is for all it names what they share.
+    fn labels(&self, subjects: &[Subject<'_>], parts: usize) -> Vec<Labels> {
+        let captions = self.subject.replacements.captions();
+        let is_one = subjects.len() == parts;
+        let of = |(number, (plate, asked)): (usize, &Subject<'_>)| {
+            let mut labels = asked.labels(String::new(), plate.field);
+            let name = labels.quantity.clone();
+            if self.shared_range && !is_one {
+                labels.quantity.clear();
+            }
+            let mut labels = self.look.worded(labels);
+            let caption = match captions.get(number % parts) {
+                Some(part) if is_one => part.clone(),
+                Some(part) => format!("{name}, {part}"),
+                None => name,
+            };
+            labels.title = format!("({}) {caption}", letters(number));
+            labels
+        };
+        subjects.iter().enumerate().map(of).collect()
     }
 
     /// The values in colours, of one range for all if that is asked for.
-    fn pictures(&self, subjects: &[Asked], drawn: &[Drawn]) -> anyhow::Result<Vec<Picture>> {
-        let own = |(subject, drawn): (&Asked, &Drawn)| {
-            Ok(drawn.picture(&self.colours.style(&subject.quantity)?)?)
+    fn pictures(&self, subjects: &[Subject<'_>], drawn: &[Drawn]) -> anyhow::Result<Vec<Picture>> {
+        let all: Vec<_> = subjects.iter().map(|(_, asked)| asked).zip(drawn).collect();
+        let own = |pair: &(&Asked, &Drawn)| {
+            Ok(pair.1.picture(&self.colours.style_of(std::slice::from_ref(pair))?)?)
         };
-        let own = subjects.iter().zip(drawn).map(own).collect::<anyhow::Result<Vec<_>>>()?;
+        let own = all.iter().map(own).collect::<anyhow::Result<Vec<_>>>()?;
         if !self.shared_range {
             return Ok(own);
         }
-        let subject = subjects.first().context("there is a quantity")?;
-        let mut style = self.colours.style(&subject.quantity)?;
-        if self.colours.is_automatic() {
+        let mut style = self.colours.style_of(&all)?;
+        if self.colours.is_automatic() && style.colormap.classes().is_empty() {
             let norms = || own.iter().map(|picture| &picture.normalization);
             let min = norms().map(|norm| norm.min()).fold(f64::INFINITY, f64::min);
             let max = norms().map(|norm| norm.max()).fold(f64::NEG_INFINITY, f64::max);
@@ -123,3 +152,6 @@ impl Args {
         Ok(drawn.iter().map(|drawn| drawn.picture(&style)).collect::<Result<_, _>>()?)
     }
 }
+
+/// Width over height of pictures that have any shape.
+const SHAPE: f64 = 4.0 / 3.0;
