@@ -10,7 +10,7 @@ use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_f
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::{Drawn, PROCESSOR, Shown};
+use crate::drawing::{Drawn, PROCESSOR, Seen, Shown};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -52,8 +52,22 @@ impl Deformed {
         self.factor.is_some()
     }
 
+    /// What is seen of the plate, undeformed unless the other is asked for.
+    pub(crate) fn seen<'f>(
+        &self,
+        field: &'f Field<'f>,
+        window: &Window,
+        frame: Frame,
+        engine: &Engine,
+    ) -> anyhow::Result<Seen<'f>> {
+        let Some(view) = self.view(field, window, frame)? else {
+            return Ok(Seen::Plate(window.seen(field, frame)?));
+        };
+        Ok(Seen::Moved(engine.on_processor(|| view.points(&Bar::new()))??))
+    }
+
     /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
-    pub(crate) fn view<'f>(
+    fn view<'f>(
         &self,
         field: &'f Field<'f>,
         window: &Window,
@@ -103,25 +117,20 @@ pub(crate) fn words(view: &DeformedView<'_>) -> String {
     format!("deformed ×{}", trimmed(view.factor()))
 }
 
-/// The values of a picture of the deformed plate, with the points of the plate that are seen.
-pub(crate) fn draw<'f>(
-    view: &DeformedView<'f>,
+/// The values of a picture of the deformed plate.
+pub(crate) fn draw(
+    points: &DeformedPoints<'_>,
     shown: &Shown,
     engine: &Engine,
-) -> anyhow::Result<(Drawn, DeformedPoints<'f>)> {
-    let (points, raster) = engine.on_processor(|| {
-        let points = view.points(&Bar::new())?;
-        let raster = match shown {
-            Shown::Quantity(quantity) => points.raster(quantity, &Bar::new())?,
-            Shown::Cells(_, values) => points.cells(values),
-        };
-        anyhow::Ok((points, raster))
+) -> anyhow::Result<Drawn> {
+    let raster = engine.on_processor(|| match shown {
+        Shown::Quantity(quantity) => points.raster(quantity, &Bar::new()),
+        Shown::Cells(_, values) => Ok(points.cells(values)),
     })??;
-    let without = undefined(&points, &raster.values);
+    let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
-    let (overlap, values) = (overlap.collect(), raster.values.into());
-    let drawn = Drawn { view: view.view, values, by: PROCESSOR.into(), without, overlap };
-    Ok((drawn, points))
+    let (view, overlap) = (points.view.view, overlap.collect());
+    Ok(Drawn { view, values: raster.values.into(), by: PROCESSOR.into(), without, overlap })
 }
 
 /// The pixels of the plate without a value.

@@ -1,8 +1,10 @@
 //! The subject of a picture, and its values once they are drawn; colours come afterwards.
 
+use ppum::crack::Crack;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_render::cells;
+use ppum_render::deform::DeformedPoints;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::RangeError;
@@ -51,6 +53,27 @@ pub(crate) fn classes<'a>(
     all.sort_by(f64::total_cmp);
     all.dedup();
     (all.len() <= MOST_CLASSES).then_some(all)
+}
+
+/// What is seen of a plate: as it was, or deformed.
+pub(crate) enum Seen<'f> {
+    Plate(View),
+    Moved(DeformedPoints<'f>),
+}
+
+impl<'f> Seen<'f> {
+    /// The deformed plate, if it is that.
+    pub(crate) fn moved(&self) -> Option<&DeformedPoints<'f>> {
+        match self {
+            Self::Plate(_) => None,
+            Self::Moved(points) => Some(points),
+        }
+    }
+
+    /// The cracks where they are seen.
+    pub(crate) fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
+        self.moved().map_or_else(|| field.step.cracks.clone(), |points| points.view.moved_cracks())
+    }
 }
 
 /// The subject of a picture of a quantity.

@@ -113,11 +113,14 @@ impl Look {
     }
 
     /// The look of a figure of something of a shape, width over height, none if it has any shape; of `size` pixels
-    /// unless another size is given.
-    pub(crate) fn design(&self, aspect: Option<f64>, size: [u32; 2]) -> Design {
-        let mut design = match self.inches {
-            Some(inches) => Design::inches(inches, self.dpi()),
-            None => Design::pixels(self.size.unwrap_or(size)).at(self.dpi()),
+    /// unless another size is given, with letters as for one of so many parts of it across and down.
+    pub(crate) fn design(&self, aspect: Option<f64>, size: [u32; 2], parts: [u32; 2]) -> Design {
+        let mut design = match (self.inches, self.size.unwrap_or(size)) {
+            (Some(inches), _) => Design::inches(inches, self.dpi()),
+            (None, size) => {
+                let part = [size[0] / parts[0], size[1] / parts[1]];
+                Design { size, ..Design::pixels(part).at(self.dpi()) }
+            }
         };
         design.font_size = self.font_size.unwrap_or(design.font_size);
         design.transparent = self.transparent;

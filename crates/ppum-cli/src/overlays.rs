@@ -11,10 +11,11 @@ use ppum::vec2::Vec2;
 use ppum_figure::canvas::Item;
 use ppum_figure::levels;
 use ppum_figure::overlay::{self, Entry, Load, Support};
-use ppum_render::deform::DeformedView;
-use ppum_render::glyph::{self, LEAST_SPACING};
+use ppum_render::deform::DeformedPoints;
+use ppum_render::glyph::{LEAST_SPACING, Lattice};
 use ppum_render::isoline::isolines;
 use ppum_render::picture::Picture;
+use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_solve::problem::{Problem, Station};
 
@@ -137,7 +138,8 @@ impl Overlays {
         wanted.dedup();
         let stations = self.stations(view, dataset);
         let (mut items, mut legend) = (self.isolines(ground)?, Vec::new());
-        let (glyphs, entries) = self.glyphs(field, view)?;
+        let (glyphs, entries) =
+            self.glyphs(ground, |spacing| Lattice::new(field, view, spacing))?;
         items.extend(glyphs);
         legend.extend(entries);
         for overlay in wanted {
@@ -165,15 +167,9 @@ impl Overlays {
 
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
-        let Some(levels) = &self.isolines else { return Ok(Vec::new()) };
-        let Ground { field, picture, values, .. } = ground;
+        let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
+        let Ground { field, picture: Picture { view, .. }, values, .. } = ground;
         let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
-        let (view, norm) = (&picture.view, &picture.normalization);
-        let levels = match levels {
-            Levels::Auto => levels::automatic(norm, AUTOMATIC),
-            Levels::Count(count) => levels::automatic(norm, *count),
-            Levels::At(values) => values.clone(),
-        };
         let (levels, bar) = (levels.as_slice(), Bar::new());
         let lines = match values {
             Values::Double(raster) => isolines(field, view, quantity, levels, raster, &bar),
@@ -182,15 +178,45 @@ impl Overlays {
         Ok(overlay::isolines(view, &lines, self.level_labels))
     }
 
-    /// Arrows and crosses with what their lengths mean.
-    fn glyphs(&self, field: &Field<'_>, view: &View) -> anyhow::Result<(Vec<Item>, Vec<Entry>)> {
+    /// Isolines of the plate as it was, where they have moved to.
+    fn deformed_isolines(
+        &self,
+        ground: Ground<'_>,
+        points: &DeformedPoints<'_>,
+    ) -> anyhow::Result<Vec<Item>> {
+        let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
+        let Some(view) = points.material_view()? else { return Ok(Vec::new()) };
+        let field = ground.field;
+        let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
+        let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
+        let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
+        let lines = overlay::carried(&points.view, &lines);
+        Ok(overlay::isolines(&points.view.view, &lines, self.level_labels))
+    }
+
+    /// The levels of isolines, if they are asked for.
+    fn levels(&self, picture: &Picture) -> Option<Vec<f64>> {
+        let norm = &picture.normalization;
+        self.isolines.as_ref().map(|levels| match levels {
+            Levels::Auto => levels::automatic(norm, AUTOMATIC),
+            Levels::Count(count) => levels::automatic(norm, *count),
+            Levels::At(values) => values.clone(),
+        })
+    }
+
+    /// Arrows and crosses with what their lengths mean. `lattice` makes points with a spacing.
+    fn glyphs<'f>(
+        &self,
+        Ground { field, picture: Picture { view, .. }, .. }: Ground<'_>,
+        lattice: impl Fn(f64) -> Lattice<'f>,
+    ) -> anyhow::Result<(Vec<Item>, Vec<Entry>)> {
         let (mut items, mut entries) = (Vec::new(), Vec::new());
         let mut add = |(more, meaning): (Vec<Item>, Vec<Entry>)| {
             items.extend(more);
             entries.extend(meaning);
         };
         if let Some(spacing) = self.crosses {
-            let found = glyph::principal(field, view, spacing, &Bar::new())?;
+            let found = lattice(spacing).principal(&Bar::new())?;
             add(overlay::crosses(view, &found, spacing));
         }
         if let Some(spacing) = self.arrows {
@@ -198,7 +224,7 @@ impl Overlays {
                 2 => [Quantity::Component(0), Quantity::Component(1)],
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
-            let found = glyph::vectors(field, view, spacing, &shown, &Bar::new())?;
+            let found = lattice(spacing).vectors(&shown, &Bar::new())?;
             add(overlay::arrows(view, &found, spacing));
         }
         Ok((items, entries))
@@ -208,37 +234,34 @@ impl Overlays {
     /// the border of the undeformed plate if that is wanted.
     pub(crate) fn deformed_items(
         &self,
-        view: &DeformedView<'_>,
-        is_figure: bool,
+        ground: Ground<'_>,
+        points: &DeformedPoints<'_>,
         with_outline: bool,
     ) -> anyhow::Result<Vec<Item>> {
         let has = |wanted: Overlay| self.overlay.contains(&wanted);
-        let given = [
-            ("--isolines", self.isolines.is_some()),
-            ("--arrows", self.arrows.is_some()),
-            ("--crosses", self.crosses.is_some()),
-        ];
-        if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
-            bail!("{option}: the deformed plate is drawn with cells and cracks alone");
-        }
         let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
         if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
             bail!(
-                "--overlay {}: the deformed plate is drawn with cells and cracks alone",
+                "--overlay {}: of these overlays the deformed plate has cells and cracks alone",
                 other.get_name()
             );
         }
+        let view = &points.view;
         let mut items = Vec::new();
         if with_outline {
             items.extend(overlay::undeformed_outline(view)?);
         }
+        items.extend(self.deformed_isolines(ground, points)?);
+        let (glyphs, legend) = self.glyphs(ground, |spacing| Lattice::deformed(points, spacing))?;
+        items.extend(glyphs);
         if has(Overlay::Cells) {
             items.extend(overlay::deformed_cells(view));
         }
-        if is_figure || has(Overlay::Cracks) {
+        if ground.is_figure || has(Overlay::Cracks) {
             items.extend(overlay::deformed_outline(view));
             items.extend(overlay::faces(view));
         }
+        items.extend(overlay::legend(&view.view, &legend));
         Ok(items)
     }
 

@@ -68,6 +68,11 @@ impl Subject {
         parts(self.given(field)).into_iter().map(asked).collect()
     }
 
+    /// True if several parts are asked for.
+    pub(crate) fn has_parts(&self) -> bool {
+        !self.replacements.captions().is_empty()
+    }
+
     /// The number of pictures that are asked for: one for each quantity and part.
     pub(crate) fn count(&self) -> usize {
         let quantities = self.quantity.as_deref().map_or(1, |list| parts(list).len());

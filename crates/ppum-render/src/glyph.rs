@@ -1,19 +1,20 @@
 //! Points for arrows and crosses, with their values: vectors, and principal stresses with their directions.
 //!
-//! The points are those of a lattice that lie in the view and the domain. It is at rest in the world: its points are multiples of
+//! The points are those of a [`Lattice`] that lie in the view and on the plate. It is at rest in the world: its points are multiples of
 //! the spacing from the origin, so panning moves the arrows with the field, and no arrow jumps. Values are evaluated at
 //! the points, each by itself; those that are not finite, as stresses at a tip, have no glyph.
 //!
 //! A point on a crack stands for one of its faces: that on the left of the crack's direction, and says so.
 
 use ppum::crack::{SegmentId, Side};
-use ppum::field::Field;
+use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 
+use crate::deform::DeformedPoints;
 use crate::error::RenderError;
 use crate::parts::Parts;
 use crate::view::View;
@@ -43,84 +44,119 @@ pub struct Principal {
     pub angle: f64,
 }
 
-/// Vectors of two quantities, such as `ux` and `uy`, at the points of a lattice with a spacing in pixels, at least
-/// [`LEAST_SPACING`]; row by row from below.
-///
-/// # Errors
-/// A quantity has no meaning for the field; the watcher stops the call.
-pub fn vectors(
-    field: &Field<'_>,
-    view: &View,
-    spacing: f64,
-    quantities: &[Quantity; 2],
-    watcher: &dyn Watcher,
-) -> Result<Vec<Glyph<Vec2>>, RenderError> {
-    glyphs(field, view, spacing, quantities, watcher, |[x, y]| vec2(x, y))
+/// The points of a lattice in a picture, with the points of the plate that are seen there; row by row from below.
+#[derive(Clone, Debug)]
+pub struct Lattice<'f> {
+    field: &'f Field<'f>,
+    /// The point of the plate that [`Place::point`] is counted from.
+    anchor: Vec2,
+    rows: Vec<Vec<Place>>,
 }
 
-/// Principal stresses at the points of a lattice, as [`vectors`].
-///
-/// # Errors
-/// The field has no stresses; the watcher stops the call.
-pub fn principal(
-    field: &Field<'_>,
-    view: &View,
-    spacing: f64,
-    watcher: &dyn Watcher,
-) -> Result<Vec<Glyph<Principal>>, RenderError> {
-    let named = |name| Quantity::from_name(name, field.equation, &field.data.components);
-    let quantities = [named("s1")?, named("s2")?, named("direction")?];
-    let value = |[s1, s2, angle]: [f64; 3]| Principal { s1, s2, angle };
-    glyphs(field, view, spacing, &quantities, watcher, value)
+/// A point of a lattice.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Its offset from the view's centre.
+    at: Vec2,
+    /// The point of the plate that is there, as an offset from the anchor.
+    point: Vec2,
 }
 
-fn glyphs<const N: usize, V: Send>(
-    field: &Field<'_>,
-    view: &View,
-    spacing: f64,
-    quantities: &[Quantity; N],
-    watcher: &dyn Watcher,
-    value: impl Fn([f64; N]) -> V + Sync,
-) -> Result<Vec<Glyph<V>>, RenderError> {
-    quantities.iter().try_for_each(|quantity| quantity.check(field))?;
-    let step = spacing.max(LEAST_SPACING) * view.pixel_size();
-    let half = view.half();
-    let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
-        .map(|(center, half)| multiples(center, half, step));
-    let parts = Parts::start(watcher, y.len())?;
-    let segments = Segments::new(&field.step.cracks);
-    let rows: Result<Vec<_>, RenderError> = y
-        .into_par_iter()
-        .map(|y| {
-            let row = row(field, view, &segments, x.iter().map(|&x| vec2(x, y)), quantities);
-            parts.finish_one()?;
-            Ok(row)
-        })
-        .collect();
-    let all = rows?.into_iter().flatten();
-    Ok(all
-        .map(|Glyph { offset, value: v, face }| Glyph { offset, value: value(v), face })
-        .collect())
-}
+impl<'f> Lattice<'f> {
+    /// The lattice with a spacing in pixels, at least [`LEAST_SPACING`], on the undeformed plate.
+    #[must_use]
+    pub fn new(field: &'f Field<'f>, view: &View, spacing: f64) -> Self {
+        let [x, y] = lines(view, spacing);
+        let row =
+            |&y: &f64| x.iter().map(|&x| vec2(x, y)).map(|at| Place { at, point: at }).collect();
+        Self { field, anchor: view.center, rows: y.iter().map(row).collect() }
+    }
 
-fn row<const N: usize>(
-    field: &Field<'_>,
-    view: &View,
-    segments: &Segments<'_>,
-    offsets: impl Iterator<Item = Vec2>,
-    quantities: &[Quantity; N],
-) -> Vec<Glyph<[f64; N]>> {
-    let mut local = field.at(view.center);
-    let side = Side::default();
-    let glyph = |offset| {
-        let segment = segments.at(view.center, offset);
-        let mut on_face = segment.map(|segment| field.on(segment, view.center));
-        let local = on_face.as_mut().unwrap_or(&mut local);
-        let value = quantities.each_ref().map(|quantity| quantity.at(local, offset, side));
+    /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels that its points lie
+    /// in, and the points of the plate that are seen there.
+    #[must_use]
+    pub fn deformed(points: &DeformedPoints<'f>, spacing: f64) -> Self {
+        let view = &points.view.view;
+        let [x, y] = lines(view, spacing);
+        let place = |x: f64, y: f64| {
+            let [i, j] = <[f64; 2]>::from(view.pixel_of_offset(vec2(x, y)));
+            let last = view.pixels.map(|n| n - 1);
+            let [i, j] = [(i as u32).min(last[0]), (j as u32).min(last[1])];
+            let point = points.at(i, j).first()?.offset;
+            Some(Place { at: view.offset(i, j), point })
+        };
+        let row = |&y: &f64| x.iter().filter_map(|&x| place(x, y)).collect();
+        let rows = y.iter().map(row).collect();
+        Self { field: points.view.field(), anchor: points.view.anchor, rows }
+    }
+
+    /// Vectors of two quantities, such as `ux` and `uy`.
+    ///
+    /// # Errors
+    /// A quantity has no meaning for the field; the watcher stops the call.
+    pub fn vectors(
+        &self,
+        quantities: &[Quantity; 2],
+        watcher: &dyn Watcher,
+    ) -> Result<Vec<Glyph<Vec2>>, RenderError> {
+        self.glyphs(quantities, watcher, |[x, y]| vec2(x, y))
+    }
+
+    /// Principal stresses, those at the points of the plate in its undeformed directions.
+    ///
+    /// # Errors
+    /// The field has no stresses; the watcher stops the call.
+    pub fn principal(&self, watcher: &dyn Watcher) -> Result<Vec<Glyph<Principal>>, RenderError> {
+        let field = self.field;
+        let named = |name| Quantity::from_name(name, field.equation, &field.data.components);
+        let quantities = [named("s1")?, named("s2")?, named("direction")?];
+        let value = |[s1, s2, angle]: [f64; 3]| Principal { s1, s2, angle };
+        self.glyphs(&quantities, watcher, value)
+    }
+
+    fn glyphs<const N: usize, V: Send>(
+        &self,
+        quantities: &[Quantity; N],
+        watcher: &dyn Watcher,
+        value: impl Fn([f64; N]) -> V + Sync,
+    ) -> Result<Vec<Glyph<V>>, RenderError> {
+        quantities.iter().try_for_each(|quantity| quantity.check(self.field))?;
+        let parts = Parts::start(watcher, self.rows.len())?;
+        let segments = Segments::new(&self.field.step.cracks);
+        let row = |row: &Vec<Place>| {
+            let mut local = self.field.at(self.anchor);
+            let glyph = |place| self.glyph(&segments, &mut local, place, quantities, &value);
+            let row: Vec<_> = row.iter().filter_map(glyph).collect();
+            parts.finish_one().map(|()| row)
+        };
+        let rows: Vec<_> = self.rows.par_iter().map(row).collect::<Result<_, _>>()?;
+        Ok(rows.into_iter().flatten().collect())
+    }
+
+    /// The glyph at a place, unless a value is not finite.
+    fn glyph<const N: usize, V>(
+        &self,
+        segments: &Segments<'_>,
+        local: &mut LocalField<'f>,
+        &Place { at, point }: &Place,
+        quantities: &[Quantity; N],
+        value: impl Fn([f64; N]) -> V,
+    ) -> Option<Glyph<V>> {
+        let segment = segments.at(self.anchor, point);
+        let mut on_face = segment.map(|segment| self.field.on(segment, self.anchor));
+        let (local, side) = (on_face.as_mut().unwrap_or(local), Side::default());
+        let found = quantities.each_ref().map(|quantity| quantity.at(local, point, side));
         let face = segment.map(|segment| (segment, side));
-        value.iter().all(|v| v.is_finite()).then_some(Glyph { offset, value, face })
-    };
-    offsets.filter_map(glyph).collect()
+        let is_finite = found.iter().all(|v| v.is_finite());
+        is_finite.then(|| Glyph { offset: at, value: value(found), face })
+    }
+}
+
+/// The columns and rows of a lattice in a view, as offsets from its centre.
+fn lines(view: &View, spacing: f64) -> [Vec<f64>; 2] {
+    let (step, half) = (spacing.max(LEAST_SPACING) * view.pixel_size(), view.half());
+    [(view.center.x, half.x), (view.center.y, half.y)]
+        .map(|(center, half)| multiples(center, half, step))
 }
 
 /// The multiples of a step within `center ± half`, from the centre; the rest of the division is exact, however large the quotient.
@@ -134,6 +170,7 @@ fn multiples(center: f64, half: f64, step: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deform::Deformation;
     use ppum::crack::CrackEnd;
     use ppum::domain::Hole;
     use ppum::progress::{Progress, Verdict, unwatched};
@@ -155,8 +192,11 @@ mod tests {
             let field = Field::new(&dataset, 0).expect("a field");
             let view = View::hug(dataset.domain.bounds, [400, 300]).expect("a view");
             let quantities = displacement(&field);
-            let arrows = vectors(&field, &view, SPACING, &quantities, unwatched()).expect("arrows");
-            let crosses = principal(&field, &view, SPACING, unwatched()).expect("crosses");
+            let arrows = Lattice::new(&field, &view, SPACING)
+                .vectors(&quantities, unwatched())
+                .expect("arrows");
+            let crosses =
+                Lattice::new(&field, &view, SPACING).principal(unwatched()).expect("crosses");
             assert_eq!(arrows.len(), crosses.len());
             // the area of the domain, without the hole, over that of a square of the lattice
             let area = dataset.domain.bounds.size().x * dataset.domain.bounds.size().y;
@@ -189,7 +229,7 @@ mod tests {
             let start = dataset.steps[0].cracks[0].points[1];
             let seen = |center| {
                 let view = View::new(center, width, [200, 150]).expect("a view");
-                let all = vectors(&field, &view, SPACING, &quantities, unwatched());
+                let all = Lattice::new(&field, &view, SPACING).vectors(&quantities, unwatched());
                 (view, all.expect("arrows"))
             };
             let (first, arrows) = seen(start);
@@ -207,6 +247,35 @@ mod tests {
         }
     }
 
+    /// On the deformed plate points stand in a lattice of the picture, and have the values of the points of the plate there.
+    #[test]
+    fn glyphs_of_the_deformed_plate_are_those_of_its_points() {
+        for seed in 0..3 {
+            let dataset = Recipe::random(seed).dataset();
+            let field = Field::new(&dataset, 0).expect("a field");
+            let view = View::hug(dataset.domain.bounds, [200, 150]).expect("a view");
+            let (factor, quantities) = (0.02, displacement(&field));
+            let seen = Deformation::new(&field, factor).expect("elastic").seen(&view);
+            let points = seen.points(unwatched()).expect("points");
+            let lattice = Lattice::deformed(&points, SPACING);
+            let arrows = lattice.vectors(&quantities, unwatched()).expect("arrows");
+            assert!(arrows.len() > 60, "{}", arrows.len());
+            for arrow in &arrows {
+                // x = X + s u(X): the point of the plate that the value itself leads to has this value
+                let place = view.center + arrow.offset - arrow.value * factor;
+                let mut local = field.at(place);
+                let u = quantities.each_ref().map(|q| q.at(&mut local, Vec2::ZERO, Side::Above));
+                let miss = (Vec2::from(u) - arrow.value).length() * factor;
+                assert!(miss < 0.02 * view.pixel_size(), "{miss}");
+                let column = (view.center + arrow.offset) / (SPACING * view.pixel_size());
+                let off = [column.x, column.y].map(|c| (c - c.round()).abs() * SPACING);
+                assert!(off.iter().all(|off| *off <= 0.5 + 1e-6), "{off:?}");
+            }
+            let crosses = lattice.principal(unwatched()).expect("crosses");
+            assert!(crosses.len() == arrows.len());
+        }
+    }
+
     #[test]
     fn points_on_a_crack_say_so() {
         // a crack along the lattice's own line y = 0
@@ -215,7 +284,8 @@ mod tests {
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::new(vec2(0.75, 0.0), 0.8, [200, 100]).expect("a view");
         let quantities = displacement(&field);
-        let all = vectors(&field, &view, 10.0, &quantities, unwatched()).expect("arrows");
+        let all =
+            Lattice::new(&field, &view, 10.0).vectors(&quantities, unwatched()).expect("arrows");
         let on: Vec<_> = all.iter().filter(|glyph| glyph.face.is_some()).collect();
         assert_eq!(on.len(), 17);
         let id = SegmentId { crack: 0, segment: 0 };
@@ -232,15 +302,16 @@ mod tests {
         let dataset = Recipe { components: 1, ..Recipe::default() }.dataset();
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::hug(dataset.domain.bounds, [40, 30]).expect("a view");
-        let found = principal(&field, &view, SPACING, unwatched());
+        let found = Lattice::new(&field, &view, SPACING).principal(unwatched());
         assert!(matches!(found, Err(RenderError::Quantity(_))));
         let quantities =
             ["du_dx", "du_dy"].map(|q| Quantity::parse(q, &field).expect("a quantity"));
         let stop = |_: Progress| Verdict::Stop;
-        let found = vectors(&field, &view, SPACING, &quantities, &stop);
+        let found = Lattice::new(&field, &view, SPACING).vectors(&quantities, &stop);
         assert!(matches!(found, Err(RenderError::Cancelled(_))));
         // a spacing of nothing is one of two pixels
-        let dense = vectors(&field, &view, 0.0, &quantities, unwatched()).expect("arrows");
+        let dense =
+            Lattice::new(&field, &view, 0.0).vectors(&quantities, unwatched()).expect("arrows");
         assert!(dense.len() <= 16 * 21, "{}", dense.len());
     }
 }

@@ -98,10 +98,12 @@ mod tests {
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
-            ("glyph", &["error", "parts", "view"]),
             ("scatter", &["error", "parts", "pixels", "raster", "view"]),
         ],
-        &[("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"])],
+        &[
+            ("glyph", &["deform", "error", "parts", "view"]),
+            ("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"]),
+        ],
     ];
 
     #[test]

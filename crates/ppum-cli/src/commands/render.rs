@@ -10,15 +10,13 @@ use ppum::field::Field;
 use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::figure::{BarPlace, Design, Panel, bare, figure, plot_area};
-use ppum_render::deform::DeformedView;
 use ppum_render::picture::Picture;
 use ppum_render::png::Text;
-use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job, Shown, Values};
+use crate::drawing::{Drawn, Job, Seen, Shown, Values};
 use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
@@ -95,24 +93,14 @@ struct Plate<'a> {
     shown: String,
 }
 
-/// A picture with what belongs to it.
-struct Sheet {
-    picture: Picture,
-    by: String,
-    layers: Vec<Item>,
-    /// The view of the deformed plate in words, for messages and for the picture's texts; nothing of an undeformed one.
-    told: String,
-    notes: Vec<Text>,
-}
-
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
         self.look.check(self.is_figure())?;
         ensure!(
-            !self.has_panels() || !self.deformed.is_given(),
-            "several panels and --deformed do not go together yet; draw them one by one"
+            !(self.subject.has_parts() && self.deformed.is_given()),
+            "several parts and --deformed do not go together; draw them one by one"
         );
         ensure!(
             self.has_panels() || !self.shared_range,
@@ -139,7 +127,7 @@ impl Args {
 
     /// The look of a figure.
     fn design(&self, field: &Field<'_>) -> Design {
-        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE);
+        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE, [1, 1]);
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 
@@ -160,16 +148,6 @@ impl Args {
         Ok(asked)
     }
 
-    /// The values at the pixels of a view.
-    fn values(&self, field: &Field<'_>, view: &View, asked: &Asked) -> anyhow::Result<Drawn> {
-        let drawn = match &asked.shown {
-            Shown::Quantity(quantity) => self.engine.draw(Job { field, view, quantity })?,
-            Shown::Cells(_, values) => Drawn::of_cells(values, field, view),
-        };
-        drawn.warn(&asked.name);
-        Ok(drawn)
-    }
-
     /// Draws one quantity.
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
         let field = plate.field;
@@ -180,45 +158,47 @@ impl Args {
             if self.figure { plot_area(title, &design) } else { Ok(design.size) }
         };
         let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
-        let seen = self.deformed.view(field, &self.window, frame)?;
-        if let Some(seen) = &seen {
-            labels.title = format!("{} ({})", labels.title, words(seen)).trim_start().to_owned();
-        }
+        let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
+        labels.title = titled(labels.title, &seen);
         let labels = self.look.worded(labels);
-        let sheet = match &seen {
-            None => self.undeformed(plate, &asked, frame)?,
-            Some(seen) => self.moved(seen, &asked)?,
-        };
-        let cracks =
-            seen.as_ref().map_or_else(|| field.step.cracks.clone(), DeformedView::moved_cracks);
-        let Sheet { picture, by, layers, told, notes } = sheet;
+        let drawn = self.drawn(field, &seen, &asked)?;
+        let mut picture = drawn.picture(&self.colours.style_of(&[(&asked, &drawn)])?)?;
+        let layers = self.layers(plate, &seen, &asked, &drawn.values, &picture)?;
+        self.blank(&mut picture);
+        let cracks = seen.cracks(field);
         let panel = Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None };
         let page = self.page(panel, &design)?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
-        texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts
-            .extend(asked.note().into_iter().chain(self.subject.replacements.notes()).chain(notes));
-        let [columns, rows] = page.size;
-        let (name, colors) = (&asked.name, colours(&picture));
+        texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
+        texts.extend(asked.note().into_iter().chain(self.notes(&seen)));
+        let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
+        let (name, colors, by) = (&asked.name, colours(&picture), drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// Draws the plate as it was before it was loaded.
-    fn undeformed(&self, plate: &Plate<'_>, asked: &Asked, frame: Frame) -> anyhow::Result<Sheet> {
-        let view = self.window.seen(plate.field, frame)?;
-        let drawn = self.values(plate.field, &view, asked)?;
-        let mut picture = drawn.picture(&self.colours.style_of(&[(asked, &drawn)])?)?;
-        let layers = self.layers(plate, asked, &drawn.values, &picture)?;
-        self.blank(&mut picture);
-        Ok(Sheet { picture, by: drawn.by, layers, told: String::new(), notes: Vec::new() })
+    /// The values of what is shown where they are seen.
+    fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
+        let drawn = match (seen, &asked.shown) {
+            (Seen::Plate(view), Shown::Quantity(quantity)) => {
+                self.engine.draw(Job { field, view, quantity })?
+            }
+            (Seen::Plate(view), Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
+            (Seen::Moved(points), shown) => draw(points, shown, &self.engine)?,
+        };
+        if !drawn.without.is_empty() {
+            let message = undefined::message(&asked.name, drawn.undefined(), "pixels");
+            tell(&format!("warning: {message}"));
+        }
+        Ok(drawn)
     }
 
     /// What is drawn over a picture.
     fn layers(
         &self,
         plate: &Plate<'_>,
+        seen: &Seen<'_>,
         asked: &Asked,
         values: &Values,
         picture: &Picture,
@@ -226,7 +206,18 @@ impl Args {
         let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
         let is_figure = self.is_figure();
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
-        self.engine.with_threads(|| self.overlays.items(ground))?
+        let outline = self.deformed.outline;
+        self.engine.with_threads(|| match seen {
+            Seen::Plate(_) => self.overlays.items(ground),
+            Seen::Moved(points) => self.overlays.deformed_items(ground, points, outline),
+        })?
+    }
+
+    /// What was done to the dataset and the plate, as texts of the picture.
+    fn notes(&self, seen: &Seen<'_>) -> impl Iterator<Item = Text> {
+        let factor = seen.moved().map(|points| format!("{:?}", points.view.factor()));
+        let deformed = factor.map(|factor| ("ppum:deformed".to_owned(), factor));
+        self.subject.replacements.notes().chain(deformed)
     }
 
     /// Leaves out the colours if that is asked for: the plate is white.
@@ -235,19 +226,6 @@ impl Args {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
             pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
         }
-    }
-
-    /// Draws the plate moved by its displacements.
-    fn moved(&self, seen: &DeformedView<'_>, asked: &Asked) -> anyhow::Result<Sheet> {
-        let (drawn, _) = draw(seen, &asked.shown, &self.engine)?;
-        drawn.warn(&asked.name);
-        let mut picture = drawn.picture(&self.colours.style_of(&[(asked, &drawn)])?)?;
-        let outline = self.deformed.outline;
-        let layers = self.overlays.deformed_items(seen, self.figure, outline)?;
-        self.blank(&mut picture);
-        let notes = vec![("ppum:deformed".to_owned(), format!("{:?}", seen.factor()))];
-        let told = told_of(seen, drawn.overlap.len());
-        Ok(Sheet { picture, by: drawn.by, layers, told, notes })
     }
 
     /// The files that are read.
@@ -268,32 +246,39 @@ impl Args {
     }
 }
 
-/// The factor, and at how many pixels the plate lies over itself.
-fn told_of(seen: &DeformedView<'_>, overlaps: usize) -> String {
-    match overlaps {
-        0 => format!(", {}", words(seen)),
-        n => format!(", {}, over itself at {} (hatched)", words(seen), count(n, "pixel", "pixels")),
+/// The title of a figure, of the deformed plate with the factor.
+fn titled(title: String, seen: &Seen<'_>) -> String {
+    match seen.moved() {
+        Some(points) => format!("{title} ({})", words(&points.view)).trim_start().to_owned(),
+        None => title,
+    }
+}
+
+/// Of the deformed plate the factor, and at how many pixels it lies over itself.
+fn told(seen: &Seen<'_>, overlaps: usize) -> String {
+    match (seen.moved(), overlaps) {
+        (None, _) => String::new(),
+        (Some(points), 0) => format!(", {}", words(&points.view)),
+        (Some(points), n) => {
+            let pixels = count(n, "pixel", "pixels");
+            format!(", {}, over itself at {pixels} (hatched)", words(&points.view))
+        }
     }
 }
 
 /// The meaning of the colours.
 fn colours(picture: &Picture) -> String {
-    let norm = &picture.normalization;
+    let (norm, classes) = (&picture.normalization, picture.colormap.classes());
     match picture.one_value {
         _ if !picture.has_values => "no finite values".into(),
         Some(value) => format!("one value, {}", trimmed(value)),
+        None if !classes.is_empty() => {
+            let values: Vec<String> = classes.iter().map(|value| trimmed(*value)).collect();
+            format!("a colour each for {}", values.join(", "))
+        }
         None => {
             let [from, to] = apart(norm.min(), norm.max());
             format!("colours from {from} to {to}")
-        }
-    }
-}
-
-impl Drawn {
-    /// Tells that a quantity has no value at some pixels.
-    fn warn(&self, name: &str) {
-        if !self.without.is_empty() {
-            tell(&format!("warning: {}", undefined::message(name, self.undefined(), "pixels")));
         }
     }
 }

@@ -238,8 +238,19 @@ fn deformed_cracks_open_and_close() {
             draw(&format!("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2 {more}"));
         assert_ne!(plain.rgba, other.rgba, "{more}");
     }
+    for more in ["--isolines 5", "--arrows", "--crosses=20"] {
+        let (other, _) =
+            draw(&format!("--size 120x120 --deformed 0.02 --view=-1.2,-1.2,1.2,1.2 {more}"));
+        let changed = plain.rgba.chunks(4).zip(other.rgba.chunks(4)).filter(|(a, b)| a != b);
+        assert!((100..9000).contains(&changed.count()), "{more}");
+    }
     let (figure, _) = draw("--deformed auto --outline --figure --size 400x400");
     assert_eq!(figure.size, [400, 400]);
+    let told =
+        lab.run("render plate.h5 -o a.png -q ux,uy --deformed 0.02 --layout 2x1 --size 600x300");
+    let panels = Png::read(&lab.path("a.png"));
+    assert_eq!((panels.size, panels.text("ppum:deformed")), ([600, 300], "0.02"));
+    assert!(told.contains("ux, uy, deformed ×0.02"), "{told}");
     // without displacement the plate is the plate
     let (still, _) = draw("--size 120x120 --deformed 0 --view=-1.2,-1.2,1.2,1.2");
     let (plate, _) = draw("--size 120x120 --view=-1.2,-1.2,1.2,1.2 --backend cpu");
@@ -252,6 +263,7 @@ fn what_cannot_be_deformed_is_told() {
     for (options, part) in [
         ("--deformed x", "a finite number, or auto"),
         ("--deformed inf", "a finite number, or auto"),
+        ("--deformed 1e101", "at most 1e100"),
         ("--outline", "--deformed"),
         ("--deformed 1 --backend gpu", "by the processor"),
         ("--deformed 1 --precision f32", "by the processor"),

@@ -31,11 +31,19 @@ pub struct Grid {
     pub rows: u32,
     /// True if one colour bar explains all panels, which then have one range.
     pub shared_bar: bool,
+    /// Columns and rows in which a panel has a bar of its own, if there are others: these get more room.
+    pub barred: Option<[u32; 2]>,
 }
 
 impl Grid {
     /// One panel.
-    pub const ONE: Self = Self { columns: 1, rows: 1, shared_bar: false };
+    pub const ONE: Self = Self::new([1, 1]);
+
+    /// Columns and rows of panels with a bar each.
+    #[must_use]
+    pub const fn new([columns, rows]: [u32; 2]) -> Self {
+        Self { columns, rows, shared_bar: false, barred: None }
+    }
 
     /// Number of panels that fit.
     #[must_use]
@@ -95,7 +103,11 @@ pub fn panel_area(
 fn kept(title: &str, captions: &[&str], grid: Grid, design: &Design) -> [f64; 2] {
     let scale = design.scale();
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
-    let (bars_across, bars_down) = if grid.shared_bar { (1.0, 1.0) } else { (across, down) };
+    let (bars_across, bars_down) = match grid.barred {
+        _ if grid.shared_bar => (1.0, 1.0),
+        Some([columns, rows]) => (f64::from(columns).min(across), f64::from(rows).min(down)),
+        None => (across, down),
+    };
     let is = |place: BarPlace| f64::from(u8::from(design.bar == place));
     let wide =
         LEFT * across + RIGHT * across + (RIGHT_BAR - RIGHT) * bars_across * is(BarPlace::Right);

@@ -137,7 +137,7 @@ fn figures_without_room_are_refused() {
     let room = plot_area(LONG, &Design::pixels(least)).unwrap();
     assert_eq!(room.iter().min(), Some(&48));
     let design = Design::pixels(SIZE);
-    let grid = Grid { columns: 2, rows: 1, shared_bar: false };
+    let grid = Grid::new([2, 1]);
     let error = panels("", &vec![panel(&picture, labels()); 3], grid, &design).unwrap_err();
     assert_eq!(error, FigureError::Panels { panels: 3, cells: 2 });
     assert!(matches!(panels("", &[], grid, &design), Err(FigureError::Panels { .. })));
@@ -146,7 +146,7 @@ fn figures_without_room_are_refused() {
 #[test]
 fn one_bar_explains_one_range() {
     let design = Design::pixels([1200, 900]);
-    let grid = Grid { columns: 2, rows: 1, shared_bar: true };
+    let grid = Grid { shared_bar: true, ..Grid::new([2, 1]) };
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b, c] =
@@ -232,7 +232,7 @@ fn classes_are_marked_in_their_middle() {
 #[test]
 fn panels_share_a_bar() {
     let design = Design::pixels([1500, 900]);
-    let grid = Grid { columns: 3, rows: 1, shared_bar: false };
+    let grid = Grid::new([3, 1]);
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
@@ -415,7 +415,7 @@ fn panels_keep_to_their_page() {
     let mut count = 0;
     for case in 0..60 {
         let [columns, rows] = [1 + random.below(3) as u32, 1 + random.below(3) as u32];
-        let grid = Grid { columns, rows, shared_bar: random.below(2) == 0 };
+        let grid = Grid { shared_bar: random.below(2) == 0, ..Grid::new([columns, rows]) };
         let mut design = random_design(&mut random);
         design.size = design.size.map(|n| n + 900);
         let (half, title) = (random_half(&mut random), words(&mut random, 20));

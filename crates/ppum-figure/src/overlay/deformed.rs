@@ -1,9 +1,10 @@
-//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the cover, and where the
-//! border was.
+//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the cover, isolines, and where
+//! the border was.
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedView, Paths};
 use ppum_render::image::Rgba;
+use ppum_render::isoline::Isoline;
 use ppum_render::view::View;
 
 use super::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, line_scale};
@@ -60,6 +61,19 @@ pub fn deformed_cells(view: &DeformedView<'_>) -> Vec<Item> {
     items
 }
 
+/// Isolines of the undeformed plate, found about the view's anchor, where they have moved to.
+#[must_use]
+pub fn carried(view: &DeformedView<'_>, lines: &[Isoline]) -> Vec<Isoline> {
+    // lines of one level follow one another
+    let levels = lines.chunk_by(|a, b| a.level == b.level);
+    let moved = levels.flat_map(|lines| {
+        let level = lines[0].level;
+        let paths = view.paths(&lines.iter().map(Isoline::polyline).collect::<Vec<_>>());
+        paths.into_iter().map(move |points| Isoline { level, points, closed: false })
+    });
+    moved.collect()
+}
+
 /// The parts of paths in and near the picture, as lines.
 fn line(view: &DeformedView<'_>, paths: Paths, pen: Pen) -> Item {
     let seen = &view.view;
@@ -97,6 +111,11 @@ mod tests {
     use super::*;
     use crate::overlay::tests::on;
     use ppum::field::Field;
+    use ppum::progress::unwatched;
+    use ppum::quantity::Quantity;
+    use ppum_render::isoline::isolines;
+    use ppum_render::scatter::render;
+    use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
     /// A plate that is only moved: its border, rims and cells are those of the undeformed plate, shifted.
@@ -127,5 +146,87 @@ mod tests {
         let outline = on([255; 4], &moved, undeformed_outline(&seen).unwrap());
         let grey = outline.rgba.chunks(4).filter(|p| p[0] < 200).count();
         assert!(grey > 50, "{grey}");
+    }
+
+    /// u = G X in closed form: circles become ellipses, each point of a line lies on one to a tenth of a pixel, and lines end at
+    /// the crack, on their own side.
+    #[test]
+    fn isolines_are_carried_over() {
+        let mut random = Random(41);
+        for _ in 0..4 {
+            let g: [f64; 4] = std::array::from_fn(|_| random.between(-0.3, 0.3));
+            let linear = |a: f64, b: f64| vec![0.0, a, b, 0.0, 0.0, 0.0];
+            let parts = vec![linear(g[0], g[1]), linear(g[2], g[3])];
+            let coefficients = Coefficients::Polynomial(parts);
+            let dataset = Recipe { coefficients, ..Recipe::default() }.dataset();
+            let field = Field::new(&dataset, 0).unwrap();
+            let center = dataset.domain.bounds.center();
+            let factor = random.between(0.5, 2.0);
+            let text = format!("hypot(x - ({:?}), y - ({:?}))", center.x, center.y);
+            let quantity = Quantity::parse(&text, &field).unwrap();
+            let view = View::new(center, 1.2 * dataset.domain.bounds.size().x, [240, 200]).unwrap();
+            let deformation = Deformation::new(&field, factor).unwrap();
+            let points = deformation.seen(&view).points(unwatched()).unwrap();
+            let material = points.material_view().unwrap().expect("something is seen");
+            let raster = render::<f64>(&field, &material, &quantity, unwatched()).unwrap();
+            let levels = [0.11, 0.23, 0.37];
+            let lines =
+                isolines(&field, &material, &quantity, &levels, &raster, unwatched()).unwrap();
+            let moved = carried(&points.view, &lines);
+            assert!(levels.iter().all(|level| moved.iter().any(|line| line.level == *level)));
+            let [a, b, c, d] = g.map(|entry| factor * entry);
+            let (a, d) = (1.0 + a, 1.0 + d);
+            let back = |p: Vec2| vec2(d * p.x - b * p.y, a * p.y - c * p.x) / (a * d - b * c);
+            for line in &moved {
+                for offset in &line.points {
+                    let miss = (back(view.center + *offset - center).length() - line.level).abs();
+                    assert!(miss < 0.1 * view.pixel_size(), "{miss}");
+                }
+            }
+        }
+    }
+
+    /// Near an open crack: the value of the pixel that a point of a line lies in is the line's, but for what changes from
+    /// pixel to pixel, on whichever side of the crack; and what is seen has its lines.
+    #[test]
+    fn carried_lines_lie_where_pixels_have_their_value() {
+        for seed in 0..4 {
+            let dataset =
+                Recipe { coefficients: Coefficients::Taylor, ..Recipe::random(seed) }.dataset();
+            let field = Field::new(&dataset, 0).unwrap();
+            let quantity = Quantity::parse("ux", &field).unwrap();
+            let view = View::fit(dataset.domain.bounds, [180, 140]).unwrap();
+            let seen = Deformation::new(&field, 0.05).unwrap().seen(&view);
+            let points = seen.points(unwatched()).unwrap();
+            let drawn = points.raster(&quantity, unwatched()).unwrap();
+            let material = points.material_view().unwrap().expect("something is seen");
+            let raster = render::<f64>(&field, &material, &quantity, unwatched()).unwrap();
+            let all = raster.statistics();
+            let levels = [0.3, 0.5, 0.7].map(|t| all.min + t * (all.max - all.min));
+            let lines =
+                isolines(&field, &material, &quantity, &levels, &raster, unwatched()).unwrap();
+            let (mut right, mut count) = (0, 0);
+            for line in carried(&seen, &lines) {
+                for p in line.points.iter().map(|&offset| view.pixel_of_offset(offset)) {
+                    let [i, j] = [p.x, p.y].map(|c| c.floor() as i64);
+                    if !(1..179).contains(&i) || !(1..139).contains(&j) {
+                        continue;
+                    }
+                    let around = (-1..=1).flat_map(|k| (-1..=1).map(move |l| (i + k, j + l)));
+                    let around = around.map(|(i, j)| (i as u32, j as u32));
+                    // of layers that lie over each other lines of all are drawn
+                    if around.clone().any(|(i, j)| points.at(i, j).len() > 1) {
+                        continue;
+                    }
+                    let values = around.map(|(i, j)| drawn.values.value(i, j));
+                    let [low, high] = values
+                        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+                    right += usize::from(low <= line.level && line.level <= high);
+                    count += 1;
+                }
+            }
+            assert!(count > 100, "{count}");
+            assert!(right as f64 > 0.98 * f64::from(count), "{right} of {count}");
+        }
     }
 }

@@ -36,8 +36,7 @@ pub fn isolines(view: &View, lines: &[Isoline], with_levels: bool) -> Vec<Item> 
 
 /// The line in pixels, the first point again at the end of a closed one.
 fn points(view: &View, line: &Isoline) -> Vec<Vec2> {
-    let first = line.points.first().filter(|_| line.closed);
-    line.points.iter().chain(first).map(|&offset| view.pixel_of_offset(offset)).collect()
+    line.polyline().into_iter().map(|offset| view.pixel_of_offset(offset)).collect()
 }
 
 /// The level along the straightest part of its line, away from other labels and from the picture's border; none

@@ -22,7 +22,7 @@ use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
-pub use deformed::{deformed_cells, deformed_outline, faces, undeformed_outline};
+pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
 pub use isolines::isolines;
 pub(crate) use legend::legend_in;

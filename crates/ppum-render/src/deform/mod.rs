@@ -27,6 +27,7 @@ mod automatic;
 mod inverse;
 mod leaf;
 mod map;
+mod material;
 mod path;
 mod points;
 #[cfg(test)]
@@ -47,6 +48,9 @@ pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 /// Largest distance of a found point's image from the pixel's centre, in pixels.
 pub const TOLERANCE: f64 = 0.005;
 
+/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly change with it.
+pub const LARGEST_FACTOR: f64 = 1e100;
+
 /// The reason why a plate is not drawn deformed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -54,8 +58,10 @@ pub enum DeformError {
     /// The field is no displacement.
     #[error("the field `{0}` is no displacement of the plane: nothing deforms")]
     NoDisplacement(String),
-    /// The factor is not finite.
-    #[error("the displacement's factor is {0}; give a finite number")]
+    /// The factor is not finite, or larger than [`LARGEST_FACTOR`].
+    #[error(
+        "the displacement's factor is {0:?}; give a number of at most {LARGEST_FACTOR:?} in size"
+    )]
     Factor(f64),
     /// The plate folds too often for the picture.
     #[error(
@@ -84,10 +90,10 @@ impl<'f> Deformation<'f> {
     /// The plate with `factor` times its displacement; a negative one turns it round.
     ///
     /// # Errors
-    /// A field of an equation without displacements; a factor that is not finite.
+    /// A field of an equation without displacements; a factor that is not finite, or larger than [`LARGEST_FACTOR`].
     pub fn new(field: &'f Field<'f>, factor: f64) -> Result<Self, DeformError> {
         check(field)?;
-        if !factor.is_finite() {
+        if factor.is_nan() || factor.abs() > LARGEST_FACTOR {
             return Err(DeformError::Factor(factor));
         }
         Ok(Self { field, factor })

@@ -50,6 +50,15 @@ pub struct Isoline {
     pub closed: bool,
 }
 
+impl Isoline {
+    /// Its points, of a closed line the first again at the end.
+    #[must_use]
+    pub fn polyline(&self) -> Vec<Vec2> {
+        let first = self.points.first().filter(|_| self.closed);
+        self.points.iter().chain(first).copied().collect()
+    }
+}
+
 /// The lines on which a quantity has one of some values in a view, level by level; in an order that depends on nothing but the field.
 ///
 /// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. Each point of a line is

@@ -62,7 +62,7 @@ impl Layout {
             (count, true) => [2, count as u32 + 1],
         };
         let panel = if is_long { LONG_PANEL } else { PANEL };
-        let design = args.look.design(aspect, [across * panel[0], down * panel[1]]);
+        let design = args.look.design(aspect, [across * panel[0], down * panel[1]], [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {
@@ -76,7 +76,13 @@ impl Layout {
             Labels { title, quantity, ..labels.clone() }
         };
         let words = panels.iter().enumerate().map(words).collect();
-        let grid = Grid { columns: across, rows: down, shared_bar: false };
+        // a column of pictures has the one bar below its last one
+        let barred = match (methods.len(), is_long) {
+            (1, false) => [2, 1],
+            (1, true) => [1, 2],
+            _ => [across, down],
+        };
+        let grid = Grid { barred: Some(barred), ..Grid::new([across, down]) };
         Self { title: labels.title.clone(), panels, labels: words, grid, design }
     }
 

@@ -5,7 +5,7 @@ use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, 
 use ppum_render::picture::Picture;
 use ppum_render::range::Range;
 
-use super::{Args, Plate};
+use super::{Args, Plate, titled, told};
 use crate::drawing::Drawn;
 use crate::look::letters;
 use crate::output::Output;
@@ -18,34 +18,35 @@ type Subject<'a> = (&'a Plate<'a>, Asked);
 impl Args {
     /// Draws each quantity of each plate in a panel.
     pub(super) fn panels(&self, plates: &[Plate<'_>], out: &mut Output) -> anyhow::Result<()> {
-        let Plate { dataset, field, shown } = &plates[0];
+        let Plate { dataset, field, shown: title } = &plates[0];
         let subjects = self.subjects(plates)?;
-        let title = Labels { title: shown.clone(), ..Labels::default() };
-        let title = self.look.worded(title).title;
+        let worded = |title| self.look.worded(Labels { title, ..Labels::default() }).title;
         let labels = self.labels(&subjects, plates.len());
         let design = self.design(field);
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
-        let grid = self.grid(&title, &captions, plates, &design)?;
-        let frame = self.frame(panel_area(&title, &captions, grid, &design)?);
-        let view = self.window.seen(field, frame)?;
-        let drawn = subjects.iter().map(|(plate, asked)| self.values(plate.field, &view, asked));
+        let untold = worded(title.clone());
+        let grid = self.grid(&untold, &captions, plates, &design)?;
+        let frame = self.frame(panel_area(&untold, &captions, grid, &design)?);
+        let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
+        let drawn = subjects.iter().map(|(plate, asked)| self.drawn(plate.field, &seen, asked));
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
         let mut pictures = self.pictures(&subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
         let layers = layers.map(|((plate, asked), (drawn, picture))| {
-            self.layers(plate, asked, &drawn.values, picture)
+            self.layers(plate, &seen, asked, &drawn.values, picture)
         });
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
+        let cracks = seen.cracks(field);
         pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel = |((picture, labels), layers)| Panel {
             picture,
             layers,
             labels,
-            cracks: &field.step.cracks,
+            cracks: &cracks,
             bar_of: None,
         };
         let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
-        let page = panels(&title, &all, grid, &design)?;
+        let page = panels(&worded(titled(title.clone(), &seen)), &all, grid, &design)?;
         let names = subjects.iter().step_by(plates.len()).map(|(_, asked)| asked.name.as_str());
         let names = names.collect::<Vec<_>>().join(", ");
         let mut texts = pictures[0].description(&dataset.title, &self.subject.file_name(), &names);
@@ -55,10 +56,11 @@ impl Args {
         }
         let by = &drawn[0].by;
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.subject.replacements.notes());
+        texts.extend(self.notes(&seen));
         let ([columns, rows], parts) = (page.size, self.subject.replacements.captions());
         let names = [names].into_iter().chain(parts).collect::<Vec<_>>().join(", ");
-        let told = format!("{names}, {columns}x{rows} pixels, {by}");
+        let told = told(&seen, drawn[0].overlap.len());
+        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
@@ -83,14 +85,13 @@ impl Args {
         design: &Design,
     ) -> anyhow::Result<Grid> {
         let (count, parts, shared_bar) = (captions.len(), plates.len(), self.shared_range);
-        let of = |columns: usize| Grid {
-            columns: columns as u32,
-            rows: count.div_ceil(columns) as u32,
-            shared_bar,
+        let of = |columns: usize| {
+            let size = [columns as u32, count.div_ceil(columns) as u32];
+            Grid { shared_bar, ..Grid::new(size) }
         };
         if let Some([columns, rows]) = self.layout {
             ensure!(columns.min(rows) > 0, "--layout: give at least 1x1 panels");
-            let grid = Grid { columns, rows, shared_bar };
+            let grid = Grid { shared_bar, ..Grid::new([columns, rows]) };
             ensure!(
                 count <= grid.cells(),
                 "--layout {columns}x{rows} has fewer panels than there are pictures, {count}"

@@ -1,0 +1,44 @@
+//! The part of the undeformed plate that a picture of the deformed one shows.
+
+use ppum::vec2::Vec2;
+
+use super::DeformedPoints;
+use crate::view::{View, ViewError};
+
+/// Most pixels of such a view, in pixels of the picture.
+const MOST: f64 = 4.0;
+/// The part of neighbouring pixels whose points of the plate may lie nearer than the view's pixels.
+const STRETCHED: f64 = 0.05;
+
+impl DeformedPoints<'_> {
+    /// A view of the undeformed plate that holds all points that are seen, in the middle the anchor; its pixels as small as
+    /// the picture's are on the plate, where that needs no more than four times as many. None if nothing is seen.
+    ///
+    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over.
+    ///
+    /// # Errors
+    /// As [`View::new`].
+    pub fn material_view(&self) -> Result<Option<View>, ViewError> {
+        let size = self.points.iter().map(|p| p.offset);
+        let half = size.fold(Vec2::ZERO, |most, o| most.max(o.max(-o)));
+        let pixels = self.view.view.pixels.map(f64::from);
+        let Some(step) = self.step().filter(|_| half.x.min(half.y) > 0.0) else { return Ok(None) };
+        let by_area = (half.x * half.y / (MOST * pixels[0] * pixels[1])).sqrt();
+        let by_length = half.x.max(half.y) / (MOST * pixels[0].max(pixels[1]));
+        let step = step.max(2.0 * by_area.max(by_length));
+        let count = |half: f64| 2.0 * (half / step).ceil().max(1.0) + 2.0;
+        let [columns, rows] = [count(half.x), count(half.y)];
+        View::new(self.view.anchor, columns * step, [columns as u32, rows as u32]).map(Some)
+    }
+
+    /// How far apart the points of neighbouring pixels lie on the plate where it is stretched most, but for a few.
+    fn step(&self) -> Option<f64> {
+        let [columns, rows] = self.view.view.pixels;
+        let first = |i, j| self.at(i, j).first().map(|p| p.offset);
+        let apart = |(i, j): (u32, u32)| Some((first(i + 1, j)? - first(i, j)?).length());
+        let pairs = (0..rows).flat_map(|j| (1..columns).map(move |i| (i - 1, j)));
+        let mut all: Vec<f64> = pairs.filter_map(apart).filter(|&d| d > 0.0).collect();
+        let place = (all.len() as f64 * STRETCHED) as usize;
+        (!all.is_empty()).then(|| *all.select_nth_unstable_by(place, f64::total_cmp).1)
+    }
+}
