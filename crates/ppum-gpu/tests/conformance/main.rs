@@ -10,6 +10,7 @@ mod derivatives;
 mod large;
 mod lost;
 mod parts;
+mod passes;
 mod replaced;
 mod series;
 mod texts;

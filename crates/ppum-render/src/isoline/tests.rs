@@ -141,6 +141,67 @@ fn lobes_at_a_tip() {
     }
 }
 
+/// Westergaard's field of mode I with K_I = 2μ √(2π): u = √r (κ − cos θ) (cos(θ/2), sin(θ/2)) along and across the crack.
+fn mode_one(tip: Vec2, d: Vec2) -> Dataset {
+    let mut dataset = opening(tip, d);
+    let step = &mut dataset.steps[0];
+    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
+    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
+    (0..64).for_each(|_| displacement.push_patch(&[(0, 0), (1, 0)]));
+    let axes = [[d.x, d.left().x], [d.y, d.left().y]];
+    for (coefficients, axis) in displacement.coefficients.iter_mut().zip(axes) {
+        coefficients.iter_mut().zip(axis.iter().cycle()).for_each(|(c, &part)| *c = part);
+    }
+    step.functions.clear();
+    step.fields = vec![displacement];
+    let along = FunctionKind::formula("sqrt(r)*cos(theta/2)*(1.8 - cos(theta))", frame);
+    let across = FunctionKind::formula("sqrt(r)*sin(theta/2)*(1.8 - cos(theta))", frame);
+    let named = step.clone().with_function("along", along).with_function("across", across);
+    *step = named;
+    dataset
+}
+
+/// Radius of the line σ_nn = `level`, n across the crack: σ_nn = 2μ/√r cos(θ/2) (1 + sin(θ/2) sin(3θ/2)).
+fn stress_lobe(theta: f64, level: f64) -> f64 {
+    let shape = (0.5 * theta).cos() * (1.0 + (0.5 * theta).sin() * (1.5 * theta).sin());
+    (shape / (1.3 * level)).powi(2)
+}
+
+/// Westergaard's lobes of the stress across the crack: they begin and end at the tip, tangent to the faces.
+#[test]
+fn stress_lobes_of_mode_one() {
+    let tip = vec2(-0.4, 0.2);
+    for (width, angle) in
+        [1.0, 1e-9, 1e-12].into_iter().flat_map(|w| [0.0f64, 0.6, -2.1].map(|a| (w, a)))
+    {
+        let (sin, cos) = angle.sin_cos();
+        let d = vec2(cos, sin);
+        let dataset = mode_one(tip, d);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let center = tip + vec2(0.03, -0.02) * width;
+        let view = View::new(center, width, [121, 101]).expect("a view");
+        let across =
+            format!("{:?}*sxx + {:?}*syy - {:?}*sxy", sin * sin, cos * cos, 2.0 * sin * cos);
+        for radius in [0.05, 0.12, 0.25] {
+            let level = 1.0 / (1.3 * (radius * width).sqrt());
+            let mut farthest: f64 = 0.0;
+            for p in lines(&field, &view, &across, &[level]).iter().flat_map(points) {
+                let q = p + (center - tip);
+                let (r, theta) = (q.length(), d.cross(q).atan2(d.dot(q)));
+                let exact = |theta: f64| stress_lobe(theta, level);
+                let slope = (exact(theta + 1e-5) - exact(theta - 1e-5)) / 2e-5;
+                let off = (r - exact(theta)).abs() / (slope / r).hypot(1.0) / view.pixel_size();
+                assert!(off < DISTANCE, "{width} {angle} {theta} {off}");
+                farthest = farthest.max(r);
+            }
+            let most =
+                (0..1000).map(|k| stress_lobe(0.003 * f64::from(k), level)).fold(0.0, f64::max);
+            let missed = (most - farthest) / view.pixel_size();
+            assert!(missed.abs() < 0.5, "{width} {angle}: {missed}");
+        }
+    }
+}
+
 /// A plate with three cracks, two of them kinked, and holes. Its weights are smooth, or else stresses jump on all borders of
 /// patches, as they do with linear ones, and degrees differ.
 fn plate(is_smooth: bool) -> Dataset {
