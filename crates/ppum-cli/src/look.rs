@@ -10,7 +10,7 @@ use crate::arguments::{inches, positive, size};
 #[derive(Debug, clap::Args)]
 pub(crate) struct Look {
     /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its shape; of
-    /// `compare` 720x600 for each panel]
+    /// `compare` 660x600 for each panel]
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")]
     size: Option<[u32; 2]>,
     /// Size of the picture on paper, in inches

@@ -188,7 +188,11 @@ impl Args {
             (Seen::Moved(points), shown) => draw(points, shown, &self.engine)?,
         };
         if !drawn.without.is_empty() {
-            let message = undefined::message(&asked.name, drawn.undefined(), "pixels");
+            let (name, counts) = (&asked.name, drawn.undefined());
+            let message = match &asked.shown {
+                Shown::Quantity(_) => undefined::message(name, counts, "pixels"),
+                Shown::Cells(..) => undefined::of_cells(name, counts),
+            };
             tell(&format!("warning: {message}"));
         }
         Ok(drawn)

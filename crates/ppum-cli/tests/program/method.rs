@@ -61,7 +61,8 @@ fn pixels_have_the_colours_of_their_cells() {
     }
     assert!(seen.iter().all(|count| *count > 100), "{seen:?}");
     let (_, warning) = lab.warned("render plate.h5 -o a.png -q patch:uy");
-    assert!(warning.contains("patch:uy has no value at"), "{warning}");
+    assert!(warning.contains("`patch:uy` has no value at"), "{warning}");
+    assert!(warning.contains("the dataset has none for their cells"), "{warning}");
 }
 
 /// The bar has a label for each value there is, and for no other.

@@ -425,7 +425,7 @@ fn panels_keep_to_their_page() {
         let Ok(room) = panel_area(&title, &captions, grid, &design) else { continue };
         let picture = plate(half, room, &random_style(&mut random, half));
         let mut panel =
-            |labels| Panel { shares_next: random.below(3) == 0, ..panel(&picture, labels) };
+            |labels| Panel { bar_of: Some(random.below(20)), ..panel(&picture, labels) };
         let all: Vec<Panel<'_>> = all.into_iter().map(&mut panel).collect();
         let page = panels(&title, &all, grid, &design).unwrap();
         check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));

@@ -39,7 +39,7 @@ enum Shows {
 }
 
 /// Size of a panel if no size is given, also of long plates.
-const PANEL: [u32; 2] = [720, 600];
+const PANEL: [u32; 2] = [660, 600];
 const LONG_PANEL: [u32; 2] = [900, 330];
 /// Panels of plates at least this much longer than high stand below each other.
 const LONG: f64 = 2.2;
