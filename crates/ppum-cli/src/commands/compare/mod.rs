@@ -69,7 +69,7 @@ Examples:
   ppum compare plate.h5 -o compare.png --grid 64
   ppum compare plate.h5 -o all.png --grid 256 --method all -q uy --tip 1
   ppum compare plate.h5 --grid 2048x1024 --error 1e-2 --json
-  ppum compare plate.h5 -o paper.pdf --inches 7x2.4
+  ppum compare plate.h5 -o paper.pdf --inches 7x2.4 --font-size 6
   ppum compare plate.h5 -o cells.png --method cells --over view --view 0,-0.2,0.4,0.2";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
