@@ -8,6 +8,7 @@ use std::num::NonZeroUsize;
 use clap::ValueEnum;
 use ppum::quantity::Source;
 use ppum_render::raster::{Raster, Sample};
+use ppum_render::samples::{Samples, means};
 use ppum_render::scatter::render;
 
 use crate::drawing::{Drawn, Job, Values};
@@ -59,18 +60,24 @@ impl Engine {
         Ok(())
     }
 
-    /// Draws; falls back to the CPU where that is allowed.
+    /// Draws the values at the pixels' centres; falls back to the CPU where that is allowed.
     pub(crate) fn draw(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
+        self.average(job, Samples::CENTER)
+    }
+
+    /// Draws the means of so many samples a pixel.
+    pub(crate) fn average(&self, job: Job<'_>, samples: Samples) -> anyhow::Result<Drawn> {
+        let on = |device, method| graphics::draw(job, samples, device, method);
         match self.backend {
-            Backend::Cpu => self.on_cpu(job),
-            Backend::Gpu => Ok(graphics::draw(job, Device::Any, Method::Gather)?),
-            Backend::Splat => Ok(graphics::draw(job, Device::Any, Method::Splat)?),
-            Backend::Auto if self.needs_cpu(job) => self.on_cpu(job),
-            Backend::Auto => match graphics::draw(job, Device::Hardware, Method::Gather) {
+            Backend::Cpu => self.on_cpu(job, samples),
+            Backend::Gpu => Ok(on(Device::Any, Method::Gather)?),
+            Backend::Splat => Ok(on(Device::Any, Method::Splat)?),
+            Backend::Auto if self.needs_cpu(job) => self.on_cpu(job, samples),
+            Backend::Auto => match on(Device::Hardware, Method::Gather) {
                 Ok(drawn) => Ok(drawn),
                 Err(error) => {
                     error.note().iter().for_each(|note| tell(note));
-                    self.on_cpu(job)
+                    self.on_cpu(job, samples)
                 }
             },
         }
@@ -102,18 +109,23 @@ impl Engine {
         threads::with(self.threads, work)
     }
 
-    fn on_cpu(&self, job: Job<'_>) -> anyhow::Result<Drawn> {
-        let narrow = self.precision == Some(Precision::F32);
-        let draw =
-            || if narrow { on_cpu::<f32>(job, "cpu f32") } else { on_cpu::<f64>(job, "cpu f64") };
+    fn on_cpu(&self, job: Job<'_>, samples: Samples) -> anyhow::Result<Drawn> {
+        let draw = || match self.precision {
+            Some(Precision::F32) => on_cpu::<f32>(job, samples, "cpu f32"),
+            _ => on_cpu::<f64>(job, samples, "cpu f64"),
+        };
         threads::with(self.threads, draw)?
     }
 }
 
-fn on_cpu<T: Sample>(job: Job<'_>, by: &str) -> anyhow::Result<Drawn>
+fn on_cpu<T: Sample>(job: Job<'_>, samples: Samples, by: &str) -> anyhow::Result<Drawn>
 where
     Values: From<Raster<T>>,
 {
+    if samples != Samples::CENTER {
+        let means = means::<T>(job.field, job.view, job.quantity, samples, &Bar::new())?;
+        return Ok(Drawn::averaged(means, job, by));
+    }
     let raster = render::<T>(job.field, job.view, job.quantity, &Bar::new())?;
     Ok(Drawn::new(raster, job.field, job.view, by))
 }

@@ -60,39 +60,23 @@ impl Deformed {
         frame: Frame,
         engine: &Engine,
     ) -> anyhow::Result<Seen<'f>> {
-        let Some(view) = self.view(field, window, frame)? else {
-            return Ok(Seen::Plate(window.seen(field, frame)?));
-        };
-        Ok(Seen::Moved(engine.on_processor(|| view.points(&Bar::new()))??))
+        match self.of(&[field])? {
+            None => Ok(Seen::Plate(window.seen(field, frame)?)),
+            Some(deforming) => points(&deforming.view(field, window, frame)?, engine),
+        }
     }
 
-    /// The view of the deformed plate, if that is asked for. Windows are places of the deformed plane; that around a tip follows it.
-    fn view<'f>(
-        &self,
-        field: &'f Field<'f>,
-        window: &Window,
-        frame: Frame,
-    ) -> anyhow::Result<Option<DeformedView<'f>>> {
-        let Some(factor) = self.factor else { return Ok(None) };
+    /// The factor, and the plane that pictures of all of these plates show, if they are asked for.
+    pub(crate) fn of(&self, fields: &[&Field<'_>]) -> anyhow::Result<Option<Deforming>> {
+        let (Some(factor), Some(first)) = (self.factor, fields.first()) else { return Ok(None) };
         let factor = match factor {
             Factor::Given(factor) => factor,
-            Factor::Auto => automatic_factor(&[field], &field.domain.bounds)?,
+            Factor::Auto => automatic_factor(fields, &first.domain.bounds)?,
         };
-        let deformation = Deformation::new(field, factor)?;
-        let bounds = self.bounds(&deformation, field)?;
-        let view = window.over(bounds, field, frame)?;
-        if let Some(tip) = window.tip(field)? {
-            return Ok(Some(deformation.around(tip, view.width, view.pixels)?));
-        }
-        ensure!(
-            view.rect().overlaps(&bounds),
-            "the view shows nothing of the deformed plate, which lies between ({}, {}) and ({}, {})",
-            trimmed(bounds.min.x),
-            trimmed(bounds.min.y),
-            trimmed(bounds.max.x),
-            trimmed(bounds.max.y)
-        );
-        Ok(Some(deformation.seen(&view)))
+        let bounds = |field: &&Field<'_>| self.bounds(&Deformation::new(field, factor)?, field);
+        let bounds = fields.iter().map(bounds).collect::<anyhow::Result<Vec<_>>>()?;
+        let bounds = bounds.into_iter().reduce(|a, b| a.union(&b));
+        Ok(bounds.map(|bounds| Deforming { factor, bounds }))
     }
 
     /// A box around the deformed plate, and around the undeformed one if its border is drawn.
@@ -109,12 +93,55 @@ impl Deformed {
     }
 }
 
+/// How plates are deformed, one or those of a series.
+pub(crate) struct Deforming {
+    factor: f64,
+    /// What of the plane is seen without a window.
+    bounds: Rect,
+}
+
+impl Deforming {
+    /// The factor as it is told: `deformed ×100`.
+    pub(crate) fn words(&self) -> String {
+        words(self.factor)
+    }
+
+    /// The view of a deformed plate. Windows are places of the deformed plane; that around a tip follows it.
+    pub(crate) fn view<'f>(
+        &self,
+        field: &'f Field<'f>,
+        window: &Window,
+        frame: Frame,
+    ) -> anyhow::Result<DeformedView<'f>> {
+        let deformation = Deformation::new(field, self.factor)?;
+        let bounds = self.bounds;
+        let view = window.over(bounds, field, frame)?;
+        if let Some(tip) = window.tip(field)? {
+            return Ok(deformation.around(tip, view.width, view.pixels)?);
+        }
+        ensure!(
+            view.rect().overlaps(&bounds),
+            "the view shows nothing of the deformed plate, which lies between ({}, {}) and ({}, {})",
+            trimmed(bounds.min.x),
+            trimmed(bounds.min.y),
+            trimmed(bounds.max.x),
+            trimmed(bounds.max.y)
+        );
+        Ok(deformation.seen(&view))
+    }
+}
+
 /// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a small picture.
 const ROOM: f64 = 0.01;
 
-/// The factor as it is told: `×100`.
-pub(crate) fn words(view: &DeformedView<'_>) -> String {
-    format!("deformed ×{}", trimmed(view.factor()))
+/// The factor as it is told: `deformed ×100`.
+pub(crate) fn words(factor: f64) -> String {
+    format!("deformed ×{}", trimmed(factor))
+}
+
+/// The points of the deformed plate that are seen.
+pub(crate) fn points<'f>(view: &DeformedView<'f>, engine: &Engine) -> anyhow::Result<Seen<'f>> {
+    Ok(Seen::Moved(engine.on_processor(|| view.points(&Bar::new()))??))
 }
 
 /// The values of a picture of the deformed plate.
@@ -129,8 +156,9 @@ pub(crate) fn draw(
     })??;
     let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
-    let (view, overlap) = (points.view.view, overlap.collect());
-    Ok(Drawn { view, values: raster.values.into(), by: PROCESSOR.into(), without, overlap })
+    let (view, overlap, by) = (points.view.view, overlap.collect(), PROCESSOR.into());
+    let values = raster.values.into();
+    Ok(Drawn { view, values, by, without, overlap, opacity: None })
 }
 
 /// The pixels of the plate without a value.

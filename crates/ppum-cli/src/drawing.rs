@@ -5,11 +5,34 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_render::cells;
 use ppum_render::deform::DeformedPoints;
+use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::RangeError;
-use ppum_render::raster::{Raster, Statistics};
+use ppum_render::range::{RangeError, Span};
+use ppum_render::raster::{Raster, Sample, Statistics};
+use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
+
+/// What is seen of a plate: as it was, or deformed.
+pub(crate) enum Seen<'f> {
+    Plate(View),
+    Moved(DeformedPoints<'f>),
+}
+
+impl<'f> Seen<'f> {
+    /// The deformed plate, if it is that.
+    pub(crate) fn moved(&self) -> Option<&DeformedPoints<'f>> {
+        match self {
+            Self::Plate(_) => None,
+            Self::Moved(points) => Some(points),
+        }
+    }
+
+    /// The cracks where they are seen.
+    pub(crate) fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
+        self.moved().map_or_else(|| field.step.cracks.clone(), |points| points.view.moved_cracks())
+    }
+}
 
 /// What a picture shows.
 #[derive(Clone, Debug)]
@@ -43,37 +66,21 @@ const MOST_CLASSES: usize = 20;
 
 /// The values that have a colour each in pictures of one range, rising: none unless they are few whole numbers in all of them.
 pub(crate) fn classes<'a>(
-    pictures: impl IntoIterator<Item = (&'a Shown, &'a Drawn)>,
+    pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)>,
 ) -> Option<Vec<f64>> {
-    let values = |(shown, drawn): (&Shown, &Drawn)| {
-        shown.is_whole().then(|| drawn.values.whole_numbers(MOST_CLASSES))?
+    let values = |(shown, values): (&Shown, &Values)| {
+        shown.is_whole().then(|| values.whole_numbers(MOST_CLASSES))?
     };
     let found: Option<Vec<Vec<f64>>> = pictures.into_iter().map(values).collect();
-    let mut all = found?.concat();
+    united(found?)
+}
+
+/// Classes of several pictures together, if they are not too many.
+pub(crate) fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let mut all = classes.concat();
     all.sort_by(f64::total_cmp);
     all.dedup();
     (all.len() <= MOST_CLASSES).then_some(all)
-}
-
-/// What is seen of a plate: as it was, or deformed.
-pub(crate) enum Seen<'f> {
-    Plate(View),
-    Moved(DeformedPoints<'f>),
-}
-
-impl<'f> Seen<'f> {
-    /// The deformed plate, if it is that.
-    pub(crate) fn moved(&self) -> Option<&DeformedPoints<'f>> {
-        match self {
-            Self::Plate(_) => None,
-            Self::Moved(points) => Some(points),
-        }
-    }
-
-    /// The cracks where they are seen.
-    pub(crate) fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
-        self.moved().map_or_else(|| field.step.cracks.clone(), |points| points.view.moved_cracks())
-    }
 }
 
 /// The subject of a picture of a quantity.
@@ -93,6 +100,8 @@ pub(crate) struct Drawn {
     pub(crate) without: Vec<u32>,
     /// The pixels where the deformed plate lies over itself.
     pub(crate) overlap: Vec<u32>,
+    /// Of values that are means, of so many samples a pixel: how much of each pixel is plate.
+    pub(crate) opacity: Option<(Samples, Vec<u8>)>,
 }
 
 /// Values in the precision that they were computed in.
@@ -121,6 +130,42 @@ impl Values {
             Self::Single(raster) => raster.whole_numbers(most),
         }
     }
+
+    pub(crate) fn statistics(&self) -> Statistics {
+        match self {
+            Self::Double(raster) => raster.statistics(),
+            Self::Single(raster) => raster.statistics(),
+        }
+    }
+
+    /// The value that all pixels have, if there is no other.
+    pub(crate) fn one_value(&self) -> Option<f64> {
+        match self {
+            Self::Double(raster) => raster.one_value(),
+            Self::Single(raster) => raster.one_value(),
+        }
+    }
+
+    /// The smallest and the largest value, which may be infinite.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        fn of<T: Sample>(raster: &Raster<T>) -> [f64; 2] {
+            let start = [f64::INFINITY, f64::NEG_INFINITY];
+            let values = raster.values.iter().map(|&value| value.into());
+            values.fold(start, |[min, max], value: f64| [min.min(value), max.max(value)])
+        }
+        match self {
+            Self::Double(raster) => of(raster),
+            Self::Single(raster) => of(raster),
+        }
+    }
+
+    /// Memory that they take \[bytes\].
+    pub(crate) fn bytes(&self) -> usize {
+        match self {
+            Self::Double(raster) => size_of_val(raster.values.as_slice()),
+            Self::Single(raster) => size_of_val(raster.values.as_slice()),
+        }
+    }
 }
 
 impl Drawn {
@@ -131,7 +176,8 @@ impl Drawn {
             Values::Double(raster) => raster.undefined(field.domain, view),
             Values::Single(raster) => raster.undefined(field.domain, view),
         };
-        Self { view: *view, values, by: by.to_owned(), without, overlap: Vec::new() }
+        let (by, overlap) = (by.to_owned(), Vec::new());
+        Self { view: *view, values, by, without, overlap, opacity: None }
     }
 
     /// One value per patch.
@@ -139,23 +185,42 @@ impl Drawn {
         Self::new(cells::raster(field, values, view), field, view, PROCESSOR)
     }
 
-    /// Gives the values colours.
-    pub(crate) fn picture(&self, style: &Style) -> Result<Picture, RangeError> {
+    /// The means of samples of an undeformed plate.
+    pub(crate) fn averaged<T: Sample>(means: Means<T>, job: Job<'_>, by: &str) -> Self
+    where
+        Values: From<Raster<T>>,
+    {
+        let (without, opacity) = (means.undefined(), Some((means.samples, means.opacity())));
+        let (values, by) = (means.raster.into(), by.to_owned());
+        Self { view: *job.view, values, by, without, overlap: Vec::new(), opacity }
+    }
+
+    /// The range of the values, with the extrema of the view if these are known.
+    pub(crate) fn span(&self, style: &Style, values: Option<Extrema>) -> Span {
+        let Style { range, scale, colormap, .. } = style;
+        match &self.values {
+            Values::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
+            Values::Single(raster) => range.span(*scale, colormap.diverging, raster, values),
+        }
+    }
+
+    /// Gives the values colours of a range.
+    pub(crate) fn picture(&self, style: &Style, span: Span) -> Result<Picture, RangeError> {
         let mut picture = match &self.values {
-            Values::Double(raster) => Picture::bare(raster, &self.view, style),
-            Values::Single(raster) => Picture::bare(raster, &self.view, style),
+            Values::Double(raster) => Picture::spanning(raster, &self.view, style, span),
+            Values::Single(raster) => Picture::spanning(raster, &self.view, style, span),
         }?;
         picture.hatch(&self.without);
         hatch(&mut picture.image, &self.overlap);
+        if let Some((samples, opacity)) = &self.opacity {
+            picture.fade(*samples, opacity);
+        }
         Ok(picture)
     }
 
     /// The number of pixels of the plate without a value, and of all of them.
     pub(crate) fn undefined(&self) -> [usize; 2] {
-        let Statistics { finite, infinite, .. } = match &self.values {
-            Values::Double(raster) => raster.statistics(),
-            Values::Single(raster) => raster.statistics(),
-        };
+        let Statistics { finite, infinite, .. } = self.values.statistics();
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }

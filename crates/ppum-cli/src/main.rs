@@ -24,6 +24,7 @@ mod page;
 mod panics;
 mod profile;
 mod progress;
+mod range;
 mod remedy;
 mod replacements;
 mod signals;
@@ -122,6 +123,7 @@ mod tests {
         &[
             ("dataset", &["drawing", "given", "standard"]),
             ("graphics", &["drawing", "progress"]),
+            ("range", &["drawing", "number", "progress"]),
             ("overlays", &["arguments", "drawing", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
             (
@@ -155,6 +157,7 @@ mod tests {
                 "page",
                 "profile",
                 "progress",
+                "range",
                 "replacements",
                 "standard",
                 "subject",

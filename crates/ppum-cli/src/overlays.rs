@@ -185,7 +185,7 @@ impl Overlays {
         points: &DeformedPoints<'_>,
     ) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
-        let Some(view) = points.material_view()? else { return Ok(Vec::new()) };
+        let Some(view) = points.material_view() else { return Ok(Vec::new()) };
         let field = ground.field;
         let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
         let raster = render::<f64>(field, &view, quantity, &Bar::new())?;

@@ -55,7 +55,7 @@ pub(crate) fn save(
     told: &str,
     out: &mut Output,
 ) -> anyhow::Result<()> {
-    write(path, page, dpi, texts, out)?;
+    put(path, page, dpi, texts, out)?;
     if is_standard(path) {
         tell(&format!("wrote standard output: {told}"));
     } else {
@@ -65,7 +65,7 @@ pub(crate) fn save(
 }
 
 /// Writes a page to a file or to standard output, and tells nothing but what its letters lack.
-pub(crate) fn write(
+pub(crate) fn put(
     path: &Path,
     page: &Canvas,
     dpi: Option<f64>,
@@ -74,17 +74,25 @@ pub(crate) fn write(
 ) -> anyhow::Result<()> {
     let form = Form::of(path);
     warn_of_missing(page, form);
-    let bytes = form.bytes(page, dpi, texts)?;
     if is_standard(path) {
-        out.exact().write_all(&bytes)?;
-    } else {
-        target::save(path, |out| out.write_all(&bytes))?;
+        return Ok(out.exact().write_all(&form.bytes(page, dpi, texts)?)?);
     }
-    Ok(())
+    write(path, page, dpi, texts)
+}
+
+/// Writes a page to a file and tells nothing.
+pub(crate) fn write(
+    path: &Path,
+    page: &Canvas,
+    dpi: Option<f64>,
+    texts: &[Text],
+) -> anyhow::Result<()> {
+    let bytes = Form::of(path).bytes(page, dpi, texts)?;
+    target::save(path, |out| out.write_all(&bytes))
 }
 
 /// Tells which characters the font of figures lacks.
-fn warn_of_missing(page: &Canvas, form: Form) {
+pub(crate) fn warn_of_missing(page: &Canvas, form: Form) {
     let missing: Vec<String> = page.missing().iter().map(|c| format!("`{c}`")).collect();
     if missing.is_empty() {
         return;

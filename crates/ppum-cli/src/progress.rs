@@ -1,5 +1,6 @@
 //! The progress of long calls: on a terminal only.
 
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,6 +12,8 @@ pub(crate) struct Bar(ProgressBar);
 impl Bar {
     pub(crate) fn new() -> Self {
         let bar = ProgressBar::new_spinner();
+        bar.set_prefix(within().clone());
+        bar.set_style(style(false));
         bar.enable_steady_tick(Duration::from_millis(100));
         Self(bar)
     }
@@ -36,9 +39,38 @@ impl Watcher for Bar {
 /// A phase without parts has no bar.
 fn style(has_parts: bool) -> ProgressStyle {
     let bar = if has_parts { "[{bar:40}] {pos}/{len}" } else { "" };
-    ProgressStyle::with_template(&format!("{{spinner}} {{elapsed:>4}}  {{msg:14}} {bar}"))
+    ProgressStyle::with_template(&format!("{{spinner}} {{elapsed:>4}}  {{prefix}}{{msg:14}} {bar}"))
         .expect("the template is right")
         .progress_chars("=> ")
+}
+
+/// What all bars belong to, which they tell in front: `3/20  `.
+static WITHIN: Mutex<String> = Mutex::new(String::new());
+
+fn within() -> std::sync::MutexGuard<'static, String> {
+    WITHIN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Bars that begin from now on belong to the parts of something longer, until this is dropped.
+pub(crate) struct Series {
+    total: usize,
+}
+
+impl Series {
+    pub(crate) fn new(total: usize) -> Self {
+        Self { total }
+    }
+
+    /// Bars belong to the part of this number, from 0.
+    pub(crate) fn begin(&self, part: usize) {
+        *within() = format!("{}/{}  ", part + 1, self.total);
+    }
+}
+
+impl Drop for Series {
+    fn drop(&mut self) {
+        within().clear();
+    }
 }
 
 impl Drop for Bar {

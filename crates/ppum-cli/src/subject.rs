@@ -36,7 +36,7 @@ pub(crate) struct Subject {
     pub(crate) replacements: Replacements,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
-    step: Option<usize>,
+    pub(crate) step: Option<usize>,
 }
 
 impl Subject {
@@ -145,8 +145,14 @@ fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
 pub(crate) struct Colors {
     #[arg(long, value_name = "NAME", help = colormaps())]
     colormap: Option<String>,
-    /// Values that the colours span; `auto` is robust against peaks at tips
-    #[arg(long, value_name = "A,B|auto", default_value = "auto", allow_hyphen_values = true)]
+    /// Values that the colours span: auto for all, but robust against peaks that are infinite; full; two values; two percentiles, or
+    /// one for both ends
+    #[arg(
+        long,
+        value_name = "auto|full|A,B|P%,Q%|P%",
+        default_value = "auto",
+        allow_hyphen_values = true
+    )]
     range: Range,
     /// How values spread over the colours: linear, log or symlog
     #[arg(long, default_value = "linear")]
@@ -178,14 +184,19 @@ fn colormaps() -> String {
 impl Colors {
     /// The way values become colours in pictures of one range. Few whole numbers have a colour each.
     pub(crate) fn style_of(&self, pictures: &[(&Asked, &Drawn)]) -> anyhow::Result<Style> {
-        let shown = pictures.first().and_then(|(asked, _)| asked.shown.quantity());
-        let style = self.style(shown)?;
-        let is_free = self.is_automatic() && self.bands.is_none() && self.scale == Scale::Linear;
-        let pairs = pictures.iter().map(|(asked, drawn)| (&asked.shown, *drawn));
-        Ok(match classes(pairs).filter(|_| is_free) {
+        let style = self.style(pictures.first().and_then(|(asked, _)| asked.shown.quantity()))?;
+        let pairs = pictures.iter().map(|(asked, drawn)| (&asked.shown, &drawn.values));
+        Ok(self.classed(style, classes(pairs)))
+    }
+
+    /// The style with a colour for each of some classes, unless range, scale or bands are given.
+    pub(crate) fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
+        let is_free =
+            self.range == Range::Auto && self.bands.is_none() && self.scale == Scale::Linear;
+        match classes.filter(|_| is_free) {
             Some(classes) => style.classed(&classes),
             None => style,
-        })
+        }
     }
 
     /// The way a quantity's values become colours, or those of cells.
@@ -195,6 +206,8 @@ impl Colors {
         let mut colormap = colormap(self.colormap.as_deref().unwrap_or(default))?;
         let range = match (self.range, period) {
             (Range::Auto, Some([from, to])) if colormap.cyclic => Range::Fixed(from, to),
+            // values of cells have no peaks between the pixels
+            (Range::Auto, None) if quantity.is_none() => Range::Full,
             (range, _) => range,
         };
         if self.extremes == Extremes::Contrast {
@@ -209,11 +222,6 @@ impl Colors {
     /// The file of the colour map, if it is one.
     pub(crate) fn input(&self) -> Option<&Path> {
         self.colormap.as_deref().map(Path::new)
-    }
-
-    /// True if the range is found from the picture.
-    pub(crate) fn is_automatic(&self) -> bool {
-        self.range == Range::Auto
     }
 }
 

@@ -12,6 +12,8 @@ use crate::standard::{self, is_standard};
 pub(crate) enum Kind {
     Dataset,
     Picture,
+    /// Of several pictures.
+    Animation,
     Table,
 }
 
@@ -21,6 +23,7 @@ impl Kind {
         match self {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
+            Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }
     }
@@ -43,7 +46,7 @@ impl Kind {
     fn check_output(self) -> anyhow::Result<()> {
         match self {
             Self::Dataset => standard::check_output("a dataset"),
-            Self::Picture => standard::check_output("a picture"),
+            Self::Picture | Self::Animation => standard::check_output("a picture"),
             Self::Table => Ok(()),
         }
     }
@@ -78,6 +81,17 @@ pub(crate) fn save(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> anyhow::Result<()> {
     ppum_file::replace(path, write).with_context(|| cannot_write(path))
+}
+
+/// Writes a file piece by piece, completely or not at all; what is written may fail for reasons of its own.
+pub(crate) fn stream(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
+    ppum_file::replace(path, write).map_err(|error| {
+        let is_io = error.chain().any(<dyn std::error::Error>::is::<io::Error>);
+        if is_io { error.context(cannot_write(path)) } else { error }
+    })
 }
 
 /// Makes a folder and those above, where there are none.

@@ -3,6 +3,8 @@
 use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError;
 
+use crate::view::ViewError;
+
 /// The reason why a view was not evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -13,4 +15,7 @@ pub enum RenderError {
     /// The watcher stopped the call.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// The samples of the view's pixels cannot be told apart.
+    #[error(transparent)]
+    View(#[from] ViewError),
 }

@@ -3,7 +3,7 @@
 //! A [`View`](view::View) says which part of the plane is shown on how many pixels,
 //! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
 //! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
-//! encodes the result together with what it shows, [`animation`] several of them; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
+//! encodes the result together with what it shows, [`animation`] several of them; [`samples`] takes means over pixels; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
 //! [`deform`] shows the plate as its displacements move it; [`resample`] does what other programs do, to compare.
 //!
 //! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
@@ -62,6 +62,7 @@ pub mod range;
 pub mod raster;
 pub mod reference;
 pub mod resample;
+pub mod samples;
 pub mod scale;
 pub mod scatter;
 pub mod view;
@@ -75,26 +76,19 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[
-            ("error", &[]),
-            ("image", &[]),
-            ("parts", &[]),
-            ("pieces", &[]),
-            ("scale", &[]),
-            ("view", &[]),
-        ],
+        &[("image", &[]), ("parts", &[]), ("pieces", &[]), ("scale", &[]), ("view", &[])],
         &[
             ("colormap", &["image"]),
+            ("error", &["view"]),
             ("pixels", &["view"]),
             ("png", &["image"]),
-            ("raster", &["error", "view"]),
         ],
+        &[("raster", &["error", "view"])],
         &[
             ("animation", &["image", "png"]),
             ("cells", &["raster", "view"]),
             ("deform", &["parts", "pieces", "raster", "view"]),
             ("isoline", &["error", "parts", "pieces", "raster", "view"]),
-            ("range", &["raster", "scale"]),
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
@@ -102,8 +96,13 @@ mod tests {
         ],
         &[
             ("glyph", &["deform", "error", "parts", "view"]),
-            ("picture", &["colormap", "image", "png", "range", "raster", "scale", "view"]),
+            ("range", &["extrema", "raster", "scale"]),
+            ("samples", &["error", "raster", "scatter", "view"]),
         ],
+        &[(
+            "picture",
+            &["colormap", "extrema", "image", "png", "range", "raster", "samples", "scale", "view"],
+        )],
     ];
 
     #[test]

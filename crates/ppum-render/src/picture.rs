@@ -4,10 +4,12 @@ use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
 use crate::colormap::{Colormap, ColormapError, HALF};
+use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
-use crate::range::{Range, RangeError};
+use crate::range::{Range, RangeError, Span};
 use crate::raster::{Raster, Sample};
+use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
 use crate::view::View;
 
@@ -59,16 +61,20 @@ pub struct Picture {
     pub view: View,
     /// Position of a value among the colours, the range found.
     pub normalization: Normalization,
+    /// The range, how it came about, and what is known of the values.
+    pub span: Span,
     /// The colours.
     pub colormap: Colormap,
     /// The one value that is seen, if there is no other but for rounding.
     pub one_value: Option<f64>,
     /// True if some value is finite.
     pub has_values: bool,
-    /// True if some value lies below the range.
+    /// True if some value lies below the range, at a pixel or not.
     pub has_below: bool,
-    /// True if some value lies above the range; an infinite one always does.
+    /// True if some value lies above the range, at a pixel or not; an infinite one always does.
     pub has_above: bool,
+    /// What a pixel's value is: that at its centre, or a mean.
+    pub samples: Samples,
 }
 
 /// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
@@ -81,7 +87,8 @@ const HATCHED: Rgba = [196, 196, 200, 255];
 const HATCH_STEP: u32 = 6;
 
 impl Picture {
-    /// The bare picture of a raster: one pixel a value, nothing else.
+    /// The bare picture of a raster: one pixel a value, nothing else. A range that is found is found from the pixels alone;
+    /// [`spanning`](Self::spanning) takes one that knows the extrema between them.
     ///
     /// # Errors
     /// A fixed range that does not fit the scale.
@@ -93,9 +100,28 @@ impl Picture {
         view: &View,
         style: &Style,
     ) -> Result<Self, RangeError> {
+        let values = style.range.is_found().then(|| Extrema::of_pixels(raster, view)).flatten();
+        let Style { colormap, scale, range, .. } = style;
+        let span = range.span(*scale, colormap.diverging, raster, values);
+        Self::spanning(raster, view, style, span)
+    }
+
+    /// The bare picture of a raster with a range that was found for it, or for others too.
+    ///
+    /// # Errors
+    /// A range that does not fit the scale.
+    ///
+    /// # Panics
+    /// If the raster does not have the view's size.
+    pub fn spanning<T: Sample>(
+        raster: &Raster<T>,
+        view: &View,
+        style: &Style,
+        span: Span,
+    ) -> Result<Self, RangeError> {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
-        let Style { colormap, scale, range, undefined } = style;
-        let norm = range.normalization(*scale, colormap.diverging, raster)?;
+        let Style { colormap, scale, undefined, .. } = style;
+        let norm = span.normalization(*scale)?;
         let shades = Shades {
             palette: colormap.palette(PALETTE),
             jumping: colormap.has_jumps().then_some(colormap),
@@ -108,17 +134,35 @@ impl Picture {
         let columns = raster.size[0].max(1) as usize;
         let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
         let found = rows.map(|(pixels, values)| shades.paint(values, pixels.as_chunks_mut().0));
-        let (has_below, has_above) = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        let seen = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        let between = span.beyond().map(|value| value.is_some());
+        let (has_below, has_above) = (seen.0 | between[0], seen.1 | between[1]);
         Ok(Self {
             image: Image { size: raster.size, rgba },
             view: *view,
             normalization: norm,
+            span,
             colormap: colormap.clone(),
             one_value: raster.one_value(),
             has_values: raster.values.iter().any(|&v| v.into().is_finite()),
             has_below,
             has_above,
+            samples: Samples::CENTER,
         })
+    }
+
+    /// Says that values are means, and gives each pixel the opacity that it has by its share of the plate
+    /// ([`Means`](crate::samples::Means)).
+    ///
+    /// # Panics
+    /// If there is not one opacity for each pixel.
+    pub fn fade(&mut self, samples: Samples, opacity: &[u8]) {
+        let pixels = self.image.rgba.as_chunks_mut::<4>().0;
+        assert_eq!(pixels.len(), opacity.len(), "one opacity for each pixel");
+        for (pixel, &share) in pixels.iter_mut().zip(opacity) {
+            pixel[3] = ((u16::from(pixel[3]) * u16::from(share) + 127) / 255) as u8;
+        }
+        self.samples = samples;
     }
 
     /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them from those
@@ -136,13 +180,19 @@ impl Picture {
 
     /// A description of the picture, for the texts of its file: `Title`, `Software` and `Description`, then
     /// under `ppum:` the dataset, quantity, view (centre, width, pixels: enough to draw it again to
-    /// the last bit), meaning of a pixel, range, scale and colour map.
+    /// the last bit), meaning of a pixel, range, scale and colour map; how the range came about, and the extrema
+    /// if they were looked for.
     #[must_use]
     pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<Text> {
         let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;
         let norm = &self.normalization;
         let software = concat!("ppum ", env!("CARGO_PKG_VERSION"));
-        let summary = format!("{quantity} of {dataset}, evaluated at every pixel's centre");
+        let summary = match self.samples {
+            Samples::CENTER => {
+                format!("{quantity} of {dataset}, evaluated at every pixel's centre")
+            }
+            samples => format!("{quantity} of {dataset}, {}", samples.meaning()),
+        };
         let entries = [
             ("Title", title.to_owned()),
             ("Software", software.to_owned()),
@@ -150,12 +200,15 @@ impl Picture {
             ("ppum:dataset", dataset.to_owned()),
             ("ppum:quantity", quantity.to_owned()),
             ("ppum:view", format!("center {x:?},{y:?} width {width:?} pixels {columns}x{rows}")),
-            ("ppum:pixel", "value at pixel centre".to_owned()),
+            ("ppum:pixel", self.samples.meaning()),
             ("ppum:range", format!("{:?},{:?}", norm.min(), norm.max())),
             ("ppum:scale", norm.scale().to_string()),
             ("ppum:colormap", self.colormap.name.clone()),
         ];
-        entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
+        let known = self.span.values.as_ref().map(|values| ("ppum:extrema", values.to_string()));
+        let basis = ("ppum:range-basis", self.span.basis.to_string());
+        let entries = entries.into_iter().chain([basis]).chain(known);
+        entries.map(|(key, text)| (key.to_owned(), text)).collect()
     }
 }
 

@@ -27,6 +27,19 @@ pub trait Sample: Scalar + Into<f64> {
         quantity: &Quantity,
         watcher: &dyn Watcher,
     ) -> Result<Raster<Self>, RenderError>;
+
+    /// [`render_strips`](crate::scatter::render_strips) for this type.
+    ///
+    /// # Errors
+    /// See there.
+    fn render_strips(
+        field: &Field<'_>,
+        view: &View,
+        quantity: &Quantity,
+        rows: u32,
+        watcher: &dyn Watcher,
+        take: &mut dyn FnMut(Vec<Self>),
+    ) -> Result<(), RenderError>;
 }
 
 /// One value per pixel, row by row from the top; NaN where nothing is defined (outside the domain).

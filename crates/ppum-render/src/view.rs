@@ -135,6 +135,26 @@ impl View {
         Self::new(self.center + shift, self.width / factor, self.pixels)
     }
 
+    /// The same window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n j + b) lies at
+    /// ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie anywhere. It may have more than
+    /// [`MAX_PIXELS`], and is then drawn in strips ([`render_strips`](crate::scatter::render_strips)).
+    ///
+    /// # Errors
+    /// More columns or rows than can be counted, pixels finer than f64 has normal numbers for.
+    pub fn finer(&self, n: u32) -> Result<Self, ViewError> {
+        let [nx, ny] = self.pixels;
+        let too_many = ViewError::Pixels(nx.saturating_mul(n), ny.saturating_mul(n));
+        let (Some(columns), Some(rows)) = (nx.checked_mul(n), ny.checked_mul(n)) else {
+            return Err(too_many);
+        };
+        let finer = Self { pixels: [columns, rows], ..*self };
+        match finer.pixel_size().is_normal() {
+            true => Ok(finer),
+            false if n == 0 => Err(too_many),
+            false => Err(ViewError::TooDeep { center: self.center, width: self.width }),
+        }
+    }
+
     /// Height of the picture \[length\].
     #[must_use]
     pub fn height(&self) -> f64 {
@@ -290,6 +310,29 @@ mod tests {
             assert!((there - expected).length() < 1e-9);
             assert!((view.offset_at(expected) - view.offset(column, row)).length() < 1e-27);
         }
+    }
+
+    #[test]
+    fn finer_pixels_divide_pixels() {
+        for (width, pixels, n) in [(1e-12, [1000, 500], 4), (3.0, [17, 5], 3), (1e-9, [8, 8], 16)] {
+            let view = View::new(vec2(0.3, -0.7), width, pixels).unwrap();
+            let finer = view.finer(n).unwrap();
+            assert_eq!((finer.center, finer.width), (view.center, view.width));
+            let side = view.pixel_size();
+            for (i, j, a, b) in [(0, 0, 0, 0), (7, 4, 1, n - 1), (3, 2, n - 1, 0)] {
+                let part = |k: u32| (f64::from(k) + 0.5) / f64::from(n) - 0.5;
+                let expected = view.offset(i, j) + vec2(part(a), -part(b)) * side;
+                let apart = finer.offset(n * i + a, n * j + b) - expected;
+                assert!(apart.length() < 1e-12 * side, "{width:e} {n}: {apart:?}");
+            }
+        }
+        let view = View::new(Vec2::ZERO, 1.0, [1 << 14, 1 << 14]).unwrap();
+        assert_eq!(view.finer(1), Ok(view));
+        assert_eq!(view.finer(16).unwrap().pixels, [1 << 18, 1 << 18]);
+        assert!(matches!(view.finer(1 << 18), Err(ViewError::Pixels(u32::MAX, _))));
+        assert!(matches!(view.finer(0), Err(ViewError::Pixels(0, 0))));
+        let deep = View::new(Vec2::ZERO, 5.1 * f64::MIN_POSITIVE, [5, 5]).unwrap();
+        assert!(matches!(deep.finer(2), Err(ViewError::TooDeep { .. })));
     }
 
     #[test]

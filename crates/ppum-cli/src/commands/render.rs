@@ -1,31 +1,37 @@
 //! `ppum render`: a picture of a quantity.
 
 mod panels;
+mod series;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::text::{apart, trimmed};
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{BarPlace, Design, Panel, bare, figure, plot_area};
-use ppum_render::picture::Picture;
+use ppum_figure::figure::{BarPlace, Design, Labels, Panel, bare, figure, plot_area};
+use ppum_render::deform::DeformedView;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
+use ppum_render::range::Span;
+use ppum_render::samples::Samples;
+use ppum_render::view::View;
 
 use crate::arguments::size;
 use crate::backend::Engine;
-use crate::deformed::{Deformed, draw, words};
-use crate::drawing::{Drawn, Job, Seen, Shown, Values};
+use crate::deformed::{Deformed, Deforming, draw, points, words};
+use crate::drawing::{Drawn, Job, Seen, Shown};
 use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
 use crate::page;
+use crate::range::{self, Telling};
 use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
+use series::Series;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -36,9 +42,11 @@ use crate::window::{Frame, Window};
 pub(crate) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// Picture to write, - for standard output (PNG)
-    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
+    /// Picture to write, - for standard output (PNG); with --steps moving pictures too
+    #[arg(short, long, value_name = "OUT.png|svg|pdf|gif|apng")]
     output: PathBuf,
+    #[command(flatten)]
+    series: Series,
     #[command(flatten)]
     look: Look,
     /// Add axes, a colour bar, a title and the cracks
@@ -61,6 +69,9 @@ pub(crate) struct Args {
     overlays: Overlays,
     #[command(flatten)]
     deformed: Deformed,
+    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at its centre
+    #[arg(long, value_name = "N", default_value = "1")]
+    samples: Samples,
     #[command(flatten)]
     engine: Engine,
 }
@@ -82,6 +93,9 @@ Examples:
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o parts.png -q uy --part all,smooth,jump,tip --shared-range
   ppum render plate.h5 -o method.png -q level,order,functions,overlap
+  ppum render plate.h5 -o smooth.png --samples 4
+  ppum render growth.h5 -o growth.gif --steps all --figure
+  ppum render growth.h5 -o step.png --steps 0..20:5 --figure
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
@@ -89,13 +103,45 @@ Examples:
 struct Plate<'a> {
     dataset: &'a Dataset,
     field: &'a Field<'a>,
-    /// The title of figures, which tells of what was replaced.
+    /// The title of figures, which tells of what was replaced, and the step of a series.
     shown: String,
+    /// The number of the step, if there are several.
+    step: Option<usize>,
+}
+
+/// A quantity of a plate in a view: what a picture shows.
+struct Shot<'a> {
+    plate: &'a Plate<'a>,
+    asked: Asked,
+    labels: Labels,
+    scene: Scene<'a>,
+}
+
+/// What is to be seen.
+enum Scene<'a> {
+    /// The plate as it was before it was loaded.
+    Still(View),
+    /// The plate moved by its displacements.
+    Moved(DeformedView<'a>),
+}
+
+/// The way values become colours.
+struct Coloring {
+    style: Style,
+    span: Span,
+    /// Of a series: true if values of some step lie below the range, and above it, so that all bars are alike.
+    ends: Option<[bool; 2]>,
+}
+
+/// A page with what is told of it.
+struct Sheet {
+    page: Canvas,
+    picture: Picture,
+    texts: Vec<Text>,
 }
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::Kind::Picture, self.inputs())?;
         self.engine.check()?;
         self.look.check(self.is_figure())?;
         ensure!(
@@ -106,11 +152,18 @@ impl Args {
             self.has_panels() || !self.shared_range,
             "--shared-range is for panels; give several quantities or parts"
         );
+        if self.series.is_given() {
+            return self.all_steps(out);
+        }
+        series::refuse_moving(&self.output)?;
+        target::check(&self.output, target::Kind::Picture, self.inputs())?;
         let datasets = self.subject.open_parts()?;
         let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
         let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
-        let plates: Vec<_> = datasets.iter().zip(&fields).map(|(d, f)| self.plate(d, f)).collect();
-        match &plates[..] {
+        let last = datasets[0].steps.len().saturating_sub(1);
+        let step = self.subject.step.unwrap_or(last);
+        let plates = datasets.iter().zip(&fields).map(|(d, f)| self.plate(d, f, step));
+        match &plates.collect::<Vec<_>>()[..] {
             [plate] if !self.has_panels() => self.one(plate, out),
             plates => self.panels(plates, out),
         }
@@ -131,11 +184,6 @@ impl Args {
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 
-    fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>) -> Plate<'a> {
-        let shown = self.subject.replacements.title(&dataset.title);
-        Plate { dataset, field, shown }
-    }
-
     /// What is shown of a plate. Isolines of values of cells alone are refused.
     fn asked(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
         let asked = self.subject.asked(field)?;
@@ -148,54 +196,137 @@ impl Args {
         Ok(asked)
     }
 
+    fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>, step: usize) -> Plate<'a> {
+        let title = series::title(dataset, step);
+        let shown = self.subject.replacements.title(&title);
+        Plate { dataset, field, shown, step: (dataset.steps.len() > 1).then_some(step) }
+    }
+
     /// Draws one quantity.
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
-        let field = plate.field;
-        let asked = self.asked(field)?.swap_remove(0);
-        let mut labels = asked.labels(plate.shown.clone(), field);
-        let design = self.design(field);
-        let room = |title: &str| {
-            if self.figure { plot_area(title, &design) } else { Ok(design.size) }
-        };
-        let frame = self.frame(room(&self.look.worded(labels.clone()).title)?);
-        let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
-        labels.title = titled(labels.title, &seen);
-        let labels = self.look.worded(labels);
-        let drawn = self.drawn(field, &seen, &asked)?;
-        let mut picture = drawn.picture(&self.colours.style_of(&[(&asked, &drawn)])?)?;
-        let layers = self.layers(plate, &seen, &asked, &drawn.values, &picture)?;
-        self.blank(&mut picture);
-        let cracks = seen.cracks(field);
-        let panel = Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None };
-        let page = self.page(panel, &design)?;
-        let mut texts =
-            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
-        texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
-        texts.extend(asked.note().into_iter().chain(self.notes(&seen)));
+        let (shots, design) = self.shots(std::slice::from_ref(plate))?;
+        let shot = &shots[0];
+        let (field, asked) = (plate.field, &shot.asked);
+        let seen = self.seen(shot)?;
+        let drawn = self.drawn(field, &seen, asked)?;
+        warn(asked, drawn.undefined());
+        let style = self.colours.style_of(&[(asked, &drawn)])?;
+        let span = self.span(field, &seen, asked, &drawn, &style)?;
+        let coloring = Coloring { style, span, ends: None };
+        let Sheet { page, picture, texts } =
+            self.sheet(shot, (&seen, &drawn), &coloring, &design)?;
         let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
-        let (name, colors, by) = (&asked.name, colours(&picture), drawn.by);
+        let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
+        let (colors, by) = (telling.colors(&picture), drawn.by);
         let told = format!("{name}{told}, {columns}x{rows} pixels, {colors}, {by}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// The values of what is shown where they are seen.
-    fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
-        let drawn = match (seen, &asked.shown) {
-            (Seen::Plate(view), Shown::Quantity(quantity)) => {
-                self.engine.draw(Job { field, view, quantity })?
-            }
-            (Seen::Plate(view), Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
-            (Seen::Moved(points), shown) => draw(points, shown, &self.engine)?,
+    /// What pictures of plates show, which have one size and one look.
+    fn shots<'a>(&self, plates: &'a [Plate<'a>]) -> anyhow::Result<(Vec<Shot<'a>>, Design)> {
+        let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
+        let deforming = self.deformed.of(&fields)?;
+        let factor = deforming.as_ref().map(Deforming::words);
+        let design = self.design(fields[0]);
+        let words = |plate: &Plate<'_>| {
+            let asked = self.asked(plate.field)?.swap_remove(0);
+            let title = titled(plate.shown.clone(), factor.as_deref());
+            let labels = self.look.worded(asked.labels(title, plate.field));
+            anyhow::Ok((asked, plate.filled(labels)))
         };
-        if !drawn.without.is_empty() {
-            let (name, counts) = (&asked.name, drawn.undefined());
-            let message = match &asked.shown {
-                Shown::Quantity(_) => undefined::message(name, counts, "pixels"),
-                Shown::Cells(..) => undefined::of_cells(name, counts),
+        let words = plates.iter().map(words).collect::<anyhow::Result<Vec<_>>>()?;
+        let titles = words.iter().map(|(_, labels)| labels.title.as_str());
+        let frame = self.frame(self.room(titles, &design)?);
+        let shot = |(plate, (asked, labels)): (&'a Plate<'a>, (Asked, Labels))| {
+            let field = plate.field;
+            let scene = match &deforming {
+                None => Scene::Still(self.window.seen(field, frame)?),
+                Some(deforming) => Scene::Moved(deforming.view(field, &self.window, frame)?),
             };
-            tell(&format!("warning: {message}"));
+            Ok(Shot { plate, asked, labels, scene })
+        };
+        let shots = plates.iter().zip(words).map(shot).collect::<anyhow::Result<_>>()?;
+        Ok((shots, design))
+    }
+
+    /// The room that all titles leave.
+    fn room<'t>(
+        &self,
+        titles: impl Iterator<Item = &'t str>,
+        design: &Design,
+    ) -> anyhow::Result<[u32; 2]> {
+        let mut room = design.size;
+        for title in titles.filter(|_| self.figure) {
+            let [columns, rows] = plot_area(title, design)?;
+            room = [room[0].min(columns), room[1].min(rows)];
         }
-        Ok(drawn)
+        Ok(room)
+    }
+
+    /// What is seen.
+    fn seen<'a>(&self, shot: &Shot<'a>) -> anyhow::Result<Seen<'a>> {
+        match &shot.scene {
+            Scene::Still(view) => Ok(Seen::Plate(*view)),
+            Scene::Moved(view) => points(view, &self.engine),
+        }
+    }
+
+    /// The values of a quantity where they are seen.
+    fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
+        let samples = self.samples;
+        match (seen, &asked.shown) {
+            (Seen::Plate(view), Shown::Quantity(quantity)) => {
+                self.engine.average(Job { field, view, quantity }, samples)
+            }
+            (_, Shown::Cells(..)) if samples != Samples::CENTER => bail!(
+                "--samples: values of cells are drawn at the centres of pixels; leave --samples out"
+            ),
+            (Seen::Plate(view), Shown::Cells(_, values)) => {
+                Ok(Drawn::of_cells(values, field, view))
+            }
+            (Seen::Moved(_), _) if samples != Samples::CENTER => bail!(
+                "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
+            ),
+            (Seen::Moved(points), shown) => draw(points, shown, &self.engine),
+        }
+    }
+
+    /// The range of a quantity's colours.
+    fn span(
+        &self,
+        field: &Field<'_>,
+        seen: &Seen<'_>,
+        asked: &Asked,
+        drawn: &Drawn,
+        style: &Style,
+    ) -> anyhow::Result<Span> {
+        let Some(quantity) = asked.shown.quantity() else { return Ok(drawn.span(style, None)) };
+        let found = || range::found(field, seen, quantity, drawn, style);
+        Ok(self.engine.with_threads(found)??)
+    }
+
+    /// The values in colours, with all that belongs to them.
+    fn sheet(
+        &self,
+        shot: &Shot<'_>,
+        (seen, drawn): (&Seen<'_>, &Drawn),
+        coloring: &Coloring,
+        design: &Design,
+    ) -> anyhow::Result<Sheet> {
+        let Shot { plate, asked, labels, .. } = shot;
+        let mut picture = coloring.picture(drawn)?;
+        let layers = self.layers(plate, seen, asked, drawn, &picture)?;
+        self.blank(&mut picture);
+        let (labels, cracks) = (labels.clone(), seen.cracks(plate.field));
+        let page = self.page(
+            Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None },
+            design,
+        )?;
+        let mut texts =
+            picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
+        texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
+        texts.extend(asked.note().into_iter().chain(self.notes(plate, seen)));
+        Ok(Sheet { page, picture, texts })
     }
 
     /// What is drawn over a picture.
@@ -204,11 +335,21 @@ impl Args {
         plate: &Plate<'_>,
         seen: &Seen<'_>,
         asked: &Asked,
-        values: &Values,
+        drawn: &Drawn,
         picture: &Picture,
     ) -> anyhow::Result<Vec<Item>> {
         let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
         let is_figure = self.is_figure();
+        let centers;
+        let needs_centers = drawn.opacity.is_some() && self.overlays.have_isolines();
+        let values = match quantity.filter(|_| needs_centers) {
+            Some(quantity) => {
+                // isolines are looked for between the pixels' centres
+                centers = self.engine.draw(Job { field, view: &drawn.view, quantity })?;
+                &centers.values
+            }
+            None => &drawn.values,
+        };
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
         let outline = self.deformed.outline;
         self.engine.with_threads(|| match seen {
@@ -218,17 +359,18 @@ impl Args {
     }
 
     /// What was done to the dataset and the plate, as texts of the picture.
-    fn notes(&self, seen: &Seen<'_>) -> impl Iterator<Item = Text> {
+    fn notes(&self, plate: &Plate<'_>, seen: &Seen<'_>) -> impl Iterator<Item = Text> {
         let factor = seen.moved().map(|points| format!("{:?}", points.view.factor()));
         let deformed = factor.map(|factor| ("ppum:deformed".to_owned(), factor));
-        self.subject.replacements.notes().chain(deformed)
+        self.subject.replacements.notes().chain(deformed).chain(plate.notes())
     }
 
     /// Leaves out the colours if that is asked for: the plate is white.
     fn blank(&self, picture: &mut Picture) {
         if self.blank {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
-            pixels.iter_mut().filter(|pixel| pixel[3] > 0).for_each(|pixel| *pixel = [255; 4]);
+            let seen = pixels.iter_mut().filter(|pixel| pixel[3] > 0);
+            seen.for_each(|pixel| pixel[..3].fill(255));
         }
     }
 
@@ -250,39 +392,54 @@ impl Args {
     }
 }
 
-/// The title of a figure, of the deformed plate with the factor.
-fn titled(title: String, seen: &Seen<'_>) -> String {
-    match seen.moved() {
-        Some(points) => format!("{title} ({})", words(&points.view)).trim_start().to_owned(),
+impl Scene<'_> {
+    fn view(&self) -> &View {
+        match self {
+            Self::Still(view) => view,
+            Self::Moved(seen) => &seen.view,
+        }
+    }
+}
+
+impl Coloring {
+    fn picture(&self, drawn: &Drawn) -> anyhow::Result<Picture> {
+        let mut picture = drawn.picture(&self.style, self.span.clone())?;
+        if let Some(ends) = self.ends {
+            [picture.has_below, picture.has_above] = ends;
+            picture.one_value = None;
+        }
+        Ok(picture)
+    }
+}
+
+/// Tells that a quantity has no value at some pixels of the plate, of so many.
+fn warn(asked: &Asked, undefined: [usize; 2]) {
+    if undefined[0] > 0 {
+        let message = match &asked.shown {
+            Shown::Quantity(_) => undefined::message(&asked.name, undefined, "pixels"),
+            Shown::Cells(..) => undefined::of_cells(&asked.name, undefined),
+        };
+        tell(&format!("warning: {message}"));
+    }
+}
+
+/// The title of a figure, of the deformed plate with the factor in words.
+fn titled(title: String, factor: Option<&str>) -> String {
+    match factor {
+        Some(factor) => format!("{title} ({factor})").trim_start().to_owned(),
         None => title,
     }
 }
 
 /// Of the deformed plate the factor, and at how many pixels it lies over itself.
 fn told(seen: &Seen<'_>, overlaps: usize) -> String {
-    match (seen.moved(), overlaps) {
+    let factor = seen.moved().map(|points| words(points.view.factor()));
+    match (factor, overlaps) {
         (None, _) => String::new(),
-        (Some(points), 0) => format!(", {}", words(&points.view)),
-        (Some(points), n) => {
+        (Some(factor), 0) => format!(", {factor}"),
+        (Some(factor), n) => {
             let pixels = count(n, "pixel", "pixels");
-            format!(", {}, over itself at {pixels} (hatched)", words(&points.view))
-        }
-    }
-}
-
-/// The meaning of the colours.
-fn colours(picture: &Picture) -> String {
-    let (norm, classes) = (&picture.normalization, picture.colormap.classes());
-    match picture.one_value {
-        _ if !picture.has_values => "no finite values".into(),
-        Some(value) => format!("one value, {}", trimmed(value)),
-        None if !classes.is_empty() => {
-            let values: Vec<String> = classes.iter().map(|value| trimmed(*value)).collect();
-            format!("a colour each for {}", values.join(", "))
-        }
-        None => {
-            let [from, to] = apart(norm.min(), norm.max());
-            format!("colours from {from} to {to}")
+            format!(", {factor}, over itself at {pixels} (hatched)")
         }
     }
 }

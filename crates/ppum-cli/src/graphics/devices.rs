@@ -2,6 +2,7 @@
 
 use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
+use ppum_render::samples::{Means, Samples};
 
 use super::{Adapter, Device, Failure, Method, drivers};
 use crate::drawing::{Drawn, Job};
@@ -35,15 +36,28 @@ impl From<RenderError> for Failure {
     }
 }
 
-/// Draws. After an error the CPU may try.
-pub(crate) fn draw(job: Job<'_>, device: Device, method: Method) -> Result<Drawn, Failure> {
-    let (renderer, raster) = drawn(job, device.into(), method.into())?;
+/// Draws the means of so many samples a pixel. After an error the CPU may try.
+pub(crate) fn draw(
+    job: Job<'_>,
+    samples: Samples,
+    device: Device,
+    method: Method,
+) -> Result<Drawn, Failure> {
+    let Job { field, view, quantity } = job;
+    // a device holds all samples at once
+    let finer = view.finer(samples.side());
+    let finer = finer.map_err(|e| Failure { message: e.to_string(), is_normal: true })?;
+    let of_samples = Job { field, view: &finer, quantity };
+    let (renderer, raster) = drawn(of_samples, device.into(), method.into())?;
     let name = &renderer.gpu().info().name;
     let by = match method {
         Method::Gather => format!("gpu f32, {name}"),
         Method::Splat => format!("gpu splat f32, {name}"),
     };
-    Ok(Drawn::new(raster, job.field, job.view, &by))
+    if samples == Samples::CENTER {
+        return Ok(Drawn::new(raster, job.field, job.view, &by));
+    }
+    Ok(Drawn::averaged(Means::of(field.domain, view, samples, &raster), job, &by))
 }
 
 fn drawn(

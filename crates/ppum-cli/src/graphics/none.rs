@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 
 use ppum::field::Field;
 use ppum_render::picture::Style;
+use ppum_render::samples::Samples;
 use ppum_render::view::View;
 
 use super::{Adapter, Device, Failure, Method};
@@ -18,7 +19,7 @@ Pictures are drawn on the CPU, which is exact and quick.";
 const REASON: &str =
     "no graphics adapter: this program was built without graphics devices (feature `gpu`)";
 
-pub(crate) fn draw(_: Job<'_>, _: Device, _: Method) -> Result<Drawn, Failure> {
+pub(crate) fn draw(_: Job<'_>, _: Samples, _: Device, _: Method) -> Result<Drawn, Failure> {
     Err(Failure { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })
 }
 

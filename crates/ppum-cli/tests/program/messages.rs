@@ -62,7 +62,7 @@ fn one_value_is_told() {
         }
     }
     let told = lab.run("render plate.h5 -o a.png -q 1+1e-9*uy");
-    let range = told.split("colours from ").nth(1).unwrap().split(", ").next().unwrap();
+    let range = told.split("colours from ").nth(1).unwrap().split([',', ';', '(']).next().unwrap();
     let (from, to) = range.split_once(" to ").unwrap();
     assert_ne!(from, to);
 }

@@ -1,11 +1,15 @@
 //! The colour bar of a figure, upright or lying.
+//!
+//! Where a range that was found leaves out values, the bar's pointed ends say how far these go: beside the points, in the column of
+//! the marks' labels of an upright bar, and before and behind a lying one, which is shorter by them.
 
 use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 
 use super::axis::{Axis, axis_label};
+use super::beyond::words;
 use super::design::{Design, LABEL_TEXT, Labels, TickChoice};
-use super::ink::{Ink, TICK_TEXT, snapped};
+use super::ink::{Ink, LINE, TICK_TEXT, snapped};
 use super::sheet::{GAP, LABEL_GAP, TICK};
 use crate::canvas::{Align, Item, Path};
 use crate::text::{self, CAP_HEIGHT};
@@ -13,6 +17,7 @@ use crate::ticks::{self, Tick, Ticks};
 use ppum_render::colormap::Colormap;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
+use ppum_render::range::Basis;
 use ppum_render::scale::Normalization;
 
 /// Width of the bar.
@@ -37,12 +42,14 @@ const ROUNDING: f64 = 1e-12;
 /// What a colour bar explains: of a range of values, or of some values with a colour each.
 #[derive(Clone, Debug)]
 pub(super) struct Key {
-    normalization: Normalization,
+    pub(super) normalization: Normalization,
     colormap: Colormap,
     one_value: Option<f64>,
     has_values: bool,
     has_below: bool,
     has_above: bool,
+    /// Values beyond the ends that are told.
+    pub(super) beyond: [Option<f64>; 2],
     name: String,
     unit: String,
 }
@@ -63,6 +70,7 @@ impl Key {
             has_values: picture.has_values,
             has_below: picture.has_below,
             has_above: picture.has_above,
+            beyond: beyond(picture),
             name,
             unit: labels.unit.clone(),
         }
@@ -73,6 +81,11 @@ impl Key {
         self.has_below |= other.has_below;
         self.has_above |= other.has_above;
         self.has_values |= other.has_values;
+        let far = |k: usize, farther: fn(f64, f64) -> f64| {
+            let both = [self.beyond[k], other.beyond[k]];
+            both.into_iter().flatten().reduce(farther)
+        };
+        self.beyond = [far(0, f64::min), far(1, f64::max)];
         if self.one_value != other.one_value {
             self.one_value = None;
         }
@@ -147,12 +160,21 @@ impl Key {
     }
 }
 
+/// How far values reach beyond a range that was found; of one that was given nothing is said.
+fn beyond(picture: &Picture) -> [Option<f64>; 2] {
+    let is_told =
+        picture.has_values && picture.one_value.is_none() && picture.span.basis != Basis::Given;
+    if is_told { picture.span.beyond() } else { [None; 2] }
+}
+
 /// A colour bar of some length.
 pub(super) struct ColorBar {
     key: Key,
     pub(super) axis: Axis,
+    /// What is said at the lower and the upper end.
+    words: [Option<String>; 2],
     pub(super) is_upright: bool,
-    /// Length with the triangles.
+    /// Length with the triangles, and of a lying bar with the words.
     pub(super) length: f64,
 }
 
@@ -170,20 +192,43 @@ impl ColorBar {
             if key.has_classes() { (CLASS_DISTANCE, 1) } else { (UPRIGHT_DISTANCE, 2) };
         let most = (length / (apart * scale)) as usize;
         let axis = key.axis(&design.bar_ticks, most.max(least), scale);
-        Self { key, axis, is_upright: true, length }
+        Self { words: words(&key, &axis.ticks, scale), key, axis, is_upright: true, length }
     }
 
     /// A lying bar; it has as many labels as do not touch.
     pub(super) fn lying(key: Key, design: &Design, length: f64) -> Self {
         let scale = design.scale();
-        let of = |most| key.axis(&design.bar_ticks, most, scale);
-        let is_apart = |axis: &Axis| {
-            let places = axis.ticks.major.windows(2).map(|pair| (pair[1].at - pair[0].at) * length);
-            places.fold(f64::INFINITY, f64::min) > axis.widest + BETWEEN * scale
+        let of = |most| {
+            let axis = key.axis(&design.bar_ticks, most, scale);
+            let words = words(&key, &axis.ticks, scale);
+            Self { words, key: key.clone(), axis, is_upright: false, length }
+        };
+        let is_apart = |bar: &Self| {
+            let ([low, high], ticks) = (bar.ends(scale), &bar.axis.ticks.major);
+            let places = ticks.windows(2).map(|pair| (pair[1].at - pair[0].at) * (high - low));
+            places.fold(f64::INFINITY, f64::min) > bar.axis.widest + BETWEEN * scale
         };
         let most = (2..=(length / (30.0 * scale)) as usize).rev().take(40);
-        let axis = most.map(of).find(is_apart).unwrap_or_else(|| of(2));
-        Self { key, axis, is_upright: false, length }
+        most.map(of).find(is_apart).unwrap_or_else(|| of(2))
+    }
+
+    /// What a lying bar takes for words before its lower and behind its upper end.
+    fn margins(&self, scale: f64) -> [f64; 2] {
+        let margin = |k: usize| match &self.words[k] {
+            Some(word) if !self.is_upright => {
+                (text::width(word, TICK_TEXT * scale) + GAP * scale).ceil()
+            }
+            _ => 0.0,
+        };
+        [margin(0), margin(1)]
+    }
+
+    /// Lower and upper end of the evenly coloured part.
+    fn ends(&self, scale: f64) -> [f64; 2] {
+        let arrow = |shown: bool| if shown { (ARROW * scale).round() } else { 0.0 };
+        let [before, behind] = self.margins(scale);
+        let Key { has_below, has_above, .. } = self.key;
+        [before + arrow(has_below), self.length - behind - arrow(has_above)]
     }
 
     /// Draws the bar with its lower end's corner at a place; the label is no longer than `room`.
@@ -207,9 +252,13 @@ impl Placed<'_> {
 
     /// Lower and upper end of the evenly coloured part.
     fn ends(&self) -> [f64; 2] {
-        let arrow = |shown: bool| if shown { (ARROW * self.scale).round() } else { 0.0 };
-        let Key { has_below, has_above, .. } = self.bar.key;
-        [arrow(has_below), self.bar.length - arrow(has_above)]
+        self.bar.ends(self.scale)
+    }
+
+    /// The points of the triangles.
+    fn points(&self) -> [f64; 2] {
+        let [before, behind] = self.bar.margins(self.scale);
+        [before, self.bar.length - behind]
     }
 
     fn width(&self) -> f64 {
@@ -244,12 +293,13 @@ impl Placed<'_> {
 
     /// The triangles at the bar's ends: base, tip, base, and colour.
     fn arrows(&self) -> Vec<([Vec2; 3], Rgba)> {
-        let ([low, high], width, key) = (self.ends(), self.width(), &self.bar.key);
+        let ([low, high], [first, last]) = (self.ends(), self.points());
+        let (width, key) = (self.width(), &self.bar.key);
         let triangle = |base: f64, tip: f64| {
             [self.point(base, 0.0), self.point(tip, 0.5 * width), self.point(base, width)]
         };
-        let below = key.has_below.then(|| (triangle(low, 0.0), key.colormap.below));
-        let above = key.has_above.then(|| (triangle(high, self.bar.length), key.colormap.above));
+        let below = key.has_below.then(|| (triangle(low, first), key.colormap.below));
+        let above = key.has_above.then(|| (triangle(high, last), key.colormap.above));
         below.into_iter().chain(above).collect()
     }
 
@@ -277,11 +327,37 @@ impl Placed<'_> {
                 ink.text(&tick.label, TICK_TEXT, self.point(along, base), Align::Middle);
             }
         }
+        let widest = self.words(ink, base);
         base + if self.bar.is_upright {
-            self.bar.axis.widest
+            self.bar.axis.widest.max(widest)
         } else {
             CAP_HEIGHT * TICK_TEXT * ink.scale
         }
+    }
+
+    /// The words at the ends; returns the width of the widest one. Beside an upright bar they keep away from the labels of marks, which
+    /// begin at `base`.
+    fn words(&self, ink: &mut Ink, base: f64) -> f64 {
+        let ([low, high], line) = (self.ends(), LINE * TICK_TEXT * self.scale);
+        let labels = self.bar.axis.ticks.major.iter().map(|tick| low + tick.at * (high - low));
+        let [first, last] =
+            labels.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], at| [a.min(at), b.max(at)]);
+        let [lower, upper] = self.points();
+        let half = 0.5 * ARROW * self.scale;
+        let beside = [(lower + half).min(first - line), (upper - half).max(last + line)];
+        let away = [lower - GAP * self.scale, upper + GAP * self.scale];
+        let mut widest: f64 = 0.0;
+        for (k, word) in self.bar.words.iter().enumerate() {
+            let Some(word) = word else { continue };
+            if self.bar.is_upright {
+                ink.at_height(word, self.point(beside[k], base), Align::Start);
+            } else {
+                let align = [Align::End, Align::Start][k];
+                ink.at_height(word, self.point(away[k], 0.5 * self.width()), align);
+            }
+            widest = widest.max(text::width(word, TICK_TEXT * self.scale));
+        }
+        widest
     }
 
     /// A mark at a position from 0 to 1; returns how far along the bar it lies.

@@ -14,6 +14,7 @@
 //! ```
 
 mod axis;
+mod beyond;
 mod color_bar;
 mod design;
 mod ink;

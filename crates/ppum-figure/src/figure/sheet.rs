@@ -4,6 +4,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::Panel;
 use super::axis::{Axis, axes};
+use super::beyond::WORD;
 use super::color_bar::{ColorBar, Key, LEAST_BAR};
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, TICK_TEXT, bounds, snapped};
@@ -139,6 +140,7 @@ pub(super) fn bar(
     room: [f64; 2],
 ) -> Option<ColorBar> {
     let [upright, lying] = LEAST_BAR.map(|length| length * design.scale());
+    let lying = lying + key.beyond.iter().flatten().count() as f64 * WORD * design.scale();
     match place {
         BarPlace::Right => {
             Some(ColorBar::upright(key, design, sides[1].max(upright.min(room[1])).round()))

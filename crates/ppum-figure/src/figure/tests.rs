@@ -2,9 +2,10 @@
 
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::colormap::Colormap;
+use ppum_render::extrema::{Extrema, Extremum, On};
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Style;
-use ppum_render::range::Range;
+use ppum_render::range::{Basis, Range, Span};
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
@@ -362,8 +363,9 @@ fn random_design(random: &mut Random) -> Design {
 }
 
 fn random_style(random: &mut Random, half: Vec2) -> Style {
-    let range =
-        if random.below(2) == 0 { Range::Auto } else { Range::Fixed(-0.3 * half.x, 0.4 * half.x) };
+    let (fixed, percentiles) =
+        (Range::Fixed(-0.3 * half.x, 0.4 * half.x), Range::Percentiles(7.0, 90.0));
+    let range = random.pick(&[Range::Auto, fixed, percentiles]);
     let scale = random.pick(&[Scale::Linear, Scale::SymLog]);
     let map = Colormap::named(random.pick(&["viridis", "vik", "twilight"])).unwrap();
     let colormap = if random.below(3) == 0 { map.banded(5) } else { map };
@@ -387,6 +389,58 @@ fn random_labels(random: &mut Random) -> Labels {
 fn random_half(random: &mut Random) -> Vec2 {
     let (size, shape) = (random.between(-3.0, 6.0), random.between(-0.9, 0.9));
     vec2(10f64.powf(size + shape), 10f64.powf(size - shape))
+}
+
+fn untitled() -> Labels {
+    Labels { title: String::new(), ..labels() }
+}
+
+/// A picture of a robust range with values beyond its ends.
+fn peaked(half: f64, design: &Design, beyond: [f64; 2], scale: Scale) -> Picture {
+    let room = plot_area("", design).unwrap();
+    let view = View::hug(Rect::around(Vec2::ZERO, vec2(half, half)), room).unwrap();
+    let raster = Raster::from_fn(view.pixels, |i, _| 1.0 + f64::from(i));
+    let at = |value: f64| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
+    let values = Extrema { min: at(beyond[0]), max: at(beyond[1]), singular: vec![] };
+    let max = f64::from(view.pixels[0]);
+    let span = Span { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
+    Picture::spanning(&raster, &view, &Style { scale, ..Style::default() }, span).unwrap()
+}
+
+/// The ends of a bar say how far values go, wherever it stands, and nothing touches these words.
+#[test]
+fn bars_say_what_lies_beyond() {
+    let inf = f64::INFINITY;
+    for (beyond, words) in [
+        ([-inf, inf], ["to −∞", "to ∞"]),
+        ([-12.34, 1234.5], ["to −12.3", "to 1230"]),
+        ([-0.25, 3.5e9], ["to −0.25", "to 4×10⁹"]),
+        ([-1.23456e-7, 1e300], ["to 0", "to 10³⁰⁰"]),
+    ] {
+        for bar in [BarPlace::Right, BarPlace::Bottom] {
+            for size in [[500, 420], [1024, 768], [420, 900]] {
+                let design = Design { bar, ..Design::pixels(size) };
+                let picture = peaked(1.0, &design, beyond, Scale::Linear);
+                assert!(picture.has_below && picture.has_above);
+                let page = figure(panel(&picture, untitled()), &design).unwrap();
+                check(&page, &format!("{beyond:?} {bar:?} {size:?}"));
+                for word in words {
+                    let has = texts(&page).iter().any(|line| line.text.starts_with(word));
+                    assert!(has, "{word}: {:?}", texts(&page));
+                }
+            }
+        }
+    }
+    let design = Design::pixels(SIZE);
+    let says = |picture: &Picture| {
+        let page = figure(panel(picture, untitled()), &design).unwrap();
+        texts(&page).iter().any(|line| line.text.starts_with("to "))
+    };
+    assert!(says(&peaked(1.0, &design, [0.5, inf], Scale::Log)));
+    assert!(!says(&peaked(1.0, &design, [1.0, 2.0], Scale::Linear)));
+    let mut given = peaked(1.0, &design, [-inf, inf], Scale::Linear);
+    given.span.basis = Basis::Given;
+    assert!(!says(&given), "who gives a range knows it");
 }
 
 #[test]

@@ -167,7 +167,7 @@ mod tests {
             let view = View::new(center, 1.2 * dataset.domain.bounds.size().x, [240, 200]).unwrap();
             let deformation = Deformation::new(&field, factor).unwrap();
             let points = deformation.seen(&view).points(unwatched()).unwrap();
-            let material = points.material_view().unwrap().expect("something is seen");
+            let material = points.material_view().expect("something is seen");
             let raster = render::<f64>(&field, &material, &quantity, unwatched()).unwrap();
             let levels = [0.11, 0.23, 0.37];
             let lines =
@@ -199,7 +199,7 @@ mod tests {
             let seen = Deformation::new(&field, 0.05).unwrap().seen(&view);
             let points = seen.points(unwatched()).unwrap();
             let drawn = points.raster(&quantity, unwatched()).unwrap();
-            let material = points.material_view().unwrap().expect("something is seen");
+            let material = points.material_view().expect("something is seen");
             let raster = render::<f64>(&field, &material, &quantity, unwatched()).unwrap();
             let all = raster.statistics();
             let levels = [0.3, 0.5, 0.7].map(|t| all.min + t * (all.max - all.min));

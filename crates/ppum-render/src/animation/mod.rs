@@ -1,14 +1,19 @@
 //! Moving pictures: APNG, without loss, and GIF, in 256 colours, for programs that know no other.
 //!
-//! All images have one size and are shown for one time each, over and over.
+//! All images have one size and are shown for one time each, over and over. [`Apng`] and [`Gif`] take them one by one, so
+//! that no two have to be held at a time; what does not change from one to the next is left out of the file. A GIF has one
+//! palette, so that nothing flickers: the [`Colors`] of all its images are counted before the first one is written.
 
+mod apng;
+mod gif;
 mod palette;
 
-use std::borrow::Cow;
-
 use crate::image::Image;
-use crate::png::{self, Text};
-use palette::Palette;
+use crate::png::Text;
+
+pub use apng::Apng;
+pub use gif::Gif;
+pub use palette::Colors;
 
 /// The reason why there is no such moving picture.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +22,14 @@ pub enum AnimationError {
     /// No images.
     #[error("a moving picture needs one image at least")]
     Empty,
+    /// More images than were announced, or fewer.
+    #[error("{found} images of a moving picture of {announced}")]
+    Count {
+        /// The number that was announced.
+        announced: u32,
+        /// The number so far.
+        found: u32,
+    },
     /// Images of several sizes.
     #[error("image {index} of a moving picture has {}x{} pixels, the first one {}x{}",
         size[0], size[1], first[0], first[1])]
@@ -42,8 +55,7 @@ pub enum AnimationError {
     Gif(#[from] ::gif::EncodingError),
 }
 
-/// The images as the bytes of an APNG file, each shown for some milliseconds. A program that does not know
-/// APNG shows the first one.
+/// The images as the bytes of an APNG file, each shown for some milliseconds: see [`Apng`].
 ///
 /// # Errors
 /// No images, images of several sizes, an impossible key of a text.
@@ -52,68 +64,74 @@ pub fn apng(
     milliseconds: u16,
     texts: &[Text],
 ) -> Result<Vec<u8>, AnimationError> {
-    let size = common_size(images)?;
-    let count = u32::try_from(images.len()).unwrap_or(u32::MAX);
+    let size = images.first().ok_or(AnimationError::Empty)?.size;
     let mut bytes = Vec::new();
-    let mut encoder = ::png::Encoder::new(&mut bytes, size[0], size[1]);
-    encoder.set_color(::png::ColorType::Rgba);
-    encoder.set_depth(::png::BitDepth::Eight);
-    encoder.set_source_srgb(::png::SrgbRenderingIntent::Perceptual);
-    encoder.set_animated(count, FOR_EVER)?;
-    encoder.set_frame_delay(milliseconds, 1000)?;
-    png::describe(&mut encoder, texts)?;
-    let mut writer = encoder.write_header()?;
-    for image in images {
-        writer.write_image_data(&image.rgba)?;
-    }
-    writer.finish()?;
+    let count = u32::try_from(images.len()).unwrap_or(u32::MAX);
+    let mut file = Apng::new(&mut bytes, size, count, milliseconds, texts)?;
+    images.iter().try_for_each(|image| file.add(image))?;
+    file.finish()?;
     Ok(bytes)
 }
 
-/// APNG's number of plays that never end.
-const FOR_EVER: u32 = 0;
-
-/// The images as the bytes of a GIF file, each shown for some milliseconds, which it holds as hundredths of a
-/// second. They share one palette of 256 colours: all of theirs if there are no more, else such that none is
-/// far off. What is more transparent than opaque is transparent.
+/// The images as the bytes of a GIF file, each shown for some milliseconds: see [`Gif`].
 ///
 /// # Errors
 /// No images, images of several sizes, a side of more than 65535 pixels.
 pub fn gif(images: &[Image], milliseconds: u16) -> Result<Vec<u8>, AnimationError> {
-    let size = common_size(images)?;
-    let side = |n: u32| u16::try_from(n).map_err(|_| AnimationError::TooLarge { size });
-    let (width, height) = (side(size[0])?, side(size[1])?);
-    let palette = Palette::of(images);
+    let size = images.first().ok_or(AnimationError::Empty)?.size;
+    let mut colors = Colors::new();
+    images.iter().for_each(|image| colors.add(image));
     let mut bytes = Vec::new();
-    let mut encoder = ::gif::Encoder::new(&mut bytes, width, height, &palette.bytes())?;
-    encoder.set_repeat(::gif::Repeat::Infinite)?;
-    for image in images {
-        let frame = ::gif::Frame {
-            width,
-            height,
-            delay: (milliseconds + 5) / 10,
-            // what is transparent shows no earlier image
-            dispose: ::gif::DisposalMethod::Background,
-            transparent: Some(palette::TRANSPARENT),
-            buffer: Cow::Owned(palette.indices(image)),
-            ..::gif::Frame::default()
-        };
-        encoder.write_frame(&frame)?;
-    }
-    drop(encoder);
+    let mut file = Gif::new(&mut bytes, size, &colors, milliseconds)?;
+    images.iter().try_for_each(|image| file.add(image))?;
+    file.finish()?;
     Ok(bytes)
 }
 
-fn common_size(images: &[Image]) -> Result<[u32; 2], AnimationError> {
-    let first = images.first().ok_or(AnimationError::Empty)?.size;
-    match images.iter().position(|image| image.size != first) {
-        Some(index) => Err(AnimationError::Sizes { index, size: images[index].size, first }),
-        None => Ok(first),
+/// Columns and rows of a box of pixels: from, up to but not including.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Changed {
+    from: [usize; 2],
+    to: [usize; 2],
+}
+
+impl Changed {
+    /// The least box around the pixels that differ; the first pixel if none does.
+    fn between<T: PartialEq>(old: &[T], new: &[T], columns: usize) -> Self {
+        let (mut from, mut to) = ([usize::MAX; 2], [0; 2]);
+        let lines = old.chunks_exact(columns).zip(new.chunks_exact(columns)).enumerate();
+        for (row, (old, new)) in lines.filter(|(_, (old, new))| old != new) {
+            let differ = || old.iter().zip(new).map(|(a, b)| a != b);
+            let first = differ().position(|d| d).unwrap_or(0);
+            let last = columns - differ().rev().position(|d| d).unwrap_or(0);
+            from = [from[0].min(first), from[1].min(row)];
+            to = [to[0].max(last), row + 1];
+        }
+        if to == [0; 2] { Self { from: [0; 2], to: [1; 2] } } else { Self { from, to } }
     }
+
+    fn size(self) -> [usize; 2] {
+        [self.to[0] - self.from[0], self.to[1] - self.from[1]]
+    }
+
+    /// The places of its pixels in the picture, row by row.
+    fn places(self, columns: usize) -> impl Iterator<Item = usize> {
+        let Self { from, to } = self;
+        (from[1]..to[1]).flat_map(move |row| (from[0]..to[0]).map(move |at| row * columns + at))
+    }
+}
+
+fn check_size(index: u32, size: [u32; 2], first: [u32; 2]) -> Result<(), AnimationError> {
+    if size == first {
+        return Ok(());
+    }
+    Err(AnimationError::Sizes { index: index as usize, size, first })
 }
 
 #[cfg(test)]
 mod tests {
+    use ppum_testkit::random::Random;
+
     use crate::colormap::Colormap;
 
     use super::*;
@@ -182,6 +200,113 @@ mod tests {
         let (_, found) = read(&gif(&[image.clone()], 100).unwrap()).remove(0);
         let worst = found.iter().zip(&image.rgba).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(worst < Some(12), "{worst:?}");
+    }
+
+    /// Opaque images of which now little changes, now nothing, now all; with holes if that is asked for.
+    fn wandering(with_holes: bool) -> Vec<Image> {
+        let mut random = Random(5);
+        let mut image = Image::filled([40, 30], [20, 30, 40, 255]);
+        let mut all = vec![image.clone()];
+        for kind in [1, 0, 2, 1, 1, 2, 0, 1] {
+            let count = [0, 7, 3000][kind];
+            for _ in 0..count {
+                let at = random.below(1200);
+                let level = [0, 90, 180, 255][random.below(4)];
+                let opacity = if with_holes { random.pick(&[0, 255]) } else { 255 };
+                image.rgba[4 * at..4 * at + 4].copy_from_slice(&[level, 60, 255 - level, opacity]);
+            }
+            all.push(image.clone());
+        }
+        all
+    }
+
+    /// Same colours, or both transparent.
+    fn look_alike(a: &[u8], b: &[u8]) -> bool {
+        let pairs = a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0);
+        pairs.into_iter().all(|(a, b)| a == b || (a[3] == 0 && b[3] == 0))
+    }
+
+    /// Puts the pixels of a box of an animation's frame on a canvas, if `is_put` says so of them.
+    fn put(
+        canvas: &mut [u8],
+        [left, top, width]: [usize; 3],
+        data: &[u8],
+        is_put: impl Fn([u8; 4]) -> bool,
+    ) {
+        for (k, pixel) in data.as_chunks::<4>().0.iter().enumerate().filter(|(_, p)| is_put(**p)) {
+            let at = 4 * ((top + k / width) * 40 + left + k % width);
+            canvas[at..at + 4].copy_from_slice(pixel);
+        }
+    }
+
+    /// What does not change is left out of the file, and what a program shows are the images.
+    #[test]
+    fn only_what_changes_is_stored() {
+        for with_holes in [false, true] {
+            let images = wandering(with_holes);
+            let bytes = gif(&images, 100).unwrap();
+            let mut options = ::gif::DecodeOptions::new();
+            options.set_color_output(::gif::ColorOutput::RGBA);
+            let mut decoder = options.read_info(&bytes[..]).unwrap();
+            let (mut canvas, mut stored) = (vec![0; 4800], 0);
+            for image in &images {
+                let frame = decoder.read_next_frame().unwrap().unwrap();
+                let place = [frame.left, frame.top, frame.width].map(usize::from);
+                put(&mut canvas, place, &frame.buffer, |pixel| pixel[3] > 0);
+                stored += frame.buffer.len();
+                assert!(look_alike(&canvas, &image.rgba));
+                if frame.dispose == ::gif::DisposalMethod::Background {
+                    canvas.fill(0);
+                }
+            }
+            assert!(decoder.read_next_frame().unwrap().is_none());
+            assert_eq!(stored < 4800 * images.len(), !with_holes);
+
+            let bytes = apng(&images, 100, &[]).unwrap();
+            let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+            let (mut canvas, mut stored) = (vec![0; 4800], 0);
+            for image in &images {
+                let mut data = vec![0; 4800];
+                let size = reader.next_frame(&mut data).unwrap().buffer_size();
+                let frame = reader.info().frame_control().unwrap();
+                let place = [frame.x_offset, frame.y_offset, frame.width].map(|n| n as usize);
+                assert_eq!(frame.blend_op, ::png::BlendOp::Source);
+                put(&mut canvas, place, &data[..size], |_| true);
+                stored += size;
+                assert_eq!(canvas, image.rgba);
+            }
+            assert!(stored < 4800 * images.len());
+        }
+    }
+
+    #[test]
+    fn colours_that_were_not_counted_are_near_ones() {
+        let images = wandering(false);
+        let mut colors = Colors::new();
+        colors.add(&images[0]);
+        let mut bytes = Vec::new();
+        let mut file = Gif::new(&mut bytes, [40, 30], &colors, 20).unwrap();
+        file.add(&images[4]).unwrap();
+        file.finish().unwrap();
+        let (delay, pixels) = read(&bytes).remove(0);
+        assert!(delay == 2 && look_alike(&pixels, &images[0].rgba));
+    }
+
+    #[test]
+    fn the_announced_number_of_images() {
+        let images = images("magma", 3);
+        let count = 2;
+        let mut file = Apng::new(Vec::new(), images[0].size, count, 40, &[]).unwrap();
+        file.add(&images[0]).unwrap();
+        file.add(&images[1]).unwrap();
+        let more = file.add(&images[2]).unwrap_err();
+        assert!(matches!(more, AnimationError::Count { announced: 2, found: 3 }), "{more}");
+        file.finish().unwrap();
+        let mut file = Apng::new(Vec::new(), images[0].size, count, 40, &[]).unwrap();
+        file.add(&images[0]).unwrap();
+        assert!(matches!(file.finish(), Err(AnimationError::Count { announced: 2, found: 1 })));
+        let none = Gif::new(Vec::new(), [4, 4], &Colors::new(), 40).unwrap().finish();
+        assert!(matches!(none, Err(AnimationError::Empty)));
     }
 
     #[test]

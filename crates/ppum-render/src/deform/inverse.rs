@@ -75,17 +75,23 @@ impl Inverse<'_, '_> {
         self.leaf.image.determinant().abs() < THIN * (a.dot(a) + b.dot(b))
     }
 
+    /// A part of a pixel, or what places are rounded by if that is more.
+    fn within(&self, part: f64) -> f64 {
+        (part * self.view.view.pixel_size()).max(self.view.rounding())
+    }
+
     fn newton(&self, map: &mut Map<'_>, start: Vec2, place: Vec2) -> Option<Found> {
-        let pixel = self.view.view.pixel_size();
         let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
         for _ in 0..STEPS {
             let miss = place - here.image.at;
             let step = here.image.pulled_back(miss);
-            if miss.length() <= TOLERANCE * pixel && holds(&self.leaf.corners, here.offset + step) {
+            if miss.length() <= self.within(TOLERANCE)
+                && holds(&self.leaf.corners, here.offset + step)
+            {
                 // the step is known already, and far smaller than a pixel
                 return Some(Found { offset: here.offset + step, ..here });
             }
-            if miss.length() <= GAP * pixel {
+            if miss.length() <= self.within(GAP) {
                 return Some(here);
             }
             if !step.is_finite() {
@@ -96,7 +102,7 @@ impl Inverse<'_, '_> {
             here = nearer;
         }
         // at a cusp of a fold steps lead nowhere
-        let is_near = self.is_thin() && (place - here.image.at).length() <= TOLERANCE * pixel;
+        let is_near = self.is_thin() && (place - here.image.at).length() <= self.within(TOLERANCE);
         if is_near { Some(here) } else { self.behind_rim(map, here, place) }
     }
 
@@ -127,7 +133,7 @@ impl Inverse<'_, '_> {
             if miss.length() > BEHIND * pixel {
                 return None;
             }
-            if miss.length() <= GAP * pixel {
+            if miss.length() <= self.within(GAP) {
                 return self.domain.contains(here.offset).then_some(here);
             }
             here = self.image(map, here.offset + here.image.pulled_back(miss))?;

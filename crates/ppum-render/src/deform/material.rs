@@ -3,7 +3,7 @@
 use ppum::vec2::Vec2;
 
 use super::DeformedPoints;
-use crate::view::{View, ViewError};
+use crate::view::View;
 
 /// Most pixels of such a view, in pixels of the picture.
 const MOST: f64 = 4.0;
@@ -14,21 +14,22 @@ impl DeformedPoints<'_> {
     /// A view of the undeformed plate that holds all points that are seen, in the middle the anchor; its pixels as small as
     /// the picture's are on the plate, where that needs no more than four times as many. None if nothing is seen.
     ///
-    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over.
-    ///
-    /// # Errors
-    /// As [`View::new`].
-    pub fn material_view(&self) -> Result<Option<View>, ViewError> {
+    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over. About a tip it may be finer than
+    /// [`View::new`] allows: that what is seen about a tip in 10⁻¹² of the domain is 10⁻²⁰ wide is no rounding.
+    #[must_use]
+    pub fn material_view(&self) -> Option<View> {
         let size = self.points.iter().map(|p| p.offset);
         let half = size.fold(Vec2::ZERO, |most, o| most.max(o.max(-o)));
         let pixels = self.view.view.pixels.map(f64::from);
-        let Some(step) = self.step().filter(|_| half.x.min(half.y) > 0.0) else { return Ok(None) };
+        let step = self.step().filter(|_| half.x.min(half.y) > 0.0)?;
         let by_area = (half.x * half.y / (MOST * pixels[0] * pixels[1])).sqrt();
         let by_length = half.x.max(half.y) / (MOST * pixels[0].max(pixels[1]));
         let step = step.max(2.0 * by_area.max(by_length));
         let count = |half: f64| 2.0 * (half / step).ceil().max(1.0) + 2.0;
         let [columns, rows] = [count(half.x), count(half.y)];
-        View::new(self.view.anchor, columns * step, [columns as u32, rows as u32]).map(Some)
+        let (center, width) = (self.view.anchor, columns * step);
+        let view = View { center, width, pixels: [columns as u32, rows as u32] };
+        Some(view).filter(|view| view.pixel_size().is_normal())
     }
 
     /// How far apart the points of neighbouring pixels lie on the plate where it is stretched most, but for a few.

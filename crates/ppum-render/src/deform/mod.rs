@@ -45,7 +45,8 @@ use map::Map;
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 
-/// Largest distance of a found point's image from the pixel's centre, in pixels.
+/// Largest distance of a found point's image from the pixel's centre, in pixels; what displacements are rounded by where that is more, as in
+/// views 10⁻¹² of the domain wide.
 pub const TOLERANCE: f64 = 0.005;
 
 /// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly change with it.
@@ -68,6 +69,12 @@ pub enum DeformError {
         "magnified {0} times the plate lies over itself too often to be drawn; choose a smaller factor"
     )]
     TooFolded(f64),
+    /// Pixels are smaller than the rounding of the places to which points move.
+    #[error(
+        "a view {0:?} wide is finer than double precision knows places of the deformed plate; widen it, or choose one \
+         around a crack tip"
+    )]
+    TooFine(f64),
     /// There is no such view.
     #[error(transparent)]
     View(#[from] ViewError),
@@ -113,7 +120,8 @@ impl<'f> Deformation<'f> {
         let found = tip.unwrap_or_else(|| self.material(view.center));
         let [x, y] = self.displacement(found);
         let shift = (found - view.center) + Vec2 { x, y } * self.factor;
-        DeformedView { deformation: *self, view: *view, anchor: found, shift, reference: [x, y] }
+        let (deformation, reference, is_exact) = (*self, [x, y], false);
+        DeformedView { deformation, view: *view, anchor: found, shift, reference, is_exact }
     }
 
     /// The view of a width around the place to which a point of the plate moves.
@@ -128,8 +136,8 @@ impl<'f> Deformation<'f> {
     ) -> Result<DeformedView<'f>, ViewError> {
         let [x, y] = self.displacement(point);
         let view = View::new(point + Vec2 { x, y } * self.factor, width, pixels)?;
-        let (deformation, shift) = (*self, Vec2::ZERO);
-        Ok(DeformedView { deformation, view, anchor: point, shift, reference: [x, y] })
+        let (deformation, reference, shift) = (*self, [x, y], Vec2::ZERO);
+        Ok(DeformedView { deformation, view, anchor: point, shift, reference, is_exact: true })
     }
 
     /// The place to which a point of the plate moves, above if it lies on a crack.
@@ -207,6 +215,8 @@ pub struct DeformedView<'f> {
     shift: Vec2,
     /// u(A)
     reference: [f64; 2],
+    /// True if the view is made around A + s u(A), whatever that is rounded to.
+    is_exact: bool,
 }
 
 impl<'f> DeformedView<'f> {
@@ -220,6 +230,19 @@ impl<'f> DeformedView<'f> {
     #[must_use]
     pub fn factor(&self) -> f64 {
         self.deformation.factor
+    }
+
+    /// True if pixels are larger than what places are rounded by.
+    fn is_known(&self) -> bool {
+        self.view.pixel_size() > 4.0 * self.rounding()
+    }
+
+    /// What a place may be off by rounding: of s u, and of A + s u(A) unless the view is made around that, whatever it is
+    /// rounded to.
+    fn rounding(&self) -> f64 {
+        let anchor = if self.is_exact { 0.0 } else { self.anchor.length() };
+        let moved = Vec2::from(self.reference).length() * self.factor().abs();
+        2.0 * f64::EPSILON * (anchor + moved)
     }
 
     /// The cracks with their vertices where they have moved to, those of the side above.

@@ -57,8 +57,11 @@ impl<'f> DeformedView<'f> {
     /// change from pixel to pixel.
     ///
     /// # Errors
-    /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture, [`DeformError::Cancelled`].
+    /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture, [`DeformError::TooFine`], [`DeformError::Cancelled`].
     pub fn points(&self, watcher: &dyn Watcher) -> Result<DeformedPoints<'f>, DeformError> {
+        if !self.is_known() {
+            return Err(DeformError::TooFine(self.view.width));
+        }
         let leaves = if self.factor() == 0.0 { Vec::new() } else { leaves(self, watcher)? };
         let [columns, rows] = self.view.pixels;
         let bands = rows.div_ceil(ROWS);

@@ -613,3 +613,32 @@ fn paths_end_where_the_plate_has_come_apart() {
     // chords of a tenth of a pixel
     assert!((total - exact).abs() < 0.01, "{total} {exact}");
 }
+
+/// Displacements are known to 2⁻⁵² of their size alone, as are places then: pixels of deep views are found for all that, and finer
+/// views refused.
+#[test]
+fn what_rounding_blurs_is_found() {
+    let texts = ["1.3 + sqrt(r)*cos(theta/2)", "0.7 + sqrt(r)*sin(theta/2)"];
+    let tip = vec2(0.5, 0.25);
+    let dataset = by_formulas(texts, Some([vec2(-0.5, 0.25), tip]));
+    let field = Field::new(&dataset, 0).unwrap();
+    let deformation = Deformation::new(&field, 0.02).unwrap();
+    for width in [1e-10, 3e-12, 3e-13] {
+        let view = deformation.around(tip, width, [300, 200]).unwrap();
+        let points = view.points(unwatched()).unwrap();
+        let is_empty = |i: u32, j: u32| points.at(i, j).is_empty();
+        let is_lost = |&(i, j): &(u32, u32)| {
+            let inner = (1..299).contains(&i) && (1..199).contains(&j);
+            let around = [(i + 1, j), (i.wrapping_sub(1), j), (i, j + 1), (i, j.wrapping_sub(1))];
+            inner && is_empty(i, j) && around.iter().all(|&(i, j)| !is_empty(i, j))
+        };
+        assert_eq!(pixels(&view).filter(is_lost).count(), 0, "{width}");
+        let seen = pixels(&view).filter(|&(i, j)| !is_empty(i, j)).count();
+        assert!((20_000..60_000).contains(&seen), "{width}: {seen}");
+    }
+    let finer = deformation.around(tip, 1e-15, [300, 200]).unwrap().points(unwatched());
+    assert!(matches!(finer, Err(DeformError::TooFine(_))), "{finer:?}");
+    let beside = View::new(tip, 1e-14, [300, 200]).unwrap();
+    let beside = deformation.seen(&beside).points(unwatched());
+    assert!(matches!(beside, Err(DeformError::TooFine(_))), "{beside:?}");
+}

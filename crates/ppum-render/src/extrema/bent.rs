@@ -3,16 +3,14 @@
 use ppum::field::Field;
 use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::On;
-use super::curves::{BESIDE, Curve};
+use super::curves::Curve;
 
-/// Chords on which extrema are looked for: those with the largest and those with the smallest values.
-const CHORDS: usize = 16;
-
-/// Most steps of the grid on which the course is looked for, in each direction.
-const STEPS: usize = 1024;
+/// Nodes of the grids on which the courses are looked for, at most.
+const NODES: usize = 1 << 18;
 
 /// Bisections of a step, to rounding.
 const BISECTIONS: usize = 52;
@@ -40,50 +38,41 @@ impl Bent {
     }
 }
 
-/// The parts of curved interfaces in a rectangle of offsets from an anchor on which a quantity is largest or smallest.
-pub(super) fn all(
-    field: &Field<'_>,
-    anchor: Vec2,
-    rect: &Rect,
-    pixel: f64,
-    value: &mut dyn FnMut(Vec2) -> f64,
-) -> Vec<Curve> {
+/// Both sides of the parts of curved interfaces in a rectangle of offsets from an anchor.
+pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<Curve> {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
-    let mut found: Vec<(f64, Bent)> = Vec::new();
-    for kink in kinks.filter(|kink| kink.line().is_none()) {
+    let kinks: Vec<_> = kinks.filter(|kink| kink.line().is_none()).collect();
+    let steps = ((NODES / kinks.len().max(1)) as f64).sqrt().max(1.0) as usize;
+    let mut found = Vec::new();
+    for kink in kinks {
         let level = Arc::new(kink.value);
-        for chord in chords(&level, anchor, rect, pixel) {
+        for chord in chords(&level, anchor, rect, pixel, steps) {
             let normal = (chord[1] - chord[0]).unit().left();
-            for toward in [normal, -normal] {
-                let bent = Bent { level: Arc::clone(&level), anchor, chord, toward };
-                let at = value(bent.at(0.5, BESIDE * pixel));
-                if at.is_finite() {
-                    found.push((at, bent));
-                }
-            }
+            let seen = [normal, -normal].map(|toward| {
+                let level = Arc::clone(&level);
+                Curve::bent(Bent { level, anchor, chord, toward }, On::Interface)
+            });
+            found.extend(seen);
         }
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let count = found.len();
-    let is_best = |k: usize| k < CHORDS || k + CHORDS >= count;
-    let best = found.into_iter().enumerate().filter(|(k, _)| is_best(*k));
-    best.map(|(_, (_, bent))| Curve::bent(bent, On::Interface)).collect()
+    found
 }
 
-/// Chords of the course of a curve through the squares of a grid, where it crosses two sides.
-fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<[Vec2; 2]> {
+/// Chords of the course of a curve through the squares of a grid of so many steps at most in each direction, where it crosses two sides.
+fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) -> Vec<[Vec2; 2]> {
     let size = rect.size();
-    let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, STEPS);
+    let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, steps);
     let [columns, rows] = [count(size.x), count(size.y)];
     let node = |i: usize, j: usize| {
         let (x, y) = (i as f64 / columns as f64, j as f64 / rows as f64);
         rect.min + vec2(size.x * x, size.y * y)
     };
-    let row = |j: usize| (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect();
-    let (mut below, mut all): (Vec<bool>, _) = (row(0), Vec::new());
-    for j in 1..=rows {
-        let above: Vec<bool> = row(j);
+    let row =
+        |j: usize| (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect::<Vec<_>>();
+    let (signs, mut all): (Vec<_>, _) = ((0..=rows).into_par_iter().map(row).collect(), Vec::new());
+    for (j, pair) in (1..).zip(signs.windows(2)) {
+        let [below, above] = [&pair[0], &pair[1]];
         for i in 1..=columns {
             let signs = [below[i - 1], below[i], above[i], above[i - 1]];
             let corners = [node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)];
@@ -95,7 +84,6 @@ fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<[Vec2; 
                 all.push([a, b]);
             }
         }
-        below = above;
     }
     all
 }

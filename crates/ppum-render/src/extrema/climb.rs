@@ -4,7 +4,10 @@ use ppum::crack::Side;
 use ppum::field::LocalField;
 use ppum::quantity::QuantityGradient;
 use ppum::vec2::{Rect, Vec2, vec2};
+use rayon::prelude::*;
 
+use super::Promise;
+use super::curves::best_first;
 use crate::raster::{Raster, Sample};
 
 /// Most steps of Newton's method.
@@ -23,32 +26,44 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Steps below this part of a pixel change nothing that is seen in the value.
 const LEAST: f64 = 1e-7;
 
+/// A step of Newton's method below which the peak is there: the value is known to its square, beside what a pixel changes.
+const THERE: f64 = 1e-4;
+
+/// Steps down to which something higher is looked for around such a peak.
+const NEAR: f64 = 0.1;
+
 /// Most rounds of directions.
 const ROUNDS: usize = 2000;
 
-/// The pixels that are not below (for the sign −1 above) any of their neighbours, the most promising first, at most so
-/// many: by their value and what the differences to their neighbours say it may still rise.
-pub(super) fn starts<T: Sample>(raster: &Raster<T>, sign: f64, most: usize) -> Vec<[u32; 2]> {
+/// The pixels that are not below (for the sign −1 above) any of their neighbours, and the height that there may be around them if it
+/// rises as it does from the lowest neighbour; the most promising first, at most so many.
+pub(super) fn starts<T: Sample>(
+    raster: &Raster<T>,
+    sign: f64,
+    most: usize,
+) -> Vec<Promise<[u32; 2]>> {
     let [columns, rows] = raster.size;
     let value = |i: u32, j: u32| finite(sign * raster.value(i, j).into());
-    let mut found: Vec<(f64, [u32; 2])> = Vec::new();
-    for (j, i) in (0..rows).flat_map(|j| (0..columns).map(move |i| (j, i))) {
+    let in_row = |j: u32| raster.row(j).iter().map(|&v| finite(sign * v.into()));
+    let highest = (0..rows).flat_map(in_row).fold(f64::NEG_INFINITY, f64::max);
+    let top = |i: u32, j: u32| {
         let here = value(i, j);
         let around = (j.saturating_sub(1)..(j + 2).min(rows))
             .flat_map(|j| (i.saturating_sub(1)..(i + 2).min(columns)).map(move |i| (i, j)));
-        let (mut is_top, mut least) = (!here.is_nan(), here);
+        let mut least = here;
         for (i, j) in around {
             let there = value(i, j);
-            is_top &= there <= here || there.is_nan();
+            if there > here {
+                return None;
+            }
             least = least.min(there);
         }
-        if is_top {
-            found.push((here + (here - least), [i, j]));
-        }
-    }
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    found.truncate(most);
-    found.into_iter().map(|(_, pixel)| pixel).collect()
+        let promise = here + (here - least);
+        (promise > highest || here == highest).then_some((promise, [i, j]))
+    };
+    let found =
+        (0..rows).into_par_iter().flat_map_iter(|j| (0..columns).filter_map(move |i| top(i, j)));
+    best_first(found.collect(), most)
 }
 
 /// NaN for what is infinite: singular points are looked at apart, since at a tip all quantities of the gradient are.
@@ -70,19 +85,22 @@ impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
     /// The highest place that is found from a point, and its value; `None` where there is none.
     pub(super) fn climb(&mut self, from: Vec2, pixel: f64) -> Option<(f64, Vec2)> {
         let start = self.inside(from);
-        let mut best = (self.height(start), start);
+        let best = (self.height(start), start);
         if best.0.is_nan() {
             return None;
         }
-        best = self.newton(best, pixel);
-        best = self.turn(best, pixel);
+        let (best, is_peak) = self.newton(best, pixel);
+        let best = self.turn(best, pixel, if is_peak { NEAR } else { LEAST });
         Some((self.sign * best.0, best.1))
     }
 
-    /// Steps to where the gradient vanishes, as long as they lead up.
-    fn newton(&mut self, mut best: (f64, Vec2), pixel: f64) -> (f64, Vec2) {
+    /// Steps to where the gradient vanishes, as long as they lead up; true if they have come there.
+    fn newton(&mut self, mut best: (f64, Vec2), pixel: f64) -> ((f64, Vec2), bool) {
         for _ in 0..NEWTON {
             let Some(step) = self.newton_step(best.1, DIFFERENCE * pixel) else { break };
+            if step.length() < THERE * pixel {
+                return (best, true);
+            }
             if step.length() > 2.0 * pixel {
                 break;
             }
@@ -93,7 +111,7 @@ impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
             }
             best = (height, there);
         }
-        best
+        (best, false)
     }
 
     /// −H⁻¹ ∇q if the Hessian H is negative definite.
@@ -109,21 +127,21 @@ impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
         (is_peak && step.is_finite()).then_some(step)
     }
 
-    /// Tries directions, ever closer, until steps are nothing.
-    fn turn(&mut self, mut best: (f64, Vec2), pixel: f64) -> (f64, Vec2) {
+    /// Tries directions, ever closer, until nothing is higher and steps are below the least one \[pixels\].
+    fn turn(&mut self, mut best: (f64, Vec2), pixel: f64, mut least: f64) -> (f64, Vec2) {
         let (mut step, mut failed, mut turned) = (0.5 * pixel, 0, 0.0);
         for _ in 0..ROUNDS {
             let found = self.best_around(best, step, turned);
             turned = (turned + GOLDEN).fract();
             if found.0 > best.0 {
-                (best, failed) = (found, 0);
+                (best, failed, least) = (found, 0, LEAST);
                 continue;
             }
             failed += 1;
             if failed == TURNS {
                 (step, failed) = (0.5 * step, 0);
             }
-            if step < LEAST * pixel {
+            if step < least * pixel {
                 break;
             }
         }

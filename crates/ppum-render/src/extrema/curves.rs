@@ -6,17 +6,17 @@ use ppum::field::{Field, LocalField};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
-use super::On;
 use super::bent::Bent;
+use super::{On, Promise};
 
-/// Fewest and most samples of a curve.
+/// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
+
+/// Fewest samples that a curve has.
+pub(super) const LEAST: usize = 4;
 
 /// Distance from a rim or an interface at which values are taken, pixels: to be on one side of it.
 pub(super) const BESIDE: f64 = 1e-9;
-
-/// Samples that are refined, at most.
-const REFINED: usize = 16;
 
 /// Steps of the golden section: the value is then exact to rounding where it is smooth.
 const SECTIONS: usize = 48;
@@ -65,24 +65,26 @@ impl Curve {
 
     /// The field as it is evaluated along the curve.
     pub(super) fn local<'a>(&self, field: &'a Field<'_>, anchor: Vec2) -> LocalField<'a> {
-        match self.on {
-            On::Face(segment, _) => field.on(segment, anchor),
-            _ => field.at(anchor),
-        }
+        self.segment().map_or_else(|| field.at(anchor), |segment| field.on(segment, anchor))
+    }
+
+    /// The segment of a crack that it is a face of.
+    pub(super) fn segment(&self) -> Option<SegmentId> {
+        if let On::Face(segment, _) = self.on { Some(segment) } else { None }
     }
 
     pub(super) fn side(&self) -> Side {
         if let On::Face(_, side) = self.on { side } else { Side::Above }
     }
 
-    /// Number of samples: two a pixel.
+    /// Number of samples that it should have: one a pixel.
     pub(super) fn samples(&self, pixel: f64) -> usize {
         let length = match &self.shape {
             Shape::Straight([a, b]) => (*b - *a).length(),
             Shape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
             Shape::Bent(bent) => bent.length(),
         };
-        ((2.0 * length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
+        ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
     }
 }
 
@@ -219,42 +221,55 @@ fn clipped(
     (lo <= hi).then(|| [lo, hi].map(|t| foot + tangent * t))
 }
 
-/// Smallest and largest value on \[0, 1\] with their places; `None` where there are none. Values that are not defined are
-/// passed over.
-pub(super) fn extremes(f: &mut dyn FnMut(f64) -> f64, samples: usize) -> [Option<(f64, f64)>; 2] {
-    let step = 1.0 / (samples - 1) as f64;
-    let values: Vec<f64> = (0..samples).map(|k| f((k as f64 * step).min(1.0))).collect();
-    [-1.0, 1.0].map(|sign| {
-        let height = |k: usize| sign * values[k];
-        let around = |k: usize| [k.saturating_sub(1), (k + 1).min(samples - 1)];
-        let is_top = |&k: &usize| {
-            !values[k].is_nan()
-                && around(k).iter().all(|&n| values[n].is_nan() || height(n) <= height(k))
-        };
-        let promise = |k: usize| {
-            let least = around(k).iter().map(|&n| height(n)).fold(height(k), f64::min);
-            2.0 * height(k) - least
-        };
-        let mut tops: Vec<usize> = (0..samples).filter(is_top).collect();
-        tops.sort_by(|&a, &b| promise(b).total_cmp(&promise(a)));
-        tops.truncate(REFINED);
-        let refined = tops.into_iter().map(|k| {
-            let [lo, hi] = around(k).map(|n| n as f64 * step);
-            golden(f, sign, [lo, hi], (height(k), k as f64 * step))
-        });
-        refined.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(height, t)| (sign * height, t))
-    })
+/// The part of the way at which a sample lies.
+pub(super) fn part(sample: usize, samples: usize) -> f64 {
+    (sample as f64 / (samples - 1) as f64).min(1.0)
 }
 
-/// The largest sign · f in an interval by the golden section, or what is known already.
-fn golden(
+/// The samples of curves that are not below their neighbours (not above for the sign −1), by curve and number, and the height that
+/// there may be around them if it rises as it does from the lower neighbour; the most promising first, at most so many. Values
+/// that are not defined are passed over.
+pub(super) fn tops(sampled: &[Vec<f64>], sign: f64, most: usize) -> Vec<Promise<[usize; 2]>> {
+    let heights = || sampled.iter().flatten().map(|value| sign * value);
+    let highest = heights().fold(f64::NEG_INFINITY, f64::max);
+    let mut found = Vec::new();
+    for (curve, values) in sampled.iter().enumerate() {
+        let height = |k: usize| sign * values[k];
+        for k in 0..values.len() {
+            let (here, around) = (height(k), around(k, values.len()).map(height));
+            if here.is_nan() || around.iter().any(|there| *there > here) {
+                continue;
+            }
+            let promise = 2.0 * here - around.into_iter().fold(here, f64::min);
+            if promise > highest || here == highest {
+                found.push((promise, [curve, k]));
+            }
+        }
+    }
+    best_first(found, most)
+}
+
+/// The largest promises, the best first and the first of equal ones before the others.
+pub(super) fn best_first<P>(mut found: Vec<Promise<P>>, most: usize) -> Vec<Promise<P>> {
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.truncate(most);
+    found
+}
+
+/// The neighbours of a sample, itself at an end.
+fn around(sample: usize, samples: usize) -> [usize; 2] {
+    [sample.saturating_sub(1), (sample + 1).min(samples - 1)]
+}
+
+/// The largest f (smallest for the sign −1) on \[0, 1\] between the neighbours of a sample, by the golden section, and its place.
+pub(super) fn golden(
     f: &mut dyn FnMut(f64) -> f64,
     sign: f64,
-    range: [f64; 2],
-    known: (f64, f64),
+    values: &[f64],
+    sample: usize,
 ) -> (f64, f64) {
     const RATIO: f64 = 0.618_033_988_749_895;
-    let mut best = known;
+    let mut best = (sign * values[sample], part(sample, values.len()));
     let mut height = |t: f64| {
         let height = sign * f(t);
         if height > best.0 {
@@ -262,7 +277,7 @@ fn golden(
         }
         if height.is_nan() { f64::NEG_INFINITY } else { height }
     };
-    let [mut lo, mut hi] = range;
+    let [mut lo, mut hi] = around(sample, values.len()).map(|k| part(k, values.len()));
     let (mut a, mut b) = (hi - RATIO * (hi - lo), lo + RATIO * (hi - lo));
     let (mut at_a, mut at_b) = (height(a), height(b));
     for _ in 0..SECTIONS {
@@ -276,5 +291,5 @@ fn golden(
             at_b = height(b);
         }
     }
-    best
+    (sign * best.0, best.1)
 }

@@ -3,8 +3,12 @@
 //! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the best pixels are where a search
 //! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
 //! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
-//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel at least
+//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel
 //! and refined. Peaks and valleys narrower than a pixel are not seen.
+//!
+//! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
+//! pixels of the picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
+//! densely, and where there are too many for that, or too many points that may be singular, the pixels decide, [`On::Pixel`].
 //!
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
 //! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
@@ -15,8 +19,10 @@ mod climb;
 mod curves;
 mod singular;
 
+use std::fmt;
+
 use ppum::crack::{SegmentId, Side};
-use ppum::field::Field;
+use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Rect, Vec2};
@@ -30,8 +36,17 @@ use climb::Climber;
 use curves::Curve;
 pub use singular::{Singular, SingularKind};
 
-/// Pixels from which the search begins, at most: the most promising ones.
+/// Pixels and samples of boundaries from which the search begins, at most, and how many of them before the rest is looked at again:
+/// the most promising ones first.
 const STARTS: usize = 32;
+const ROUND: usize = 8;
+
+/// Samples of boundaries, at most: one for so many pixels, or this number.
+const PIXELS: usize = 8;
+const SAMPLES: usize = 1 << 13;
+
+/// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
+const SEGMENTS: usize = 64;
 
 /// Distance from a singular point below which finite values are left out, pixels.
 const HIDDEN: f64 = 1e-3;
@@ -62,6 +77,8 @@ pub enum On {
     Interface,
     /// A singular point.
     Singular(SingularKind),
+    /// The centre of a pixel; between pixels nothing was looked at.
+    Pixel,
 }
 
 /// Minimum and maximum of a quantity over a view.
@@ -75,8 +92,68 @@ pub struct Extrema {
     pub singular: Vec<Singular>,
 }
 
+impl On {
+    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Inside => "inside",
+            Self::Border => "border",
+            Self::Face(..) => "face",
+            Self::Rim(_) => "rim",
+            Self::Interface => "interface",
+            Self::Singular(_) => "singular",
+            Self::Pixel => "pixel",
+        }
+    }
+}
+
+impl fmt::Display for Extrema {
+    /// `min 0.1 at -0.2,0.3 inside max inf at 0.5,0.0 singular`, with the shortest numbers that mean the doubles and places as offsets
+    /// from the view's centre.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let one = |Extremum { value, offset, on }: Extremum| {
+            format!("{value:?} at {:?},{:?} {}", offset.x, offset.y, on.name())
+        };
+        write!(f, "min {} max {}", one(self.min), one(self.max))
+    }
+}
+
+impl Extrema {
+    /// The smallest and the largest value at the pixels of a view, infinite ones too; `None` if there are none.
+    #[must_use]
+    pub fn of_pixels<T: Sample>(raster: &Raster<T>, view: &View) -> Option<Self> {
+        let values = || raster.values.iter().map(|&value| value.into()).enumerate();
+        let known = || values().filter(|(_, value): &(usize, f64)| !value.is_nan());
+        let (least, most) = (
+            known().min_by(|a, b| a.1.total_cmp(&b.1))?,
+            // the first of equal ones, as of the smallest
+            known().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?,
+        );
+        let columns = raster.size[0] as usize;
+        let place = |(k, value): (usize, f64)| {
+            let offset = view.offset((k % columns) as u32, (k / columns) as u32);
+            Extremum { value, offset, on: On::Pixel }
+        };
+        Some(Self { min: place(least), max: place(most), singular: Vec::new() })
+    }
+
+    /// True if the quantity is infinite somewhere, at a singular point or at a pixel.
+    #[must_use]
+    pub fn is_infinite(&self) -> bool {
+        self.min.value.is_infinite() || self.max.value.is_infinite()
+    }
+
+    /// True if the pixels alone were looked at.
+    #[must_use]
+    pub fn is_of_pixels(&self) -> bool {
+        self.max.on == On::Pixel
+    }
+}
+
 /// Minimum and maximum of a quantity over the part of the domain that a view shows; `None` if that is nothing, or the quantity is nowhere
-/// defined.
+/// defined. Where a search would take too long, and of formulas whose derivatives are too large, they are those of the pixels
+/// ([module](self)).
 ///
 /// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. The result depends on the raster only in
 /// where searches begin.
@@ -94,40 +171,45 @@ pub fn extrema<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
     assert_eq!(raster.size, view.pixels, "a raster of the view");
-    let slope = QuantityGradient::new(quantity, field)?;
+    quantity.check(field)?;
+    // of a formula whose derivatives are too large
+    let Ok(slope) = QuantityGradient::new(quantity, field) else {
+        return Ok(Extrema::of_pixels(raster, view));
+    };
     let Some(rect) = seen(field, view) else { return Ok(None) };
-    let singular = singular::points(field, view.center, &rect, quantity);
+    let points = singular::candidates(field, view.center, &rect);
+    let mut curves = curves::all(field, view.center, &rect);
+    curves.extend(bent::all(field, view.center, &rect, view.pixel_size()));
+    let Some(samples) = samples(field, view, &curves, points.len()) else {
+        return Ok(Extrema::of_pixels(raster, view));
+    };
+    let parts = Parts::start(watcher, 1 + curves.len() + 4 * STARTS.div_ceil(ROUND))?;
+    let singular = singular::grown(field, view.center, &rect, quantity, points);
+    parts.finish_one()?;
     let grows = |point: &&Singular| point.max_infinite || point.min_infinite;
     let hidden = singular.iter().filter(grows).map(|point| point.offset).collect();
-    let search = Search { field, view, slope: &slope, rect, hidden };
-    let mut curves = curves::all(field, view.center, &rect);
-    let mut local = field.at(view.center);
-    let mut value = |at| quantity.at(&mut local, at, Side::Above);
-    curves.extend(bent::all(field, view.center, &rect, view.pixel_size(), &mut value));
-    let starts = [-1.0, 1.0].map(|sign| climb::starts(raster, sign, STARTS));
-    let parts = Parts::start(watcher, curves.len() + starts.iter().map(Vec::len).sum::<usize>())?;
-    let on_curves: Result<Vec<_>, RenderError> = curves
-        .par_iter()
-        .map(|curve| {
-            parts.finish_one()?;
-            Ok(search.on_curve(curve))
-        })
-        .collect();
-    let on_curves = on_curves?;
-    let mut best = [None; 2];
-    for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
-        let inner: Result<Vec<_>, RenderError> = starts[k]
-            .par_iter()
-            .map(|&[i, j]| {
-                parts.finish_one()?;
-                Ok(search.climbed(view.offset(i, j), sign))
-            })
-            .collect();
-        let all = on_curves.iter().map(|found| found[k]).chain(inner?).flatten();
-        best[k] = largest(all.chain(infinite(&singular, sign)), sign);
-    }
-    let [Some(min), Some(max)] = best else { return Ok(None) };
+    let search = Search { field, view, slope: &slope, rect, hidden, curves, parts };
+    let sampled = search.sampled(&samples)?;
+    let best = |sign: f64| match infinite(&singular, sign) {
+        None => search.finite(&sampled, raster, sign),
+        found => Ok(found),
+    };
+    let [Some(min), Some(max)] = [best(-1.0)?, best(1.0)?] else { return Ok(None) };
     Ok(Some(Extrema { min, max, singular }))
+}
+
+/// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.
+fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> Option<Vec<usize>> {
+    let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
+    let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
+    let is_face = |curve: &&Curve| matches!(curve.on, On::Face(..));
+    let apart = curves.iter().filter(is_face).count() * (segments / SEGMENTS);
+    let room = (pixels / PIXELS).max(SAMPLES).checked_sub(points * singular::LOOK + apart)?;
+    let wanted = curves.iter().map(|curve| curve.samples(view.pixel_size()));
+    let all: usize = wanted.clone().sum();
+    let part = (room as f64 / all as f64).min(1.0);
+    let thinned = wanted.map(|n| ((n as f64 * part) as usize).max(curves::LEAST));
+    (curves.len() * curves::LEAST <= room).then(|| thinned.collect())
 }
 
 /// What a search needs.
@@ -138,23 +220,82 @@ struct Search<'a, 'f> {
     rect: Rect,
     /// Singular points where the quantity is infinite.
     hidden: Vec<Vec2>,
+    curves: Vec<Curve>,
+    parts: Parts<'a>,
 }
 
+/// A place that may hold an extremum, with the height that it may have.
+type Promise<P> = (f64, P);
+
 impl Search<'_, '_> {
-    /// The smallest and the largest value on a curve.
-    fn on_curve(&self, curve: &Curve) -> [Option<Extremum>; 2] {
-        let (pixel, quantity) = (self.view.pixel_size(), self.slope.quantity());
-        let mut local = curve.local(self.field, self.view.center);
-        let mut value = |t: f64| {
-            let at = curve.at(t, pixel);
-            if self.is_hidden(at) {
-                return f64::NAN;
-            }
-            climb::finite(quantity.at(&mut local, at, curve.side()))
+    /// The quantity along each curve.
+    fn sampled(&self, samples: &[usize]) -> Result<Vec<Vec<f64>>, RenderError> {
+        let anchor = self.view.center;
+        let along = |local: &mut LocalField<'_>, (curve, &samples): (&Curve, &usize)| {
+            self.parts.finish_one()?;
+            let at = |k: usize| curves::part(k, samples);
+            let all = |local: &mut LocalField<'_>| {
+                (0..samples).map(|k| self.on_curve(local, curve, at(k))).collect()
+            };
+            Ok(match curve.segment() {
+                Some(segment) => all(&mut self.field.on(segment, anchor)),
+                None => all(local),
+            })
         };
-        let found = curves::extremes(&mut value, curve.samples(pixel));
-        let place = |(value, t)| Extremum { value, offset: curve.at(t, 0.0), on: curve.on };
-        found.map(|found| found.map(place))
+        let curves = self.curves.par_iter().zip(samples);
+        curves.map_init(|| self.field.at(anchor), along).collect()
+    }
+
+    /// The finite extremum, largest for the sign 1 and smallest for −1.
+    fn finite<T: Sample>(
+        &self,
+        sampled: &[Vec<f64>],
+        raster: &Raster<T>,
+        sign: f64,
+    ) -> Result<Option<Extremum>, RenderError> {
+        let tops = curves::tops(sampled, sign, STARTS);
+        let on_curve = |&[curve, sample]: &[usize; 2]| {
+            Some(self.refined(&self.curves[curve], &sampled[curve], sample, sign))
+        };
+        let best = self.rounds(None, &tops, sign, on_curve)?;
+        let starts = climb::starts(raster, sign, STARTS);
+        let inside = |&[i, j]: &[u32; 2]| self.climbed(self.view.offset(i, j), sign);
+        self.rounds(best, &starts, sign, inside)
+    }
+
+    /// Looks at places, the most promising first, while they promise more than what is found.
+    fn rounds<P: Sync>(
+        &self,
+        mut best: Option<Extremum>,
+        places: &[Promise<P>],
+        sign: f64,
+        look: impl Fn(&P) -> Option<Extremum> + Sync,
+    ) -> Result<Option<Extremum>, RenderError> {
+        for round in places.chunks(ROUND) {
+            self.parts.finish_one()?;
+            let known = best.map_or(f64::NEG_INFINITY, |best| sign * best.value);
+            let hopeful = round.par_iter().filter(|(promise, _)| *promise > known);
+            let found: Vec<_> = hopeful.filter_map(|(_, place)| look(place)).collect();
+            best = largest(best.into_iter().chain(found), sign);
+        }
+        Ok(best)
+    }
+
+    /// The extremum on a curve around a sample.
+    fn refined(&self, curve: &Curve, values: &[f64], sample: usize, sign: f64) -> Extremum {
+        let mut local = curve.local(self.field, self.view.center);
+        let mut value = |t: f64| self.on_curve(&mut local, curve, t);
+        let (value, t) = curves::golden(&mut value, sign, values, sample);
+        Extremum { value, offset: curve.at(t, 0.0), on: curve.on }
+    }
+
+    /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such a point.
+    fn on_curve(&self, local: &mut LocalField<'_>, curve: &Curve, t: f64) -> f64 {
+        let at = curve.at(t, self.view.pixel_size());
+        if self.is_hidden(at) {
+            return f64::NAN;
+        }
+        climb::finite(self.slope.quantity().at(local, at, curve.side()))
     }
 
     /// The extremum uphill (downhill for the sign −1) from a point.
@@ -163,7 +304,10 @@ impl Search<'_, '_> {
         let is_hidden = |at| self.is_hidden(at);
         let mut climber = Climber { slope: self.slope, local, rect: self.rect, sign, is_hidden };
         let (value, offset) = climber.climb(start, self.view.pixel_size())?;
-        Some(Extremum { value, offset, on: On::Inside })
+        let Rect { min, max } = self.rect;
+        let is_end = |v: f64, [a, b]: [f64; 2]| v == a || v == b;
+        let on_border = is_end(offset.x, [min.x, max.x]) || is_end(offset.y, [min.y, max.y]);
+        Some(Extremum { value, offset, on: if on_border { On::Border } else { On::Inside } })
     }
 
     /// True next to a singular point.
@@ -190,10 +334,11 @@ fn largest(all: impl Iterator<Item = Extremum>, sign: f64) -> Option<Extremum> {
     })
 }
 
-fn infinite(singular: &[Singular], sign: f64) -> impl Iterator<Item = Extremum> {
+/// The first singular point where the quantity grows (falls for the sign −1) without bound.
+fn infinite(singular: &[Singular], sign: f64) -> Option<Extremum> {
     let grows =
-        move |point: &&Singular| if sign > 0.0 { point.max_infinite } else { point.min_infinite };
-    singular.iter().filter(grows).map(move |point| Extremum {
+        |point: &&Singular| if sign > 0.0 { point.max_infinite } else { point.min_infinite };
+    singular.iter().find(grows).map(|point| Extremum {
         value: sign * f64::INFINITY,
         offset: point.offset,
         on: On::Singular(point.kind),

@@ -6,6 +6,7 @@ use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
+use rayon::prelude::*;
 
 /// Radii, in parts of the smallest patch there or of what is seen, between which a quantity is seen to grow.
 const RADII: [f64; 2] = [1e-2, 1e-12];
@@ -43,15 +44,19 @@ pub enum SingularKind {
     Origin,
 }
 
-/// The singular points in a rectangle of offsets from an anchor, in which a quantity is infinite, and all re-entrant corners of holes.
-pub(super) fn points(
+/// Evaluations that it takes to look at a point.
+pub(super) const LOOK: usize = 2 * DIRECTIONS as usize;
+
+/// The singular points among the given ones: those in which a quantity is infinite, as seen in a rectangle of offsets from an anchor, and
+/// all re-entrant corners of holes.
+pub(super) fn grown(
     field: &Field<'_>,
     anchor: Vec2,
     rect: &Rect,
     quantity: &Quantity,
+    points: Vec<(Vec2, SingularKind)>,
 ) -> Vec<Singular> {
-    let known = candidates(field).into_iter().filter(|(p, _)| rect.contains(*p - anchor));
-    let looked = known.map(|(p, kind)| {
+    let looked = points.into_par_iter().map(|(p, kind)| {
         let rect = Rect::new(rect.min - (p - anchor), rect.max - (p - anchor));
         let [min_infinite, max_infinite] = grows(field, p, &rect, quantity);
         Singular { offset: p - anchor, kind, max_infinite, min_infinite }
@@ -60,7 +65,27 @@ pub(super) fn points(
     looked.filter(|p| p.max_infinite || p.min_infinite || is_corner(p.kind)).collect()
 }
 
-fn candidates(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
+/// The points in a rectangle of offsets from an anchor that may be singular.
+pub(super) fn candidates(
+    field: &Field<'_>,
+    anchor: Vec2,
+    rect: &Rect,
+) -> Vec<(Vec2, SingularKind)> {
+    let mut all = known(field);
+    all.retain(|(p, _)| rect.contains(*p - anchor));
+    for function in &field.step.functions {
+        if let FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } = function.kind
+            && rect.contains(origin - anchor)
+            && all.iter().all(|(known, _)| *known != origin)
+        {
+            all.push((origin, SingularKind::Origin));
+        }
+    }
+    all
+}
+
+/// Tips, kinks and corners.
+fn known(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
     let cracks = &field.step.cracks;
     let tip = |id: TipId| (cracks[id.crack as usize].end_point(id.end), SingularKind::Tip(id));
     let mut all: Vec<_> = tips(cracks).map(tip).collect();
@@ -70,13 +95,6 @@ fn candidates(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
     }
     for (index, hole) in field.domain.holes.iter().enumerate() {
         all.extend(corners(hole).into_iter().map(|p| (p, SingularKind::Corner(index))));
-    }
-    for function in &field.step.functions {
-        if let FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } = function.kind
-            && all.iter().all(|(known, _)| *known != origin)
-        {
-            all.push((origin, SingularKind::Origin));
-        }
     }
     all
 }

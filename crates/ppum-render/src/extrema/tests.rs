@@ -268,7 +268,13 @@ fn extremes_along_curves() {
             .map(|_| [random.unit(), random.between(1.0, 25.0), random.between(0.0, 6.0)])
             .collect();
         let mut f = |t: f64| waves.iter().map(|[a, k, s]| a * (k * t + s).sin()).sum::<f64>();
-        let [min, max] = curves::extremes(&mut f, 64).map(|found| found.expect("a value").0);
+        let values: Vec<f64> = (0..64).map(|k| f(curves::part(k, 64))).collect();
+        let sampled = [values];
+        let [min, max] = [-1.0, 1.0].map(|sign: f64| {
+            let tops = curves::tops(&sampled, sign, 16).into_iter();
+            let found = tops.map(|(_, [_, k])| curves::golden(&mut f, sign, &sampled[0], k).0);
+            sign * found.map(|value| sign * value).fold(f64::NEG_INFINITY, f64::max)
+        });
         let all: Vec<f64> = (0..=20000).map(|k| f(f64::from(k) / 20000.0)).collect();
         let (lo, hi) =
             all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));

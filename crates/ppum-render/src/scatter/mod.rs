@@ -42,7 +42,7 @@ use crate::parts::Parts;
 use crate::raster::{Raster, Sample};
 use crate::view::View;
 use collapse::ROWS;
-use plan::{COLUMNS, Plan};
+use plan::{COLUMNS, Plan, strips};
 use tile::{Band, Scratch};
 
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
@@ -67,6 +67,23 @@ pub fn render<T: Sample>(
     T::render(field, view, quantity, watcher)
 }
 
+/// The same a strip at a time, for views of more pixels than are to be held at once: `take` is given the values of
+/// the strips from the top, each of `rows` rows, rounded up to whole bands of 16, but for the last one. They are those of
+/// [`render`], to the last bit.
+///
+/// # Errors
+/// Those of [`render`].
+pub fn render_strips<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    rows: u32,
+    watcher: &dyn Watcher,
+    take: &mut dyn FnMut(Vec<T>),
+) -> Result<(), RenderError> {
+    T::render_strips(field, view, quantity, rows, watcher, take)
+}
+
 macro_rules! sample {
     ($t:ty, $same:expr) => {
         impl Sample for $t {
@@ -78,17 +95,33 @@ macro_rules! sample {
                 quantity: &Quantity,
                 watcher: &dyn Watcher,
             ) -> Result<Raster<Self>, RenderError> {
+                let mut values = Vec::new();
+                let all = view.pixels[1].max(1);
+                Self::render_strips(field, view, quantity, all, watcher, &mut |v| values = v)?;
+                Ok(Raster::new(view.pixels, values))
+            }
+
+            fn render_strips(
+                field: &Field<'_>,
+                view: &View,
+                quantity: &Quantity,
+                rows: u32,
+                watcher: &dyn Watcher,
+                take: &mut dyn FnMut(Vec<Self>),
+            ) -> Result<(), RenderError> {
                 quantity.check(field)?;
                 if !resolves::<$t>(view.pixel_size()) {
-                    let raster = f64::render(field, view, quantity, watcher)?;
-                    let values = raster.values.into_iter().map(<$t>::from_f64).collect();
-                    return Ok(Raster::new(view.pixels, values));
+                    let mut narrowed =
+                        |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());
+                    return f64::render_strips(field, view, quantity, rows, watcher, &mut narrowed);
                 }
                 let scene = Scene::<$t>::new(field, view, quantity);
-                Ok(match quantity.source() {
-                    Source::Gradient => scene.draw::<1>(watcher)?,
-                    _ => scene.draw::<0>(watcher)?,
-                })
+                let bands = (rows as usize).div_ceil(ROWS).max(1);
+                match quantity.source() {
+                    Source::Gradient => scene.draw::<1>(bands, watcher, take)?,
+                    _ => scene.draw::<0>(bands, watcher, take)?,
+                }
+                Ok(())
             }
         }
     };
@@ -135,19 +168,30 @@ impl<'f, T: Sample> Scene<'f, T> {
         }
     }
 
-    /// Draws with `D` derivatives, bands of rows in parallel.
-    fn draw<const D: usize>(&self, watcher: &dyn Watcher) -> Result<Raster<T>, Cancelled> {
+    /// Draws with `D` derivatives, some bands at a time, whose rows `take` is given in order; bands of rows in
+    /// parallel.
+    fn draw<const D: usize>(
+        &self,
+        bands: usize,
+        watcher: &dyn Watcher,
+        take: &mut dyn FnMut(Vec<T>),
+    ) -> Result<(), Cancelled> {
         let [columns, rows] = self.view.pixels.map(|n| n as usize);
         let parts = Parts::start(watcher, rows.div_ceil(ROWS))?;
-        let mut values = vec![T::default(); columns * rows];
-        let mut rest = values.as_mut_slice();
-        for bands in self.plan.strips() {
-            let pixels = rest.len().min(bands.len() * columns * ROWS);
-            let (strip, later) = rest.split_at_mut(pixels);
-            self.draw_strip::<D>(bands, strip, &parts)?;
-            rest = later;
+        let entries = self.plan.entries_of_bands();
+        for first in (0..rows).step_by(bands * ROWS) {
+            let count = (rows - first).min(bands * ROWS);
+            let mut values = vec![T::default(); columns * count];
+            let mut rest = values.as_mut_slice();
+            for bands in strips(first / ROWS..(first + count).div_ceil(ROWS), &entries) {
+                let pixels = rest.len().min(bands.len() * columns * ROWS);
+                let (strip, later) = rest.split_at_mut(pixels);
+                self.draw_strip::<D>(bands, strip, &parts)?;
+                rest = later;
+            }
+            take(values);
         }
-        Ok(Raster::new(self.view.pixels, values))
+        Ok(())
     }
 
     fn draw_strip<const D: usize>(

@@ -111,22 +111,8 @@ impl<'f> Plan<'f> {
         plan
     }
 
-    /// The bands in strips whose lists of patches are short enough to be kept; the whole picture where it can be.
-    pub(super) fn strips(&self) -> Vec<Range<usize>> {
-        let (mut strips, mut start, mut entries) = (Vec::new(), 0, 0);
-        for (band, more) in self.entries_of_bands().into_iter().enumerate() {
-            if band > start && entries + more > MOST_ENTRIES {
-                strips.push(start..band);
-                (start, entries) = (band, 0);
-            }
-            entries += more;
-        }
-        strips.push(start..self.tiles[1]);
-        strips
-    }
-
     /// Number of patches of the tiles of each band.
-    fn entries_of_bands(&self) -> Vec<usize> {
+    pub(super) fn entries_of_bands(&self) -> Vec<usize> {
         let mut changes = vec![0i64; self.tiles[1] + 1];
         for patch in &self.patches {
             let (bands, columns) = (tiles(&patch.rows, self.rows), tiles(&patch.columns, COLUMNS));
@@ -227,6 +213,21 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
 /// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million patches that a picture
 /// resolves have two million entries.
 const MOST_ENTRIES: usize = 1 << 25;
+
+/// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be kept; all of
+/// them where they can be.
+pub(super) fn strips(bands: Range<usize>, entries: &[usize]) -> Vec<Range<usize>> {
+    let (mut strips, mut start, mut sum) = (Vec::new(), bands.start, 0);
+    for band in bands.clone() {
+        if band > start && sum + entries[band] > MOST_ENTRIES {
+            strips.push(start..band);
+            (start, sum) = (band, 0);
+        }
+        sum += entries[band];
+    }
+    strips.push(start..bands.end);
+    strips
+}
 
 /// The patches of each tile of a strip in compressed rows.
 #[derive(Debug)]

@@ -6,6 +6,7 @@
 //! jumps on its cracks and nowhere else.
 
 mod coefficients;
+mod series;
 
 use crate::random::Random;
 use ppum::cover::Cover;
@@ -18,6 +19,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
 pub use coefficients::{Coefficients, amplitude, cut_off, smooth};
+pub use series::{growing, series};
 
 /// The features of a synthetic dataset.
 #[derive(Clone, Debug)]

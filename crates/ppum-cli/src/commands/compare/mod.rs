@@ -18,6 +18,7 @@ use crate::arguments::{MOST_OF_PAGE, positive, size};
 use crate::look::Look;
 use crate::number::json;
 use crate::output::{Output, tell};
+use crate::range::Telling;
 use crate::standard::is_standard;
 use crate::subject::{Colors, Subject};
 use crate::window::{Frame, Window};
@@ -145,13 +146,16 @@ impl Args {
         let job = measure::Job { field: &field, view, quantity: &quantity, args: self };
         let found = threads::with(self.threads, || measure(job, &methods))??;
         let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);
+        let mut told = String::new();
         if let Some(path) = &self.output {
             let style = self.colours.style(Some(&quantity))?;
-            let (page, direct) = layout.draw(&found, &field, &view, &style)?;
+            let (page, direct) = layout.draw(&found, job, &style)?;
             let texts = self.texts(&direct, &dataset.title, &asked.name, &found);
-            page::write(path, &page, self.look.given_dpi(), &texts, out)?;
+            page::put(path, &page, self.look.given_dpi(), &texts, out)?;
+            let ([columns, rows], telling) = (page.size, Telling::new(&dataset, &field));
+            told = format!("{columns}x{rows} pixels, direct: {}", telling.colors(&direct));
         }
-        self.tell(&report, layout.size(), out)
+        self.tell(&report, &told, out)
     }
 
     /// The interpolations, each once; none for the cells of the cover.
@@ -179,25 +183,17 @@ impl Args {
         texts
     }
 
-    /// Numbers on standard output, unless the picture goes there.
-    fn tell(
-        &self,
-        report: &Report,
-        [columns, rows]: [u32; 2],
-        out: &mut Output,
-    ) -> anyhow::Result<()> {
+    /// Numbers on standard output, unless the picture goes there; of that what its colours mean.
+    fn tell(&self, report: &Report, told: &str, out: &mut Output) -> anyhow::Result<()> {
         if self.json {
             return Ok(json(out, report)?);
         }
         let table = table(report);
         match &self.output {
-            Some(path) if is_standard(path) => table.lines().for_each(tell),
-            Some(path) => writeln!(
-                out,
-                "wrote {}: {columns}x{rows} pixels\n{}",
-                path.display(),
-                table.trim_end()
-            )?,
+            Some(path) if is_standard(path) => {
+                [told].into_iter().chain(table.lines()).for_each(tell)
+            }
+            Some(path) => writeln!(out, "wrote {}: {told}\n{}", path.display(), table.trim_end())?,
             None => write!(out, "{table}")?,
         }
         Ok(())

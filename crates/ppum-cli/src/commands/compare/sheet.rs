@@ -7,17 +7,18 @@ use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
 use ppum_figure::overlay;
+use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
 use ppum_render::scale::Scale;
-use ppum_render::view::View;
 
 use super::Args;
-use super::measure::{Measurements, name};
+use super::measure::{Job, Measurements, name};
 use crate::look::letters;
+use crate::progress::Bar;
 
 /// The page: what stands where.
 pub(super) struct Layout {
@@ -101,24 +102,24 @@ impl Layout {
     pub(super) fn draw(
         &self,
         found: &Measurements,
-        field: &Field<'_>,
-        view: &View,
+        job: Job<'_>,
         style: &Style,
     ) -> anyhow::Result<(Canvas, Picture)> {
-        let direct = Picture::bare(&found.direct, view, style)?;
+        let Job { field, view, .. } = job;
+        let view = &view;
+        let direct = direct(&found.direct, job, style)?;
         let norm = &direct.normalization;
         let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
-        let raster = |shows: &Shows| match *shows {
-            Shows::Direct => (found.direct.clone(), false),
-            Shows::Resampled(k) => (found.resampled[k].raster.clone(), false),
-            Shows::Difference(k) => (difference(&found.direct, &found.resampled[k].raster), true),
-        };
         let signed = signed()?;
-        let picture = |(raster, is_difference): (Raster, bool)| {
-            Picture::bare(&raster, view, if is_difference { &signed } else { &fixed })
+        let picture = |shows: &Shows| match *shows {
+            Shows::Direct => Ok(direct.clone()),
+            Shows::Resampled(k) => Picture::bare(&found.resampled[k].raster, view, &fixed),
+            Shows::Difference(k) => {
+                let apart = difference(&found.direct, &found.resampled[k].raster);
+                Picture::bare(&apart, view, &signed)
+            }
         };
-        let pictures = self.panels.iter().map(raster).map(picture);
-        let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+        let pictures = self.panels.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
         let cracks = &field.step.cracks;
         let rims = overlay::rims(view, &field.domain.holes);
         let layers = [rims, overlay::cracks(view, cracks)].concat();
@@ -147,6 +148,17 @@ impl Shows {
         }
         resampled.chain([Self::Direct]).chain(differences).collect()
     }
+}
+
+/// The direct picture; its range knows the true extrema.
+fn direct(raster: &Raster, job: Job<'_>, style: &Style) -> anyhow::Result<Picture> {
+    let Job { field, view, quantity, .. } = job;
+    let values = match style.range.is_found() {
+        true => extrema(field, &view, quantity, raster, &Bar::new())?,
+        false => None,
+    };
+    let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
+    Ok(Picture::spanning(raster, &view, style, span)?)
 }
 
 /// Colours of differences.

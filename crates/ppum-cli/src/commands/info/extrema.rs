@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use anyhow::Context as _;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum::text::{Places, beside, trimmed};
+use ppum::text::Places;
 use ppum::vec2::Vec2;
 use ppum_render::extrema::{Extremum, On, Singular, SingularKind, extrema};
 use ppum_render::scatter::render;
@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::number::Number;
 use crate::progress::Bar;
+use crate::range::{value, words};
 
 /// Pixels of the picture that the search begins from: peaks narrower than one of them are not seen.
 const PIXELS: [u32; 2] = [1024, 1024];
@@ -32,13 +33,16 @@ pub(super) struct Report {
 struct Row {
     value: Number,
     at: [f64; 2],
-    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`.
+    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`; `pixel` where only pixels were
+    /// looked at.
     on: &'static str,
     /// Index of the crack or the hole; of a face with its side.
     #[serde(skip_serializing_if = "Option::is_none")]
     index: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     side: Option<&'static str>,
+    #[serde(skip)]
+    words: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -72,13 +76,8 @@ impl Report {
             [&self.min, &self.max].map(|row| row.value.0).into_iter().filter(|v| v.is_finite());
         let largest = finite.map(f64::abs).fold(0.0, f64::max);
         for (name, row) in [("min", &self.min), ("max", &self.max)] {
-            let value = match row.value.0 {
-                infinite if infinite.is_infinite() => {
-                    if infinite > 0.0 { "∞" } else { "−∞" }.to_owned()
-                }
-                value => trimmed(beside(value, largest)),
-            };
-            writeln!(out, "{name}  {value}  at {}{}", places.show(row.at.into()), row.words())?;
+            let value = value(row.value.0, largest);
+            writeln!(out, "{name}  {value}  at {}{}", places.show(row.at.into()), row.words)?;
         }
         for point in &self.singular {
             writeln!(out, "infinite at {} ({})", places.show(point.at.into()), point.kind)?;
@@ -89,26 +88,14 @@ impl Report {
 
 impl Row {
     fn new(extremum: &Extremum, at: [f64; 2]) -> Self {
-        let (on, index, side) = match extremum.on {
-            On::Inside => ("inside", None, None),
-            On::Border => ("border", None, None),
-            On::Face(segment, side) => ("face", Some(segment.crack), Some(side.name())),
-            On::Rim(hole) => ("rim", u32::try_from(hole).ok(), None),
-            On::Interface => ("interface", None, None),
-            On::Singular(_) => ("singular", None, None),
+        let (index, side) = match extremum.on {
+            On::Face(segment, side) => (Some(segment.crack), Some(side.name())),
+            On::Rim(hole) => (u32::try_from(hole).ok(), None),
+            _ => (None, None),
         };
-        Self { value: Number(extremum.value), at, on, index, side }
-    }
-
-    /// What the place lies on.
-    fn words(&self) -> String {
-        match (self.on, self.index, self.side) {
-            ("face", Some(crack), Some(side)) => format!(", {side} crack {crack}"),
-            ("rim", Some(hole), _) => format!(", on the rim of hole {hole}"),
-            ("border", ..) => ", on the border".into(),
-            ("interface", ..) => ", on an interface".into(),
-            _ => String::new(),
-        }
+        let on = extremum.on.name();
+        let words = words(extremum.on).map_or_else(String::new, |words| format!(", {words}"));
+        Self { value: Number(extremum.value), at, on, index, side, words }
     }
 }
 

@@ -1,15 +1,17 @@
 //! Several quantities, or parts of a field, in one figure.
 
-use anyhow::ensure;
+use anyhow::{Context as _, ensure};
 use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
-use ppum_render::picture::Picture;
-use ppum_render::range::Range;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::Span;
 
-use super::{Args, Plate, titled, told};
-use crate::drawing::Drawn;
+use super::{Args, Plate, titled, told, warn};
+use crate::deformed::words;
+use crate::drawing::{Drawn, Seen};
 use crate::look::letters;
 use crate::output::Output;
 use crate::page;
+use crate::range::Telling;
 use crate::subject::Asked;
 
 /// What a panel shows, and of which plate; several parts of a field are several plates.
@@ -18,7 +20,8 @@ type Subject<'a> = (&'a Plate<'a>, Asked);
 impl Args {
     /// Draws each quantity of each plate in a panel.
     pub(super) fn panels(&self, plates: &[Plate<'_>], out: &mut Output) -> anyhow::Result<()> {
-        let Plate { dataset, field, shown: title } = &plates[0];
+        let plate = &plates[0];
+        let Plate { dataset, field, shown: title, .. } = plate;
         let subjects = self.subjects(plates)?;
         let worded = |title| self.look.worded(Labels { title, ..Labels::default() }).title;
         let labels = self.labels(&subjects, plates.len());
@@ -28,15 +31,20 @@ impl Args {
         let grid = self.grid(&untold, &captions, plates, &design)?;
         let frame = self.frame(panel_area(&untold, &captions, grid, &design)?);
         let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
-        let drawn = subjects.iter().map(|(plate, asked)| self.drawn(plate.field, &seen, asked));
+        let drawn = subjects.iter().map(|(plate, asked)| {
+            let drawn = self.drawn(plate.field, &seen, asked)?;
+            warn(asked, drawn.undefined());
+            Ok(drawn)
+        });
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
-        let mut pictures = self.pictures(&subjects, &drawn)?;
+        let mut pictures = self.pictures(&seen, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
         let layers = layers.map(|((plate, asked), (drawn, picture))| {
-            self.layers(plate, &seen, asked, &drawn.values, picture)
+            self.layers(plate, &seen, asked, drawn, picture)
         });
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
         let cracks = seen.cracks(field);
+        let factor = seen.moved().map(|points| words(points.view.factor()));
         pictures.iter_mut().for_each(|picture| self.blank(picture));
         let panel = |((picture, labels), layers)| Panel {
             picture,
@@ -45,22 +53,26 @@ impl Args {
             cracks: &cracks,
             bar_of: None,
         };
-        let all: Vec<Panel<'_>> = pictures.iter().zip(labels).zip(layers).map(panel).collect();
-        let page = panels(&worded(titled(title.clone(), &seen)), &all, grid, &design)?;
+        let all: Vec<Panel<'_>> =
+            pictures.iter().zip(labels.clone()).zip(layers).map(panel).collect();
+        let page = panels(&worded(titled(title.clone(), factor.as_deref())), &all, grid, &design)?;
         let names = subjects.iter().step_by(plates.len()).map(|(_, asked)| asked.name.as_str());
         let names = names.collect::<Vec<_>>().join(", ");
         let mut texts = pictures[0].description(&dataset.title, &self.subject.file_name(), &names);
         if !self.shared_range {
             // each panel has its own, on its bar
-            texts.retain(|(key, _)| key != "ppum:range");
+            let is_own =
+                |key: &str| ["ppum:range", "ppum:range-basis", "ppum:extrema"].contains(&key);
+            texts.retain(|(key, _)| !is_own(key));
         }
         let by = &drawn[0].by;
         texts.push(("ppum:backend".to_owned(), by.clone()));
-        texts.extend(self.notes(&seen));
+        texts.extend(self.notes(plate, &seen));
         let ([columns, rows], parts) = (page.size, self.subject.replacements.captions());
         let names = [names].into_iter().chain(parts).collect::<Vec<_>>().join(", ");
         let told = told(&seen, drawn[0].overlap.len());
-        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}");
+        let colors = self.colors(&Telling::new(dataset, field), &subjects, &labels, &pictures);
+        let told = format!("{names}{told}, {columns}x{rows} pixels, {by}{colors}");
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
@@ -133,24 +145,53 @@ impl Args {
         subjects.iter().enumerate().map(of).collect()
     }
 
-    /// The values in colours, of one range for all if that is asked for.
-    fn pictures(&self, subjects: &[Subject<'_>], drawn: &[Drawn]) -> anyhow::Result<Vec<Picture>> {
-        let all: Vec<_> = subjects.iter().map(|(_, asked)| asked).zip(drawn).collect();
-        let own = |pair: &(&Asked, &Drawn)| {
-            Ok(pair.1.picture(&self.colours.style_of(std::slice::from_ref(pair))?)?)
+    /// What the colours of each panel mean, in lines of their own; those of one range once.
+    fn colors(
+        &self,
+        telling: &Telling<'_>,
+        subjects: &[Subject<'_>],
+        labels: &[Labels],
+        pictures: &[Picture],
+    ) -> String {
+        let has_parts = self.subject.has_parts();
+        let line = |((subject, labels), picture): ((&Subject<'_>, &Labels), &Picture)| {
+            let letter = labels.title.split(' ').next().filter(|_| has_parts).unwrap_or_default();
+            let name = format!("{letter} {}", subject.1.name);
+            format!("\n  {}: {}", name.trim_start(), telling.colors(picture))
         };
-        let own = all.iter().map(own).collect::<anyhow::Result<Vec<_>>>()?;
-        if !self.shared_range {
-            return Ok(own);
+        let all = subjects.iter().zip(labels).zip(pictures).map(line);
+        match pictures.first() {
+            Some(first) if self.shared_range => format!("\n  {}", telling.colors(first)),
+            _ => all.collect(),
         }
-        let mut style = self.colours.style_of(&all)?;
-        if self.colours.is_automatic() && style.colormap.classes().is_empty() {
-            let norms = || own.iter().map(|picture| &picture.normalization);
-            let min = norms().map(|norm| norm.min()).fold(f64::INFINITY, f64::min);
-            let max = norms().map(|norm| norm.max()).fold(f64::NEG_INFINITY, f64::max);
-            style.range = Range::Fixed(min, max);
+    }
+
+    /// The values in colours, of one range for all if that is asked for.
+    fn pictures(
+        &self,
+        seen: &Seen<'_>,
+        subjects: &[Subject<'_>],
+        drawn: &[Drawn],
+    ) -> anyhow::Result<Vec<Picture>> {
+        let all: Vec<_> = subjects.iter().map(|(_, asked)| asked).zip(drawn).collect();
+        let styles = match self.shared_range {
+            true => vec![self.colours.style_of(&all)?; all.len()],
+            false => {
+                let style = |pair| self.colours.style_of(std::slice::from_ref(pair));
+                all.iter().map(style).collect::<anyhow::Result<_>>()?
+            }
+        };
+        let spans =
+            subjects.iter().zip(drawn).zip(&styles).map(|(((plate, asked), drawn), style)| {
+                self.span(plate.field, seen, asked, drawn, style)
+            });
+        let mut spans = spans.collect::<anyhow::Result<Vec<_>>>()?;
+        if self.shared_range {
+            let shared = Span::shared(&spans, styles[0].colormap.diverging);
+            spans.fill(shared.context("there is a range")?);
         }
-        Ok(drawn.iter().map(|drawn| drawn.picture(&style)).collect::<Result<_, _>>()?)
+        let picture = |(drawn, (style, span)): (&Drawn, (&Style, Span))| drawn.picture(style, span);
+        Ok(drawn.iter().zip(styles.iter().zip(spans)).map(picture).collect::<Result<_, _>>()?)
     }
 }
 

@@ -1,0 +1,182 @@
+//! The range of a picture's colours: found with the true extrema of the view, and told.
+
+use ppum::crack::{Crack, TipId, tips};
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum::text::{Places, apart, beside, trimmed};
+use ppum::vec2::vec2;
+use ppum_render::RenderError;
+use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::{Basis, Span};
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::view::View;
+
+use crate::drawing::{Drawn, Seen, Values};
+use crate::number::places;
+use crate::progress::Bar;
+
+/// The range of what was drawn; one that has to be found with the extrema of the view, which are the true ones of the plate as it was, and
+/// those of the pixels of the deformed one.
+pub(crate) fn found(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    drawn: &Drawn,
+    style: &Style,
+) -> Result<Span, RenderError> {
+    let extrema = match &drawn.values {
+        _ if !style.range.is_found() => None,
+        Values::Double(raster) => extrema_of(field, seen, quantity, raster)?,
+        Values::Single(raster) => extrema_of(field, seen, quantity, raster)?,
+    };
+    Ok(drawn.span(style, extrema))
+}
+
+fn extrema_of<T: Sample>(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    quantity: &Quantity,
+    raster: &Raster<T>,
+) -> Result<Option<Extrema>, RenderError> {
+    let search = |view| extrema(field, view, quantity, raster, &Bar::new());
+    match seen {
+        Seen::Plate(view) => search(view),
+        // nothing has moved
+        Seen::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
+        Seen::Moved(points) => Ok(Extrema::of_pixels(raster, &points.view.view)),
+    }
+}
+
+/// What is known of places.
+pub(crate) struct Telling<'a> {
+    places: Places,
+    cracks: &'a [Crack],
+    /// Size of the plate.
+    size: f64,
+}
+
+/// Views narrower than this part of the plate have their places told from their centre.
+const DEEP: f64 = 1e-3;
+
+impl<'a> Telling<'a> {
+    pub(crate) fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
+        let size = field.domain.bounds.size();
+        let size = size.x.max(size.y);
+        Self { places: places(dataset), cracks: &field.step.cracks, size }
+    }
+
+    /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust); values from 0.1 at
+    /// (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
+    pub(crate) fn colors(&self, picture: &Picture) -> String {
+        let (norm, span) = (&picture.normalization, &picture.span);
+        let colors = match picture.one_value {
+            _ if !picture.has_values => return "no finite values".into(),
+            Some(value) => return format!("one value, {}", trimmed(value)),
+            None if !picture.colormap.classes().is_empty() => {
+                let values = picture.colormap.classes().iter().map(|value| trimmed(*value));
+                return format!("a colour each for {}", values.collect::<Vec<_>>().join(", "));
+            }
+            None => {
+                let [from, to] = apart(norm.min(), norm.max());
+                format!("colours from {from} to {to}{}", basis(span.basis))
+            }
+        };
+        match &span.values {
+            Some(values) => format!("{colors}; {}", self.values(values, &picture.view)),
+            None => colors,
+        }
+    }
+
+    fn values(&self, values: &Extrema, view: &View) -> String {
+        let both = [&values.min, &values.max];
+        let finite = both.map(|extremum| extremum.value).into_iter().filter(|v| v.is_finite());
+        let size = finite.map(f64::abs).fold(0.0, f64::max);
+        let all_finite = both.iter().all(|extremum| extremum.value.is_finite());
+        let shown = match all_finite {
+            true => apart(beside(values.min.value, size), beside(values.max.value, size)),
+            false => both.map(|extremum| value(extremum.value, size)),
+        };
+        let place = |k: usize| format!("{} at {}", shown[k], self.place(both[k], view));
+        let told = [place(0), place(1)];
+        let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
+        format!("{whose} from {} to {}", told[0], told[1])
+    }
+
+    /// Where an extremum lies.
+    fn place(&self, extremum: &Extremum, view: &View) -> String {
+        let at = match extremum.on {
+            // known exactly, and told by its number
+            On::Singular(_) => self.places.show(view.center + extremum.offset),
+            _ if view.width < DEEP * self.size => {
+                let offset = [extremum.offset.x, extremum.offset.y];
+                let [dx, dy] = offset.map(|v| trimmed(rounded(v, view.width)));
+                format!("{} + ({dx}, {dy})", self.places.show(view.center))
+            }
+            _ => {
+                let at = view.center + extremum.offset;
+                self.places.show(vec2(rounded(at.x, view.width), rounded(at.y, view.width)))
+            }
+        };
+        match extremum.on {
+            On::Singular(kind) => format!("{} {at}", self.kind(kind)),
+            on => [at].into_iter().chain(words(on)).collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    fn kind(&self, kind: SingularKind) -> String {
+        match kind {
+            SingularKind::Tip(tip) => format!("tip {}", self.number(tip)),
+            SingularKind::Kink(crack) => format!("a kink of crack {crack}"),
+            SingularKind::Corner(hole) => format!("a corner of hole {hole}"),
+            SingularKind::Origin => "the origin of a function".into(),
+        }
+    }
+
+    /// The number of a tip, as in `ppum sif`.
+    fn number(&self, tip: TipId) -> usize {
+        tips(self.cracks).position(|known| known == tip).unwrap_or_default()
+    }
+}
+
+fn basis(basis: Basis) -> String {
+    match basis {
+        Basis::Given | Basis::All => String::new(),
+        Basis::Pixels => " (finite pixels)".into(),
+        Basis::Robust => " (robust)".into(),
+        Basis::Percentiles(p, q) => {
+            format!(" ({} % to {} % of the pixels)", trimmed(p), trimmed(q))
+        }
+    }
+}
+
+/// A value beside others of some size.
+pub(crate) fn value(value: f64, size: f64) -> String {
+    match value {
+        f64::INFINITY => "∞".into(),
+        f64::NEG_INFINITY => "−∞".into(),
+        value => trimmed(beside(value, size)),
+    }
+}
+
+/// What a place lies on, if that is anything.
+pub(crate) fn words(on: On) -> Option<String> {
+    match on {
+        On::Face(segment, side) => Some(format!("{} crack {}", side.name(), segment.crack)),
+        On::Rim(hole) => Some(format!("on the rim of hole {hole}")),
+        On::Border => Some("on the border".into()),
+        On::Interface => Some("on an interface".into()),
+        On::Inside | On::Pixel | On::Singular(_) => None,
+    }
+}
+
+/// A coordinate with the digits that it is known to in a view of some width: an extremum's place is that of a flat top.
+fn rounded(x: f64, width: f64) -> f64 {
+    let step = 10f64.powi((KNOWN * width).log10().floor() as i32);
+    let rounded = (x / step).round() * step;
+    if rounded.is_finite() { rounded } else { x }
+}
+
+/// Part of a view that the place of an extremum is told to.
+const KNOWN: f64 = 1e-5;

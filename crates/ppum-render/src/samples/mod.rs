@@ -1,0 +1,243 @@
+//! Means over pixels, against jagged edges: N × N samples a pixel in place of the value at its centre.
+//!
+//! A pixel is cut into N × N squares, and the field evaluated at the centre of each ([`View::finer`]). The pixel's value is
+//! the mean of those values that lie in the plate, on whichever side of a crack,
+//!
+//! ```text
+//! m = 1/n Σ_k q(x_k)        x_k in the plate, q(x_k) finite, n of them
+//! ```
+//!
+//! and its opacity the share of samples that lie in the plate. This is an area average by the midpoint rule, exact for linear
+//! fields; means are of *values*, not of colours, so a colour bar still tells what a colour means. Further:
+//!
+//! - samples of the plate without a value, as formulas have them, do not count; where no sample has one the pixel has none;
+//! - a value is infinite at points, as stresses are at a tip, which have no area: it does not count beside finite ones. Where
+//!   all are infinite so is the mean, and undefined if they are so with both signs;
+//! - one sample is the value at the centre, to the last bit.
+//!
+//! Costs N² times as much as the picture of centres; memory is bounded, since the finer view is drawn in strips.
+
+use std::num::NonZeroU8;
+use std::str::FromStr;
+
+use ppum::domain::{Domain, LocalDomain};
+use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
+use rayon::prelude::*;
+
+use crate::error::RenderError;
+use crate::raster::{Raster, Sample};
+use crate::scatter::render_strips;
+use crate::view::View;
+
+/// N, of N × N samples a pixel: 1, the centre alone, to [`Samples::MOST`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Samples(NonZeroU8);
+
+/// Not a number of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("write a number from 1 to {most}", most = Samples::MOST)]
+pub struct SamplesError;
+
+impl Samples {
+    /// The centre of each pixel.
+    pub const CENTER: Self = Self(NonZeroU8::MIN);
+    /// The largest N: 256 samples a pixel, as many as an opacity has values.
+    pub const MOST: u8 = 16;
+
+    /// `n` × `n` samples a pixel; none of 0 and of more than [`Samples::MOST`].
+    #[must_use]
+    pub fn new(n: u8) -> Option<Self> {
+        NonZeroU8::new(n).filter(|n| n.get() <= Self::MOST).map(Self)
+    }
+
+    /// N.
+    #[must_use]
+    pub fn side(self) -> u32 {
+        self.0.get().into()
+    }
+
+    /// N².
+    #[must_use]
+    pub fn count(self) -> u16 {
+        u16::from(self.0.get()).pow(2)
+    }
+
+    /// The meaning of a pixel in words.
+    #[must_use]
+    pub fn meaning(self) -> String {
+        match self.0.get() {
+            1 => "value at pixel centre".into(),
+            n => format!("mean of {n}x{n} values in the pixel"),
+        }
+    }
+}
+
+impl FromStr for Samples {
+    type Err = SamplesError;
+
+    fn from_str(text: &str) -> Result<Self, SamplesError> {
+        text.trim().parse().ok().and_then(Self::new).ok_or(SamplesError)
+    }
+}
+
+/// The means over the pixels of a view, and how much of the pixels is plate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Means<T = f64> {
+    /// The means; NaN where no sample has a value.
+    pub raster: Raster<T>,
+    /// Number of samples that lie in the plate, pixel by pixel.
+    pub inside: Vec<u16>,
+    /// The number of samples.
+    pub samples: Samples,
+}
+
+impl<T: Sample> Means<T> {
+    /// The means of a picture of the [finer](View::finer) view, as any renderer draws it.
+    ///
+    /// # Panics
+    /// If the picture does not have the pixels of that view.
+    #[must_use]
+    pub fn of(domain: &Domain, view: &View, samples: Samples, finer: &Raster<T>) -> Self {
+        assert_eq!(finer.size, view.pixels.map(|n| n * samples.side()), "a picture of samples");
+        let mut gathered = Gathered::new(domain, view, samples);
+        gathered.add(&finer.values);
+        gathered.finish()
+    }
+
+    /// The pixels with some of the plate, but without a value, by their place row by row.
+    #[must_use]
+    pub fn undefined(&self) -> Vec<u32> {
+        let pixels = (0u32..).zip(self.inside.iter().zip(&self.raster.values));
+        let without =
+            pixels.filter(|(_, (inside, value))| **inside > 0 && (**value).into().is_nan());
+        without.map(|(pixel, _)| pixel).collect()
+    }
+
+    /// The share of each pixel that is plate, as an opacity.
+    #[must_use]
+    pub fn opacity(&self) -> Vec<u8> {
+        let all = f64::from(self.samples.count());
+        self.inside.iter().map(|&inside| (255.0 * f64::from(inside) / all).round() as u8).collect()
+    }
+}
+
+/// The means of a quantity over the pixels of a view, computed in `T` = f64 or f32 on the threads of the pool that
+/// calls. Values of samples are those of [`render`](crate::scatter::render).
+///
+/// # Errors
+/// Those of [`render`](crate::scatter::render); samples finer than f64 has numbers for.
+pub fn means<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    samples: Samples,
+    watcher: &dyn Watcher,
+) -> Result<Means<T>, RenderError> {
+    let finer = view.finer(samples.side())?;
+    let mut gathered = Gathered::new(field.domain, view, samples);
+    let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
+    render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
+    Ok(gathered.finish())
+}
+
+/// Samples that are held at once, unless a row of tiles has more: 32 MiB.
+const HELD: u32 = 1 << 22;
+/// Rows of the renderer's bands.
+const BAND: u32 = 16;
+
+/// Rows of samples of a strip: whole bands, and whole rows of pixels.
+fn rows(finer: &View, samples: Samples) -> u32 {
+    let least = BAND * samples.side();
+    least * (HELD / finer.pixels[0] / least).max(1)
+}
+
+/// Means of the rows so far.
+struct Gathered<'v, T> {
+    view: &'v View,
+    samples: Samples,
+    domain: LocalDomain,
+    /// Offsets of the columns of samples.
+    xs: Vec<f64>,
+    finer: View,
+    values: Vec<T>,
+    inside: Vec<u16>,
+}
+
+impl<'v, T: Sample> Gathered<'v, T> {
+    fn new(domain: &Domain, view: &'v View, samples: Samples) -> Self {
+        let finer = View { pixels: view.pixels.map(|n| n * samples.side()), ..*view };
+        let xs = (0..finer.pixels[0]).map(|column| finer.column_offset(column)).collect();
+        let domain = domain.at(view.center);
+        Self { view, samples, domain, xs, finer, values: Vec::new(), inside: Vec::new() }
+    }
+
+    /// Adds the next rows of samples, whole rows of pixels.
+    fn add(&mut self, values: &[T]) {
+        let (columns, side) = (self.view.pixels[0] as usize, self.samples.side() as usize);
+        let first = self.values.len() / columns;
+        let lines = values.par_chunks_exact(self.xs.len() * side).enumerate();
+        let found: Vec<(T, u16)> =
+            lines.flat_map_iter(|(k, line)| self.line((first + k) as u32, line)).collect();
+        self.values.extend(found.iter().map(|(value, _)| *value));
+        self.inside.extend(found.iter().map(|(_, inside)| *inside));
+    }
+
+    /// Mean and number of samples of the plate, of each pixel of a row.
+    fn line(&self, row: u32, samples: &[T]) -> Vec<(T, u16)> {
+        let (columns, side) = (self.xs.len(), self.samples.side() as usize);
+        let y = |k: usize| self.finer.row_offset(row * self.samples.side() + k as u32);
+        let ys: Vec<f64> = (0..side).map(y).collect();
+        let pixel = |first: usize| {
+            let mut mean = Mean::default();
+            for (line, &y) in samples.chunks_exact(columns).zip(&ys) {
+                let values = line[first..first + side].iter().zip(&self.xs[first..]);
+                for (&value, &x) in values {
+                    mean.add(value.into(), || self.domain.contains([x, y].into()));
+                }
+            }
+            (T::from_f64(mean.value()), mean.inside)
+        };
+        (0..columns).step_by(side).map(pixel).collect()
+    }
+
+    fn finish(self) -> Means<T> {
+        let raster = Raster::new(self.view.pixels, self.values);
+        Means { raster, inside: self.inside, samples: self.samples }
+    }
+}
+
+/// The samples of one pixel.
+#[derive(Default)]
+struct Mean {
+    finite: f64,
+    count: u16,
+    infinite: f64,
+    is_infinite: bool,
+    inside: u16,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64, is_inside: impl FnOnce() -> bool) {
+        if value.is_finite() {
+            self.finite += value;
+            self.count += 1;
+        } else if !value.is_nan() {
+            self.infinite += value;
+            self.is_infinite = true;
+        }
+        self.inside += u16::from(!value.is_nan() || is_inside());
+    }
+
+    fn value(&self) -> f64 {
+        match self.count {
+            0 if self.is_infinite => self.infinite,
+            0 => f64::NAN,
+            n => self.finite / f64::from(n),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
