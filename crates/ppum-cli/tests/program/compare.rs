@@ -47,7 +47,7 @@ fn errors_of_a_plane_are_those_of_theory() {
 fn pictures_are_figures_of_panels() {
     let lab = Lab::solved(CRACKED);
     let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 1200x400");
-    assert!(told.starts_with("wrote a.png: 1200x400 pixels\n"), "{told}");
+    assert!(told.starts_with("wrote a.png: 1200x400 pixels, direct: colours from"), "{told}");
     let png = Png::read(&lab.path("a.png"));
     assert_eq!(png.size, [1200, 400]);
     assert_eq!(png.text("ppum:resampled"), "bilinear, 16×16");
