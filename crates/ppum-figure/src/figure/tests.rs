@@ -414,7 +414,7 @@ fn bars_say_what_lies_beyond() {
     for (beyond, words) in [
         ([-inf, inf], ["to −∞", "to ∞"]),
         ([-12.34, 1234.5], ["to −12.3", "to 1230"]),
-        ([-0.25, 3.5e9], ["to −0.25", "to 4×10⁹"]),
+        ([-2.5, 3.5e9], ["to −2.5", "to 4×10⁹"]),
         ([-1.23456e-7, 1e300], ["to 0", "to 10³⁰⁰"]),
     ] {
         for bar in [BarPlace::Right, BarPlace::Bottom] {
