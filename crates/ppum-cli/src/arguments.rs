@@ -52,7 +52,7 @@ pub(crate) fn inches(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Most pixels of a page of plots and panels: a quarter of a gigabyte.
-const MOST_OF_PAGE: u64 = 1 << 26;
+pub(crate) const MOST_OF_PAGE: u64 = 1 << 26;
 
 /// `WxH` of a page, which is drawn whatever is on it.
 pub(crate) fn page(text: &str) -> Result<[u32; 2], String> {

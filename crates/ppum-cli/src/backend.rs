@@ -127,5 +127,5 @@ where
         return Ok(Drawn::averaged(means, job, by));
     }
     let raster = render::<T>(job.field, job.view, job.quantity, &Bar::new())?;
-    Ok(Drawn::new(raster, job, by))
+    Ok(Drawn::new(raster, job.field, job.view, by))
 }

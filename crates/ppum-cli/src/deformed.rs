@@ -4,14 +4,13 @@ use std::str::FromStr;
 
 use anyhow::ensure;
 use ppum::field::Field;
-use ppum::quantity::Quantity;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{Deformation, DeformedPoints, DeformedView, automatic_factor};
 use ppum_render::raster::Raster;
 
 use crate::backend::Engine;
-use crate::drawing::{Drawn, Seen};
+use crate::drawing::{Drawn, PROCESSOR, Seen, Shown};
 use crate::progress::Bar;
 use crate::window::{Frame, Window};
 
@@ -48,6 +47,11 @@ impl FromStr for Factor {
 }
 
 impl Deformed {
+    /// True if the deformed plate is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.factor.is_some()
+    }
+
     /// What is seen of the plate, undeformed unless the other is asked for.
     pub(crate) fn seen<'f>(
         &self,
@@ -74,6 +78,7 @@ impl Deformed {
         let bounds = bounds.into_iter().reduce(|a, b| a.union(&b));
         Ok(bounds.map(|bounds| Deforming { factor, bounds }))
     }
+
     /// A box around the deformed plate, and around the undeformed one if its border is drawn.
     fn bounds(&self, deformation: &Deformation<'_>, field: &Field<'_>) -> anyhow::Result<Rect> {
         let whole = field.domain.bounds;
@@ -142,13 +147,16 @@ pub(crate) fn points<'f>(view: &DeformedView<'f>, engine: &Engine) -> anyhow::Re
 /// The values of a picture of the deformed plate.
 pub(crate) fn draw(
     points: &DeformedPoints<'_>,
-    quantity: &Quantity,
+    shown: &Shown,
     engine: &Engine,
 ) -> anyhow::Result<Drawn> {
-    let raster = engine.on_processor(|| points.raster(quantity, &Bar::new()))??;
+    let raster = engine.on_processor(|| match shown {
+        Shown::Quantity(quantity) => points.raster(quantity, &Bar::new()),
+        Shown::Cells(_, values) => Ok(points.cells(values)),
+    })??;
     let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
-    let (view, overlap, by) = (points.view.view, overlap.collect(), "cpu f64".into());
+    let (view, overlap, by) = (points.view.view, overlap.collect(), PROCESSOR.into());
     let values = raster.values.into();
     Ok(Drawn { view, values, by, without, overlap, opacity: None })
 }

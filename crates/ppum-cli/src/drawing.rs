@@ -3,6 +3,7 @@
 use ppum::crack::Crack;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
+use ppum_render::cells;
 use ppum_render::deform::DeformedPoints;
 use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
@@ -33,7 +34,56 @@ impl<'f> Seen<'f> {
     }
 }
 
-/// The subject of a picture.
+/// What a picture shows.
+#[derive(Clone, Debug)]
+pub(crate) enum Shown {
+    /// A quantity, at every point.
+    Quantity(Quantity),
+    /// One value per patch, on its cell, with its name.
+    Cells(String, Vec<f64>),
+}
+
+impl Shown {
+    /// The quantity, if it is one.
+    pub(crate) fn quantity(&self) -> Option<&Quantity> {
+        match self {
+            Self::Quantity(quantity) => Some(quantity),
+            Self::Cells(..) => None,
+        }
+    }
+
+    /// True if its values are whole numbers by their nature.
+    fn is_whole(&self) -> bool {
+        match self {
+            Self::Quantity(quantity) => *quantity == Quantity::Overlap,
+            Self::Cells(_, values) => values.iter().all(|v| v.is_nan() || v.fract() == 0.0),
+        }
+    }
+}
+
+/// Most values that have a colour each: no more can be told apart.
+const MOST_CLASSES: usize = 20;
+
+/// The values that have a colour each in pictures of one range, rising: none unless they are few whole numbers in all of them.
+pub(crate) fn classes<'a>(
+    pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)>,
+) -> Option<Vec<f64>> {
+    let values = |(shown, values): (&Shown, &Values)| {
+        shown.is_whole().then(|| values.whole_numbers(MOST_CLASSES))?
+    };
+    let found: Option<Vec<Vec<f64>>> = pictures.into_iter().map(values).collect();
+    united(found?)
+}
+
+/// Classes of several pictures together, if they are not too many.
+pub(crate) fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let mut all = classes.concat();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    (all.len() <= MOST_CLASSES).then_some(all)
+}
+
+/// The subject of a picture of a quantity.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) field: &'a Field<'a>,
@@ -73,6 +123,14 @@ impl From<Raster<f32>> for Values {
 }
 
 impl Values {
+    /// The different values, rising, if they are at most `most` whole numbers.
+    fn whole_numbers(&self, most: usize) -> Option<Vec<f64>> {
+        match self {
+            Self::Double(raster) => raster.whole_numbers(most),
+            Self::Single(raster) => raster.whole_numbers(most),
+        }
+    }
+
     pub(crate) fn statistics(&self) -> Statistics {
         match self {
             Self::Double(raster) => raster.statistics(),
@@ -112,14 +170,19 @@ impl Values {
 
 impl Drawn {
     /// The values of an undeformed plate.
-    pub(crate) fn new(values: impl Into<Values>, job: Job<'_>, by: &str) -> Self {
-        let (values, domain) = (values.into(), job.field.domain);
+    pub(crate) fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
+        let values = values.into();
         let without = match &values {
-            Values::Double(raster) => raster.undefined(domain, job.view),
-            Values::Single(raster) => raster.undefined(domain, job.view),
+            Values::Double(raster) => raster.undefined(field.domain, view),
+            Values::Single(raster) => raster.undefined(field.domain, view),
         };
         let (by, overlap) = (by.to_owned(), Vec::new());
-        Self { view: *job.view, values, by, without, overlap, opacity: None }
+        Self { view: *view, values, by, without, overlap, opacity: None }
+    }
+
+    /// One value per patch.
+    pub(crate) fn of_cells(values: &[f64], field: &Field<'_>, view: &View) -> Self {
+        Self::new(cells::raster(field, values, view), field, view, PROCESSOR)
     }
 
     /// The means of samples of an undeformed plate.
@@ -161,6 +224,9 @@ impl Drawn {
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }
+
+/// What draws all that is not drawn by a backend.
+pub(crate) const PROCESSOR: &str = "cpu f64";
 
 /// Dark lines across the pixels where the plate lies over itself.
 fn hatch(image: &mut Image, overlap: &[u32]) {

@@ -15,6 +15,7 @@ mod drawing;
 mod families;
 mod given;
 mod graphics;
+mod look;
 mod memory;
 mod number;
 mod output;
@@ -114,12 +115,13 @@ mod tests {
             ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
+            ("look", &["arguments"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
             ("warnings", &["number", "output"]),
         ],
         &[
-            ("dataset", &["given", "standard"]),
+            ("dataset", &["drawing", "given", "standard"]),
             ("graphics", &["drawing", "progress"]),
             ("range", &["drawing", "number", "progress"]),
             ("overlays", &["arguments", "drawing", "output", "progress"]),
@@ -133,7 +135,7 @@ mod tests {
         ],
         &[
             ("backend", &["drawing", "graphics", "output", "progress", "threads"]),
-            ("subject", &["dataset", "given", "replacements", "standard"]),
+            ("subject", &["dataset", "drawing", "given", "replacements", "standard"]),
         ],
         &[("deformed", &["backend", "drawing", "progress", "window"])],
         &[(
@@ -147,6 +149,7 @@ mod tests {
                 "families",
                 "given",
                 "graphics",
+                "look",
                 "memory",
                 "number",
                 "output",

@@ -90,7 +90,8 @@ fn spacing(text: &str) -> Result<f64, String> {
 pub(crate) struct Ground<'a> {
     pub(crate) dataset: &'a Dataset,
     pub(crate) field: &'a Field<'a>,
-    pub(crate) quantity: &'a Quantity,
+    /// The quantity that is shown; none of values of cells, which have no isolines.
+    pub(crate) quantity: Option<&'a Quantity>,
     pub(crate) picture: &'a Picture,
     pub(crate) values: &'a Values,
     /// A figure has its cracks whatever is asked for.
@@ -168,7 +169,8 @@ impl Overlays {
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
-        let Ground { field, quantity, picture, values, .. } = ground;
+        let Ground { field, picture, values, .. } = ground;
+        let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
         let view = &picture.view;
         let (levels, bar) = (levels.as_slice(), Bar::new());
         let lines = match values {
@@ -187,7 +189,8 @@ impl Overlays {
     ) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
         let Some(view) = points.material_view() else { return Ok(Vec::new()) };
-        let Ground { field, quantity, .. } = ground;
+        let field = ground.field;
+        let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
         let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);

@@ -55,16 +55,29 @@ pub(crate) fn save(
     told: &str,
     out: &mut Output,
 ) -> anyhow::Result<()> {
-    let form = Form::of(path);
-    warn_of_missing(page, form);
+    put(path, page, dpi, texts, out)?;
     if is_standard(path) {
-        out.exact().write_all(&form.bytes(page, dpi, texts)?)?;
         tell(&format!("wrote standard output: {told}"));
     } else {
-        write(path, page, dpi, texts)?;
         writeln!(out, "wrote {}: {told}", path.display())?;
     }
     Ok(())
+}
+
+/// Writes a page to a file or to standard output, and tells nothing but what its letters lack.
+pub(crate) fn put(
+    path: &Path,
+    page: &Canvas,
+    dpi: Option<f64>,
+    texts: &[Text],
+    out: &mut Output,
+) -> anyhow::Result<()> {
+    let form = Form::of(path);
+    warn_of_missing(page, form);
+    if is_standard(path) {
+        return Ok(out.exact().write_all(&form.bytes(page, dpi, texts)?)?);
+    }
+    write(path, page, dpi, texts)
 }
 
 /// Writes a page to a file and tells nothing.

@@ -74,6 +74,10 @@ impl<'a> Telling<'a> {
         let colors = match picture.one_value {
             _ if !picture.has_values => return "no finite values".into(),
             Some(value) => return format!("one value, {}", trimmed(value)),
+            None if !picture.colormap.classes().is_empty() => {
+                let values = picture.colormap.classes().iter().map(|value| trimmed(*value));
+                return format!("a colour each for {}", values.collect::<Vec<_>>().join(", "));
+            }
             None => {
                 let [from, to] = apart(norm.min(), norm.max());
                 format!("colours from {from} to {to}{}", basis(span.basis))

@@ -1,8 +1,10 @@
 //! Options that change a dataset before anything is evaluated: a part chosen, functions replaced.
 
+use std::fmt;
 use std::path::Path;
+use std::str::FromStr;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::replace::{self, ReplacementsError};
@@ -13,9 +15,10 @@ use crate::given::{Given, file};
 /// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Replacements {
-    /// Only a part of the field: smooth, jump, tip, other (enrichments of one's own), or patch:N
-    #[arg(long, value_name = "PART")]
-    part: Option<Part>,
+    /// Only a part of the field: smooth, jump, tip, other (enrichments of one's own), or patch:N; `render`
+    /// draws several, with commas between, in panels, of which `all` is the whole field
+    #[arg(long, value_name = "PART", value_delimiter = ',')]
+    part: Vec<Choice>,
     /// Replace a function, by its number or name in `ppum info`; may be given more than once
     #[arg(long, value_name = "WHICH=FORMULA", value_parser = assignment)]
     function: Vec<(String, String)>,
@@ -24,15 +27,77 @@ pub(crate) struct Replacements {
     weight: Option<String>,
 }
 
+/// A part of the field, or all of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Choice(Option<Part>);
+
+impl FromStr for Choice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.trim() {
+            "all" => Ok(Self(None)),
+            part => {
+                Ok(Self(Some(part.parse().map_err(|error| format!("{error}; all is the whole"))?)))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(part) => part.fmt(f),
+            None => f.write_str("all"),
+        }
+    }
+}
+
+impl Choice {
+    /// The part in words: `smooth part`.
+    fn caption(self) -> String {
+        match self.0 {
+            Some(Part::Patch(patch)) => format!("part of patch {patch}"),
+            Some(part) => format!("{part} part"),
+            None => "whole field".into(),
+        }
+    }
+}
+
 impl Replacements {
     /// Changes a step of the dataset, by default the last one. No such step is told where the field is made.
     pub(crate) fn apply(&self, dataset: &mut Dataset, step: Option<usize>) -> anyhow::Result<()> {
+        ensure!(self.part.len() <= 1, "--part: give one part; several are panels of `ppum render`");
+        self.apply_part(dataset, step, self.part.first().and_then(|choice| choice.0))
+    }
+
+    /// The dataset changed for each part.
+    pub(crate) fn each(
+        &self,
+        dataset: Dataset,
+        step: Option<usize>,
+    ) -> anyhow::Result<Vec<Dataset>> {
+        let parts = if self.part.is_empty() { &[Choice(None)][..] } else { &self.part };
+        let copies = std::iter::repeat_n(dataset, parts.len());
+        let changed = copies.zip(parts).map(|(mut dataset, choice)| {
+            self.apply_part(&mut dataset, step, choice.0)?;
+            Ok(dataset)
+        });
+        changed.collect()
+    }
+
+    fn apply_part(
+        &self,
+        dataset: &mut Dataset,
+        step: Option<usize>,
+        part: Option<Part>,
+    ) -> anyhow::Result<()> {
         let texts = self.function.iter().map(|(_, text)| Given::read(text));
         let functions = texts.collect::<anyhow::Result<Vec<_>>>()?;
         let weight = self.weight.as_deref().map(Given::read).transpose()?;
         let names = self.function.iter().map(|(which, _)| which.clone());
         let replacements = replace::Replacements {
-            part: self.part,
+            part,
             functions: names.zip(functions.iter().map(|given| given.text.clone())).collect(),
             weight: weight.as_ref().map(|given| given.text.clone()),
         };
@@ -58,9 +123,17 @@ impl Replacements {
 
     /// A title that tells the part.
     pub(crate) fn title(&self, title: &str) -> String {
-        match self.part {
-            Some(part) => format!("{title} ({part} only)"),
-            None => title.to_owned(),
+        match self.part[..] {
+            [Choice(Some(part))] => format!("{title} ({part} only)"),
+            _ => title.to_owned(),
+        }
+    }
+
+    /// The parts in words, where there are several: `smooth part`.
+    pub(crate) fn captions(&self) -> Vec<String> {
+        match self.part[..] {
+            [] | [_] => Vec::new(),
+            _ => self.part.iter().map(|choice| choice.caption()).collect(),
         }
     }
 
@@ -69,6 +142,8 @@ impl Replacements {
         let functions = self.function.iter().map(|(which, text)| format!("{which} = {text}"));
         let weight = self.weight.iter().map(|text| format!("weight = {text}"));
         let replaced = functions.chain(weight).map(|note| ("ppum:replaced".to_owned(), note));
-        self.part.map(|part| ("ppum:part".to_owned(), part.to_string())).into_iter().chain(replaced)
+        let parts: Vec<String> = self.part.iter().map(Choice::to_string).collect();
+        let part = (!parts.is_empty()).then(|| ("ppum:part".to_owned(), parts.join(", ")));
+        part.into_iter().chain(replaced)
     }
 }

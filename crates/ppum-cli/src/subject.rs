@@ -10,13 +10,15 @@ use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum_figure::figure::Labels;
+use ppum_render::cells;
 use ppum_render::colormap::{Colormap, LONGEST, NAMES};
 use ppum_render::picture::Style;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 
-use crate::dataset::{field, open, quantity};
-use crate::given;
+use crate::dataset::{field, open, quantity, shown};
+use crate::drawing::{Drawn, Shown, classes};
+use crate::given::{self, parts};
 use crate::replacements::Replacements;
 use crate::standard::{self, is_standard};
 
@@ -26,8 +28,8 @@ pub(crate) struct Subject {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     pub(crate) file: PathBuf,
-    /// Quantity, see `ppum info`, or a formula of quantities, or @FILE with one; with --layout several, with commas
-    /// between [default: von-mises; for Poisson problems u]
+    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one; of `render` several
+    /// with commas between, in panels [default: von-mises; for Poisson problems u]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     #[command(flatten)]
@@ -45,18 +47,36 @@ impl Subject {
         Ok(dataset)
     }
 
+    /// The dataset for each part that is asked for, with what is replaced in it.
+    pub(crate) fn open_parts(&self) -> anyhow::Result<Vec<Dataset>> {
+        self.replacements.each(open(&self.file)?, self.step)
+    }
+
     pub(crate) fn field<'d>(&self, dataset: &'d Dataset) -> anyhow::Result<Field<'d>> {
         field(dataset, self.step)
     }
 
-    /// The quantity.
-    pub(crate) fn quantity(&self, field: &Field<'_>) -> anyhow::Result<Asked> {
-        Asked::new(field, self.given(field))
+    /// The quantity, none but that.
+    pub(crate) fn quantity(&self, field: &Field<'_>) -> anyhow::Result<(Quantity, Asked)> {
+        let quantity = quantity(field, self.given(field))?;
+        Ok((quantity.clone(), Asked::new(Shown::Quantity(quantity), self.given(field))))
     }
 
-    /// The quantities of a list with commas between.
-    pub(crate) fn quantities(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
-        list(self.given(field)).into_iter().map(|text| Asked::new(field, text)).collect()
+    /// What is shown: quantities and values of cells, of a list with commas between.
+    pub(crate) fn asked(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
+        let asked = |text| Ok(Asked::new(shown(field, text)?, text));
+        parts(self.given(field)).into_iter().map(asked).collect()
+    }
+
+    /// True if several parts are asked for.
+    pub(crate) fn has_parts(&self) -> bool {
+        !self.replacements.captions().is_empty()
+    }
+
+    /// The number of pictures that are asked for: one for each quantity and part.
+    pub(crate) fn count(&self) -> usize {
+        let quantities = self.quantity.as_deref().map_or(1, |list| parts(list).len());
+        quantities * self.replacements.captions().len().max(1)
     }
 
     fn given<'a>(&'a self, field: &'a Field<'_>) -> &'a str {
@@ -65,8 +85,8 @@ impl Subject {
 
     /// The files that are read.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let formula = self.quantity.as_deref().and_then(given::file);
-        [self.file.as_path()].into_iter().chain(formula).chain(self.replacements.files())
+        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        [self.file.as_path()].into_iter().chain(formulas).chain(self.replacements.files())
     }
 
     /// The name of the dataset in the picture.
@@ -78,37 +98,37 @@ impl Subject {
     }
 }
 
-/// A quantity as it was asked for.
+/// What is shown as it was asked for.
 pub(crate) struct Asked {
-    pub(crate) quantity: Quantity,
+    pub(crate) shown: Shown,
     /// Its name in messages and in the picture's description.
     pub(crate) name: String,
 }
 
 impl Asked {
-    pub(crate) fn new(field: &Field<'_>, given: &str) -> anyhow::Result<Self> {
-        let quantity = quantity(field, given)?;
-        let name = match &quantity {
-            Quantity::Formula(formula) => formula.label(),
+    fn new(shown: Shown, given: &str) -> Self {
+        let name = match &shown {
+            Shown::Quantity(Quantity::Formula(formula)) => formula.label(),
             _ => given.to_owned(),
         };
-        Ok(Self { quantity, name })
+        Self { shown, name }
     }
 
     /// The formula, as a note in the picture.
     pub(crate) fn note(&self) -> Option<(String, String)> {
-        let Quantity::Formula(formula) = &self.quantity else { return None };
+        let Shown::Quantity(Quantity::Formula(formula)) = &self.shown else { return None };
         Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
     }
 
     /// The words of its figure.
     pub(crate) fn labels(&self, title: String, field: &Field<'_>) -> Labels {
-        Labels {
-            title,
-            quantity: self.quantity.symbol(&field.data.components),
-            unit: self.quantity.unit(field).to_owned(),
-            ..Labels::default()
-        }
+        let (quantity, unit) = match &self.shown {
+            Shown::Quantity(quantity) => {
+                (quantity.symbol(&field.data.components), quantity.unit(field).to_owned())
+            }
+            Shown::Cells(name, _) => (cells::label(name).to_owned(), String::new()),
+        };
+        Labels { title, quantity, unit, ..Labels::default() }
     }
 }
 
@@ -162,13 +182,32 @@ fn colormaps() -> String {
 }
 
 impl Colors {
-    /// The way a quantity's values become colours.
-    pub(crate) fn style(&self, quantity: &Quantity) -> anyhow::Result<Style> {
-        let period = period(quantity);
+    /// The way values become colours in pictures of one range. Few whole numbers have a colour each.
+    pub(crate) fn style_of(&self, pictures: &[(&Asked, &Drawn)]) -> anyhow::Result<Style> {
+        let style = self.style(pictures.first().and_then(|(asked, _)| asked.shown.quantity()))?;
+        let pairs = pictures.iter().map(|(asked, drawn)| (&asked.shown, &drawn.values));
+        Ok(self.classed(style, classes(pairs)))
+    }
+
+    /// The style with a colour for each of some classes, unless range, scale or bands are given.
+    pub(crate) fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
+        let is_free =
+            self.range == Range::Auto && self.bands.is_none() && self.scale == Scale::Linear;
+        match classes.filter(|_| is_free) {
+            Some(classes) => style.classed(&classes),
+            None => style,
+        }
+    }
+
+    /// The way a quantity's values become colours, or those of cells.
+    pub(crate) fn style(&self, quantity: Option<&Quantity>) -> anyhow::Result<Style> {
+        let period = quantity.and_then(period);
         let default = if period.is_some() { "twilight" } else { "viridis" };
         let mut colormap = colormap(self.colormap.as_deref().unwrap_or(default))?;
         let range = match (self.range, period) {
             (Range::Auto, Some([from, to])) if colormap.cyclic => Range::Fixed(from, to),
+            // values of cells have no peaks between the pixels
+            (Range::Auto, None) if quantity.is_none() => Range::Full,
             (range, _) => range,
         };
         if self.extremes == Extremes::Contrast {
@@ -204,34 +243,4 @@ fn colormap(name: &str) -> anyhow::Result<Colormap> {
     }
     let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {name}"))?;
     Ok(Colormap::from_text(name, &text)?)
-}
-
-/// Quantities with commas between; commas within brackets are those of formulas.
-fn list(text: &str) -> Vec<&str> {
-    let (mut depth, mut from, mut all) = (0i32, 0, Vec::new());
-    for (at, c) in text.char_indices() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => depth -= 1,
-            ',' if depth == 0 => {
-                all.push(text[from..at].trim());
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    all.push(text[from..].trim());
-    all
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formulas_keep_their_commas() {
-        assert_eq!(list("von-mises, hypot(ux, uy),syy"), ["von-mises", "hypot(ux, uy)", "syy"]);
-        assert_eq!(list("u"), ["u"]);
-        assert_eq!(list("u,"), ["u", ""]);
-    }
 }

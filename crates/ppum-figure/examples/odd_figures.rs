@@ -103,7 +103,7 @@ impl Case {
     fn panel<'a>(&self, picture: &'a Picture, cracks: &'a [Crack]) -> Panel<'a> {
         let mut layers = overlay::rims(&picture.view, &self.domain().holes);
         layers.extend(overlay::cracks(&picture.view, cracks));
-        Panel { picture, layers, labels: self.labels(), cracks }
+        Panel { picture, layers, labels: self.labels(), cracks, bar_of: None }
     }
 
     fn draw(&self) -> Done<Canvas> {
@@ -176,7 +176,7 @@ fn cases() -> Done<Vec<Case>> {
 
 /// Four quantities, with a bar each or one for all.
 fn four(shared_bar: bool, size: [u32; 2], bar: BarPlace) -> Done<Canvas> {
-    let grid = Grid { columns: 2, rows: 2, shared_bar };
+    let grid = Grid { shared_bar, ..Grid::new([2, 2]) };
     let values: [fn(Vec2) -> f64; 4] =
         [tip, wave, |p| p.x, |p| if p.x > 0.9 { f64::NAN } else { p.y }];
     let captions = [

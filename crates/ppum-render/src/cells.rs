@@ -1,21 +1,30 @@
 //! Values of patches as pictures: each pixel has that of the cell its centre lies in.
 
+use ppum::dataset::monomials;
 use ppum::field::Field;
 
 use crate::raster::Raster;
 use crate::view::View;
 
-/// A value per patch of a field, by its name: `level`, `order` (the largest degree of its blocks), `functions`
-/// (their number), or an attribute of the step. None if there is none of this name, or not one per patch.
+/// Names of what every field knows of its patches, and the words for them.
+const OWN: [(&str, &str); 4] =
+    [("level", "level"), ("order", "order p"), ("blocks", "blocks"), ("functions", "functions")];
+
+/// A value per patch of a field, by its name: `level` of the cell; `order`, the largest degree of the patch's blocks;
+/// `blocks`, their number; `functions`, that of their functions f_b ξ^k, (d + 1)(d + 2)/2 of a block of degree d; or an
+/// attribute of the step with another name. None if there is none of this name.
 #[must_use]
 pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
     let (partition, data) = (&field.step.partition, field.data);
     let patches = 0..partition.len();
     let degree = |block: usize| data.block_degree[block];
+    let count = |block: usize| monomials(degree(block).into());
+    let functions = |patch: usize| data.blocks(patch).map(count).sum::<usize>() as f64;
     Some(match name {
         "level" => partition.level.iter().map(|&level| level.into()).collect(),
         "order" => patches.map(|i| data.blocks(i).map(degree).max().unwrap_or(0).into()).collect(),
-        "functions" => patches.map(|i| data.blocks(i).len() as f64).collect(),
+        "blocks" => patches.map(|i| data.blocks(i).len() as f64).collect(),
+        "functions" => patches.map(functions).collect(),
         _ => {
             let found = field.step.attributes.iter().find(|attribute| attribute.name == name)?;
             found.values.clone()
@@ -26,10 +35,16 @@ pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
 /// The names that [`values`] knows for a field.
 #[must_use]
 pub fn names(field: &Field<'_>) -> Vec<String> {
-    let own = field.step.attributes.iter().map(|attribute| attribute.name.clone());
-    let mut names: Vec<_> = ["level", "order", "functions"].map(str::to_owned).into();
-    names.extend(own.filter(|name| !["level", "order", "functions"].contains(&name.as_str())));
-    names
+    let attributes = field.step.attributes.iter().map(|attribute| attribute.name.as_str());
+    let is_own = |name: &str| OWN.iter().any(|(own, _)| *own == name);
+    let other = attributes.filter(|name| !is_own(name));
+    OWN.iter().map(|(name, _)| *name).chain(other).map(str::to_owned).collect()
+}
+
+/// The words for them in figures: `order p`; of an attribute its name.
+#[must_use]
+pub fn label(name: &str) -> &str {
+    OWN.iter().find(|(own, _)| *own == name).map_or(name, |(_, label)| label)
 }
 
 /// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders belong to
@@ -74,10 +89,11 @@ mod tests {
         let partition = cover.partition(1.3, WeightFunction::Linear).expect("a partition");
         let mut field = FieldData::new("potential", &["u"]);
         (0..partition.len()).for_each(|i| field.push_patch(&[(0, (i % 3) as u8)]));
-        let values = (0..partition.len()).map(|i| i as f64).collect();
+        let values: Vec<f64> = (0..partition.len()).map(|i| i as f64).collect();
         let mut step = Step::new(partition).with_function("one", ppum::function::FunctionKind::One);
         step = step.with_field(field);
-        step.attributes = vec![Attribute { name: "number".into(), values }];
+        let attribute = |name: &str| Attribute { name: name.into(), values: values.clone() };
+        step.attributes = vec![attribute("order"), attribute("number")];
         let domain = Domain { bounds, holes };
         Dataset::new(domain, Equation::poisson(1.0)).with_step(step)
     }
@@ -117,13 +133,15 @@ mod tests {
     fn values_have_names() {
         let dataset = dataset();
         let field = Field::new(&dataset, 0).expect("a field");
-        assert_eq!(names(&field), ["level", "order", "functions", "number"]);
+        assert_eq!(names(&field), ["level", "order", "blocks", "functions", "number"]);
         for name in names(&field) {
             let found = values(&field, &name).expect("known");
             assert_eq!(found.len(), field.step.partition.len(), "{name}");
         }
         assert_eq!(values(&field, "order").expect("orders")[..4], [0.0, 1.0, 2.0, 0.0]);
-        assert_eq!(values(&field, "functions").expect("numbers")[5], 1.0);
+        assert_eq!(values(&field, "blocks").expect("numbers")[5], 1.0);
+        assert_eq!(values(&field, "functions").expect("numbers")[..4], [1.0, 3.0, 6.0, 1.0]);
+        assert_eq!([label("order"), label("number")], ["order p", "number"]);
         assert!(values(&field, "weight").is_none());
     }
 }

@@ -3,7 +3,7 @@
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
-use crate::colormap::{Colormap, ColormapError};
+use crate::colormap::{Colormap, ColormapError, HALF};
 use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
@@ -34,6 +34,14 @@ impl Style {
     pub fn named(colormap: &str) -> Result<Self, ColormapError> {
         let colormap = Colormap::named(colormap)?;
         Ok(Self { colormap, scale: Scale::Linear, range: Range::Auto, undefined: [0; 4] })
+    }
+
+    /// The style with one colour for each of some rising whole numbers ([`Raster::whole_numbers`]), on a linear scale.
+    #[must_use]
+    pub fn classed(self, values: &[f64]) -> Self {
+        let (Some(first), Some(last)) = (values.first(), values.last()) else { return self };
+        let range = Range::Fixed(first - HALF, last + HALF);
+        Self { colormap: self.colormap.classed(values), scale: Scale::Linear, range, ..self }
     }
 }
 
@@ -279,6 +287,21 @@ mod tests {
         let colors: Vec<Rgba> = (0..6).map(|k| picture.image.pixel(k % 3, k / 3)).collect();
         let bands = [0.1, 0.5, 0.9].map(|t| map.color(t));
         assert_eq!(colors, [0, 1, 1, 2, 2, 0].map(|k: usize| bands[k]));
+    }
+
+    #[test]
+    fn whole_numbers_have_a_colour_each() {
+        let values = vec![6.0, 30.0, 12.0, 6.0, f64::NAN, 12.0];
+        let raster = Raster::new([3, 2], values);
+        let classes = raster.whole_numbers(3).expect("three");
+        assert_eq!(classes, [6.0, 12.0, 30.0]);
+        let style = Style { scale: Scale::Log, ..Style::default() }.classed(&classes);
+        let picture = Picture::bare(&raster, &view(3, 2), &style).unwrap();
+        let colors: Vec<Rgba> = (0..6).map(|k| picture.image.pixel(k % 3, k / 3)).collect();
+        let map = Colormap::named("viridis").unwrap();
+        let [a, b, c] = [0.0, 0.5, 1.0].map(|t| map.color(t));
+        assert_eq!(colors, [a, c, b, a, [0; 4], b]);
+        assert!(!picture.has_below && !picture.has_above);
     }
 
     #[test]

@@ -51,6 +51,9 @@ pub struct Raster<T = f64> {
     pub values: Vec<T>,
 }
 
+/// Whole numbers up to here differ from their neighbours' middles in single precision too.
+const LARGEST_WHOLE: f64 = (1 << 22) as f64;
+
 /// Statistics of a raster. Minimum, maximum and mean are those of the finite values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
@@ -106,6 +109,24 @@ impl<T: Sample> Raster<T> {
         let Statistics { finite, infinite, min, max, .. } = self.statistics();
         let same = max - min <= T::SAME * min.abs().max(max.abs());
         (finite > 0 && infinite == 0 && same).then_some(0.5 * min + 0.5 * max)
+    }
+
+    /// The different values, rising, if they are at most `most` whole numbers; none otherwise. NaN does not count.
+    #[must_use]
+    pub fn whole_numbers(&self, most: usize) -> Option<Vec<f64>> {
+        let mut found: Vec<f64> = Vec::new();
+        for value in self.values.iter().map(|&v| v.into()).filter(|v: &f64| !v.is_nan()) {
+            // −0 is 0
+            let value = value + 0.0;
+            let Err(place) = found.binary_search_by(|known| known.total_cmp(&value)) else {
+                continue;
+            };
+            if found.len() == most || value.fract() != 0.0 || value.abs() > LARGEST_WHOLE {
+                return None;
+            }
+            found.insert(place, value);
+        }
+        (!found.is_empty()).then_some(found)
     }
 
     /// The pixels of the plate without a value, by their place row by row: what is undefined there, as a
@@ -197,6 +218,19 @@ mod tests {
         }
         let narrow = |apart: f32| Raster::new([2, 1], vec![1.0, 1.0 + apart]).one_value();
         assert!(narrow(4e-7).is_some() && narrow(1e-5).is_none());
+    }
+
+    #[test]
+    fn whole_numbers_are_told_from_others() {
+        let of = |values: &[f64]| {
+            Raster::new([values.len() as u32, 1], values.to_vec()).whole_numbers(3)
+        };
+        assert_eq!(of(&[3.0, -1.0, 3.0, f64::NAN, 0.0, -0.0]), Some(vec![-1.0, 0.0, 3.0]));
+        for other in
+            [&[0.0, 1.0, 2.0, 3.0][..], &[0.5], &[f64::NAN], &[], &[1.0, f64::INFINITY], &[1e9]]
+        {
+            assert_eq!(of(other), None, "{other:?}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::sync::Mutex;
 
 use cpu_time::ThreadTime;
 use ppum::dataset::Dataset;
+use ppum::decompose::{KINDS, Part};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, unwatched};
@@ -422,4 +423,52 @@ fn tiles_of_many_functions() {
     }
     let sides = pairs().filter(|(_, expected)| **expected < 0.5).count();
     assert!((100..3400).contains(&sides), "{sides}");
+}
+
+/// Pictures of all kinds of parts add up to that of the whole, of what is linear in the field.
+#[test]
+fn parts_add_up_in_pictures() {
+    for seed in 0..6 {
+        let whole = Recipe::random(seed).dataset();
+        let field = Field::new(&whole, 0).expect("a field");
+        let (data, functions) = (field.data, &field.step.functions);
+        let is_there = |part: &Part| data.part(*part, functions).is_ok();
+        let parts: Vec<Part> = KINDS.into_iter().filter(is_there).collect();
+        assert!(parts.len() > 2, "{parts:?}");
+        let changed = |part: Part| {
+            let mut dataset = whole.clone();
+            dataset.steps[0].fields[0] = data.part(part, functions).expect("it is there");
+            dataset
+        };
+        let datasets: Vec<Dataset> = parts.iter().map(|part| changed(*part)).collect();
+        let view = whole_of(&whole);
+        for quantity in [Quantity::Component(0), Quantity::Stress(Axis::Y, Axis::Y)] {
+            let draw = |dataset: &Dataset| {
+                let field = Field::new(dataset, 0).expect("a field");
+                render::<f64>(&field, &view, &quantity, unwatched()).expect("drawn")
+            };
+            let (all, parts): (_, Vec<Raster>) =
+                (draw(&whole), datasets.iter().map(draw).collect());
+            let mut compared = 0;
+            for (k, &value) in all.values.iter().enumerate() {
+                let terms: Vec<f64> = parts.iter().map(|part| part.values[k]).collect();
+                let sum: f64 = terms.iter().sum();
+                let size: f64 = terms.iter().map(|term| term.abs()).sum();
+                if !value.is_finite() {
+                    assert!(!sum.is_finite(), "{seed} {k}: {value} {sum}");
+                    continue;
+                }
+                // terms have the rounding of the sums that they are made of, which may be larger than they are
+                let near = around(&all, k as u32 % 60, k as u32 / 60).max(size);
+                assert!((sum - value).abs() <= 1e-11 * near.max(1.0), "{seed} {k}: {value} {sum}");
+                compared += 1;
+            }
+            assert!(compared > 1000, "{compared}");
+        }
+    }
+}
+
+/// A view of a dataset's whole domain.
+fn whole_of(dataset: &Dataset) -> View {
+    View::fit(dataset.domain.bounds, [60, 50]).expect("a view")
 }

@@ -1,16 +1,15 @@
 //! `ppum render`: a picture of a quantity.
 
-mod look;
 mod panels;
 mod series;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Design, Labels, Panel, bare, figure, plot_area};
+use ppum_figure::figure::{BarPlace, Design, Labels, Panel, bare, figure, plot_area};
 use ppum_render::deform::DeformedView;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
@@ -21,7 +20,8 @@ use ppum_render::view::View;
 use crate::arguments::size;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, Deforming, draw, points, words};
-use crate::drawing::{Drawn, Job, Seen};
+use crate::drawing::{Drawn, Job, Seen, Shown};
+use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::overlays::{Ground, Overlays};
@@ -31,7 +31,6 @@ use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
-use look::Look;
 use series::Series;
 
 /// Draw a quantity, exactly at every pixel
@@ -50,11 +49,17 @@ pub(crate) struct Args {
     series: Series,
     #[command(flatten)]
     look: Look,
-    /// Panels of a figure with several quantities: columns and rows
+    /// Add axes, a colour bar, a title and the cracks
+    #[arg(long)]
+    figure: bool,
+    /// Leave out the colours and their bar: the overlays alone
+    #[arg(long)]
+    blank: bool,
+    /// Panels of a figure with several quantities or parts: columns and rows [default: as large as fits]
     #[arg(long, value_name = "CxR", value_parser = size)]
     layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar
-    #[arg(long, requires = "layout")]
+    #[arg(long)]
     shared_range: bool,
     #[command(flatten)]
     window: Window,
@@ -86,6 +91,8 @@ Examples:
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
   ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
+  ppum render plate.h5 -o parts.png -q uy --part all,smooth,jump,tip --shared-range
+  ppum render plate.h5 -o method.png -q level,order,functions,overlap
   ppum render plate.h5 -o smooth.png --samples 4
   ppum render growth.h5 -o growth.gif --steps all --figure
   ppum render growth.h5 -o step.png --steps 0..20:5 --figure
@@ -136,20 +143,57 @@ struct Sheet {
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         self.engine.check()?;
-        self.look.check(self.layout.is_some())?;
+        self.look.check(self.is_figure())?;
+        ensure!(
+            !(self.subject.has_parts() && self.deformed.is_given()),
+            "several parts and --deformed do not go together; draw them one by one"
+        );
+        ensure!(
+            self.has_panels() || !self.shared_range,
+            "--shared-range is for panels; give several quantities or parts"
+        );
         if self.series.is_given() {
             return self.all_steps(out);
         }
         series::refuse_moving(&self.output)?;
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
-        let dataset = self.subject.open()?;
-        let field = self.subject.field(&dataset)?;
-        let last = dataset.steps.len().saturating_sub(1);
-        let plate = self.plate(&dataset, &field, self.subject.step.unwrap_or(last));
-        match self.layout {
-            None => self.one(&plate, out),
-            Some(layout) => self.panels(&plate, layout, out),
+        let datasets = self.subject.open_parts()?;
+        let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
+        let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
+        let last = datasets[0].steps.len().saturating_sub(1);
+        let step = self.subject.step.unwrap_or(last);
+        let plates = datasets.iter().zip(&fields).map(|(d, f)| self.plate(d, f, step));
+        match &plates.collect::<Vec<_>>()[..] {
+            [plate] if !self.has_panels() => self.one(plate, out),
+            plates => self.panels(plates, out),
         }
+    }
+
+    /// True for a figure of several panels, or of one that is called so.
+    fn has_panels(&self) -> bool {
+        self.layout.is_some() || self.subject.count() > 1
+    }
+
+    fn is_figure(&self) -> bool {
+        self.figure || self.has_panels()
+    }
+
+    /// The look of a figure.
+    fn design(&self, field: &Field<'_>) -> Design {
+        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE, [1, 1]);
+        if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
+    }
+
+    /// What is shown of a plate. Isolines of values of cells alone are refused.
+    fn asked(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
+        let asked = self.subject.asked(field)?;
+        let is_of_cells = |asked: &Asked| asked.shown.quantity().is_none();
+        ensure!(
+            !(self.overlays.have_isolines() && asked.iter().all(is_of_cells)),
+            "--isolines: `{}` is constant in each cell; --overlay cells draws the borders",
+            asked[0].name
+        );
+        Ok(asked)
     }
 
     fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>, step: usize) -> Plate<'a> {
@@ -165,8 +209,8 @@ impl Args {
         let (field, asked) = (plate.field, &shot.asked);
         let seen = self.seen(shot)?;
         let drawn = self.drawn(field, &seen, asked)?;
-        warn(&asked.name, drawn.undefined());
-        let style = self.colours.style(&asked.quantity)?;
+        warn(asked, drawn.undefined());
+        let style = self.colours.style_of(&[(asked, &drawn)])?;
         let span = self.span(field, &seen, asked, &drawn, &style)?;
         let coloring = Coloring { style, span, ends: None };
         let Sheet { page, picture, texts } =
@@ -183,9 +227,9 @@ impl Args {
         let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
         let deforming = self.deformed.of(&fields)?;
         let factor = deforming.as_ref().map(Deforming::words);
-        let design = self.look.design(self.window.aspect(fields[0]));
+        let design = self.design(fields[0]);
         let words = |plate: &Plate<'_>| {
-            let asked = self.subject.quantity(plate.field)?;
+            let asked = self.asked(plate.field)?.swap_remove(0);
             let title = titled(plate.shown.clone(), factor.as_deref());
             let labels = self.look.worded(asked.labels(title, plate.field));
             anyhow::Ok((asked, plate.filled(labels)))
@@ -211,8 +255,8 @@ impl Args {
         titles: impl Iterator<Item = &'t str>,
         design: &Design,
     ) -> anyhow::Result<[u32; 2]> {
-        let mut room = self.look.size();
-        for title in titles.filter(|_| self.look.figure) {
+        let mut room = design.size;
+        for title in titles.filter(|_| self.figure) {
             let [columns, rows] = plot_area(title, design)?;
             room = [room[0].min(columns), room[1].min(rows)];
         }
@@ -229,13 +273,21 @@ impl Args {
 
     /// The values of a quantity where they are seen.
     fn drawn(&self, field: &Field<'_>, seen: &Seen<'_>, asked: &Asked) -> anyhow::Result<Drawn> {
-        let (quantity, samples) = (&asked.quantity, self.samples);
-        match seen {
-            Seen::Plate(view) => self.engine.average(Job { field, view, quantity }, samples),
-            Seen::Moved(_) if samples != Samples::CENTER => bail!(
+        let samples = self.samples;
+        match (seen, &asked.shown) {
+            (Seen::Plate(view), Shown::Quantity(quantity)) => {
+                self.engine.average(Job { field, view, quantity }, samples)
+            }
+            (_, Shown::Cells(..)) if samples != Samples::CENTER => bail!(
+                "--samples: values of cells are drawn at the centres of pixels; leave --samples out"
+            ),
+            (Seen::Plate(view), Shown::Cells(_, values)) => {
+                Ok(Drawn::of_cells(values, field, view))
+            }
+            (Seen::Moved(_), _) if samples != Samples::CENTER => bail!(
                 "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
             ),
-            Seen::Moved(points) => draw(points, quantity, &self.engine),
+            (Seen::Moved(points), shown) => draw(points, shown, &self.engine),
         }
     }
 
@@ -248,7 +300,8 @@ impl Args {
         drawn: &Drawn,
         style: &Style,
     ) -> anyhow::Result<Span> {
-        let found = || range::found(field, seen, &asked.quantity, drawn, style);
+        let Some(quantity) = asked.shown.quantity() else { return Ok(drawn.span(style, None)) };
+        let found = || range::found(field, seen, quantity, drawn, style);
         Ok(self.engine.with_threads(found)??)
     }
 
@@ -265,8 +318,10 @@ impl Args {
         let layers = self.layers(plate, seen, asked, drawn, &picture)?;
         self.blank(&mut picture);
         let (labels, cracks) = (labels.clone(), seen.cracks(plate.field));
-        let page =
-            self.page(Panel { picture: &picture, layers, labels, cracks: &cracks }, design)?;
+        let page = self.page(
+            Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None },
+            design,
+        )?;
         let mut texts =
             picture.description(&plate.dataset.title, &self.subject.file_name(), &asked.name);
         texts.push(("ppum:backend".to_owned(), drawn.by.clone()));
@@ -283,15 +338,17 @@ impl Args {
         drawn: &Drawn,
         picture: &Picture,
     ) -> anyhow::Result<Vec<Item>> {
-        let (Plate { dataset, field, .. }, quantity) = (plate, &asked.quantity);
-        let is_figure = self.look.figure || self.layout.is_some();
+        let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
+        let is_figure = self.is_figure();
         let centers;
-        let values = if drawn.opacity.is_some() && self.overlays.have_isolines() {
-            // isolines are looked for between the pixels' centres
-            centers = self.engine.draw(Job { field, view: &drawn.view, quantity })?;
-            &centers.values
-        } else {
-            &drawn.values
+        let needs_centers = drawn.opacity.is_some() && self.overlays.have_isolines();
+        let values = match quantity.filter(|_| needs_centers) {
+            Some(quantity) => {
+                // isolines are looked for between the pixels' centres
+                centers = self.engine.draw(Job { field, view: &drawn.view, quantity })?;
+                &centers.values
+            }
+            None => &drawn.values,
         };
         let ground = Ground { dataset, field, quantity, picture, values, is_figure };
         let outline = self.deformed.outline;
@@ -310,7 +367,7 @@ impl Args {
 
     /// Leaves out the colours if that is asked for: the plate is white.
     fn blank(&self, picture: &mut Picture) {
-        if self.look.blank {
+        if self.blank {
             let pixels = picture.image.rgba.as_chunks_mut::<4>().0;
             let seen = pixels.iter_mut().filter(|pixel| pixel[3] > 0);
             seen.for_each(|pixel| pixel[..3].fill(255));
@@ -325,18 +382,13 @@ impl Args {
     /// The room of a picture of so many pixels.
     fn frame(&self, pixels: [u32; 2]) -> Frame {
         // A figure centres what it is given; a bare picture has the size that was asked for.
-        let is_figure = self.look.figure || self.layout.is_some();
-        let may_shrink = is_figure || self.look.given_size().is_none();
+        let may_shrink = self.is_figure() || self.look.given_size().is_none();
         Frame { pixels, may_shrink, margin: self.overlays.margin() }
     }
 
     /// The picture with its overlays, as a figure if that is asked for.
     fn page(&self, panel: Panel<'_>, design: &Design) -> anyhow::Result<Canvas> {
-        if self.look.figure {
-            Ok(figure(panel, design)?)
-        } else {
-            Ok(bare(panel.picture, panel.layers))
-        }
+        if self.figure { Ok(figure(panel, design)?) } else { Ok(bare(panel.picture, panel.layers)) }
     }
 }
 
@@ -361,9 +413,13 @@ impl Coloring {
 }
 
 /// Tells that a quantity has no value at some pixels of the plate, of so many.
-fn warn(name: &str, undefined: [usize; 2]) {
+fn warn(asked: &Asked, undefined: [usize; 2]) {
     if undefined[0] > 0 {
-        tell(&format!("warning: {}", undefined::message(name, undefined, "pixels")));
+        let message = match &asked.shown {
+            Shown::Quantity(_) => undefined::message(&asked.name, undefined, "pixels"),
+            Shown::Cells(..) => undefined::of_cells(&asked.name, undefined),
+        };
+        tell(&format!("warning: {message}"));
     }
 }
 

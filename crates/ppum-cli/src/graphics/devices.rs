@@ -55,7 +55,7 @@ pub(crate) fn draw(
         Method::Splat => format!("gpu splat f32, {name}"),
     };
     if samples == Samples::CENTER {
-        return Ok(Drawn::new(raster, job, &by));
+        return Ok(Drawn::new(raster, job.field, job.view, &by));
     }
     Ok(Drawn::averaged(Means::of(field.domain, view, samples, &raster), job, &by))
 }

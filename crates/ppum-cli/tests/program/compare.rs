@@ -1,5 +1,6 @@
 use serde_json::Value;
 
+use crate::figures::read;
 use crate::{CRACKED, LINEAR, Lab, Png, keys};
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -41,20 +42,33 @@ fn errors_of_a_plane_are_those_of_theory() {
     assert!(text.contains("bicubic, 65×17") && text.contains("a relative error of 0.1"), "{text}");
 }
 
+/// One bar for the field and what was resampled, one for each difference.
 #[test]
-fn pictures_have_three_panels_or_two_rows() {
+fn pictures_are_figures_of_panels() {
     let lab = Lab::solved(CRACKED);
-    let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 400x300");
-    assert!(told.starts_with("wrote a.png\n"), "{told}");
+    let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 1200x400");
+    assert!(told.starts_with("wrote a.png: 1200x400 pixels, direct: colours from"), "{told}");
     let png = Png::read(&lab.path("a.png"));
-    assert_eq!(png.size, [1200, 300]);
+    assert_eq!(png.size, [1200, 400]);
     assert_eq!(png.text("ppum:resampled"), "bilinear, 16×16");
     assert_eq!(png.text("ppum:quantity"), "von-mises");
-    lab.run(
-        "compare plate.h5 -o a.png --method nearest,cells,nearest --size 400x300 -q uy --tip 0",
-    );
-    assert_eq!(Png::read(&lab.path("a.png")).size, [1200, 600]);
-    assert_eq!(lab.files(), ["a.png", "plate.h5", "plate.toml"]);
+    let images = |arguments: &str| {
+        lab.run(&format!("compare plate.h5 -o a.svg --grid 16 {arguments}"));
+        let svg = read(&lab, "a.svg");
+        for caption in [">(a) ", ">(b) ", ">(c) "] {
+            assert_eq!(svg.matches(caption).count(), 1, "{arguments}: {caption}");
+        }
+        svg.matches("<image ").count()
+    };
+    // pictures on their grounds, and bars
+    assert_eq!(images("--labels bar=q"), 2 * 3 + 2);
+    assert_eq!(images("--method nearest,cells,nearest -q uy --tip 0"), 2 * 5 + 3);
+    assert_eq!(images("--view -1,-0.1,1,0.1 --method nearest,bilinear --theme dark"), 2 * 5 + 3);
+    lab.run("compare plate.h5 -o a.pdf --inches 9x3.2 --font-size 8");
+    assert!(read(&lab, "a.pdf").contains("/MediaBox [0 0 648 230"));
+    // JSON is alone on standard output
+    assert_eq!(lab.json("compare plate.h5 -o a.svg --grid 16")["quantity"], "von-mises");
+    assert_eq!(lab.files(), ["a.pdf", "a.png", "a.svg", "plate.h5", "plate.toml"]);
 }
 
 /// Numbers are the same on any number of threads.
@@ -92,6 +106,7 @@ fn mistakes_are_told() {
         ("compare plate.h5 --view 5,5,6,6", "nothing of the domain"),
         ("compare plate.h5 -o plate.h5", "would replace"),
         ("compare plate.h5 -o a.jpg", "PNG"),
+        ("compare plate.h5 --size 9000x9000", "at most 67108864"),
         ("compare plate.h5 -o - --json", "standard output"),
         ("compare plate.h5 --tip 0", "no crack tips"),
         ("compare none.h5", "none.h5"),

@@ -2,7 +2,7 @@
 
 use crate::{CRACKED, LINEAR, Lab, Png};
 
-fn read(lab: &Lab, name: &str) -> String {
+pub(crate) fn read(lab: &Lab, name: &str) -> String {
     String::from_utf8_lossy(&std::fs::read(lab.path(name)).unwrap()).into_owned()
 }
 
@@ -73,7 +73,7 @@ fn panels_are_drawn() {
     assert_eq!(svg.matches("<image ").count(), 5);
     assert!(svg.contains("key=\"ppum:range\""));
     let complaint = lab.fail("render plate.h5 -o c.svg --layout 2x1 -q ux,uy,syy");
-    assert!(complaint.contains("fewer panels than there are quantities"), "{complaint}");
+    assert!(complaint.contains("fewer panels than there are pictures, 3"), "{complaint}");
 }
 
 /// Panels with one range show the colours of one picture with that range.

@@ -16,6 +16,7 @@ mod formula;
 mod gallery;
 mod info;
 mod messages;
+mod method;
 mod parts;
 mod plots;
 mod printable;

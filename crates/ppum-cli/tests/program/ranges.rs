@@ -98,6 +98,9 @@ fn panels_tell_their_ranges() {
     let range = numbers(png.text("ppum:range"));
     assert!(range[0] == -range[1] && range[1] > 0.0, "{range:?}");
     assert!(png.text("ppum:extrema").contains(" max inf at "));
-    let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 400x300");
-    assert!(told.contains("\ndirect: colours from ") && told.contains("∞ at tip "), "{told}");
+    let told = lab.run("compare plate.h5 -o a.png --grid 16 --size 1200x400");
+    assert!(
+        told.contains(" pixels, direct: colours from ") && told.contains("∞ at tip "),
+        "{told}"
+    );
 }

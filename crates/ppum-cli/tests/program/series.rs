@@ -34,6 +34,20 @@ fn slopes() -> Dataset {
     series(&LOADS, recipe)
 }
 
+/// Cells of one value have one colour in all steps, whatever values a step has.
+#[test]
+fn cells_of_all_steps_have_one_legend() {
+    let lab = Lab::holding(&slopes());
+    lab.run("render plate.h5 -o l.png -q level --steps all --size 20x20");
+    let map = Colormap::named("viridis").unwrap();
+    for (step, color) in [(0, map.color(0.0)), (1, map.color(1.0)), (2, map.color(0.0))] {
+        let png = Png::read(&lab.path(&format!("l-00{step}.png")));
+        assert_eq!(png.pixel(10, 10), color, "{step}");
+    }
+    let complaint = lab.fail("render plate.h5 -o m.png -q level --samples 2");
+    assert!(complaint.contains("leave --samples out"), "{complaint}");
+}
+
 /// The images of an APNG as they are shown.
 fn shown(path: &std::path::Path) -> Vec<Vec<u8>> {
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
@@ -163,7 +177,8 @@ fn steps_are_chosen() {
         ("--steps 1 --step 1", "--step"),
         ("--fps 5", "--steps"),
         ("--steps 1 --fps 51", "up to 50"),
-        ("--steps 1 --layout 1x1", "--layout and --steps"),
+        ("--steps 1 --layout 1x1", "several panels and --steps"),
+        ("--steps 1 -q ux,uy", "several panels and --steps"),
         ("--steps all --tip 1", "1 tip, numbered from 0"),
         ("--steps all -o -", "-o"),
     ] {

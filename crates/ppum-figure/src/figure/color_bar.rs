@@ -29,6 +29,8 @@ const MINOR_TICK: f64 = 3.0;
 pub(super) const LEAST_BAR: [f64; 2] = [140.0, 220.0];
 /// Least distance of labelled marks of an upright bar.
 const UPRIGHT_DISTANCE: f64 = 44.0;
+/// The same of marks in the middle of bands.
+const CLASS_DISTANCE: f64 = 18.0;
 /// Between neighbouring labels of a lying bar.
 const BETWEEN: f64 = 14.0;
 
@@ -37,7 +39,7 @@ const SHORT: usize = 6;
 /// Rounding of the borders of bands, in parts of the range.
 const ROUNDING: f64 = 1e-12;
 
-/// What a colour bar explains.
+/// What a colour bar explains: of a range of values, or of some values with a colour each.
 #[derive(Clone, Debug)]
 pub(super) struct Key {
     pub(super) normalization: Normalization,
@@ -107,11 +109,45 @@ impl Key {
         Some(Ticks { major, ..Ticks::default() })
     }
 
+    /// Labels in the middle of the bands of values that have a colour each; where there are more than `most` some are
+    /// left out.
+    fn classes(&self, choice: &TickChoice, most: usize) -> Ticks {
+        let classes = self.colormap.classes();
+        let count = classes.len();
+        let stride = |most: usize| count.div_ceil(most.max(1));
+        let is_shown = |k: usize, value: f64| match choice {
+            TickChoice::At(values) => values.contains(&value),
+            TickChoice::Count(wanted) => k.is_multiple_of(stride(*wanted).max(stride(most))),
+            TickChoice::Auto => k.is_multiple_of(stride(most)),
+        };
+        let tick = |(k, &value): (usize, &f64)| Tick {
+            at: (k as f64 + 0.5) / count as f64,
+            label: trimmed(value).replace('-', "−"),
+        };
+        let shown = classes.iter().enumerate().filter(|(k, value)| is_shown(*k, **value));
+        Ticks { major: shown.map(tick).collect(), ..Ticks::default() }
+    }
+
+    /// True if values have a colour each: the bar then has a band for each, of one length.
+    fn has_classes(&self) -> bool {
+        !self.colormap.classes().is_empty()
+    }
+
+    /// The colour at a place from 0 to 1 along the bar.
+    pub(super) fn color(&self, at: f64) -> Rgba {
+        let count = self.colormap.classes().len();
+        match count {
+            0 => self.colormap.color(at),
+            _ => self.colormap.class_color(((at * count as f64) as usize).min(count - 1)),
+        }
+    }
+
     /// The marks of a bar with room for `most` labels.
     fn axis(&self, choice: &TickChoice, most: usize, scale: f64) -> Axis {
         let norm = &self.normalization;
         let found = match (choice, self.one_value) {
             _ if !self.has_values => Ticks::default(),
+            _ if self.has_classes() => self.classes(choice, most),
             (TickChoice::At(values), _) => ticks::at(values, norm),
             (_, Some(value)) => ticks::of_one_value(norm, value),
             (TickChoice::Count(count), None) => ticks::bar(norm, *count),
@@ -152,8 +188,10 @@ struct Placed<'b> {
 impl ColorBar {
     pub(super) fn upright(key: Key, design: &Design, length: f64) -> Self {
         let scale = design.scale();
-        let most = (length / (UPRIGHT_DISTANCE * scale)) as usize;
-        let axis = key.axis(&design.bar_ticks, most.max(2), scale);
+        let (apart, least) =
+            if key.has_classes() { (CLASS_DISTANCE, 1) } else { (UPRIGHT_DISTANCE, 2) };
+        let most = (length / (apart * scale)) as usize;
+        let axis = key.axis(&design.bar_ticks, most.max(least), scale);
         Self { words: words(&key, &axis.ticks, scale), key, axis, is_upright: true, length }
     }
 
@@ -236,8 +274,7 @@ impl Placed<'_> {
     fn colors(&self, ink: &mut Ink) {
         let [low, high] = self.ends();
         let count = (high - low) as u32;
-        let at =
-            |k: u32| self.bar.key.colormap.color((f64::from(k) + 0.5) / f64::from(count.max(1)));
+        let at = |k: u32| self.bar.key.color((f64::from(k) + 0.5) / f64::from(count.max(1)));
         let width = self.width() as u32;
         let size = if self.bar.is_upright { [width, count] } else { [count, width] };
         let mut image = Image::filled(size, [0; 4]);

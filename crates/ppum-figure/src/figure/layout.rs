@@ -10,7 +10,7 @@
 //!   …                …
 //! ```
 //!
-//! Panels fill the grid row by row. Plots of a column begin at one line, and so do those of a row.
+//! Panels fill the grid row by row. Several may share a bar beside one of them. Plots of a column begin at one line, and so do those of a row.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -31,11 +31,19 @@ pub struct Grid {
     pub rows: u32,
     /// True if one colour bar explains all panels, which then have one range.
     pub shared_bar: bool,
+    /// Columns and rows in which a panel has a bar of its own, if there are others: these get more room.
+    pub barred: Option<[u32; 2]>,
 }
 
 impl Grid {
     /// One panel.
-    pub const ONE: Self = Self { columns: 1, rows: 1, shared_bar: false };
+    pub const ONE: Self = Self::new([1, 1]);
+
+    /// Columns and rows of panels with a bar each.
+    #[must_use]
+    pub const fn new([columns, rows]: [u32; 2]) -> Self {
+        Self { columns, rows, shared_bar: false, barred: None }
+    }
 
     /// Number of panels that fit.
     #[must_use]
@@ -95,7 +103,11 @@ pub fn panel_area(
 fn kept(title: &str, captions: &[&str], grid: Grid, design: &Design) -> [f64; 2] {
     let scale = design.scale();
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
-    let (bars_across, bars_down) = if grid.shared_bar { (1.0, 1.0) } else { (across, down) };
+    let (bars_across, bars_down) = match grid.barred {
+        _ if grid.shared_bar => (1.0, 1.0),
+        Some([columns, rows]) => (f64::from(columns).min(across), f64::from(rows).min(down)),
+        None => (across, down),
+    };
     let is = |place: BarPlace| f64::from(u8::from(design.bar == place));
     let wide =
         LEFT * across + RIGHT * across + (RIGHT_BAR - RIGHT) * bars_across * is(BarPlace::Right);
@@ -129,7 +141,7 @@ fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
 }
 
 /// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures have at most
-/// the size that [`panel_area`] gives.
+/// the size that [`panel_area`] gives. A bar that several share has the words of the first.
 ///
 /// # Errors
 /// A page without room, a picture that is too large, more panels than cells, no panels; one bar for pictures
@@ -148,9 +160,9 @@ pub fn panels(
     if let Some(panel) = panels.iter().find(|p| (0..2).any(|k| p.picture.image.size[k] > room[k])) {
         return Err(FigureError::TooLarge { plot: panel.picture.image.size, room });
     }
-    let sheets = panels.iter().map(|panel| {
+    let sheets = panels.iter().zip(own_keys(panels)?).map(|(panel, key)| {
         let caption = caption_lines(&panel.labels.title, grid, design);
-        Sheet::new(panel, caption, design, room, !grid.shared_bar)
+        Sheet::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
     });
     let lines = title_lines(title, design);
     Ok(Page::new(sheets.collect(), panels, lines, grid, design)?.draw())
@@ -194,7 +206,7 @@ impl<'a> Page<'a> {
         let [columns, rows] = tracks(&sheets, grid, design);
         let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
         let bar = match grid.shared_bar {
-            true => sheet::bar(shared_key(panels)?, design.bar, design, sides, sides),
+            true => sheet::bar(shared_key(panels.iter())?, design.bar, design, sides, sides),
             false => None,
         };
         Ok(Self { design, sheets, columns, rows, bar, lines })
@@ -281,8 +293,19 @@ fn tracks(sheets: &[Sheet<'_>], grid: Grid, design: &Design) -> [Vec<Track>; 2] 
 }
 
 /// What one bar explains.
-fn shared_key(panels: &[Panel<'_>]) -> Result<Key, FigureError> {
-    let mut keys = panels.iter().map(|panel| Key::new(panel.picture, &panel.labels));
+fn shared_key<'a>(panels: impl Iterator<Item = &'a Panel<'a>>) -> Result<Key, FigureError> {
+    let mut keys = panels.map(|panel| Key::new(panel.picture, &panel.labels));
     let first = keys.next().ok_or(FigureError::Ranges)?;
     keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
+}
+
+/// What the bar of each panel explains; none of those that another one's bar explains.
+fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<Key>>, FigureError> {
+    let has_own = |k: usize| panels.get(k).is_some_and(|panel| panel.bar_of.is_none());
+    let owner = |k: usize| panels[k].bar_of.filter(|&other| has_own(other)).unwrap_or(k);
+    let key = |k: usize| {
+        let explained = (0..panels.len()).filter(|&other| owner(other) == k);
+        (owner(k) == k).then(|| shared_key(explained.map(|other| &panels[other]))).transpose()
+    };
+    (0..panels.len()).map(key).collect()
 }

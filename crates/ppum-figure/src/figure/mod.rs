@@ -75,6 +75,9 @@ pub struct Panel<'a> {
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.
     pub cracks: &'a [Crack],
+    /// The panel, by its place in the figure, whose bar explains this one too; none, or one without a bar of its own, if
+    /// this one has its own.
+    pub bar_of: Option<usize>,
 }
 
 /// A figure around a picture of at most [`plot_area`], in the middle, its title above it.

@@ -44,19 +44,18 @@ pub(super) struct Extents {
 }
 
 impl<'a> Sheet<'a> {
-    /// A panel whose plot may have as many pixels as `room`; it has no bar of its own if `has_bar` is false.
+    /// A panel whose plot may have as many pixels as `room`, with the bar of a key if it has one.
     pub(super) fn new(
         panel: &'a Panel<'a>,
         caption: Vec<String>,
         design: &'a Design,
         room: [u32; 2],
-        has_bar: bool,
+        key: Option<Key>,
     ) -> Self {
         let picture = panel.picture;
         let [x, y] = axes(picture, &panel.labels, panel.cracks, design);
         let (sides, room) = (picture.image.size.map(f64::from), room.map(f64::from));
-        let place = if has_bar { design.bar } else { BarPlace::None };
-        let bar = bar(Key::new(picture, &panel.labels), place, design, sides, room);
+        let bar = key.and_then(|key| bar(key, design.bar, design, sides, room));
         Self { panel, design, x, y, bar, caption, room }
     }
 

@@ -11,7 +11,7 @@ use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use ppum_testkit::random::Random;
 
-use super::color_bar::{ARROW, BAR};
+use super::color_bar::{ARROW, BAR, Key};
 use super::design::HATCH_STEP;
 use super::sheet::BAR_GAP;
 use super::*;
@@ -34,11 +34,13 @@ fn labels() -> Labels {
     }
 }
 
-/// x on a plate, NaN in its upper left quarter.
+/// x on a plate, or what classes there are, NaN in its upper left quarter.
 fn plate(half: Vec2, room: [u32; 2], style: &Style) -> Picture {
     let view = View::hug(Rect::around(Vec2::ZERO, half), room).unwrap();
+    let classes = style.colormap.classes();
     let raster = Raster::from_fn(view.pixels, |i, j| match view.offset(i, j) {
         p if p.x < 0.0 && p.y > 0.0 => f64::NAN,
+        _ if !classes.is_empty() => classes[(i + j) as usize % classes.len()],
         p => p.x,
     });
     Picture::bare(&raster, &view, style).unwrap()
@@ -50,7 +52,7 @@ fn picture(half: f64, range: Range) -> Picture {
 }
 
 fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
-    Panel { picture, layers: vec![], labels, cracks: &[] }
+    Panel { picture, layers: vec![], labels, cracks: &[], bar_of: None }
 }
 
 fn drawn(picture: &Picture) -> Image {
@@ -136,7 +138,7 @@ fn figures_without_room_are_refused() {
     let room = plot_area(LONG, &Design::pixels(least)).unwrap();
     assert_eq!(room.iter().min(), Some(&48));
     let design = Design::pixels(SIZE);
-    let grid = Grid { columns: 2, rows: 1, shared_bar: false };
+    let grid = Grid::new([2, 1]);
     let error = panels("", &vec![panel(&picture, labels()); 3], grid, &design).unwrap_err();
     assert_eq!(error, FigureError::Panels { panels: 3, cells: 2 });
     assert!(matches!(panels("", &[], grid, &design), Err(FigureError::Panels { .. })));
@@ -145,7 +147,7 @@ fn figures_without_room_are_refused() {
 #[test]
 fn one_bar_explains_one_range() {
     let design = Design::pixels([1200, 900]);
-    let grid = Grid { columns: 2, rows: 1, shared_bar: true };
+    let grid = Grid { shared_bar: true, ..Grid::new([2, 1]) };
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b, c] =
@@ -189,6 +191,65 @@ fn bands_are_marked_at_their_borders() {
     // a seventh is no short number, and forty are too many
     assert!(marks(0.5, 7).contains(&"−0.4".to_owned()));
     assert!(marks(1.5, 40).contains(&"0.2".to_owned()));
+}
+
+/// Values with a colour each have bands of one length, each with its label in the middle.
+#[test]
+fn classes_are_marked_in_their_middle() {
+    let classes = [0.0, 1.0, 5.0, 30.0];
+    for bar in [BarPlace::Right, BarPlace::Bottom] {
+        let none = TickChoice::At(vec![]);
+        let design = Design { x_ticks: none.clone(), y_ticks: none, bar, ..Design::pixels(SIZE) };
+        let room = plot_area("", &design).unwrap();
+        let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), room).unwrap();
+        let raster = Raster::from_fn(view.pixels, |i, j| classes[((i + j) % 4) as usize]);
+        let style = Style::default().classed(&raster.whole_numbers(4).unwrap());
+        let picture = Picture::bare(&raster, &view, &style).unwrap();
+        let page = figure(panel(&picture, Labels::default()), &design).unwrap();
+        let key = Key::new(&picture, &Labels::default());
+        let image = page.items.iter().find_map(|item| match item {
+            Item::Picture { image, corner } => Some((image.clone(), corner.map(f64::from))),
+            _ => None,
+        });
+        let (image, corner) = image.expect("the bar's colours");
+        let side = usize::from(bar == BarPlace::Right);
+        let length = f64::from(image.size[side]);
+        for (k, value) in classes.into_iter().enumerate() {
+            let label = ppum::text::trimmed(value);
+            let line = *texts(&page).iter().find(|line| line.text == label).expect("a label");
+            let [lo, hi] = Item::Text(line.clone()).bounds();
+            let middle = (lo + hi) * 0.5 - Vec2::from(corner);
+            let along = if side == 0 { middle.x / length } else { 1.0 - middle.y / length };
+            assert!((along - (k as f64 + 0.5) / 4.0).abs() < 0.02, "{bar:?} {value}: {along}");
+            assert_eq!(key.color(along), picture.colormap.class_color(k));
+            let colors = image.rgba.as_chunks::<4>().0;
+            let share = colors.iter().filter(|c| **c == key.color(along)).count() * 4;
+            assert!(share.abs_diff(colors.len()) <= 40 * BAR as usize / 2, "a quarter each");
+        }
+    }
+}
+
+/// A bar for several panels: it knows of the values of all.
+#[test]
+fn panels_share_a_bar() {
+    let design = Design::pixels([1500, 900]);
+    let grid = Grid::new([3, 1]);
+    let room = panel_area("", &[""], grid, &design).unwrap();
+    let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
+    let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
+    let draw = |bars: [Option<usize>; 3], pictures: [&Picture; 3]| {
+        let panel = |(bar_of, picture)| Panel { bar_of, ..panel(picture, Labels::default()) };
+        let all: Vec<Panel<'_>> = bars.into_iter().zip(pictures).map(panel).collect();
+        let page = panels("", &all, grid, &design)?;
+        Ok(page.items.iter().filter(|item| matches!(item, Item::Picture { .. })).count())
+    };
+    assert_eq!(draw([None; 3], [&a, &a, &b]), Ok(3));
+    assert_eq!(draw([Some(1), None, None], [&a, &a, &b]), Ok(2));
+    assert_eq!(draw([None, None, Some(0)], [&a, &b, &a]), Ok(2));
+    assert_eq!(draw([Some(2), Some(2), None], [&a, &a, &a]), Ok(1));
+    assert_eq!(draw([Some(2), Some(2), None], [&a, &a, &b]), Err(FigureError::Ranges));
+    // nobody is left without
+    assert_eq!(draw([Some(7), Some(0), Some(2)], [&a, &a, &b]), Ok(3));
 }
 
 /// A picture of nothing says so, and its bar has no marks.
@@ -270,7 +331,7 @@ fn check(page: &Canvas, what: &str) {
         for other in lines[k + 1..].iter().chain(&areas) {
             assert!(
                 !overlap(line.bounds(), other.bounds()),
-                "{what}: {line:?} on {:?}",
+                "{what}: {line:?} on {other:?} at {:?}",
                 other.bounds()
             );
         }
@@ -308,7 +369,9 @@ fn random_style(random: &mut Random, half: Vec2) -> Style {
     let scale = random.pick(&[Scale::Linear, Scale::SymLog]);
     let map = Colormap::named(random.pick(&["viridis", "vik", "twilight"])).unwrap();
     let colormap = if random.below(3) == 0 { map.banded(5) } else { map };
-    Style { range, scale, colormap, ..Style::default() }
+    let style = Style { range, scale, colormap, ..Style::default() };
+    let classes: Vec<f64> = (0..random.below(12)).map(|k| (k * k) as f64).collect();
+    if random.below(3) == 0 { style.classed(&classes) } else { style }
 }
 
 fn random_labels(random: &mut Random) -> Labels {
@@ -406,7 +469,7 @@ fn panels_keep_to_their_page() {
     let mut count = 0;
     for case in 0..60 {
         let [columns, rows] = [1 + random.below(3) as u32, 1 + random.below(3) as u32];
-        let grid = Grid { columns, rows, shared_bar: random.below(2) == 0 };
+        let grid = Grid { shared_bar: random.below(2) == 0, ..Grid::new([columns, rows]) };
         let mut design = random_design(&mut random);
         design.size = design.size.map(|n| n + 900);
         let (half, title) = (random_half(&mut random), words(&mut random, 20));
@@ -415,7 +478,9 @@ fn panels_keep_to_their_page() {
         let captions: Vec<&str> = all.iter().map(|labels| labels.title.as_str()).collect();
         let Ok(room) = panel_area(&title, &captions, grid, &design) else { continue };
         let picture = plate(half, room, &random_style(&mut random, half));
-        let all: Vec<Panel<'_>> = all.into_iter().map(|labels| panel(&picture, labels)).collect();
+        let mut panel =
+            |labels| Panel { bar_of: Some(random.below(20)), ..panel(&picture, labels) };
+        let all: Vec<Panel<'_>> = all.into_iter().map(&mut panel).collect();
         let page = panels(&title, &all, grid, &design).unwrap();
         check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));
         count += 1;

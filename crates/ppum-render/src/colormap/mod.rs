@@ -56,6 +56,8 @@ pub struct Colormap {
     pub cyclic: bool,
     /// The number of bands of one colour, if it is made of such.
     bands: Option<u16>,
+    /// The values that have a colour each, if it is made for such.
+    classes: Vec<f64>,
     /// Colours below and above that do not occur in it.
     contrast: [Rgba; 2],
     /// Red, green, blue, 0 to 255; at least two entries.
@@ -89,6 +91,9 @@ pub enum ColormapError {
 
 /// Longest text of a file, in bytes; a colour map needs some thousands.
 pub const LONGEST: u64 = 1 << 24;
+
+/// Between a class and the end of the range: half of the distance of whole numbers.
+pub(crate) const HALF: f64 = 0.5;
 
 impl Colormap {
     /// The built-in map of that name; `_r` behind it reverses the map.
@@ -147,6 +152,7 @@ impl Colormap {
             diverging: stops.space == Space::Diverging,
             cyclic: false,
             bands: None,
+            classes: Vec::new(),
             contrast: [stops.below.unwrap_or(BLACK), stops.above.unwrap_or(WHITE)],
             entries,
             positions,
@@ -176,8 +182,42 @@ impl Colormap {
             entries: (0..count).flat_map(|k| [exact(k); 2]).collect(),
             positions: (0..count).flat_map(|k| [border(k), border(k + 1)]).collect(),
             bands: Some(count),
+            classes: Vec::new(),
             ..self
         }
+    }
+
+    /// The map with one colour for each of some rising values, for the range from half below the first to half above
+    /// the last: it jumps in the middle between two of them. Without values it is the map itself.
+    #[must_use]
+    pub fn classed(self, values: &[f64]) -> Self {
+        let (Some(first), Some(last)) = (values.first(), values.last()) else { return self };
+        let (low, span) = (first - HALF, last - first + 2.0 * HALF);
+        let borders = values.windows(2).map(|pair| (0.5 * (pair[0] + pair[1]) - low) / span);
+        let doubled = borders.flat_map(|at| [at; 2]);
+        Self {
+            positions: [0.0].into_iter().chain(doubled).chain([1.0]).collect(),
+            classes: values.to_vec(),
+            bands: None,
+            ..self.banded(u16::try_from(values.len()).unwrap_or(u16::MAX))
+        }
+    }
+
+    /// The values that have a colour each, rising, if the map is [made for](Self::classed) such.
+    #[must_use]
+    pub fn classes(&self) -> &[f64] {
+        &self.classes
+    }
+
+    /// The colour of a class, by its place among [`classes`](Self::classes).
+    ///
+    /// # Panics
+    /// If there is no such class.
+    #[must_use]
+    pub fn class_color(&self, class: usize) -> Rgba {
+        assert!(class < self.classes.len(), "one of the classes");
+        let [red, green, blue] = self.entries[2 * class].map(|c| c.round() as u8);
+        [red, green, blue, 255]
     }
 
     /// The number of bands of one colour each, all equally wide, if the map is made of such.
@@ -192,6 +232,7 @@ impl Colormap {
         self.entries.reverse();
         self.positions.reverse();
         self.positions.iter_mut().for_each(|at| *at = 1.0 - *at);
+        self.classes.clear();
         self.contrast.reverse();
         std::mem::swap(&mut self.below, &mut self.above);
         self.name = match self.name.strip_suffix("_r") {
@@ -362,6 +403,29 @@ mod tests {
             map.clone().reversed().banded(3).color(0.1),
             map.banded(3).reversed().color(0.1)
         );
+    }
+
+    /// Unevenly spaced values have evenly spaced colours, each in the middle between its neighbours.
+    #[test]
+    fn classes_have_one_colour_each() {
+        let map = Colormap::named("viridis").unwrap();
+        let values = [-1.0, 2.0, 3.0, 30.0];
+        let classed = map.clone().classed(&values);
+        let position = |value: f64| (value + 1.5) / 32.0;
+        for (k, value) in values.into_iter().enumerate() {
+            let color = map.color(k as f64 / 3.0);
+            assert_eq!(classed.class_color(k), color);
+            for near in [-0.49, 0.0, 0.49] {
+                assert_eq!(classed.color(position(value + near)), color, "{value} {near}");
+            }
+        }
+        assert_eq!((classed.classes(), classed.bands()), (&values[..], None));
+        assert_eq!(classed.color(position(16.4)), map.color(2.0 / 3.0));
+        assert_eq!(classed.color(position(16.6)), map.color(1.0));
+        assert!(classed.has_jumps() && map.classes().is_empty());
+        assert_eq!(map.clone().classed(&[]), map);
+        let one = map.clone().classed(&[7.0]);
+        assert_eq!([0.0, 0.5, 1.0].map(|t| one.color(t)), [map.color(0.5); 3]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The points of the plate at the pixels of a view, and what is to be seen there.
 
+use ppum::box_tree::BoxTree;
 use ppum::crack::Side;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
@@ -19,6 +20,8 @@ const ROWS: u32 = 256;
 const BLOCK: usize = 32;
 /// Two points are one if their images are nearer than this part of a pixel by the gradient at one of them.
 const SAME: f64 = 0.05;
+/// Rounding of places, in parts of the plate.
+const ROUNDING: f64 = 1e-14;
 
 /// A point of the plate that is seen at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -225,7 +228,44 @@ impl<'f> DeformedPoints<'f> {
             }
             parts.finish_one()
         })?;
+        Ok(self.shown(values))
+    }
+
+    /// The picture of one value per patch: each pixel has that of the cell in which its point lies, NaN where there is
+    /// no cell. Borders belong to the right and upper cell.
+    ///
+    /// # Panics
+    /// If there is not one value per patch.
+    #[must_use]
+    pub fn cells(&self, values: &[f64]) -> DeformedRaster {
+        let (cells, anchor) = (&self.view.field().step.partition.cell, self.view.anchor);
+        assert_eq!(values.len(), cells.len(), "one value per patch");
+        let (tree, bounds) = (BoxTree::new(cells), self.view.field().domain.bounds);
+        let end = bounds.max - anchor;
+        let holds = |cell: &Rect, offset: Vec2| {
+            let (min, max) = (cell.min - anchor, cell.max - anchor);
+            let is_before = offset.x < max.x || max.x >= end.x;
+            let is_below = offset.y < max.y || max.y >= end.y;
+            min.x <= offset.x && min.y <= offset.y && is_before && is_below
+        };
+        // candidates by rounded places, decided by offsets
+        let reach = bounds.size() * ROUNDING;
+        let value = |near: &mut Vec<u32>, offset: Vec2| {
+            near.clear();
+            tree.query_box(&Rect::around(anchor + offset, reach), near);
+            let found = near.iter().find(|&&cell| holds(&cells[cell as usize], offset));
+            found.map_or(f64::NAN, |&cell| values[cell as usize])
+        };
+        let of_pixel = |near: &mut Vec<u32>, pair: &[u32]| {
+            let seen = self.points[pair[0] as usize..pair[1] as usize].first();
+            seen.map_or(f64::NAN, |point| value(near, point.offset))
+        };
+        self.shown(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
+    }
+
+    /// The picture of one value per pixel.
+    fn shown(&self, values: Vec<f64>) -> DeformedRaster {
         let overlap = self.starts.windows(2).map(|pair| pair[1] - pair[0] > 1).collect();
-        Ok(DeformedRaster { values: Raster::new(self.view.view.pixels, values), overlap })
+        DeformedRaster { values: Raster::new(self.view.view.pixels, values), overlap }
     }
 }

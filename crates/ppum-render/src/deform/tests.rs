@@ -125,6 +125,43 @@ fn deformed<'f>(field: &'f Field<'f>, factor: f64, view: &View) -> DeformedPoint
     points
 }
 
+/// Each pixel has the value of the cell in which its point lies; undeformed that is the picture of the cells.
+#[test]
+fn cells_are_carried_along() {
+    let dataset = Recipe { points: 30, ..Recipe::random(5) }.dataset();
+    let field = Field::new(&dataset, 0).unwrap();
+    let cells = &field.step.partition.cell;
+    let numbers: Vec<f64> = (0..cells.len()).map(|k| k as f64).collect();
+    let of = |factor: f64, view: &View| {
+        let deformation = Deformation::new(&field, factor).unwrap();
+        deformation.seen(view).points(unwatched()).unwrap()
+    };
+    for view in [
+        View::fit(field.domain.bounds, [60, 60]).unwrap(),
+        View::new(cells[9].max, 1e-12, [9, 9]).unwrap(),
+    ] {
+        let same = of(0.0, &view).cells(&numbers);
+        let expected = crate::cells::raster(&field, &numbers, &view);
+        let pairs = same.values.values.iter().zip(&expected.values);
+        assert!(pairs.clone().all(|(a, b)| a == b || a.is_nan() && b.is_nan()));
+        assert!(pairs.filter(|(a, _)| a.is_finite()).count() > 40);
+    }
+    let view = View::fit(field.domain.bounds, [60, 60]).unwrap();
+    let points = of(1e-2, &view);
+    let found = points.cells(&numbers);
+    for (i, j) in pixels(&points.view) {
+        let Some(point) = points.at(i, j).first() else {
+            assert!(found.values.value(i, j).is_nan());
+            continue;
+        };
+        let place = points.view.anchor + point.offset;
+        let cell = cells[found.values.value(i, j) as usize];
+        let reach = vec2(1e-12, 1e-12);
+        assert!(Rect::new(cell.min - reach, cell.max + reach).contains(place), "{i} {j}");
+        assert_eq!(found.overlap[(60 * j + i) as usize], points.at(i, j).len() > 1);
+    }
+}
+
 /// u = G X + t in closed form: the plate is a parallelogram, its holes ellipses.
 #[test]
 fn affine_fields_are_inverted_exactly() {

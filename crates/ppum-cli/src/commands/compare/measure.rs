@@ -50,28 +50,28 @@ pub(super) struct Resampled {
 impl Resampled {
     /// `bilinear, 64×64`.
     pub(super) fn name(&self) -> String {
-        match (self.interpolation, self.grid) {
-            (Some(interpolation), Some([nx, ny])) => format!("{interpolation}, {nx}×{ny}"),
-            _ => "one value a cell".into(),
-        }
+        name(self.interpolation, self.grid.unwrap_or_default())
+    }
+}
+
+/// The name of a method on a grid of so many points: `bilinear, 64×64`.
+pub(super) fn name(interpolation: Option<Interpolation>, [nx, ny]: [u32; 2]) -> String {
+    match interpolation {
+        Some(interpolation) => format!("{interpolation}, {nx}×{ny}"),
+        None => "one value a cell".into(),
     }
 }
 
 /// Draws and measures, in double precision.
-pub(super) fn measure(job: Job<'_>) -> anyhow::Result<Measurements> {
-    let Job { field, view, quantity, args } = job;
+pub(super) fn measure(
+    job: Job<'_>,
+    methods: &[Option<Interpolation>],
+) -> anyhow::Result<Measurements> {
+    let Job { field, view, quantity, .. } = job;
     let grid = job.grid()?;
     let (direct, direct_seconds) = timed(|| render::<f64>(field, &view, quantity, &Bar::new()))?;
-    let mut methods: Vec<_> = args.method.iter().flat_map(|method| method.meant()).collect();
-    let mut seen = Vec::new();
-    methods.retain(|method| {
-        !seen.contains(method) && {
-            seen.push(*method);
-            true
-        }
-    });
-    let resampled = methods.into_iter().map(|method| match method {
-        Some(interpolation) => job.on_grid(&direct, grid, interpolation),
+    let resampled = methods.iter().map(|method| match method {
+        Some(interpolation) => job.on_grid(&direct, grid, *interpolation),
         None => job.on_cells(&direct),
     });
     let resampled = resampled.collect::<anyhow::Result<_>>()?;

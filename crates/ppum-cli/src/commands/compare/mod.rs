@@ -8,23 +8,24 @@ use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
+use anyhow::ensure;
 use clap::ValueEnum;
-use ppum_figure::figure::{Design, plot_area};
 use ppum_render::picture::Picture;
-use ppum_render::png;
+use ppum_render::png::Text;
 use ppum_render::resample::Interpolation;
 
-use crate::arguments::{page, positive, size};
+use crate::arguments::{MOST_OF_PAGE, positive, size};
+use crate::look::Look;
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::range::Telling;
 use crate::standard::is_standard;
 use crate::subject::{Colors, Subject};
 use crate::window::{Frame, Window};
-use crate::{target, threads};
+use crate::{page, target, threads};
 use measure::{Measurements, measure};
 use report::{Report, table};
+use sheet::Layout;
 
 /// Compare direct drawing with resampling: pictures, errors, memory, time
 ///
@@ -36,7 +37,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     subject: Subject,
     /// Picture to write, - for standard output; without it numbers only
-    #[arg(short, long, value_name = "OUT.png")]
+    #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     output: Option<PathBuf>,
     /// Points of the grid, borders included
     #[arg(long, value_name = "N|NXxNY", value_parser = grid, default_value = "64")]
@@ -50,9 +51,8 @@ pub(crate) struct Args {
     /// Find the grids that have no larger relative error
     #[arg(long, value_name = "E", value_parser = positive)]
     error: Option<f64>,
-    /// Size of each panel in pixels
-    #[arg(long, value_name = "WxH", value_parser = page, default_value = "720x600")]
-    size: [u32; 2],
+    #[command(flatten)]
+    look: Look,
     #[command(flatten)]
     window: Window,
     #[command(flatten)]
@@ -70,6 +70,7 @@ Examples:
   ppum compare plate.h5 -o compare.png --grid 64
   ppum compare plate.h5 -o all.png --grid 256 --method all -q uy --tip 1
   ppum compare plate.h5 --grid 2048x1024 --error 1e-2 --json
+  ppum compare plate.h5 -o paper.pdf --inches 7x2.4 --font-size 6
   ppum compare plate.h5 -o cells.png --method cells --over view --view 0,-0.2,0.4,0.2";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -114,6 +115,15 @@ fn grid(text: &str) -> Result<[u32; 2], String> {
     square.or_else(|_| size(text)).map_err(|_| "write a whole number N, or two, NXxNY".into())
 }
 
+/// Refuses pages that are too large: everything else on them is drawn as large as they are.
+fn check_page([columns, rows]: [u32; 2]) -> anyhow::Result<()> {
+    ensure!(
+        u64::from(columns) * u64::from(rows) <= MOST_OF_PAGE,
+        "a page of {columns}x{rows} pixels; at most {MOST_OF_PAGE}, such as 8192x8192"
+    );
+    Ok(())
+}
+
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         if let Some(path) = &self.output {
@@ -125,65 +135,66 @@ impl Args {
         );
         let dataset = self.subject.open()?;
         let field = self.subject.field(&dataset)?;
-        let asked = self.subject.quantity(&field)?;
-        let (quantity, name) = (&asked.quantity, &asked.name);
-        let pixels = plot_area("Title", &Design::pixels(self.size))?;
-        let frame = Frame { pixels, may_shrink: true, margin: 0.0 };
+        let (quantity, asked) = self.subject.quantity(&field)?;
+        let methods = self.methods();
+        let title = self.subject.replacements.title(&dataset.title);
+        let labels = self.look.worded(asked.labels(title, &field));
+        let layout = Layout::new(self, &field, &labels, &methods);
+        check_page(layout.size())?;
+        let frame = Frame { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
         let view = self.window.seen(&field, frame)?;
-        let style = self.colours.style(quantity)?;
-        let job = measure::Job { field: &field, view, quantity, args: self };
-        let found = threads::with(self.threads, || measure(job))??;
-        let report = Report::new(&self.subject.file_name(), name, &view, &found);
-        let mut colors = String::new();
+        let job = measure::Job { field: &field, view, quantity: &quantity, args: self };
+        let found = threads::with(self.threads, || measure(job, &methods))??;
+        let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);
+        let mut told = String::new();
         if let Some(path) = &self.output {
-            let title = self.subject.replacements.title(&dataset.title);
-            let labels = asked.labels(title, &field);
-            let look = sheet::Look { field: &field, view, style, quantity, labels };
-            let (bytes, direct) = self.picture(&found, look, name)?;
-            if is_standard(path) {
-                out.exact().write_all(&bytes)?;
-            } else {
-                target::save(path, |out| out.write_all(&bytes))?;
-            }
-            colors = format!("direct: {}\n", Telling::new(&dataset, &field).colors(&direct));
+            let style = self.colours.style(Some(&quantity))?;
+            let (page, direct) = layout.draw(&found, job, &style)?;
+            let texts = self.texts(&direct, &dataset.title, &asked.name, &found);
+            page::put(path, &page, self.look.given_dpi(), &texts, out)?;
+            let ([columns, rows], telling) = (page.size, Telling::new(&dataset, &field));
+            told = format!("{columns}x{rows} pixels, direct: {}", telling.colors(&direct));
         }
-        self.tell(&report, &colors, out)
+        self.tell(&report, &told, out)
     }
 
-    /// The figure as a file, and the direct picture in it.
-    fn picture(
-        &self,
-        found: &Measurements,
-        look: sheet::Look<'_>,
-        name: &str,
-    ) -> anyhow::Result<(Vec<u8>, Picture)> {
-        let (dataset, title) = (self.subject.file_name(), look.labels.title.clone());
-        let (page, direct) = look.sheet(found, self.size)?;
-        let mut texts = direct.description(&title, &dataset, name);
+    /// The interpolations, each once; none for the cells of the cover.
+    fn methods(&self) -> Vec<Option<Interpolation>> {
+        let mut methods = Vec::new();
+        for method in self.method.iter().flat_map(|method| method.meant()) {
+            if !methods.contains(&method) {
+                methods.push(method);
+            }
+        }
+        methods
+    }
+
+    /// The texts of the figure's file.
+    fn texts(&self, direct: &Picture, title: &str, name: &str, found: &Measurements) -> Vec<Text> {
+        let file = self.subject.file_name();
+        let mut texts = direct.description(title, &file, name);
         for (key, text) in &mut texts {
             if key == "Description" {
-                *text = format!("{name} of {dataset}, direct and resampled");
+                *text = format!("{name} of {file}, direct and resampled");
             }
         }
         let methods = found.resampled.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
         texts.extend(methods.chain(self.subject.replacements.notes()));
-        Ok((png::encode(&page.image(), &texts).context("cannot encode the picture")?, direct))
+        texts
     }
 
-    /// Numbers on standard output, unless the picture goes there, and what the colours of the direct picture mean.
-    fn tell(&self, report: &Report, colors: &str, out: &mut Output) -> anyhow::Result<()> {
+    /// Numbers on standard output, unless the picture goes there; of that what its colours mean.
+    fn tell(&self, report: &Report, told: &str, out: &mut Output) -> anyhow::Result<()> {
         if self.json {
             return Ok(json(out, report)?);
         }
+        let table = table(report);
         match &self.output {
             Some(path) if is_standard(path) => {
-                colors.lines().chain(table(report).lines()).for_each(tell);
+                [told].into_iter().chain(table.lines()).for_each(tell)
             }
-            Some(path) => {
-                let table = table(report);
-                writeln!(out, "wrote {}\n{colors}{}", path.display(), table.trim_end())?;
-            }
-            None => write!(out, "{}", table(report))?,
+            Some(path) => writeln!(out, "wrote {}: {told}\n{}", path.display(), table.trim_end())?,
+            None => write!(out, "{table}")?,
         }
         Ok(())
     }

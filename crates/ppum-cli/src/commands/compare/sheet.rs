@@ -1,94 +1,167 @@
 //! The figure of a comparison.
+//!
+//! Of one method its panels stand in a row, resampled, direct, difference, and below each other for long plates; of several the
+//! differences are a second row, or column. One bar explains the field and what was resampled.
 
 use ppum::field::Field;
-use ppum::quantity::Quantity;
-use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{Design, Labels, Panel, figure};
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
 use ppum_figure::overlay;
 use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
+use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
 use ppum_render::scale::Scale;
-use ppum_render::view::View;
 
-use super::measure::Measurements;
+use super::Args;
+use super::measure::{Job, Measurements, name};
+use crate::look::letters;
 use crate::progress::Bar;
 
-/// The look of the panels.
-pub(super) struct Look<'a> {
-    pub(super) field: &'a Field<'a>,
-    pub(super) view: View,
-    pub(super) style: Style,
-    pub(super) quantity: &'a Quantity,
-    /// Those of the direct picture.
-    pub(super) labels: Labels,
+/// The page: what stands where.
+pub(super) struct Layout {
+    title: String,
+    panels: Vec<Shows>,
+    /// Words of the panels, their captions as titles.
+    labels: Vec<Labels>,
+    grid: Grid,
+    design: Design,
 }
 
-impl Look<'_> {
-    /// All panels, and the picture of the direct one. Of one method they stand in a row: direct, resampled,
-    /// difference; of several the differences stand below what they belong to.
-    pub(super) fn sheet(
-        self,
+/// What a panel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shows {
+    Direct,
+    /// By the number of the method.
+    Resampled(usize),
+    Difference(usize),
+}
+
+/// Size of a panel if no size is given, also of long plates.
+const PANEL: [u32; 2] = [660, 600];
+const LONG_PANEL: [u32; 2] = [900, 330];
+/// Panels of plates at least this much longer than high stand below each other.
+const LONG: f64 = 2.2;
+
+impl Layout {
+    /// The page for some methods; `labels` are the words of the field.
+    pub(super) fn new(
+        args: &Args,
+        field: &Field<'_>,
+        labels: &Labels,
+        methods: &[Option<Interpolation>],
+    ) -> Self {
+        let aspect = args.window.aspect(field);
+        let is_long = aspect.is_some_and(|aspect| aspect > LONG);
+        let panels = Shows::all(methods.len(), is_long);
+        let [across, down] = match (methods.len(), is_long) {
+            (1, false) => [3, 1],
+            (1, true) => [1, 3],
+            (count, false) => [count as u32 + 1, 2],
+            (count, true) => [2, count as u32 + 1],
+        };
+        let panel = if is_long { LONG_PANEL } else { PANEL };
+        let design = args.look.design(aspect, [across * panel[0], down * panel[1]], [across, down]);
+        let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
+        let words = |(number, shows): (usize, &Shows)| {
+            let (caption, quantity) = match *shows {
+                Shows::Direct => ("direct".to_owned(), labels.quantity.clone()),
+                Shows::Resampled(k) => (names[k].clone(), labels.quantity.clone()),
+                Shows::Difference(k) => {
+                    (format!("{} − direct", names[k]), format!("difference of {}", labels.quantity))
+                }
+            };
+            let title = format!("({}) {caption}", letters(number));
+            Labels { title, quantity, ..labels.clone() }
+        };
+        let words = panels.iter().enumerate().map(words).collect();
+        // a column of pictures has the one bar below its last one
+        let barred = match (methods.len(), is_long) {
+            (1, false) => [2, 1],
+            (1, true) => [1, 2],
+            _ => [across, down],
+        };
+        let grid = Grid { barred: Some(barred), ..Grid::new([across, down]) };
+        Self { title: labels.title.clone(), panels, labels: words, grid, design }
+    }
+
+    /// Columns and rows of the page.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.design.size
+    }
+
+    /// Columns and rows that each picture has room for.
+    pub(super) fn room(&self) -> Result<[u32; 2], FigureError> {
+        let captions: Vec<&str> = self.labels.iter().map(|labels| labels.title.as_str()).collect();
+        panel_area(&self.title, &captions, self.grid, &self.design)
+    }
+
+    /// The page, and the picture of the field drawn directly.
+    pub(super) fn draw(
+        &self,
         found: &Measurements,
-        size: [u32; 2],
+        job: Job<'_>,
+        style: &Style,
     ) -> anyhow::Result<(Canvas, Picture)> {
-        let direct = self.direct(&found.direct)?;
+        let Job { field, view, .. } = job;
+        let view = &view;
+        let direct = direct(&found.direct, job, style)?;
         let norm = &direct.normalization;
-        let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..self.style.clone() };
-        let mut first = vec![self.panel(&direct, "direct", size)?];
-        let mut second = vec![Canvas::new([0, 0], [0; 4])];
-        for one in &found.resampled {
-            let resampled = Picture::bare(&one.raster, &self.view, &fixed)?;
-            first.push(self.panel(&resampled, &one.name(), size)?);
-            let apart = difference(&found.direct, &one.raster);
-            let title = format!("{} − direct", one.name());
-            let apart = Picture::bare(&apart, &self.view, &signed()?)?;
-            second.push(self.panel(&apart, &title, size)?);
+        let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
+        let signed = signed()?;
+        let picture = |shows: &Shows| match *shows {
+            Shows::Direct => Ok(direct.clone()),
+            Shows::Resampled(k) => Picture::bare(&found.resampled[k].raster, view, &fixed),
+            Shows::Difference(k) => {
+                let apart = difference(&found.direct, &found.resampled[k].raster);
+                Picture::bare(&apart, view, &signed)
+            }
+        };
+        let pictures = self.panels.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
+        let cracks = &field.step.cracks;
+        let rims = overlay::rims(view, &field.domain.holes);
+        let layers = [rims, overlay::cracks(view, cracks)].concat();
+        let bar = self.panels.iter().position(|shows| *shows == Shows::Direct);
+        let panel = |((shows, labels), picture): ((&Shows, &Labels), _)| Panel {
+            picture,
+            layers: layers.clone(),
+            labels: labels.clone(),
+            cracks,
+            bar_of: bar.filter(|_| matches!(shows, Shows::Resampled(_))),
+        };
+        let all = self.panels.iter().zip(&self.labels).zip(&pictures).map(panel);
+        let all: Vec<Panel<'_>> = all.collect();
+        Ok((panels(&self.title, &all, self.grid, &self.design)?, direct))
+    }
+}
+
+impl Shows {
+    /// All panels in the order of a page of rows, or of one of columns.
+    fn all(methods: usize, in_columns: bool) -> Vec<Self> {
+        let resampled = (0..methods).map(Self::Resampled);
+        let differences = (0..methods).map(Self::Difference);
+        if in_columns && methods > 1 {
+            let pairs = resampled.zip(differences).flat_map(|(one, other)| [one, other]);
+            return pairs.chain([Self::Direct]).collect();
         }
-        let rows = match found.resampled.len() {
-            1 => vec![first.into_iter().chain(second.into_iter().skip(1)).collect()],
-            _ => vec![first, second],
-        };
-        Ok((side_by_side(&rows, size), direct))
+        resampled.chain([Self::Direct]).chain(differences).collect()
     }
+}
 
-    /// The direct picture; its range knows the true extrema.
-    fn direct(&self, raster: &Raster) -> anyhow::Result<Picture> {
-        let Self { field, view, style, quantity, .. } = self;
-        let values = match style.range.is_found() {
-            true => extrema(field, view, quantity, raster, &Bar::new())?,
-            false => None,
-        };
-        let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
-        Ok(Picture::spanning(raster, view, style, span)?)
-    }
-
-    fn panel(&self, picture: &Picture, title: &str, size: [u32; 2]) -> anyhow::Result<Canvas> {
-        let labels = Labels { title: title.to_owned(), ..self.labels.clone() };
-        let cracks = &self.field.step.cracks;
-        let rims = overlay::rims(&self.view, &self.field.domain.holes);
-        let layers = [rims, overlay::cracks(&self.view, cracks)].concat();
-        let panel = Panel { picture, layers, labels, cracks };
-        Ok(figure(panel, &Design::pixels(size))?)
-    }
+/// The direct picture; its range knows the true extrema.
+fn direct(raster: &Raster, job: Job<'_>, style: &Style) -> anyhow::Result<Picture> {
+    let Job { field, view, quantity, .. } = job;
+    let values = match style.range.is_found() {
+        true => extrema(field, &view, quantity, raster, &Bar::new())?,
+        false => None,
+    };
+    let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
+    Ok(Picture::spanning(raster, &view, style, span)?)
 }
 
 /// Colours of differences.
 fn signed() -> anyhow::Result<Style> {
     Ok(Style { scale: Scale::Linear, ..Style::named("coolwarm")? })
-}
-
-/// Panels of one size in rows.
-fn side_by_side(rows: &[Vec<Canvas>], size: [u32; 2]) -> Canvas {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0) as u32;
-    let mut page = Canvas::new([columns * size[0], rows.len() as u32 * size[1]], [255; 4]);
-    for (j, row) in (0..).zip(rows) {
-        for (i, panel) in (0..).zip(row) {
-            let (corner, canvas) = ([i * size[0], j * size[1]], panel.clone());
-            page.items.push(Item::Inset { corner, canvas });
-        }
-    }
-    page
 }

@@ -11,6 +11,7 @@ use ppum::field::{Field, FieldError};
 use ppum::quantity::available;
 use ppum::text::{Places, trimmed};
 use ppum::vec2::Vec2;
+use ppum_render::cells;
 use ppum_solve::report::SolverReport;
 use serde::Serialize;
 
@@ -117,6 +118,8 @@ pub(super) struct StepReport {
     pub(super) fields: Vec<FieldRow>,
     pub(super) quantities: Vec<String>,
     pub(super) attributes: Vec<String>,
+    /// What `render` draws on the cells.
+    pub(super) cell_values: Vec<String>,
     pub(super) unknowns: usize,
     /// Energy of the solution, if the solver has told it.
     pub(super) energy: Option<Number>,
@@ -213,6 +216,7 @@ impl StepReport {
             fields: field.step.fields.iter().map(field_row).collect(),
             quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
+            cell_values: cells::names(&field),
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
             energy: SolverReport::of(history).energy.map(Number),
             history: history.iter().map(history_row).collect(),

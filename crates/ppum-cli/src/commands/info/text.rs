@@ -66,6 +66,7 @@ impl Page<'_> {
         self.line("unknowns", &step.unknowns.to_string())?;
         self.lines("history", step.history.iter().map(history))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
+        self.lines("of cells", wrapped(&step.cell_values).into_iter())?;
         if !step.intensities.is_empty() {
             writeln!(self.0, "\nstress intensity factors")?;
             table(self.0, &step.all_tips, places)?;

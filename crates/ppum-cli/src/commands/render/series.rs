@@ -15,14 +15,14 @@ use ppum_render::animation::{Apng, Colors, Gif};
 use ppum_render::image::Image;
 use ppum_render::picture::Style;
 use ppum_render::png::Text;
-use ppum_render::range::{Basis, Span};
+use ppum_render::range::{Basis, Range, Span};
 use ppum_render::scale::Scale;
 
 use super::{Args, Coloring, Plate, Scene, Sheet, Shot, warn};
 use crate::arguments::positive;
 use crate::dataset::{field, open};
 use crate::deformed::words;
-use crate::drawing::{Drawn, Seen};
+use crate::drawing::{Drawn, Seen, classes, united};
 use crate::number::count;
 use crate::output::Output;
 use crate::page;
@@ -217,8 +217,8 @@ impl Args {
         let path = &self.output;
         ensure!(!is_standard(path), "-o -: pictures of steps go to files; give a name with -o");
         ensure!(
-            self.layout.is_none(),
-            "--layout and --steps do not go together yet; draw the panels of each step with --step"
+            !self.has_panels(),
+            "several panels and --steps do not go together yet; draw those of each step with --step"
         );
         let mut dataset = open(&self.subject.file)?;
         let steps = self.steps(&dataset)?;
@@ -302,22 +302,31 @@ impl<'a> Film<'a> {
     /// The first pass.
     fn new(args: &'a Args, shots: &'a [Shot<'a>], design: Design) -> anyhow::Result<Self> {
         let first = &shots.first().context("--steps: there is no step")?.asked;
-        let style = args.colours.style(&first.quantity)?;
+        let style = args.colours.style(first.shown.quantity())?;
         let bars = progress::Series::new(shots.len());
         let (mut found, mut drawn) = (Found::default(), Kept::new(VALUES));
-        let mut by = None;
+        let (mut by, mut classes_of) = (None, Vec::new());
         for (part, shot) in shots.iter().enumerate() {
             bars.begin(part);
             let seen = args.seen(shot)?;
             let values = args.drawn(shot.plate.field, &seen, &shot.asked)?;
             let span = args.span(shot.plate.field, &seen, &shot.asked, &values, &style)?;
             found.add(span, &values, style.scale);
+            classes_of.push(classes([(&shot.asked.shown, &values.values)]));
             by.get_or_insert_with(|| values.by.clone());
             let bytes = bytes(&seen, &values);
             drawn.push((seen, values), bytes);
         }
-        warn(&first.name, found.undefined);
-        let coloring = found.coloring(style);
+        warn(first, found.undefined);
+        let classes = classes_of.into_iter().collect::<Option<Vec<_>>>().and_then(united);
+        let classed = args.colours.classed(style.clone(), classes);
+        let coloring = match classed.range {
+            Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
+                let span = Span { min, max, basis: Basis::Given, values: None };
+                Coloring { style: classed, span, ends: Some([false; 2]) }
+            }
+            _ => found.coloring(style),
+        };
         let by = by.unwrap_or_default();
         Ok(Self { args, shots, design, coloring, drawn, by, bars })
     }

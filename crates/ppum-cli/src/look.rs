@@ -1,4 +1,4 @@
-//! The look of pictures and figures: size, words, colours of the page.
+//! Options of the look of pictures and figures: size, words, colours of the page.
 
 use anyhow::bail;
 use clap::ValueEnum;
@@ -8,9 +8,9 @@ use crate::arguments::{inches, positive, size};
 
 /// The options of size and look.
 #[derive(Debug, clap::Args)]
-pub(super) struct Look {
-    /// Size of the picture in pixels [default: 1024x768; a bare picture of the whole domain takes its
-    /// shape]
+pub(crate) struct Look {
+    /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its shape; of
+    /// `compare` 660x600 for each panel]
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")]
     size: Option<[u32; 2]>,
     /// Size of the picture on paper, in inches
@@ -19,12 +19,6 @@ pub(super) struct Look {
     /// Pixels per inch [default: 300 with --inches, else 96]
     #[arg(long, value_name = "N", value_parser = positive)]
     dpi: Option<f64>,
-    /// Add axes, a colour bar, a title and the cracks
-    #[arg(long)]
-    pub(super) figure: bool,
-    /// Leave out the colours and their bar: the overlays alone
-    #[arg(long)]
-    pub(crate) blank: bool,
     /// Size of the letters of a figure in points [default: 9 with --inches, else with the size in pixels]
     #[arg(long, value_name = "PT", value_parser = positive)]
     font_size: Option<f64>,
@@ -81,13 +75,14 @@ enum Word {
     Bar,
 }
 
-const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+/// Size of pictures if nothing is said.
+pub(crate) const DEFAULT_SIZE: [u32; 2] = [1024, 768];
 const PRINT_DPI: f64 = 300.0;
 const SCREEN_DPI: f64 = 96.0;
 
 impl Look {
-    /// Refuses options of figures without one; `has_panels` makes it one.
-    pub(super) fn check(&self, has_panels: bool) -> anyhow::Result<()> {
+    /// Refuses options of figures for pictures that are none.
+    pub(crate) fn check(&self, is_figure: bool) -> anyhow::Result<()> {
         let given = [
             ("--font-size", self.font_size.is_some()),
             ("--theme", self.theme.is_some()),
@@ -96,40 +91,36 @@ impl Look {
             ("--ticks", !self.ticks.is_empty()),
             ("--labels", !self.labels.is_empty()),
         ];
-        if !self.figure
-            && !has_panels
-            && let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given)
-        {
+        if !is_figure && let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
             bail!("{option} is for figures; add --figure");
         }
         Ok(())
     }
 
     /// The size that was asked for \[pixels\].
-    pub(super) fn given_size(&self) -> Option<[u32; 2]> {
+    pub(crate) fn given_size(&self) -> Option<[u32; 2]> {
         self.size.or_else(|| Some(Design::inches(self.inches?, self.dpi()).size))
     }
 
-    /// Columns and rows of the picture or figure.
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.given_size().unwrap_or(DEFAULT_SIZE)
-    }
-
     /// Pixels per inch.
-    pub(super) fn dpi(&self) -> f64 {
+    fn dpi(&self) -> f64 {
         self.dpi.unwrap_or(if self.inches.is_some() { PRINT_DPI } else { SCREEN_DPI })
     }
 
     /// Pixels per inch if someone cares.
-    pub(super) fn given_dpi(&self) -> Option<f64> {
+    pub(crate) fn given_dpi(&self) -> Option<f64> {
         (self.dpi.is_some() || self.inches.is_some()).then(|| self.dpi())
     }
 
-    /// The look of a figure of something of a shape, width over height; none if it has any shape.
-    pub(super) fn design(&self, aspect: Option<f64>) -> Design {
-        let mut design = match self.inches {
-            Some(inches) => Design::inches(inches, self.dpi()),
-            None => Design::pixels(self.size()).at(self.dpi()),
+    /// The look of a figure of something of a shape, width over height, none if it has any shape; of `size` pixels
+    /// unless another size is given, with letters as for one of so many parts of it across and down.
+    pub(crate) fn design(&self, aspect: Option<f64>, size: [u32; 2], parts: [u32; 2]) -> Design {
+        let mut design = match (self.inches, self.size.unwrap_or(size)) {
+            (Some(inches), _) => Design::inches(inches, self.dpi()),
+            (None, size) => {
+                let part = [size[0] / parts[0], size[1] / parts[1]];
+                Design { size, ..Design::pixels(part).at(self.dpi()) }
+            }
         };
         design.font_size = self.font_size.unwrap_or(design.font_size);
         design.transparent = self.transparent;
@@ -137,7 +128,6 @@ impl Look {
             design.theme = Theme::Dark;
         }
         design.bar = match self.bar.unwrap_or(BarName::Auto) {
-            _ if self.blank => BarPlace::None,
             BarName::Auto => aspect.map_or(BarPlace::Right, BarPlace::fitting),
             BarName::Right => BarPlace::Right,
             BarName::Bottom => BarPlace::Bottom,
@@ -155,7 +145,7 @@ impl Look {
     }
 
     /// The words with those that were given.
-    pub(super) fn worded(&self, mut labels: Labels) -> Labels {
+    pub(crate) fn worded(&self, mut labels: Labels) -> Labels {
         for (word, text) in self.labels.iter().flatten() {
             let label = match word {
                 Word::Title => &mut labels.title,
@@ -166,6 +156,15 @@ impl Look {
             label.clone_from(text);
         }
         labels
+    }
+}
+
+/// The letters of a panel's caption by its number: `a`, `b`, …, `z`, `aa`, `ab`, …
+pub(crate) fn letters(number: usize) -> String {
+    let last = char::from(b'a' + (number % 26) as u8);
+    match number / 26 {
+        0 => last.to_string(),
+        before => letters(before - 1) + &last.to_string(),
     }
 }
 
@@ -226,6 +225,12 @@ mod tests {
         for wrong in ["z=3", "0", "101", "1,a", "inf,0", "some"] {
             assert!(marks(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn letters_go_on_behind_z() {
+        let found = [0, 25, 26, 51, 52, 701, 702].map(letters);
+        assert_eq!(found, ["a", "z", "aa", "az", "ba", "zz", "aaa"]);
     }
 
     #[test]
