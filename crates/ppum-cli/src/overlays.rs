@@ -14,7 +14,7 @@ use ppum_figure::levels;
 use ppum_figure::overlay::{self, Entry, Load, Room, Support};
 use ppum_render::deform::DeformedPoints;
 use ppum_render::glyph::{LEAST_SPACING, Lattice};
-use ppum_render::isoline::isolines;
+use ppum_render::isoline::{Isoline, isolines};
 use ppum_render::picture::Picture;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
@@ -61,17 +61,17 @@ impl FromStr for Levels {
         if text == "auto" {
             return Ok(Self::Auto);
         }
-        if let Ok(count) = text.parse() {
-            return match count {
-                1..=1000 => Ok(Self::Count(count)),
-                _ => Err("write 1 to 1000 levels, or their values with a comma"),
-            };
+        if !text.contains(',') {
+            let count = text.parse().ok().filter(|count| (1..=1000).contains(count));
+            return count.map(Self::Count).ok_or(
+                "write auto, a number of levels from 1 to 1000, or their values with commas, `0.5,` for one",
+            );
         }
         let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
         let values: Option<Vec<f64>> =
             text.split(',').filter(|part| !part.trim().is_empty()).map(number).collect();
         let values = values.filter(|values| !values.is_empty());
-        Ok(Self::At(values.ok_or("write auto, a number of levels, or values with commas between")?))
+        Ok(Self::At(values.ok_or("write finite values with commas between")?))
     }
 }
 
@@ -178,7 +178,7 @@ impl Overlays {
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
         let room = self.room(picture, &field.step.cracks);
-        Ok(overlay::isolines(view, &lines, room))
+        Ok(shown(view, &lines, room))
     }
 
     /// Isolines of the plate as it was, where they have moved to.
@@ -195,7 +195,7 @@ impl Overlays {
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
         // cracks have opened, or closed: nothing can be said of their lines
-        Ok(overlay::isolines(&points.view.view, &lines, self.room(ground.picture, &[])))
+        Ok(shown(&points.view.view, &lines, self.room(ground.picture, &[])))
     }
 
     /// Where labels of levels may stand, if they are asked for.
@@ -226,6 +226,7 @@ impl Overlays {
         };
         if let Some(spacing) = self.crosses {
             let found = lattice(spacing).principal(&Bar::new())?;
+            warn_of_none(found.len(), "cross stands in the picture; choose a smaller distance");
             add(overlay::crosses(view, &found, spacing));
         }
         if let Some(spacing) = self.arrows {
@@ -234,6 +235,7 @@ impl Overlays {
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
             let found = lattice(spacing).vectors(&shown, &Bar::new())?;
+            warn_of_none(found.len(), "arrow stands in the picture; choose a smaller distance");
             add(overlay::arrows(view, &found, spacing));
         }
         Ok((items, entries))
@@ -306,6 +308,19 @@ impl Overlays {
             ),
         }
         Vec::new()
+    }
+}
+
+/// Isolines, or a word that there are none.
+fn shown(view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
+    warn_of_none(lines.len(), "isoline lies in the picture: its values pass none of the levels");
+    overlay::isolines(view, lines, room)
+}
+
+/// Tells that nothing is drawn where something was asked for.
+fn warn_of_none(count: usize, what: &str) {
+    if count == 0 {
+        tell(&format!("warning: no {what}"));
     }
 }
 

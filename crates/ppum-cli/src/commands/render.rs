@@ -17,7 +17,7 @@ use ppum_render::range::Span;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
 
-use crate::arguments::size;
+use crate::arguments::layout;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, Deforming, draw, points, words};
 use crate::drawing::{Drawn, Job, Seen, Shown};
@@ -56,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long)]
     blank: bool,
     /// Panels of a figure with several quantities or parts: columns and rows [default: as large as fits]
-    #[arg(long, value_name = "CxR", value_parser = size)]
+    #[arg(long, value_name = "CxR", value_parser = layout)]
     layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar
     #[arg(long)]
@@ -414,7 +414,9 @@ impl Coloring {
 
 /// Tells that a quantity has no value at some pixels of the plate, of so many.
 fn warn(asked: &Asked, undefined: [usize; 2]) {
-    if undefined[0] > 0 {
+    if undefined[1] == 0 {
+        tell("warning: no pixel has its centre on the plate");
+    } else if undefined[0] > 0 {
         let message = match &asked.shown {
             Shown::Quantity(_) => undefined::message(&asked.name, undefined, "pixels"),
             Shown::Cells(..) => undefined::of_cells(&asked.name, undefined),

@@ -49,10 +49,15 @@ pub enum RangeError {
     /// No word, numbers or percentiles that mean a range.
     #[error("`{0}` is no range; write auto, full, MIN,MAX, or percentiles P%,Q%")]
     Syntax(String),
-    /// Bounds that do not rise, are not finite, or differ by less than the smallest normal number.
-    #[error("the range from {} to {} is empty; give two finite numbers, the smaller one first",
-        exact(*.0), exact(*.1))]
+    /// Bounds that do not rise.
+    #[error("the range from {} to {} is empty; give the smaller number first", exact(*.0), exact(*.1))]
     Empty(f64, f64),
+    /// Bounds that are not finite.
+    #[error("the range from {} to {} has no end; give two finite numbers", exact(*.0), exact(*.1))]
+    Endless(f64, f64),
+    /// Bounds whose difference is larger than the largest number, or smaller than the smallest normal one.
+    #[error("the range from {} to {} is wider or narrower than double precision can tell", exact(*.0), exact(*.1))]
+    Extreme(f64, f64),
     /// Percentiles that do not rise or lie outside 0 to 100.
     #[error(
         "from {0} % to {1} % lies no range; give two percentiles from 0% to 100%, the smaller one first, \
@@ -102,8 +107,12 @@ impl fmt::Display for Range {
 }
 
 fn check(min: f64, max: f64) -> Result<(), RangeError> {
-    let is_range = min < max && (max - min).is_normal();
-    if is_range { Ok(()) } else { Err(RangeError::Empty(min, max)) }
+    match (min, max) {
+        _ if !min.is_finite() || !max.is_finite() => Err(RangeError::Endless(min, max)),
+        _ if min >= max => Err(RangeError::Empty(min, max)),
+        _ if !(max - min).is_normal() => Err(RangeError::Extreme(min, max)),
+        _ => Ok(()),
+    }
 }
 
 fn percentiles(p: f64, q: f64) -> Result<Range, RangeError> {
