@@ -8,7 +8,6 @@
 //! in the colours below and above. On a logarithmic scale the same is done with the logarithms of the
 //! positive values. Further:
 //!
-//! - an extremum that lies more than ten times the pixels' largest magnitude beyond them is taken for infinite, as of 1/x between two pixels;
 //! - where a quantity is not positive everywhere, a logarithmic scale begins where the robust range does;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
@@ -283,9 +282,6 @@ const TAIL: f64 = 0.005;
 const SLACK: f64 = 0.2;
 /// A range that starts within this part of its end above zero starts at zero.
 const NEAR_ZERO: f64 = 0.2;
-/// Distance from the pixels' values, in parts of their size, from which an extremum counts as infinite. On a rim that is no wider than a
-/// pixel stresses are some three times those around; 1/x grows by a million on the way from a pixel to its zero.
-const RUNAWAY: f64 = 10.0;
 /// Differences between bounds must stay finite.
 const LARGEST: f64 = f64::MAX / 4.0;
 
@@ -348,10 +344,8 @@ impl<T: Sample> Seen<'_, T> {
         let values =
             self.values.filter(|values| !values.is_of_pixels() && !values.is_infinite())?;
         let Statistics { infinite, min, max, .. } = self.raster.statistics();
-        let far = RUNAWAY * min.abs().max(max.abs());
         let (lowest, highest) = (values.min.value, values.max.value);
-        let runs_away = infinite > 0 || min - lowest > far || highest - max > far;
-        (!runs_away).then(|| (within(min.min(lowest)), within(max.max(highest))))
+        (infinite == 0).then(|| (within(min.min(lowest)), within(max.max(highest))))
     }
 
     fn full(&self) -> (Basis, Bounds) {
