@@ -178,9 +178,9 @@ impl Args {
         self.figure || self.has_panels()
     }
 
-    /// The look of a figure.
-    fn design(&self, field: &Field<'_>) -> Design {
-        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE, [1, 1]);
+    /// The look of a figure, of a size unless another is given, with so many panels across and down.
+    fn design(&self, field: &Field<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
+        let design = self.look.design(self.window.aspect(field), size, panels);
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 
@@ -227,7 +227,7 @@ impl Args {
         let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
         let deforming = self.deformed.of(&fields)?;
         let factor = deforming.as_ref().map(Deforming::words);
-        let design = self.design(fields[0]);
+        let design = self.design(fields[0], DEFAULT_SIZE, [1, 1]);
         let words = |plate: &Plate<'_>| {
             let asked = self.asked(plate.field)?.swap_remove(0);
             let title = titled(plate.shown.clone(), factor.as_deref());

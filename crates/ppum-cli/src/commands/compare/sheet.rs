@@ -18,7 +18,7 @@ use ppum_render::view::View;
 
 use super::Args;
 use super::measure::{Job, Measurements, name};
-use crate::look::letters;
+use crate::look::{LONG, Look, letters};
 use crate::progress::Bar;
 
 /// The page: what stands where.
@@ -40,12 +40,6 @@ enum Shows {
     Difference(usize),
 }
 
-/// Size of a panel if no size is given, also of long plates.
-const PANEL: [u32; 2] = [660, 600];
-const LONG_PANEL: [u32; 2] = [900, 330];
-/// Panels of plates at least this much longer than high stand below each other.
-const LONG: f64 = 2.2;
-
 impl Layout {
     /// The page for some methods; `labels` are the words of the field.
     pub(super) fn new(
@@ -63,8 +57,7 @@ impl Layout {
             (count, false) => [count as u32 + 1, 2],
             (count, true) => [2, count as u32 + 1],
         };
-        let panel = if is_long { LONG_PANEL } else { PANEL };
-        let design = args.look.design(aspect, [across * panel[0], down * panel[1]], [across, down]);
+        let design = args.look.design(aspect, Look::page(aspect, [across, down]), [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {
