@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use clap::ValueEnum;
 use ppum::crack::Crack;
 use ppum::dataset::Dataset;
@@ -207,6 +207,8 @@ impl Overlays {
     fn levels(&self, picture: &Picture) -> Option<Vec<f64>> {
         let norm = &picture.normalization;
         self.isolines.as_ref().map(|levels| match levels {
+            // nothing but rounding tells values apart
+            _ if picture.one_value.is_some() => Vec::new(),
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
             Levels::Count(count) => levels::about(norm, *count),
             Levels::At(values) => values.clone(),
@@ -225,6 +227,10 @@ impl Overlays {
             entries.extend(meaning);
         };
         if let Some(spacing) = self.crosses {
+            ensure!(
+                field.equation.elastic().is_some(),
+                "--crosses: they show principal stresses, and a potential has none; --arrows shows its gradient"
+            );
             let found = lattice(spacing).principal(&Bar::new())?;
             warn_of_none(found.len(), "cross stands in the picture; choose a smaller distance");
             add(overlay::crosses(view, &found, spacing));

@@ -289,6 +289,7 @@ fn numbers_out_of_place_are_told() {
         ("--step -1", "invalid digit"),
         ("--layout 2 -q u,u", "CxR"),
         ("--isolines 0.5", "with commas"),
+        ("--crosses", "principal stresses"),
         ("--range 0,1e400", "two finite numbers"),
     ] {
         let complaint = lab.fail(&format!("render plate.h5 -o a.png {options}"));
