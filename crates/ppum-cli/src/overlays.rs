@@ -166,6 +166,18 @@ impl Overlays {
         Ok(items)
     }
 
+    /// Refuses what the deformed plate does not have.
+    pub(crate) fn check_deformed(&self) -> anyhow::Result<()> {
+        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
+        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
+            bail!(
+                "--overlay {}: of these overlays the deformed plate has cells and cracks alone",
+                other.get_name()
+            );
+        }
+        Ok(())
+    }
+
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
@@ -256,13 +268,6 @@ impl Overlays {
         with_outline: bool,
     ) -> anyhow::Result<Vec<Item>> {
         let has = |wanted: Overlay| self.overlay.contains(&wanted);
-        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
-        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
-            bail!(
-                "--overlay {}: of these overlays the deformed plate has cells and cracks alone",
-                other.get_name()
-            );
-        }
         let view = &points.view;
         let mut items = Vec::new();
         if with_outline {

@@ -144,10 +144,7 @@ impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         self.engine.check()?;
         self.look.check(self.is_figure())?;
-        ensure!(
-            !(self.subject.has_parts() && self.deformed.is_given()),
-            "several parts and --deformed do not go together; draw them one by one"
-        );
+        self.check_deformed()?;
         ensure!(
             self.has_panels() || !self.shared_range,
             "--shared-range is for panels; give several quantities or parts"
@@ -172,6 +169,22 @@ impl Args {
     /// True for a figure of several panels, or of one that is called so.
     fn has_panels(&self) -> bool {
         self.layout.is_some() || self.subject.count() > 1
+    }
+
+    /// Refuses what does not go together with a deformed plate.
+    fn check_deformed(&self) -> anyhow::Result<()> {
+        if !self.deformed.is_given() {
+            return Ok(());
+        }
+        ensure!(
+            !self.subject.has_parts(),
+            "several parts and --deformed do not go together; draw them one by one"
+        );
+        ensure!(
+            self.samples == Samples::CENTER,
+            "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
+        );
+        self.overlays.check_deformed()
     }
 
     fn is_figure(&self) -> bool {
@@ -284,9 +297,6 @@ impl Args {
             (Seen::Plate(view), Shown::Cells(_, values)) => {
                 Ok(Drawn::of_cells(values, field, view))
             }
-            (Seen::Moved(_), _) if samples != Samples::CENTER => bail!(
-                "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
-            ),
             (Seen::Moved(points), shown) => draw(points, shown, &self.engine),
         }
     }
