@@ -190,7 +190,7 @@ impl Overlays {
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
         let room = self.room(picture, &field.step.cracks);
-        Ok(shown(view, &lines, room))
+        Ok(shown(view, &lines, levels, room))
     }
 
     /// Isolines of the plate as it was, where they have moved to.
@@ -207,7 +207,7 @@ impl Overlays {
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
         // cracks have opened, or closed: nothing can be said of their lines
-        Ok(shown(&points.view.view, &lines, self.room(ground.picture, &[])))
+        Ok(shown(&points.view.view, &lines, &levels, self.room(ground.picture, &[])))
     }
 
     /// Where labels of levels may stand, if they are asked for.
@@ -323,8 +323,12 @@ impl Overlays {
 }
 
 /// Isolines, or a word that there are none.
-fn shown(view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
-    warn_of_none(lines.len(), "isoline lies in the picture: its values pass none of the levels");
+fn shown(view: &View, lines: &[Isoline], levels: &[f64], room: Option<Room>) -> Vec<Item> {
+    // without levels there is one value, which is told
+    warn_of_none(
+        lines.len() + usize::from(levels.is_empty()),
+        "isoline lies in the picture: its values pass none of the levels",
+    );
     overlay::isolines(view, lines, room)
 }
 

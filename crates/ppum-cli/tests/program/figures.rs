@@ -61,7 +61,7 @@ fn panels_are_drawn() {
     let lab = Lab::solved(CRACKED);
     let told = lab
         .run_with("render plate.h5 -o a.svg --layout 2x2 -q", &["von-mises,ux,hypot(ux, uy),syy"]);
-    assert!(told.contains("von-mises, ux, hypot(ux, uy), syy, 1024x768 pixels"), "{told}");
+    assert!(told.contains("von-mises, ux, hypot(ux, uy), syy, 1320x1200 pixels"), "{told}");
     let svg = read(&lab, "a.svg");
     let captions =
         ["(a) ", "(b) ", "(c) ", "(d) "].map(|caption| svg.matches(&format!(">{caption}")).count());

@@ -285,7 +285,7 @@ fn numbers_out_of_place_are_told() {
     let lab = Lab::solved(LINEAR);
     for (options, part) in [
         ("--width -1 --center 0,0", "a finite number above zero"),
-        ("--size -1x5", "WIDTHxHEIGHT"),
+        ("--tip -1", "invalid digit"),
         ("--step -1", "invalid digit"),
         ("--layout 2 -q u,u", "CxR"),
         ("--isolines 0.5", "with commas"),
