@@ -44,6 +44,11 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     parts.ok_or_else(|| "write two whole numbers: WIDTHxHEIGHT, e.g. 1024x768".into())
 }
 
+/// `CxR`: columns and rows of panels.
+pub(crate) fn layout(text: &str) -> Result<[u32; 2], String> {
+    size(text).map_err(|_| "write the numbers of columns and rows: CxR, e.g. 2x2".into())
+}
+
 /// `WxH`: width and height, in inches.
 pub(crate) fn inches(text: &str) -> Result<[f64; 2], String> {
     let parts =

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
     bench, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
@@ -50,11 +50,30 @@ pub(crate) enum Command {
     Man(man::Args),
 }
 
+impl Cli {
+    /// Understands a command line.
+    pub(crate) fn understood(
+        words: impl IntoIterator<Item = OsString>,
+    ) -> Result<Self, clap::Error> {
+        let matches = Self::whole().try_get_matches_from(words)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::whole()))
+    }
+
+    /// The commands, whose options all take negative numbers: what is wrong with one its option says.
+    pub(crate) fn whole() -> clap::Command {
+        let with_numbers = |arg: Arg| {
+            let is_option = !arg.is_positional() && arg.get_action().takes_values();
+            if is_option { arg.allow_negative_numbers(true) } else { arg }
+        };
+        Self::command().mut_subcommands(|command| command.mut_args(with_numbers))
+    }
+}
+
 impl Command {
     /// Does the work; results are written to `out`.
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         let line =
-            |words: Vec<OsString>, out: &mut Output| Cli::try_parse_from(words)?.command.run(out);
+            |words: Vec<OsString>, out: &mut Output| Cli::understood(words)?.command.run(out);
         match self {
             Self::Demo(args) => args.run(out, &line),
             Self::Gallery(args) => args.run(out, &line),
@@ -68,8 +87,8 @@ impl Command {
             Self::Plot(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
-            Self::Completions(args) => args.run(out, Cli::command()),
-            Self::Man(args) => args.run(out, Cli::command()),
+            Self::Completions(args) => args.run(out, Cli::whole()),
+            Self::Man(args) => args.run(out, Cli::whole()),
         }
     }
 }
@@ -81,7 +100,7 @@ mod tests {
     /// Clap's own checks of names, conflicts and defaults.
     #[test]
     fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
+        Cli::whole().debug_assert();
     }
 
     #[test]

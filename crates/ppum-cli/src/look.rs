@@ -77,6 +77,13 @@ enum Word {
 
 /// Size of pictures if nothing is said.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+/// Size of a panel if no size is given, also of long plates.
+const PANEL: [u32; 2] = [660, 600];
+const LONG_PANEL: [u32; 2] = [900, 330];
+/// Panels side by side that pages grow with.
+const MOST_PANELS: u32 = 12;
+/// Length over height of what counts as long.
+pub(crate) const LONG: f64 = 2.2;
 const PRINT_DPI: f64 = 300.0;
 const SCREEN_DPI: f64 = 96.0;
 
@@ -100,6 +107,13 @@ impl Look {
     /// The size that was asked for \[pixels\].
     pub(crate) fn given_size(&self) -> Option<[u32; 2]> {
         self.size.or_else(|| Some(Design::inches(self.inches?, self.dpi()).size))
+    }
+
+    /// Size of a page of so many panels across and down if no size is given, of things of a shape.
+    pub(crate) fn page(aspect: Option<f64>, [across, down]: [u32; 2]) -> [u32; 2] {
+        let panel = if aspect.is_some_and(|aspect| aspect > LONG) { LONG_PANEL } else { PANEL };
+        // a page of more panels than anyone can see stays small enough to be refused for want of room
+        [across.min(MOST_PANELS) * panel[0], down.min(MOST_PANELS) * panel[1]]
     }
 
     /// Pixels per inch.

@@ -40,12 +40,11 @@ mod window;
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use clap::Parser as _;
 use output::{Output, show, tell};
 
 fn main() -> ExitCode {
     signals::watch();
-    match cli::Cli::try_parse() {
+    match cli::Cli::understood(std::env::args_os()) {
         Ok(cli) => run(&cli.command),
         Err(message) => {
             show(&message);

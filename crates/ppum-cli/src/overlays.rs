@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use clap::ValueEnum;
 use ppum::crack::Crack;
 use ppum::dataset::Dataset;
@@ -14,7 +14,7 @@ use ppum_figure::levels;
 use ppum_figure::overlay::{self, Entry, Load, Room, Support};
 use ppum_render::deform::DeformedPoints;
 use ppum_render::glyph::{LEAST_SPACING, Lattice};
-use ppum_render::isoline::isolines;
+use ppum_render::isoline::{Isoline, isolines};
 use ppum_render::picture::Picture;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
@@ -61,17 +61,17 @@ impl FromStr for Levels {
         if text == "auto" {
             return Ok(Self::Auto);
         }
-        if let Ok(count) = text.parse() {
-            return match count {
-                1..=1000 => Ok(Self::Count(count)),
-                _ => Err("write 1 to 1000 levels, or their values with a comma"),
-            };
+        if !text.contains(',') {
+            let count = text.parse().ok().filter(|count| (1..=1000).contains(count));
+            return count.map(Self::Count).ok_or(
+                "write auto, a number of levels from 1 to 1000, or their values with commas, `0.5,` for one",
+            );
         }
         let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
         let values: Option<Vec<f64>> =
             text.split(',').filter(|part| !part.trim().is_empty()).map(number).collect();
         let values = values.filter(|values| !values.is_empty());
-        Ok(Self::At(values.ok_or("write auto, a number of levels, or values with commas between")?))
+        Ok(Self::At(values.ok_or("write finite values with commas between")?))
     }
 }
 
@@ -166,6 +166,18 @@ impl Overlays {
         Ok(items)
     }
 
+    /// Refuses what the deformed plate does not have.
+    pub(crate) fn check_deformed(&self) -> anyhow::Result<()> {
+        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
+        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
+            bail!(
+                "--overlay {}: of these overlays the deformed plate has cells and cracks alone",
+                other.get_name()
+            );
+        }
+        Ok(())
+    }
+
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
@@ -178,7 +190,7 @@ impl Overlays {
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
         let room = self.room(picture, &field.step.cracks);
-        Ok(overlay::isolines(view, &lines, room))
+        Ok(shown(view, &lines, levels, room))
     }
 
     /// Isolines of the plate as it was, where they have moved to.
@@ -195,7 +207,7 @@ impl Overlays {
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
         // cracks have opened, or closed: nothing can be said of their lines
-        Ok(overlay::isolines(&points.view.view, &lines, self.room(ground.picture, &[])))
+        Ok(shown(&points.view.view, &lines, &levels, self.room(ground.picture, &[])))
     }
 
     /// Where labels of levels may stand, if they are asked for.
@@ -207,6 +219,8 @@ impl Overlays {
     fn levels(&self, picture: &Picture) -> Option<Vec<f64>> {
         let norm = &picture.normalization;
         self.isolines.as_ref().map(|levels| match levels {
+            // nothing but rounding tells values apart
+            _ if picture.one_value.is_some() => Vec::new(),
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
             Levels::Count(count) => levels::about(norm, *count),
             Levels::At(values) => values.clone(),
@@ -225,7 +239,12 @@ impl Overlays {
             entries.extend(meaning);
         };
         if let Some(spacing) = self.crosses {
+            ensure!(
+                field.equation.elastic().is_some(),
+                "--crosses: they show principal stresses, and a potential has none; --arrows shows its gradient"
+            );
             let found = lattice(spacing).principal(&Bar::new())?;
+            warn_of_none(found.len(), "cross stands in the picture; choose a smaller distance");
             add(overlay::crosses(view, &found, spacing));
         }
         if let Some(spacing) = self.arrows {
@@ -234,6 +253,7 @@ impl Overlays {
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
             let found = lattice(spacing).vectors(&shown, &Bar::new())?;
+            warn_of_none(found.len(), "arrow stands in the picture; choose a smaller distance");
             add(overlay::arrows(view, &found, spacing));
         }
         Ok((items, entries))
@@ -248,13 +268,6 @@ impl Overlays {
         with_outline: bool,
     ) -> anyhow::Result<Vec<Item>> {
         let has = |wanted: Overlay| self.overlay.contains(&wanted);
-        let other = self.overlay.iter().find(|o| !matches!(o, Overlay::Cells | Overlay::Cracks));
-        if let Some(other) = other.and_then(ValueEnum::to_possible_value) {
-            bail!(
-                "--overlay {}: of these overlays the deformed plate has cells and cracks alone",
-                other.get_name()
-            );
-        }
         let view = &points.view;
         let mut items = Vec::new();
         if with_outline {
@@ -306,6 +319,23 @@ impl Overlays {
             ),
         }
         Vec::new()
+    }
+}
+
+/// Isolines, or a word that there are none.
+fn shown(view: &View, lines: &[Isoline], levels: &[f64], room: Option<Room>) -> Vec<Item> {
+    // without levels there is one value, which is told
+    warn_of_none(
+        lines.len() + usize::from(levels.is_empty()),
+        "isoline lies in the picture: its values pass none of the levels",
+    );
+    overlay::isolines(view, lines, room)
+}
+
+/// Tells that nothing is drawn where something was asked for.
+fn warn_of_none(count: usize, what: &str) {
+    if count == 0 {
+        tell(&format!("warning: no {what}"));
     }
 }
 

@@ -182,14 +182,20 @@ pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();
     }
-    let mut short: Vec<char> = text.chars().collect();
-    while short.pop().is_some() {
-        let shorter = format!("{}…", short.iter().collect::<String>().trim_end());
-        if width(&shorter, size) <= room {
-            return shorter;
+    let short = |kept: usize| {
+        let begin: String = text.chars().take(kept).collect();
+        format!("{}…", begin.trim_end())
+    };
+    // texts grow with their letters, of which there may be many
+    let (mut fits, mut too_many) = (0, text.chars().count());
+    while fits + 1 < too_many {
+        let middle = usize::midpoint(fits, too_many);
+        match width(&short(middle), size) <= room {
+            true => fits = middle,
+            false => too_many = middle,
         }
     }
-    String::new()
+    if fits > 0 { short(fits) } else { String::new() }
 }
 
 /// The text in lines that fit, broken between words, and within words that are longer than a line. Ends of

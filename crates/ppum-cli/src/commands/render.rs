@@ -17,7 +17,7 @@ use ppum_render::range::Span;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
 
-use crate::arguments::size;
+use crate::arguments::layout;
 use crate::backend::Engine;
 use crate::deformed::{Deformed, Deforming, draw, points, words};
 use crate::drawing::{Drawn, Job, Seen, Shown};
@@ -56,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long)]
     blank: bool,
     /// Panels of a figure with several quantities or parts: columns and rows [default: as large as fits]
-    #[arg(long, value_name = "CxR", value_parser = size)]
+    #[arg(long, value_name = "CxR", value_parser = layout)]
     layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar
     #[arg(long)]
@@ -144,10 +144,7 @@ impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         self.engine.check()?;
         self.look.check(self.is_figure())?;
-        ensure!(
-            !(self.subject.has_parts() && self.deformed.is_given()),
-            "several parts and --deformed do not go together; draw them one by one"
-        );
+        self.check_deformed()?;
         ensure!(
             self.has_panels() || !self.shared_range,
             "--shared-range is for panels; give several quantities or parts"
@@ -174,13 +171,29 @@ impl Args {
         self.layout.is_some() || self.subject.count() > 1
     }
 
+    /// Refuses what does not go together with a deformed plate.
+    fn check_deformed(&self) -> anyhow::Result<()> {
+        if !self.deformed.is_given() {
+            return Ok(());
+        }
+        ensure!(
+            !self.subject.has_parts(),
+            "several parts and --deformed do not go together; draw them one by one"
+        );
+        ensure!(
+            self.samples == Samples::CENTER,
+            "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
+        );
+        self.overlays.check_deformed()
+    }
+
     fn is_figure(&self) -> bool {
         self.figure || self.has_panels()
     }
 
-    /// The look of a figure.
-    fn design(&self, field: &Field<'_>) -> Design {
-        let design = self.look.design(self.window.aspect(field), DEFAULT_SIZE, [1, 1]);
+    /// The look of a figure, of a size unless another is given, with so many panels across and down.
+    fn design(&self, field: &Field<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
+        let design = self.look.design(self.window.aspect(field), size, panels);
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 
@@ -227,7 +240,7 @@ impl Args {
         let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
         let deforming = self.deformed.of(&fields)?;
         let factor = deforming.as_ref().map(Deforming::words);
-        let design = self.design(fields[0]);
+        let design = self.design(fields[0], DEFAULT_SIZE, [1, 1]);
         let words = |plate: &Plate<'_>| {
             let asked = self.asked(plate.field)?.swap_remove(0);
             let title = titled(plate.shown.clone(), factor.as_deref());
@@ -284,9 +297,6 @@ impl Args {
             (Seen::Plate(view), Shown::Cells(_, values)) => {
                 Ok(Drawn::of_cells(values, field, view))
             }
-            (Seen::Moved(_), _) if samples != Samples::CENTER => bail!(
-                "--samples: the deformed plate is drawn at the centres of pixels; leave --samples or --deformed out"
-            ),
             (Seen::Moved(points), shown) => draw(points, shown, &self.engine),
         }
     }
@@ -414,7 +424,9 @@ impl Coloring {
 
 /// Tells that a quantity has no value at some pixels of the plate, of so many.
 fn warn(asked: &Asked, undefined: [usize; 2]) {
-    if undefined[0] > 0 {
+    if undefined[1] == 0 {
+        tell("warning: no pixel has its centre on the plate");
+    } else if undefined[0] > 0 {
         let message = match &asked.shown {
             Shown::Quantity(_) => undefined::message(&asked.name, undefined, "pixels"),
             Shown::Cells(..) => undefined::of_cells(&asked.name, undefined),

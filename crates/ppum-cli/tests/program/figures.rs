@@ -61,7 +61,7 @@ fn panels_are_drawn() {
     let lab = Lab::solved(CRACKED);
     let told = lab
         .run_with("render plate.h5 -o a.svg --layout 2x2 -q", &["von-mises,ux,hypot(ux, uy),syy"]);
-    assert!(told.contains("von-mises, ux, hypot(ux, uy), syy, 1024x768 pixels"), "{told}");
+    assert!(told.contains("von-mises, ux, hypot(ux, uy), syy, 1320x1200 pixels"), "{told}");
     let svg = read(&lab, "a.svg");
     let captions =
         ["(a) ", "(b) ", "(c) ", "(d) "].map(|caption| svg.matches(&format!(">{caption}")).count());
@@ -164,6 +164,11 @@ fn overlays_are_drawn_over_the_colours() {
         "--isolines 0",
         "--isolines x",
         "--isolines ,",
+        "--isolines 1e9",
+        "--isolines=-1",
+        "--layout 2 -q ux,uy",
+        "--figure --font-size 1e9",
+        "--layout 1000000000x1 -q ux,uy",
         "--level-labels",
         "--arrows=1",
         "--overlay nodes",

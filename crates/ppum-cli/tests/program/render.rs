@@ -278,3 +278,29 @@ fn what_cannot_be_deformed_is_told() {
     let complaint = potential.fail("render plate.h5 -o a.png --deformed auto");
     assert!(complaint.contains("no displacement"), "{complaint}");
 }
+
+/// What is wrong with a negative number its option says; a picture without the plate is told.
+#[test]
+fn numbers_out_of_place_are_told() {
+    let lab = Lab::solved(LINEAR);
+    for (options, part) in [
+        ("--width -1 --center 0,0", "a finite number above zero"),
+        ("--tip -1", "invalid digit"),
+        ("--step -1", "invalid digit"),
+        ("--layout 2 -q u,u", "CxR"),
+        ("--isolines 0.5", "with commas"),
+        ("--crosses", "principal stresses"),
+        ("--range 0,1e400", "two finite numbers"),
+    ] {
+        let complaint = lab.fail(&format!("render plate.h5 -o a.png {options}"));
+        assert!(complaint.contains(part), "{options}: {complaint}");
+    }
+    for (options, part) in [
+        ("--view=-1e9,-1e9,1e9,1e9", "no pixel has its centre on the plate"),
+        ("--isolines 77,", "no isoline"),
+        ("--arrows=1e6", "no arrow"),
+    ] {
+        let (_, remark) = lab.warned(&format!("render plate.h5 -o a.png {options}"));
+        assert!(remark.contains(part), "{options}: {remark}");
+    }
+}

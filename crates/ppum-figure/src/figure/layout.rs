@@ -92,9 +92,12 @@ pub fn panel_area(
 ) -> Result<[u32; 2], FigureError> {
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)];
     let taken = kept(title, captions, grid, design).map(|room| room.ceil() as u32);
-    let least = [taken[0] + across * LEAST, taken[1] + down * LEAST];
+    let least = [(taken[0], across), (taken[1], down)]
+        .map(|(taken, count)| taken.saturating_add(count.saturating_mul(LEAST)));
     if design.size[0] < least[0] || design.size[1] < least[1] {
-        return Err(FigureError::TooSmall { size: design.size, least });
+        let (size, dpi) = (design.size, design.dpi);
+        let least = [0, 1].map(|side| least[side].max(size[side]));
+        return Err(FigureError::TooSmall { size, least, dpi });
     }
     Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
 }

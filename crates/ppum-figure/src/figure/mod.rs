@@ -30,17 +30,19 @@ pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
 pub use layout::{Grid, panel_area, panels, plot_area};
 
 /// The reason why there is no such figure.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
     /// No room for the pictures between the labels.
-    #[error("a figure of {}x{} pixels leaves no room; give at least {}x{}",
-        size[0], size[1], least[0], least[1])]
+    #[error("a figure of {}x{} pixels leaves no room; give at least {}x{}, {}x{} inches, or smaller letters",
+        size[0], size[1], least[0], least[1], inches(least[0], *dpi), inches(least[1], *dpi))]
     TooSmall {
         /// The size asked for.
         size: [u32; 2],
-        /// The smallest size.
+        /// A size that leaves room, no smaller on any side.
         least: [u32; 2],
+        /// Pixels per inch.
+        dpi: f64,
     },
     /// The picture is larger than the room between the labels.
     #[error("a picture of {}x{} pixels does not fit a figure with room for {}x{}; \
@@ -96,6 +98,11 @@ pub fn bare(picture: &Picture, layers: Vec<Item>) -> Canvas {
     page.items.push(Item::Picture { image: picture.image.clone(), corner: [0, 0] });
     page.items.extend(layers);
     page
+}
+
+/// A length in inches, with a digit behind the point and not below.
+fn inches(pixels: u32, dpi: f64) -> f64 {
+    (f64::from(pixels) / dpi * 10.0).ceil() / 10.0
 }
 
 #[cfg(test)]

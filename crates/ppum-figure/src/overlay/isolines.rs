@@ -1,6 +1,7 @@
 //! Isolines with their levels.
 
 use ppum::crack::Crack;
+use ppum::segment;
 use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
@@ -108,8 +109,29 @@ pub fn isolines(view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item>
 
 /// The line in pixels, the first point again at the end of a closed one.
 fn points(view: &View, line: &Isoline) -> Vec<Vec2> {
-    line.polyline().into_iter().map(|offset| view.pixel_of_offset(offset)).collect()
+    thinned(line.polyline().into_iter().map(|offset| view.pixel_of_offset(offset)).collect())
 }
+
+/// The points of a line without those that lie within [`UNSEEN`] of the chord of others; its ends stay.
+fn thinned(points: Vec<Vec2>) -> Vec<Vec2> {
+    let Some(last) = points.len().checked_sub(1) else { return points };
+    let (mut kept, mut from) = (vec![points[0]], 0);
+    while from < last {
+        let lies_near = |&to: &usize| {
+            let chord = [points[from], points[to]];
+            points[from + 1..to].iter().all(|&p| segment::distance(chord, p) <= UNSEEN)
+        };
+        let farthest = (from + 2..=last.min(from + RUN)).take_while(lies_near).last();
+        from = farthest.unwrap_or(from + 1);
+        kept.push(points[from]);
+    }
+    kept
+}
+
+/// Distance that nobody sees, pixels.
+const UNSEEN: f64 = 0.02;
+/// Most points that one chord stands for.
+const RUN: usize = 48;
 
 /// What labels keep away from.
 struct Taken {
@@ -203,7 +225,7 @@ mod tests {
         let lines = [circle(0.8, 2.5), circle(0.5, -1.0), circle(0.01, 7.0)];
         let items = isolines(&view(), &lines, Some(room(&[])));
         let Item::Line { path, .. } = &items[0] else { panic!("lines first") };
-        assert!(path.pieces.iter().all(|p| p.len() == 101 && p.first() == p.last()));
+        assert!(path.pieces.iter().all(|p| p.len() > 2 && p.first() == p.last()));
         let texts: Vec<&Lettering> = items
             .iter()
             .filter_map(|item| match item {
@@ -219,6 +241,29 @@ mod tests {
         }
         assert_eq!(isolines(&view(), &lines, None).len(), 1);
         assert_eq!(isolines(&view(), &[], Some(room(&[]))).len(), 1);
+    }
+
+    /// Circles keep a point where the chord's sagitta, s²/8r, comes near what is unseen; straight lines their ends.
+    #[test]
+    fn lines_have_as_few_points_as_they_need() {
+        for radius in [3.0, 50.0, 1000.0] {
+            let turn = |k: u32| 0.5 * f64::from(k) / radius;
+            let count = (std::f64::consts::TAU * radius * 2.0) as u32;
+            let circle: Vec<Vec2> =
+                (0..count).map(|k| vec2(turn(k).cos(), turn(k).sin()) * radius).collect();
+            let kept = thinned(circle.clone());
+            let off = |p: &Vec2| {
+                kept.windows(2).map(|c| segment::distance([c[0], c[1]], *p)).fold(9.0, f64::min)
+            };
+            assert!(circle.iter().all(|p| off(p) <= UNSEEN), "{radius}");
+            let chord = (8.0 * radius * UNSEEN).sqrt().min(0.5 * RUN as f64);
+            let fewest = std::f64::consts::TAU * radius / chord;
+            assert!((kept.len() as f64) < 1.7 * fewest + 2.0, "{radius}: {} {fewest}", kept.len());
+            assert_eq!((kept[0], kept.last()), (circle[0], circle.last()));
+        }
+        let straight = (0..40).map(|k| vec2(f64::from(k), 2.0 * f64::from(k))).collect();
+        assert_eq!(thinned(straight).len(), 2);
+        assert!(thinned(Vec::new()).is_empty());
     }
 
     /// A white picture but for a hole at its right.

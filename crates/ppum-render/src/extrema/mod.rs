@@ -12,7 +12,8 @@
 //!
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
 //! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
-//! are left out: there the last digits of the field decide.
+//! are left out: there the last digits of the field decide. An extremum is infinite too if a pixel is, and if the search runs away from all pixels,
+//! beyond [`RUNAWAY`] times their size: 1/x does between two of them.
 
 mod bent;
 mod climb;
@@ -30,7 +31,7 @@ use rayon::prelude::*;
 
 use crate::error::RenderError;
 use crate::parts::Parts;
-use crate::raster::{Raster, Sample};
+use crate::raster::{Raster, Sample, Statistics};
 use crate::view::View;
 use climb::Climber;
 use curves::Curve;
@@ -47,6 +48,10 @@ const SAMPLES: usize = 1 << 13;
 
 /// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
 const SEGMENTS: usize = 64;
+
+/// Distance from the pixels' values, in parts of their size, from which an extremum counts as infinite. On a rim that is no wider than a
+/// pixel stresses are some three times those around; 1/x grows by a million on the way from a pixel to its zero.
+pub const RUNAWAY: f64 = 10.0;
 
 /// Distance from a singular point below which finite values are left out, pixels.
 const HIDDEN: f64 = 1e-3;
@@ -194,8 +199,27 @@ pub fn extrema<T: Sample>(
         None => search.finite(&sampled, raster, sign),
         found => Ok(found),
     };
-    let [Some(min), Some(max)] = [best(-1.0)?, best(1.0)?] else { return Ok(None) };
+    let [Some(min), Some(max)] = [best(-1.0)?, best(1.0)?] else {
+        return Ok(Extrema::of_pixels(raster, view));
+    };
+    let [min, max] =
+        [(min, -1.0), (max, 1.0)].map(|(best, sign)| at_most(best, sign, raster, view));
     Ok(Some(Extrema { min, max, singular }))
+}
+
+/// The extremum, infinite if a pixel is or if it has run away from all of them.
+fn at_most<T: Sample>(best: Extremum, sign: f64, raster: &Raster<T>, view: &View) -> Extremum {
+    let value = sign * f64::INFINITY;
+    let infinite = raster.values.iter().position(|&v| v.into() == value);
+    if let Some(pixel) = infinite.filter(|_| best.value.is_finite()) {
+        let columns = raster.size[0] as usize;
+        let offset = view.offset((pixel % columns) as u32, (pixel / columns) as u32);
+        return Extremum { value, offset, on: On::Inside };
+    }
+    let Statistics { finite, min, max, .. } = raster.statistics();
+    let (size, extreme) = (min.abs().max(max.abs()), if sign > 0.0 { max } else { min });
+    let runs_away = finite > 0 && sign * (best.value - extreme) > RUNAWAY * size;
+    if runs_away { Extremum { value, ..best } } else { best }
 }
 
 /// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.

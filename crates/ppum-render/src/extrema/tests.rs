@@ -304,3 +304,31 @@ fn extremes_along_curves() {
         );
     }
 }
+
+/// What grows without end between pixels, at one of them or everywhere is infinite.
+#[test]
+fn poles_are_infinite() {
+    let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::hug(dataset.domain.bounds, [60, 40]).expect("a view");
+    let (x, column) = (view.center.x + 0.3 * view.pixel_size(), view.center + view.offset(7, 11));
+    let inf = f64::INFINITY;
+    for (text, expected) in [
+        (format!("1/(x - ({x:?}))"), [-inf, inf]),
+        (format!("1/(x - ({x:?}))^2"), [f64::NAN, inf]),
+        ("1/0".to_owned(), [inf, inf]),
+        (
+            format!("if(hypot(x - ({:?}), y - ({:?})) < 1e-9, 1/0, 1)", column.x, column.y),
+            [1.0, inf],
+        ),
+    ] {
+        let quantity = Quantity::parse(&text, &field).expect("a quantity");
+        let raster = f64::render(&field, &view, &quantity, unwatched()).expect("a raster");
+        let found = extrema(&field, &view, &quantity, &raster, unwatched()).expect("a search");
+        let found = found.expect("values");
+        for (value, expected) in [found.min.value, found.max.value].into_iter().zip(expected) {
+            assert!(expected.is_nan() || value == expected, "{text}: {found:?}");
+        }
+        assert!(found.is_infinite());
+    }
+}

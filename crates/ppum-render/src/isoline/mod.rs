@@ -9,7 +9,8 @@
 //! - between two crossings points are pulled onto the curve until chords are within [`CHORD`] pixels of it.
 //!
 //! So lines do not depend on the precision of the raster. Squares that a crack, a rim or an interface cuts are marched
-//! [piece](crate::pieces) by piece: no line runs along a jump, and lines end on faces. Values at tips may be infinite:
+//! [piece](crate::pieces) by piece: no line runs along these jumps, and lines end on faces. Where derivatives jump at a border of patches, as with the linear weight, a line goes along
+//! the border to where its value is met again. Values at tips may be infinite:
 //! lines pass between what is finite around. A loop inside one square, and a line that enters and leaves a square by one side, are not seen.
 
 mod join;
@@ -23,6 +24,7 @@ use ppum::quantity::{Quantity, QuantityGradient, Source};
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::error::RenderError;
 use crate::parts::Parts;
@@ -34,6 +36,9 @@ use march::{Marcher, Segment};
 
 /// Distance of chords from the curve up to which no point is put between, pixels.
 pub const CHORD: f64 = 0.02;
+
+/// Most points of all lines of a picture. A picture of 8000 × 6000 pixels with thirty lines across has a third as many.
+pub const MOST_POINTS: usize = 1 << 21;
 
 /// Squares that one task marches through.
 const TASK: usize = 64;
@@ -67,7 +72,7 @@ impl Isoline {
 /// Costs some ten evaluations of the [gradient](QuantityGradient::at) for each pixel that a line passes.
 ///
 /// # Errors
-/// The quantity has no meaning for the field; the watcher stops the call.
+/// The quantity has no meaning for the field; more than [`MOST_POINTS`] points; the watcher stops the call.
 ///
 /// # Panics
 /// If the raster has not the view's pixels.
@@ -86,7 +91,8 @@ pub fn isolines<T: Sample>(
     };
     let slope = QuantityGradient::new(quantity, field)?;
     let lattice = Lattice::new(view);
-    let search = Search { field, view, slope, levels, pieces, lattice };
+    let search =
+        Search { field, view, slope, levels, pieces, lattice, points: AtomicUsize::new(0) };
     let segments = search.segments(raster, watcher)?;
     Ok(join::lines(segments, levels, view.pixel_size()))
 }
@@ -99,6 +105,8 @@ struct Search<'a, 'f> {
     levels: &'a [f64],
     pieces: Pieces<'f>,
     lattice: Lattice,
+    /// How many there are so far.
+    points: AtomicUsize,
 }
 
 impl Search<'_, '_> {
@@ -127,10 +135,12 @@ impl Search<'_, '_> {
     fn march(&self, cells: &[Cell], parts: &Parts<'_>) -> Result<Vec<Vec<Segment>>, RenderError> {
         let local = self.field.at(self.view.center);
         let mut marcher = Marcher::new(&self.slope, local, self.view.pixel_size(), &self.lattice);
-        let found =
+        let found: Vec<Vec<Segment>> =
             cells.iter().map(|&cell| marcher.segments(cell, self.levels, &self.pieces)).collect();
         parts.finish_one()?;
-        Ok(found)
+        let points = found.iter().flatten().map(|segment| segment.points.len()).sum();
+        let before = self.points.fetch_add(points, Ordering::Relaxed);
+        if before + points > MOST_POINTS { Err(RenderError::TooManyLines) } else { Ok(found) }
     }
 }
 

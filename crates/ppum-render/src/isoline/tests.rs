@@ -438,3 +438,16 @@ fn it_can_be_stopped() {
     let found = isolines(&field, &view, &quantity, &[0.1], &raster, &stop);
     assert!(matches!(found, Err(RenderError::Cancelled(_))));
 }
+
+/// What passes a thousand levels everywhere is refused before it takes memory without end.
+#[test]
+fn too_many_lines_are_refused() {
+    let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::hug(dataset.domain.bounds, [200, 150]).expect("a view");
+    let quantity = Quantity::parse("sin(1e4*x)*sin(1e4*y)", &field).expect("a quantity");
+    let raster = f64::render(&field, &view, &quantity, unwatched()).expect("a raster");
+    let levels: Vec<f64> = (1..1000).map(|k| f64::from(k) * 2e-3 - 1.0).collect();
+    let found = isolines(&field, &view, &quantity, &levels, &raster, unwatched());
+    assert!(matches!(found, Err(RenderError::TooManyLines)), "{:?}", found.map(|l| l.len()));
+}

@@ -8,7 +8,6 @@
 //! in the colours below and above. On a logarithmic scale the same is done with the logarithms of the
 //! positive values. Further:
 //!
-//! - an extremum that lies more than ten times the pixels' largest magnitude beyond them is taken for infinite, as of 1/x between two pixels;
 //! - where a quantity is not positive everywhere, a logarithmic scale begins where the robust range does;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
@@ -49,10 +48,15 @@ pub enum RangeError {
     /// No word, numbers or percentiles that mean a range.
     #[error("`{0}` is no range; write auto, full, MIN,MAX, or percentiles P%,Q%")]
     Syntax(String),
-    /// Bounds that do not rise, are not finite, or differ by less than the smallest normal number.
-    #[error("the range from {} to {} is empty; give two finite numbers, the smaller one first",
-        exact(*.0), exact(*.1))]
+    /// Bounds that do not rise.
+    #[error("the range from {} to {} is empty; give the smaller number first", exact(*.0), exact(*.1))]
     Empty(f64, f64),
+    /// Bounds that are not finite.
+    #[error("the range from {} to {} has no end; give two finite numbers", exact(*.0), exact(*.1))]
+    Endless(f64, f64),
+    /// Bounds whose difference is larger than the largest number, or smaller than the smallest normal one.
+    #[error("the range from {} to {} is wider or narrower than double precision can tell", exact(*.0), exact(*.1))]
+    Extreme(f64, f64),
     /// Percentiles that do not rise or lie outside 0 to 100.
     #[error(
         "from {0} % to {1} % lies no range; give two percentiles from 0% to 100%, the smaller one first, \
@@ -102,8 +106,12 @@ impl fmt::Display for Range {
 }
 
 fn check(min: f64, max: f64) -> Result<(), RangeError> {
-    let is_range = min < max && (max - min).is_normal();
-    if is_range { Ok(()) } else { Err(RangeError::Empty(min, max)) }
+    match (min, max) {
+        _ if !min.is_finite() || !max.is_finite() => Err(RangeError::Endless(min, max)),
+        _ if min >= max => Err(RangeError::Empty(min, max)),
+        _ if !(max - min).is_normal() => Err(RangeError::Extreme(min, max)),
+        _ => Ok(()),
+    }
 }
 
 fn percentiles(p: f64, q: f64) -> Result<Range, RangeError> {
@@ -274,9 +282,6 @@ const TAIL: f64 = 0.005;
 const SLACK: f64 = 0.2;
 /// A range that starts within this part of its end above zero starts at zero.
 const NEAR_ZERO: f64 = 0.2;
-/// Distance from the pixels' values, in parts of their size, from which an extremum counts as infinite. On a rim that is no wider than a
-/// pixel stresses are some three times those around; 1/x grows by a million on the way from a pixel to its zero.
-const RUNAWAY: f64 = 10.0;
 /// Differences between bounds must stay finite.
 const LARGEST: f64 = f64::MAX / 4.0;
 
@@ -339,10 +344,8 @@ impl<T: Sample> Seen<'_, T> {
         let values =
             self.values.filter(|values| !values.is_of_pixels() && !values.is_infinite())?;
         let Statistics { infinite, min, max, .. } = self.raster.statistics();
-        let far = RUNAWAY * min.abs().max(max.abs());
         let (lowest, highest) = (values.min.value, values.max.value);
-        let runs_away = infinite > 0 || min - lowest > far || highest - max > far;
-        (!runs_away).then(|| (within(min.min(lowest)), within(max.max(highest))))
+        (infinite == 0).then(|| (within(min.min(lowest)), within(max.max(highest))))
     }
 
     fn full(&self) -> (Basis, Bounds) {

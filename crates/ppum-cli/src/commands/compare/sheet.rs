@@ -9,15 +9,16 @@ use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, 
 use ppum_figure::overlay;
 use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::Range;
+use ppum_render::range::{Range, Span};
 use ppum_render::raster::Raster;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
 use ppum_render::scale::Scale;
+use ppum_render::view::View;
 
 use super::Args;
 use super::measure::{Job, Measurements, name};
-use crate::look::letters;
+use crate::look::{LONG, Look, letters};
 use crate::progress::Bar;
 
 /// The page: what stands where.
@@ -39,12 +40,6 @@ enum Shows {
     Difference(usize),
 }
 
-/// Size of a panel if no size is given, also of long plates.
-const PANEL: [u32; 2] = [660, 600];
-const LONG_PANEL: [u32; 2] = [900, 330];
-/// Panels of plates at least this much longer than high stand below each other.
-const LONG: f64 = 2.2;
-
 impl Layout {
     /// The page for some methods; `labels` are the words of the field.
     pub(super) fn new(
@@ -62,8 +57,7 @@ impl Layout {
             (count, false) => [count as u32 + 1, 2],
             (count, true) => [2, count as u32 + 1],
         };
-        let panel = if is_long { LONG_PANEL } else { PANEL };
-        let design = args.look.design(aspect, [across * panel[0], down * panel[1]], [across, down]);
+        let design = args.look.design(aspect, Look::page(aspect, [across, down]), [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {
@@ -110,16 +104,15 @@ impl Layout {
         let direct = direct(&found.direct, job, style)?;
         let norm = &direct.normalization;
         let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
-        let signed = signed()?;
         let picture = |shows: &Shows| match *shows {
             Shows::Direct => Ok(direct.clone()),
-            Shows::Resampled(k) => Picture::bare(&found.resampled[k].raster, view, &fixed),
+            Shows::Resampled(k) => Ok(Picture::bare(&found.resampled[k].raster, view, &fixed)?),
             Shows::Difference(k) => {
                 let apart = difference(&found.direct, &found.resampled[k].raster);
-                Picture::bare(&apart, view, &signed)
+                signed(&apart, view)
             }
         };
-        let pictures = self.panels.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
+        let pictures = self.panels.iter().map(picture).collect::<anyhow::Result<Vec<_>>>()?;
         let cracks = &field.step.cracks;
         let rims = overlay::rims(view, &field.domain.holes);
         let layers = [rims, overlay::cracks(view, cracks)].concat();
@@ -135,6 +128,15 @@ impl Layout {
         let all: Vec<Panel<'_>> = all.collect();
         Ok((panels(&self.title, &all, self.grid, &self.design)?, direct))
     }
+}
+
+/// The picture of a difference, with a range of both signs also where all differences have one: no difference is white.
+fn signed(apart: &Raster, view: &View) -> anyhow::Result<Picture> {
+    let style = Style { scale: Scale::Linear, ..Style::named("coolwarm")? };
+    let found = Range::Auto.span(style.scale, true, apart, None);
+    let size = found.max.max(-found.min);
+    let span = Span { min: -size, max: size, ..found };
+    Ok(Picture::spanning(apart, view, &style, span)?)
 }
 
 impl Shows {
@@ -161,7 +163,18 @@ fn direct(raster: &Raster, job: Job<'_>, style: &Style) -> anyhow::Result<Pictur
     Ok(Picture::spanning(raster, &view, style, span)?)
 }
 
-/// Colours of differences.
-fn signed() -> anyhow::Result<Style> {
-    Ok(Style { scale: Scale::Linear, ..Style::named("coolwarm")? })
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::Vec2;
+
+    #[test]
+    fn no_difference_is_in_the_middle_of_the_colours() {
+        let view = View::new(Vec2::ZERO, 1.0, [20, 10]).unwrap();
+        for (from, step) in [(-5.0, 0.01), (3.0, 0.1), (-1.0, 0.03), (0.0, 0.0), (2.0, 0.0)] {
+            let apart = Raster::from_fn(view.pixels, |i, j| from + step * f64::from(i * 10 + j));
+            let norm = signed(&apart, &view).unwrap().normalization;
+            assert!(norm.min() == -norm.max() && norm.max() > 0.0, "{from} {step}: {norm:?}");
+        }
+    }
 }

@@ -1,14 +1,14 @@
 //! Several quantities, or parts of a field, in one figure.
 
 use anyhow::{Context as _, ensure};
-use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
+use ppum_figure::figure::{FigureError, Grid, Labels, Panel, panel_area, panels};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Span;
 
 use super::{Args, Plate, titled, told, warn};
 use crate::deformed::words;
 use crate::drawing::{Drawn, Seen};
-use crate::look::letters;
+use crate::look::{DEFAULT_SIZE, Look, letters};
 use crate::output::Output;
 use crate::page;
 use crate::range::Telling;
@@ -25,10 +25,11 @@ impl Args {
         let subjects = self.subjects(plates)?;
         let worded = |title| self.look.worded(Labels { title, ..Labels::default() }).title;
         let labels = self.labels(&subjects, plates.len());
-        let design = self.design(field);
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let untold = worded(title.clone());
-        let grid = self.grid(&untold, &captions, plates, &design)?;
+        let grid = self.grid(&untold, &captions, plates)?;
+        let size = [grid.columns, grid.rows];
+        let design = self.design(field, Look::page(self.window.aspect(field), size), size);
         let frame = self.frame(panel_area(&untold, &captions, grid, &design)?);
         let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
         let drawn = subjects.iter().map(|(plate, asked)| {
@@ -89,13 +90,7 @@ impl Args {
 
     /// The arrangement: as given; else a row for each of several quantities of several parts, or that with the largest
     /// pictures.
-    fn grid(
-        &self,
-        title: &str,
-        captions: &[&str],
-        plates: &[Plate<'_>],
-        design: &Design,
-    ) -> anyhow::Result<Grid> {
+    fn grid(&self, title: &str, captions: &[&str], plates: &[Plate<'_>]) -> anyhow::Result<Grid> {
         let (count, parts, shared_bar) = (captions.len(), plates.len(), self.shared_range);
         let of = |columns: usize| {
             let size = [columns as u32, count.div_ceil(columns) as u32];
@@ -113,9 +108,11 @@ impl Args {
         if parts > 1 && count > parts {
             return Ok(of(parts));
         }
-        let aspect = self.window.aspect(plates[0].field);
+        let field = plates[0].field;
+        let aspect = self.window.aspect(field);
         let width = |grid: Grid| {
-            let [width, height] = panel_area(title, captions, grid, design)?.map(f64::from);
+            let design = self.design(field, DEFAULT_SIZE, [grid.columns, grid.rows]);
+            let [width, height] = panel_area(title, captions, grid, &design)?.map(f64::from);
             Ok::<_, FigureError>(width.min(height * aspect.unwrap_or(SHAPE)))
         };
         let fitting = (1..=count).filter_map(|n| Some((width(of(n)).ok()?, of(n))));
