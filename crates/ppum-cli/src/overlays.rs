@@ -12,6 +12,7 @@ use ppum::vec2::Vec2;
 use ppum_figure::canvas::Item;
 use ppum_figure::levels;
 use ppum_figure::overlay::{self, Entry, Load, Room, Support};
+use ppum_figure::ticks::Notation;
 use ppum_render::deform::DeformedPoints;
 use ppum_render::glyph::{LEAST_SPACING, Lattice};
 use ppum_render::isoline::{Isoline, isolines};
@@ -96,6 +97,32 @@ pub(crate) struct Ground<'a> {
     pub(crate) values: &'a Values,
     /// A figure has its cracks whatever is asked for.
     pub(crate) is_figure: bool,
+    /// True if a colour bar tells how numbers are written.
+    pub(crate) has_bar: bool,
+}
+
+/// What is drawn over a picture, and the entries of a legend that has no room in it.
+pub(crate) struct Layers {
+    pub(crate) items: Vec<Item>,
+    pub(crate) legend: Vec<Entry>,
+}
+
+impl Layers {
+    /// Items with their legend over them if it has room.
+    fn new(mut items: Vec<Item>, view: &View, legend: Vec<Entry>) -> Self {
+        let inside = overlay::legend(view, &legend);
+        let legend = if inside.is_empty() { legend } else { Vec::new() };
+        items.extend(inside);
+        Self { items, legend }
+    }
+}
+
+/// Tells what a legend says that is nowhere drawn.
+pub(crate) fn tell_legend(legend: &[Entry]) {
+    if !legend.is_empty() {
+        let words = legend.iter().map(|entry| entry.label.as_str()).collect::<Vec<_>>().join(", ");
+        tell(&format!("warning: the picture is too small for its legend: {words}"));
+    }
 }
 
 /// In the order in which they are drawn, the lowest first.
@@ -128,7 +155,7 @@ const MARGIN: f64 = 0.09;
 
 impl Overlays {
     /// Draws them over a picture of the plate as it was before it was loaded.
-    pub(crate) fn items(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
+    pub(crate) fn items(&self, ground: Ground<'_>) -> anyhow::Result<Layers> {
         let Ground { dataset, field, picture, is_figure, .. } = ground;
         let view = &picture.view;
         let mut wanted = self.overlay.clone();
@@ -138,21 +165,22 @@ impl Overlays {
         wanted.sort_unstable();
         wanted.dedup();
         let stations = self.stations(view, dataset);
-        let (mut items, mut legend) = (self.isolines(ground)?, Vec::new());
-        let (glyphs, entries) =
+        let (glyphs, mut legend) =
             self.glyphs(ground, |spacing| Lattice::new(field, view, spacing))?;
+        let mut centers = Vec::new();
+        if wanted.contains(&Overlay::Centers) {
+            let (items, entries) = overlay::centers(view, field);
+            centers = items;
+            legend.extend(entries);
+        }
+        let mut items = self.isolines(ground, overlay::legend_box(view, &legend))?;
         items.extend(glyphs);
-        legend.extend(entries);
         for overlay in wanted {
             items.extend(match overlay {
                 Overlay::Patches => overlay::patches(view, &field.step.partition),
                 Overlay::Cells => overlay::cells(view, &field.step.partition),
                 Overlay::Points => overlay::points(view, &field.step.partition),
-                Overlay::Centers => {
-                    let (centers, entries) = overlay::centers(view, field);
-                    legend.extend(entries);
-                    centers
-                }
+                Overlay::Centers => std::mem::take(&mut centers),
                 Overlay::Rings => overlay::rings(view, &field.step.cracks, &field.step.intensities),
                 Overlay::Cracks => {
                     let rims = overlay::rims(view, &field.domain.holes);
@@ -162,8 +190,7 @@ impl Overlays {
                 Overlay::Loads => overlay::loads(view, &loads(&stations)),
             });
         }
-        items.extend(overlay::legend(view, &legend));
-        Ok(items)
+        Ok(Layers::new(items, view, legend))
     }
 
     /// Refuses what the deformed plate does not have.
@@ -179,7 +206,7 @@ impl Overlays {
     }
 
     /// Isolines, found on the exact field; the picture's values say where to look for them.
-    fn isolines(&self, ground: Ground<'_>) -> anyhow::Result<Vec<Item>> {
+    fn isolines(&self, ground: Ground<'_>, legend: Option<[Vec2; 2]>) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
         let Ground { field, picture, values, .. } = ground;
         let Some(quantity) = ground.quantity else { return Ok(Vec::new()) };
@@ -189,7 +216,7 @@ impl Overlays {
             Values::Double(raster) => isolines(field, view, quantity, levels, raster, &bar),
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
-        let room = self.room(picture, &field.step.cracks);
+        let room = self.room(ground, &field.step.cracks, legend);
         Ok(shown(view, &lines, levels, room))
     }
 
@@ -198,6 +225,7 @@ impl Overlays {
         &self,
         ground: Ground<'_>,
         points: &DeformedPoints<'_>,
+        legend: Option<[Vec2; 2]>,
     ) -> anyhow::Result<Vec<Item>> {
         let Some(levels) = self.levels(ground.picture) else { return Ok(Vec::new()) };
         let Some(view) = points.material_view() else { return Ok(Vec::new()) };
@@ -207,12 +235,22 @@ impl Overlays {
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
         // cracks have opened, or closed: nothing can be said of their lines
-        Ok(shown(&points.view.view, &lines, &levels, self.room(ground.picture, &[])))
+        Ok(shown(&points.view.view, &lines, &levels, self.room(ground, &[], legend)))
     }
 
-    /// Where labels of levels may stand, if they are asked for.
-    fn room(&self, picture: &Picture, cracks: &[Crack]) -> Option<Room> {
-        self.level_labels.then(|| Room::new(picture, cracks))
+    /// Where labels of levels may stand, if they are asked for: not below a legend.
+    fn room(
+        &self,
+        Ground { picture, has_bar, .. }: Ground<'_>,
+        cracks: &[Crack],
+        legend: Option<[Vec2; 2]>,
+    ) -> Option<Room> {
+        let notation = || match has_bar {
+            true => Notation::of(&picture.normalization),
+            false => Notation::PLAIN,
+        };
+        let all = self.level_labels.then(|| Room::new(picture, cracks, notation()));
+        all.map(|room| legend.into_iter().fold(room, Room::without))
     }
 
     /// The levels of isolines, if they are asked for.
@@ -266,15 +304,16 @@ impl Overlays {
         ground: Ground<'_>,
         points: &DeformedPoints<'_>,
         with_outline: bool,
-    ) -> anyhow::Result<Vec<Item>> {
+    ) -> anyhow::Result<Layers> {
         let has = |wanted: Overlay| self.overlay.contains(&wanted);
         let view = &points.view;
         let mut items = Vec::new();
         if with_outline {
             items.extend(overlay::undeformed_outline(view)?);
         }
-        items.extend(self.deformed_isolines(ground, points)?);
         let (glyphs, legend) = self.glyphs(ground, |spacing| Lattice::deformed(points, spacing))?;
+        let legend_box = overlay::legend_box(&view.view, &legend);
+        items.extend(self.deformed_isolines(ground, points, legend_box)?);
         items.extend(glyphs);
         if has(Overlay::Cells) {
             items.extend(overlay::deformed_cells(view));
@@ -283,8 +322,7 @@ impl Overlays {
             items.extend(overlay::deformed_outline(view));
             items.extend(overlay::faces(view));
         }
-        items.extend(overlay::legend(&view.view, &legend));
-        Ok(items)
+        Ok(Layers::new(items, &view.view, legend))
     }
 
     /// True if isolines are asked for.

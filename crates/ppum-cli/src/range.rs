@@ -72,7 +72,15 @@ impl<'a> Telling<'a> {
     pub(crate) fn colors(&self, picture: &Picture) -> String {
         let (norm, span) = (&picture.normalization, &picture.span);
         let colors = match picture.one_value {
-            _ if !picture.has_values => return "no finite values".into(),
+            _ if !picture.has_values => {
+                let ends = match [picture.has_below, picture.has_above] {
+                    [true, true] => ": −∞ and ∞ alone",
+                    [true, false] => ": −∞ everywhere",
+                    [false, true] => ": ∞ everywhere",
+                    [false, false] => "",
+                };
+                return format!("no finite values{ends}");
+            }
             Some(value) => return format!("one value, {}", trimmed(value)),
             None if !picture.colormap.classes().is_empty() => {
                 let values = picture.colormap.classes().iter().map(|value| trimmed(*value));

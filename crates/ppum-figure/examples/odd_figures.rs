@@ -103,7 +103,7 @@ impl Case {
     fn panel<'a>(&self, picture: &'a Picture, cracks: &'a [Crack]) -> Panel<'a> {
         let mut layers = overlay::rims(&picture.view, &self.domain().holes);
         layers.extend(overlay::cracks(&picture.view, cracks));
-        Panel { picture, layers, labels: self.labels(), cracks, bar_of: None }
+        Panel { picture, layers, legend: vec![], labels: self.labels(), cracks, bar_of: None }
     }
 
     fn draw(&self) -> Done<Canvas> {

@@ -22,7 +22,7 @@ mod tests {
     const FLOORS: Floors<'_> = &[
         &[("text", &[]), ("ticks", &[])],
         &[("canvas", &["text"]), ("levels", &["ticks"])],
-        &[("overlay", &["canvas", "text"])],
+        &[("overlay", &["canvas", "text", "ticks"])],
         &[
             ("figure", &["canvas", "overlay", "text", "ticks"]),
             ("plot", &["canvas", "overlay", "text", "ticks"]),

@@ -198,6 +198,22 @@ pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
     if fits > 0 { short(fits) } else { String::new() }
 }
 
+/// The text, or as much of its beginning and its end as fits with an ellipsis between.
+#[must_use]
+pub(crate) fn squeezed(text: &str, size: f64, room: f64) -> String {
+    if width(text, size) <= room {
+        return text.to_owned();
+    }
+    let all: Vec<char> = text.chars().collect();
+    let of = |kept: usize| {
+        let (begin, end) = (&all[..kept.div_ceil(2)], &all[all.len() - kept / 2..]);
+        let [begin, end] = [begin, end].map(|part| part.iter().collect::<String>());
+        format!("{}…{}", begin.trim_end(), end.trim_start())
+    };
+    let fits = |text: &String| width(text, size) <= room;
+    (1..all.len()).rev().map(of).find(fits).unwrap_or_default()
+}
+
 /// The text in lines that fit, broken between words, and within words that are longer than a line. Ends of
 /// lines in it stay; one of nothing but blanks has no lines.
 #[must_use]
@@ -329,5 +345,19 @@ mod tests {
         assert!(short.ends_with('…') && width(&short, 12.0) <= 80.0, "{short}");
         assert!(width(&short, 12.0) > 60.0);
         assert_eq!(fitted(text, 12.0, 1000.0), text);
+    }
+
+    #[test]
+    fn squeezed_text_has_both_ends() {
+        let text = "a rather long title of a plate";
+        for room in [40.0, 80.0, 120.0, 150.0] {
+            let short = squeezed(text, 12.0, room);
+            let (begin, end) = short.split_once('…').unwrap();
+            assert!(text.starts_with(begin) && text.ends_with(end), "{short}");
+            assert!(begin.len().abs_diff(end.len()) < 4, "{short}");
+            assert!((room - 20.0..=room).contains(&width(&short, 12.0)), "{short}");
+        }
+        assert_eq!(squeezed(text, 12.0, 1000.0), text);
+        assert_eq!(squeezed(text, 12.0, 1.0), "");
     }
 }

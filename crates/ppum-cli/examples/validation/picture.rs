@@ -34,7 +34,14 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     let texts = picture.description(&dataset.title, "", name);
     let cracks = &field.step.cracks;
     let layers = [overlay::rims(&view, &field.domain.holes), overlay::cracks(&view, cracks)];
-    let panel = Panel { picture: &picture, layers: layers.concat(), labels, cracks, bar_of: None };
+    let panel = Panel {
+        picture: &picture,
+        layers: layers.concat(),
+        legend: vec![],
+        labels,
+        cracks,
+        bar_of: None,
+    };
     let image = figure(panel, &design)?.image();
     std::fs::write(path, png::encode(&image, &texts)?)?;
     Ok(())

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{bail, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::figure::{BarPlace, Design, Labels, Panel, bare, figure, plot_area};
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{BarPlace, Design, Labels, Panel, bare, figure, lacks_legend, plot_area};
 use ppum_render::deform::DeformedView;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
@@ -24,7 +24,7 @@ use crate::drawing::{Drawn, Job, Seen, Shown};
 use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
-use crate::overlays::{Ground, Overlays};
+use crate::overlays::{Ground, Layers, Overlays, tell_legend};
 use crate::page;
 use crate::range::{self, Telling};
 use crate::subject::{Asked, Colors, Subject};
@@ -223,6 +223,7 @@ impl Args {
         let seen = self.seen(shot)?;
         let drawn = self.drawn(field, &seen, asked)?;
         warn(asked, drawn.undefined());
+        warn_of_infinite(asked, &drawn);
         let style = self.colours.style_of(&[(asked, &drawn)])?;
         let span = self.span(field, &seen, asked, &drawn, &style)?;
         let coloring = Coloring { style, span, ends: None };
@@ -325,11 +326,12 @@ impl Args {
     ) -> anyhow::Result<Sheet> {
         let Shot { plate, asked, labels, .. } = shot;
         let mut picture = coloring.picture(drawn)?;
-        let layers = self.layers(plate, seen, asked, drawn, &picture)?;
+        let Layers { items: layers, legend } =
+            self.layers(plate, seen, asked, drawn, &picture, design)?;
         self.blank(&mut picture);
         let (labels, cracks) = (labels.clone(), seen.cracks(plate.field));
         let page = self.page(
-            Panel { picture: &picture, layers, labels, cracks: &cracks, bar_of: None },
+            Panel { picture: &picture, layers, legend, labels, cracks: &cracks, bar_of: None },
             design,
         )?;
         let mut texts =
@@ -347,9 +349,11 @@ impl Args {
         asked: &Asked,
         drawn: &Drawn,
         picture: &Picture,
-    ) -> anyhow::Result<Vec<Item>> {
+        design: &Design,
+    ) -> anyhow::Result<Layers> {
         let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
         let is_figure = self.is_figure();
+        let has_bar = is_figure && design.bar != BarPlace::None;
         let centers;
         let needs_centers = drawn.opacity.is_some() && self.overlays.have_isolines();
         let values = match quantity.filter(|_| needs_centers) {
@@ -360,7 +364,7 @@ impl Args {
             }
             None => &drawn.values,
         };
-        let ground = Ground { dataset, field, quantity, picture, values, is_figure };
+        let ground = Ground { dataset, field, quantity, picture, values, is_figure, has_bar };
         let outline = self.deformed.outline;
         self.engine.with_threads(|| match seen {
             Seen::Plate(_) => self.overlays.items(ground),
@@ -398,7 +402,14 @@ impl Args {
 
     /// The picture with its overlays, as a figure if that is asked for.
     fn page(&self, panel: Panel<'_>, design: &Design) -> anyhow::Result<Canvas> {
-        if self.figure { Ok(figure(panel, design)?) } else { Ok(bare(panel.picture, panel.layers)) }
+        if !self.figure {
+            tell_legend(&panel.legend);
+            return Ok(bare(panel.picture, panel.layers));
+        }
+        if lacks_legend(&panel, plot_area(&panel.labels.title, design)?, design) {
+            tell_legend(&panel.legend);
+        }
+        Ok(figure(panel, design)?)
     }
 }
 
@@ -419,6 +430,14 @@ impl Coloring {
             picture.one_value = None;
         }
         Ok(picture)
+    }
+}
+
+/// Tells that a quantity is infinite wherever it has a value.
+fn warn_of_infinite(asked: &Asked, drawn: &Drawn) {
+    let statistics = drawn.values.statistics();
+    if statistics.finite == 0 && statistics.infinite > 0 {
+        tell(&format!("warning: `{}` has no finite value in the picture", asked.name));
     }
 }
 

@@ -133,11 +133,23 @@ fn undefined_is_not_outside() {
 }
 
 /// Overlays show, each in its own way; words come in any order.
+/// What a picture cannot show is said.
+#[test]
+fn what_has_no_room_or_no_value_is_told() {
+    let lab = Lab::solved(CRACKED);
+    let told = |options: &str| lab.warned(&format!("render plate.h5 -o o.png {options}")).1;
+    assert!(told("--size 60x60 --arrows=20").contains("too small for its legend: longest arrow"));
+    // without a word
+    lab.run("render plate.h5 -o o.png --size 600x600 --arrows");
+    lab.run("render plate.h5 -o o.png --size 700x525 --figure --arrows");
+    assert!(told("--size 60x60 -q 1/0").contains("`1/0` has no finite value"));
+}
+
 #[test]
 fn overlays_are_drawn_over_the_colours() {
     let lab = Lab::solved(CRACKED);
     let draw = |options: &str| {
-        lab.run(&format!("render plate.h5 -o o.png --size 200x200 -q uy {options}"));
+        lab.run(&format!("render plate.h5 -o o.png --size 400x400 -q uy {options}"));
         Png::read(&lab.path("o.png")).rgba
     };
     let plain = draw("");

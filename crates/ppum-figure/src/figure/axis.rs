@@ -6,7 +6,7 @@ use ppum::vec2::Vec2;
 use super::color_bar::widest;
 use super::design::{Design, Labels, TickChoice};
 use crate::text;
-use crate::ticks::{self, Span, Step, Ticks, power_of_ten};
+use crate::ticks::{self, Notation, Span, Step, Ticks, power_of_ten};
 use ppum_render::picture::Picture;
 
 /// Least distances of labelled ticks, across and along the direction of reading.
@@ -26,12 +26,24 @@ impl Axis {
         Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
     }
 
-    /// The label, with its name shortened if there is less room \[pixels\].
+    /// The label, shortened if there is less room \[pixels\]: its name in the middle, to half of the room at
+    /// least, and what is behind that, a number, a power of ten and the unit, at its end.
     pub(super) fn fitted(&self, size: f64, room: f64) -> String {
         let (name, rest) = self.label.split_at(self.name);
-        let name = text::fitted(name, size, (room - text::width(rest, size)).max(0.0));
-        text::fitted(&format!("{name}{rest}"), size, room)
+        let kept = (room - text::width(rest, size)).max(0.5 * room);
+        let name = text::squeezed(name, size, kept);
+        let rest = text::fitted(rest, size, room - text::width(&name, size));
+        format!("{name}{rest}")
     }
+}
+
+/// Where labels stand along an axis whose marks lie at `at`, rising or falling: there, but two that would touch move apart, out
+/// of an axis that is shorter than they are. `lengths` are theirs along the axis.
+pub(super) fn label_places(at: &[f64], lengths: &[f64], gap: f64) -> Vec<f64> {
+    let (&[a, b], &[first, second]) = (at, lengths) else { return at.to_vec() };
+    let missing = (0.5 * (first + second) + gap - (b - a).abs()).max(0.0);
+    let out = 0.5 * missing.copysign(b - a);
+    vec![a - out, b + out]
 }
 
 /// The axes x and y, with the same step where that leaves y two ticks at least.
@@ -49,12 +61,13 @@ pub(super) fn axes(
     let tip = nearest_tip(picture, cracks);
     let axis = |span: Span, step: Step, choice: &TickChoice, tip: Option<f64>, name: &str| {
         let ticks = match choice {
-            TickChoice::Auto => ticks::axis(span.center, span.half, step, tip),
+            TickChoice::Auto => ticks::axis_with_two(span.center, span.half, step, tip),
             TickChoice::Count(count) => {
                 let step = Step::at_least(2.0 * span.half / (*count).max(1) as f64);
-                ticks::axis(span.center, span.half, step, tip)
+                let ticks = if *count > 1 { ticks::axis_with_two } else { ticks::axis };
+                ticks(span.center, span.half, step, tip)
             }
-            TickChoice::At(values) => ticks::at(values, &span),
+            TickChoice::At(values) => ticks::at(values, &span, Notation::PLAIN),
         };
         let label = axis_label(name, &ticks, &labels.length_unit);
         Axis::new(ticks, &label, name.len(), scale)
@@ -104,6 +117,7 @@ mod tests {
     use ppum_render::picture::Style;
     use ppum_render::raster::Raster;
     use ppum_render::view::View;
+    use ppum_testkit::random::Random;
 
     fn labels() -> Labels {
         Labels { length_unit: "mm".to_owned(), ..Labels::default() }
@@ -145,9 +159,28 @@ mod tests {
         let label = axis_label(&name, &ticks, "mm");
         let axis = Axis::new(ticks, &label, name.len(), 1.0);
         let label = axis.fitted(12.0, 200.0);
-        assert!(label.starts_with("x + x") && label.ends_with("… [×10⁻⁴ mm]"), "{label}");
-        assert!(text::width(&label, 12.0) <= 200.0, "{label}");
+        assert!(label.starts_with("x + ") && label.ends_with(" [×10⁻⁴ mm]"), "{label}");
+        assert!(label.contains('…') && text::width(&label, 12.0) <= 200.0, "{label}");
         assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
         assert_eq!(axis.fitted(12.0, 1e6), axis.label);
+    }
+
+    /// Whatever the lengths of name and unit, both begin in the label, and a power of ten is whole.
+    #[test]
+    fn names_are_never_lost_to_units() {
+        let mut random = Random(7);
+        for _ in 0..300 {
+            let word = |random: &mut Random, letter: &str| letter.repeat(1 + random.below(80));
+            let (name, unit) = (word(&mut random, "n"), word(&mut random, "u"));
+            let ticks = Ticks { exponent: -4, ..Ticks::default() };
+            let label = axis_label(&name, &ticks, &unit);
+            let axis = Axis::new(ticks, &label, name.len(), 1.0);
+            let room = random.between(160.0, 600.0);
+            let found = axis.fitted(14.0, room);
+            assert!(text::width(&found, 14.0) <= room + 1e-3, "{found}");
+            assert!(found.starts_with('n') && found.contains(" [×10⁻⁴"), "{found}");
+            let whole = text::width(&name, 14.0) <= 0.5 * room;
+            assert!(!whole || found.starts_with(&name), "{found}");
+        }
     }
 }

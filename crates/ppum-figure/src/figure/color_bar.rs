@@ -3,17 +3,16 @@
 //! Where a range that was found leaves out values, the bar's pointed ends say how far these go: beside the points, in the column of
 //! the marks' labels of an upright bar, and before and behind a lying one, which is shorter by them.
 
-use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 
-use super::axis::{Axis, axis_label};
+use super::axis::{Axis, axis_label, label_places};
 use super::beyond::words;
 use super::design::{Design, LABEL_TEXT, Labels, TickChoice};
 use super::ink::{Ink, LINE, TICK_TEXT, snapped};
-use super::sheet::{GAP, LABEL_GAP, TICK};
+use super::sheet::{BETWEEN_ROWS, GAP, LABEL_GAP, TICK};
 use crate::canvas::{Align, Item, Path};
 use crate::text::{self, CAP_HEIGHT};
-use crate::ticks::{self, Tick, Ticks};
+use crate::ticks::{self, Notation, Tick, Ticks};
 use ppum_render::colormap::Colormap;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
@@ -57,6 +56,7 @@ pub(super) struct Key {
 impl Key {
     pub(super) fn new(picture: &Picture, labels: &Labels) -> Self {
         let remark = match picture.one_value {
+            _ if is_infinite(picture) => "no finite values",
             _ if !picture.has_values => "no values",
             Some(_) => "one value",
             None => "",
@@ -97,16 +97,16 @@ impl Key {
     fn borders(&self, most: usize) -> Option<Ticks> {
         let bands = self.colormap.bands().filter(|&n| usize::from(n) < most)?;
         let norm = &self.normalization;
+        let notation = Notation::of(norm);
         let tick = |k: u16| {
             let at = f64::from(k) / f64::from(bands);
-            let (value, label) = (norm.value(at), trimmed(norm.value(at)));
-            let error = (label.parse::<f64>().ok()? - value).abs();
+            let (value, label) = (norm.value(at), notation.label(norm.value(at)));
+            let error = (notation.read(&label)? - value).abs();
             let is_exact = error <= ROUNDING * (norm.max() - norm.min());
-            let label = label.replace('-', "−");
             (is_exact && label.chars().count() <= SHORT).then_some(Tick { at, label })
         };
         let major = (0..=bands).map(tick).collect::<Option<Vec<_>>>()?;
-        Some(Ticks { major, ..Ticks::default() })
+        Some(Ticks::new(major, notation))
     }
 
     /// Labels in the middle of the bands of values that have a colour each; where there are more than `most` some are
@@ -120,12 +120,13 @@ impl Key {
             TickChoice::Count(wanted) => k.is_multiple_of(stride(*wanted).max(stride(most))),
             TickChoice::Auto => k.is_multiple_of(stride(most)),
         };
+        let notation = Notation::of(&self.normalization);
         let tick = |(k, &value): (usize, &f64)| Tick {
             at: (k as f64 + 0.5) / count as f64,
-            label: trimmed(value).replace('-', "−"),
+            label: notation.label(value),
         };
         let shown = classes.iter().enumerate().filter(|(k, value)| is_shown(*k, **value));
-        Ticks { major: shown.map(tick).collect(), ..Ticks::default() }
+        Ticks::new(shown.map(tick).collect(), notation)
     }
 
     /// True if values have a colour each: the bar then has a band for each, of one length.
@@ -133,10 +134,11 @@ impl Key {
         !self.colormap.classes().is_empty()
     }
 
-    /// The colour at a place from 0 to 1 along the bar.
+    /// The colour at a place from 0 to 1 along the bar; none where nothing has a finite value.
     pub(super) fn color(&self, at: f64) -> Rgba {
         let count = self.colormap.classes().len();
         match count {
+            _ if !self.has_values => [0; 4],
             0 => self.colormap.color(at),
             _ => self.colormap.class_color(((at * count as f64) as usize).min(count - 1)),
         }
@@ -148,7 +150,7 @@ impl Key {
         let found = match (choice, self.one_value) {
             _ if !self.has_values => Ticks::default(),
             _ if self.has_classes() => self.classes(choice, most),
-            (TickChoice::At(values), _) => ticks::at(values, norm),
+            (TickChoice::At(values), _) => ticks::at(values, norm, Notation::of(norm)),
             (_, Some(value)) => ticks::of_one_value(norm, value),
             (TickChoice::Count(count), None) => ticks::bar(norm, *count),
             (TickChoice::Auto, None) => {
@@ -162,9 +164,18 @@ impl Key {
 
 /// How far values reach beyond a range that was found; of one that was given nothing is said.
 fn beyond(picture: &Picture) -> [Option<f64>; 2] {
+    if is_infinite(picture) {
+        let ends = [(picture.has_below, f64::NEG_INFINITY), (picture.has_above, f64::INFINITY)];
+        return ends.map(|(is_seen, end)| is_seen.then_some(end));
+    }
     let is_told =
         picture.has_values && picture.one_value.is_none() && picture.span.basis != Basis::Given;
     if is_told { picture.span.beyond() } else { [None; 2] }
+}
+
+/// True if all values that there are are infinite.
+fn is_infinite(picture: &Picture) -> bool {
+    !picture.has_values && (picture.has_below || picture.has_above)
 }
 
 /// A colour bar of some length.
@@ -318,8 +329,8 @@ impl Placed<'_> {
             self.mark(ink, position, MINOR_TICK);
         }
         let base = self.width() + ink.stroke + (TICK + GAP) * ink.scale;
-        for tick in &ticks.major {
-            let along = self.mark(ink, tick.at, TICK);
+        for (tick, along) in ticks.major.iter().zip(self.label_places()) {
+            self.mark(ink, tick.at, TICK);
             if self.bar.is_upright {
                 ink.at_height(&tick.label, self.point(along, base), Align::Start);
             } else {
@@ -338,8 +349,8 @@ impl Placed<'_> {
     /// The words at the ends; returns the width of the widest one. Beside an upright bar they keep away from the labels of marks, which
     /// begin at `base`.
     fn words(&self, ink: &mut Ink, base: f64) -> f64 {
-        let ([low, high], line) = (self.ends(), LINE * TICK_TEXT * self.scale);
-        let labels = self.bar.axis.ticks.major.iter().map(|tick| low + tick.at * (high - low));
+        let line = LINE * TICK_TEXT * self.scale;
+        let labels = self.label_places().into_iter();
         let [first, last] =
             labels.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], at| [a.min(at), b.max(at)]);
         let [lower, upper] = self.points();
@@ -360,8 +371,21 @@ impl Placed<'_> {
         widest
     }
 
-    /// A mark at a position from 0 to 1; returns how far along the bar it lies.
-    fn mark(&self, ink: &mut Ink, position: f64, length: f64) -> f64 {
+    /// How far along the bar the labels of its marks stand.
+    fn label_places(&self) -> Vec<f64> {
+        let ([low, high], size) = (self.ends(), TICK_TEXT * self.scale);
+        let ticks = &self.bar.axis.ticks.major;
+        let at: Vec<f64> = ticks.iter().map(|tick| low + tick.at * (high - low)).collect();
+        if self.bar.is_upright {
+            let heights = vec![CAP_HEIGHT * size; ticks.len()];
+            return label_places(&at, &heights, BETWEEN_ROWS * self.scale);
+        }
+        let widths: Vec<f64> = ticks.iter().map(|tick| text::width(&tick.label, size)).collect();
+        label_places(&at, &widths, BETWEEN * self.scale)
+    }
+
+    /// A mark at a position from 0 to 1.
+    fn mark(&self, ink: &mut Ink, position: f64, length: f64) {
         let [low, high] = self.ends();
         let along = low + position * (high - low);
         let length = (length * ink.scale).round();
@@ -376,7 +400,6 @@ impl Placed<'_> {
             let top = self.start.y + from;
             ink.rect(vec2(left, top), vec2(left + ink.stroke, top + length));
         }
-        along
     }
 
     fn label(&self, ink: &mut Ink, end: f64, room: f64) {

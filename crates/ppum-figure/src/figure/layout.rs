@@ -55,9 +55,9 @@ impl Grid {
 // Room kept around a picture, in pixels of a figure of 1024 × 768.
 /// Left of it, for y and its labels, and right of it.
 const LEFT: f64 = 96.0;
-const RIGHT: f64 = 36.0;
+pub(super) const RIGHT: f64 = 36.0;
 /// Right of it with a bar, and what is more below it with one there.
-const RIGHT_BAR: f64 = 150.0;
+pub(super) const RIGHT_BAR: f64 = 150.0;
 const BELOW_BAR: f64 = 88.0;
 /// Above it and below it, the first line of a title included.
 const ABOVE: f64 = 52.0;
@@ -65,7 +65,7 @@ const BELOW: f64 = 68.0;
 /// Between a title and what stands below it.
 const TITLE_OVER: f64 = 12.0;
 /// Around everything.
-const MARGIN: f64 = 12.0;
+pub(super) const MARGIN: f64 = 12.0;
 /// Least side of a picture.
 const LEAST: u32 = 48;
 /// Lines of a title, and of a caption, at most.
@@ -168,7 +168,9 @@ pub fn panels(
         Sheet::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
     });
     let lines = title_lines(title, design);
-    Ok(Page::new(sheets.collect(), panels, lines, grid, design)?.draw())
+    let [across, down] = [(room[0], grid.columns), (room[1], grid.rows)]
+        .map(|(side, count)| f64::from(side) * f64::from(count));
+    Ok(Page::new(sheets.collect(), panels, lines, (grid, [across, down]), design)?.draw())
 }
 
 /// Sheets on a page.
@@ -199,17 +201,18 @@ fn plots(tracks: &[Track]) -> [f64; 2] {
 }
 
 impl<'a> Page<'a> {
+    /// A page whose panels have room for pictures of so many pixels together.
     fn new(
         sheets: Vec<Sheet<'a>>,
         panels: &[Panel<'_>],
         lines: Vec<String>,
-        grid: Grid,
+        (grid, room): (Grid, [f64; 2]),
         design: &'a Design,
     ) -> Result<Self, FigureError> {
         let [columns, rows] = tracks(&sheets, grid, design);
         let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
         let bar = match grid.shared_bar {
-            true => sheet::bar(shared_key(panels.iter())?, design.bar, design, sides, sides),
+            true => sheet::bar(shared_key(panels.iter())?, design.bar, design, sides, room),
             false => None,
         };
         Ok(Self { design, sheets, columns, rows, bar, lines })

@@ -19,15 +19,18 @@ mod color_bar;
 mod design;
 mod ink;
 mod layout;
+mod legend;
 mod sheet;
 
 use ppum::crack::Crack;
 
 use crate::canvas::{Canvas, Item};
+use crate::overlay::Entry;
 use ppum_render::picture::Picture;
 
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
 pub use layout::{Grid, panel_area, panels, plot_area};
+pub use sheet::lacks_legend;
 
 /// The reason why there is no such figure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -73,6 +76,8 @@ pub struct Panel<'a> {
     pub picture: &'a Picture,
     /// What is drawn over it; positions are pixels of the picture.
     pub layers: Vec<Item>,
+    /// The entries of a legend that has no room in the picture; it stands beside the picture or above it.
+    pub legend: Vec<Entry>,
     /// Its words.
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.

@@ -3,11 +3,13 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::Panel;
-use super::axis::{Axis, axes};
+use super::axis::{Axis, axes, label_places};
 use super::beyond::WORD;
 use super::color_bar::{ColorBar, Key, LEAST_BAR};
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, TICK_TEXT, bounds, snapped};
+use super::layout::{MARGIN, RIGHT, RIGHT_BAR};
+use super::legend::{Free, Legend};
 use crate::canvas::{Align, Item};
 use crate::text::{self, CAP_HEIGHT};
 
@@ -19,6 +21,9 @@ pub(super) const GAP: f64 = 5.0;
 pub(super) const LABEL_GAP: f64 = 10.0;
 /// Between a plot and the lines above it.
 pub(super) const TITLE_GAP: f64 = 14.0;
+/// Between labels of an axis that is short, beside each other and above each other.
+const BETWEEN: f64 = 8.0;
+pub(super) const BETWEEN_ROWS: f64 = 4.0;
 pub(super) const BAR_GAP: f64 = 24.0;
 /// Between what stands below a plot and a bar below that.
 const BAR_BELOW_GAP: f64 = 16.0;
@@ -30,6 +35,8 @@ pub(super) struct Sheet<'a> {
     x: Axis,
     y: Axis,
     bar: Option<ColorBar>,
+    /// The legend, if it stands outside of the plot.
+    legend: Option<Legend<'a>>,
     /// The caption, line by line.
     caption: Vec<String>,
     /// What labels of axes and bars may take.
@@ -56,7 +63,9 @@ impl<'a> Sheet<'a> {
         let [x, y] = axes(picture, &panel.labels, panel.cracks, design);
         let (sides, room) = (picture.image.size.map(f64::from), room.map(f64::from));
         let bar = key.and_then(|key| bar(key, design.bar, design, sides, room));
-        Self { panel, design, x, y, bar, caption, room }
+        let free = free(bar.as_ref(), sides, room, design);
+        let legend = Legend::new(&panel.legend, free, design.scale());
+        Self { panel, design, x, y, bar, legend, caption, room }
     }
 
     /// The plot on its hatched ground with the layers over it, its upper left pixel at a place.
@@ -75,13 +84,23 @@ impl<'a> Sheet<'a> {
         ink.outline(min, max);
         self.draw_x_axis(&mut ink, min, max);
         self.draw_y_axis(&mut ink, min, max);
+        let beside = self.legend.map_or(max, |legend| legend.draw_beside(&mut ink, [min, max]));
         if let Some(bar) = &self.bar {
             let end = bounds(&ink.items)[1];
+            let max = if bar.is_upright { beside } else { max };
             draw_bar(bar, &mut ink, [min, max], end, self.room);
         }
-        let top = bounds(&ink.items)[0].y.min(min.y);
+        if let Some(legend) = &self.legend {
+            let top = bounds(&ink.items)[0].y;
+            legend.draw_above(&mut ink, min.x, top);
+        }
+        let [lo, hi] = bounds(&ink.items);
+        let widths = self.caption.iter().map(|line| text::width(line, LABEL_TEXT * ink.scale));
+        // above the plot; a long one ends where the rest does, or begins there
+        let left = min.x.min((hi.x - widths.fold(0.0, f64::max)).max(lo.x));
+        let top = lo.y.min(min.y);
         let gap = if self.caption.is_empty() { 0.0 } else { 0.6 * TITLE_GAP * ink.scale };
-        ink.lines(&self.caption, LABEL_TEXT, vec2(min.x, (top - gap).round()));
+        ink.lines(&self.caption, LABEL_TEXT, vec2(left, (top - gap).round()));
         ink.items
     }
 
@@ -103,11 +122,15 @@ impl<'a> Sheet<'a> {
         let top = max.y + stroke;
         let base = top + (TICK + GAP + TICK_TEXT * CAP_HEIGHT) * scale;
         let middle = 0.5 * (min.x + max.x);
-        for tick in &self.x.ticks.major {
-            let at = min.x + self.panel.picture.view.pixel_of_offset(vec2(tick.at, 0.0)).x;
+        let ticks = &self.x.ticks.major;
+        let at = |offset: f64| min.x + self.panel.picture.view.pixel_of_offset(vec2(offset, 0.0)).x;
+        let marks: Vec<f64> = ticks.iter().map(|tick| at(tick.at)).collect();
+        let widths = ticks.iter().map(|tick| text::width(&tick.label, TICK_TEXT * scale));
+        let places = label_places(&marks, &widths.collect::<Vec<_>>(), BETWEEN * scale);
+        for ((tick, at), place) in ticks.iter().zip(marks).zip(places) {
             let left = snapped(at, stroke, middle);
             ink.rect(vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
-            ink.text(&tick.label, TICK_TEXT, vec2(at, base), Align::Middle);
+            ink.text(&tick.label, TICK_TEXT, vec2(place, base), Align::Middle);
         }
         let label = self.x.fitted(LABEL_TEXT * scale, self.room[0]);
         let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
@@ -119,16 +142,43 @@ impl<'a> Sheet<'a> {
         let right = min.x - stroke;
         let end = right - (TICK + GAP) * scale;
         let middle = 0.5 * (min.y + max.y);
-        for tick in &self.y.ticks.major {
-            let at = min.y + self.panel.picture.view.pixel_of_offset(vec2(0.0, tick.at)).y;
+        let ticks = &self.y.ticks.major;
+        let at = |offset: f64| min.y + self.panel.picture.view.pixel_of_offset(vec2(0.0, offset)).y;
+        let marks: Vec<f64> = ticks.iter().map(|tick| at(tick.at)).collect();
+        let heights = vec![CAP_HEIGHT * TICK_TEXT * scale; ticks.len()];
+        let places = label_places(&marks, &heights, BETWEEN_ROWS * scale);
+        for ((tick, at), place) in ticks.iter().zip(marks).zip(places) {
             let top = snapped(at, stroke, middle);
             ink.rect(vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
-            ink.at_height(&tick.label, vec2(end, at), Align::End);
+            ink.at_height(&tick.label, vec2(end, place), Align::End);
         }
         let label = self.y.fitted(LABEL_TEXT * scale, self.room[1]);
         let base = end - self.y.widest - LABEL_GAP * scale;
         ink.upwards(&label, LABEL_TEXT, vec2(base, middle));
     }
+}
+
+/// The room for a legend around a plot with so many columns and rows, whose panel has room for more.
+fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design) -> Free {
+    let scale = design.scale();
+    let upright = bar.filter(|bar| bar.is_upright);
+    let right = if upright.is_some() { RIGHT_BAR } else { RIGHT };
+    // a bar reaches above a plot that is lower, and so does the half of a label
+    let over = upright.map_or(0.0, |bar| 0.5 * (bar.length - sides[1])) + 0.5 * TICK_TEXT * scale;
+    // labels below a plot, this one or another one of the column, have its middle and may be as long as the room
+    let out = 0.5 * (room[0] - sides[0]);
+    Free {
+        beside: [room[0] - sides[0] - out, room[1]],
+        above: [room[0] - out + (right - MARGIN) * scale, room[1] - sides[1] - over],
+    }
+}
+
+/// True if the legend of a panel with room for a picture of `room` pixels has no place outside of the picture, and is left
+/// out.
+#[must_use]
+pub fn lacks_legend(panel: &Panel<'_>, room: [u32; 2], design: &Design) -> bool {
+    let key = Some(Key::new(panel.picture, &panel.labels));
+    !panel.legend.is_empty() && Sheet::new(panel, vec![], design, room, key).legend.is_none()
 }
 
 /// The bar beside or below a plot: as long as that, and never shorter than its labels need.

@@ -16,6 +16,7 @@ use super::design::HATCH_STEP;
 use super::sheet::BAR_GAP;
 use super::*;
 use crate::canvas::Lettering;
+use crate::overlay::{Entry, Symbol};
 
 const SIZE: [u32; 2] = [640, 480];
 const PAGE: Rgba = [255, 255, 255, 255];
@@ -52,7 +53,7 @@ fn picture(half: f64, range: Range) -> Picture {
 }
 
 fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
-    Panel { picture, layers: vec![], labels, cracks: &[], bar_of: None }
+    Panel { picture, layers: vec![], legend: vec![], labels, cracks: &[], bar_of: None }
 }
 
 fn drawn(picture: &Picture) -> Image {
@@ -269,6 +270,28 @@ fn a_picture_without_values_says_so() {
     assert_eq!(words(f64::NAN, "q"), ["q, no values"]);
     assert_eq!(words(f64::NAN, ""), ["no values"]);
     assert_eq!(words(3.5, "q"), ["3.5", "q, one value"]);
+    assert_eq!(words(f64::INFINITY, "q"), ["to ∞", "q, no finite values"]);
+    assert_eq!(words(f64::NEG_INFINITY, ""), ["to −∞", "no finite values"]);
+}
+
+/// Where all values are infinite the bar has the colour that the plate has, at the end that says so, and no other.
+#[test]
+fn a_bar_of_infinite_values_has_no_colours_but_its_ends() {
+    let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
+    for sign in [1.0, -1.0] {
+        let raster = Raster::from_fn(view.pixels, |_, _| sign * f64::INFINITY);
+        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let key = Key::new(&picture, &Labels::default());
+        assert!((0..=10).all(|k| key.color(f64::from(k) / 10.0) == [0; 4]), "nothing between");
+        let page = figure(panel(&picture, Labels::default()), &Design::pixels(SIZE)).unwrap();
+        let fills = page.items.iter().filter_map(|item| match item {
+            Item::Fill { color, outline } => Some((*color, outline.pieces[0].len())),
+            _ => None,
+        });
+        let seen = picture.image.pixel(100, 100);
+        let triangles: Vec<_> = fills.filter(|(_, corners)| *corners == 3).collect();
+        assert_eq!(triangles, [(seen, 3)], "{sign}");
+    }
 }
 
 /// A transparent page shows what is behind it, in holes too; a dark one is dark to its corners.
@@ -336,6 +359,12 @@ fn check(page: &Canvas, what: &str) {
             );
         }
     }
+    let ground = |item: &&&Item| matches!(item, Item::Fill { color: [255, 255, 255, 225], .. });
+    let all: Vec<&Item> = page.items.iter().collect();
+    for legend in all.iter().filter(ground) {
+        let is_free = |area: &&Item| !overlap(legend.bounds(), area.bounds());
+        assert!(areas.iter().all(is_free), "{what}: a legend hides something");
+    }
     for (k, area) in areas.iter().enumerate() {
         assert!(
             areas[k + 1..].iter().all(|other| !overlap(area.bounds(), other.bounds())),
@@ -389,6 +418,12 @@ fn random_labels(random: &mut Random) -> Labels {
 fn random_half(random: &mut Random) -> Vec2 {
     let (size, shape) = (random.between(-3.0, 6.0), random.between(-0.9, 0.9));
     vec2(10f64.powf(size + shape), 10f64.powf(size - shape))
+}
+
+/// A legend for which there is no room in the picture, or none.
+fn random_legend(random: &mut Random) -> Vec<Entry> {
+    let entry = |k: usize| Entry::new(Symbol::Square([k as u8; 4]), format!("longest arrow {k}"));
+    (0..random.below(4)).map(entry).collect()
 }
 
 fn untitled() -> Labels {
@@ -446,14 +481,20 @@ fn bars_say_what_lies_beyond() {
 #[test]
 fn figures_keep_to_their_page() {
     let mut random = Random(41);
-    let mut count = 0;
+    let (mut count, mut legends) = (0, [0, 0]);
     for case in 0..300 {
         let (design, labels, half) =
             (random_design(&mut random), random_labels(&mut random), random_half(&mut random));
         let Ok(room) = plot_area(&labels.title, &design) else { continue };
         let picture = plate(half, room, &random_style(&mut random, half));
-        let page = figure(panel(&picture, labels.clone()), &design).unwrap();
+        let legend = random_legend(&mut random);
+        let panel = Panel { legend: legend.clone(), ..panel(&picture, labels.clone()) };
+        let is_lacking = lacks_legend(&panel, room, &design);
+        let page = figure(panel, &design).unwrap();
         check(&page, &format!("case {case}, {half:?}, {design:?}, {labels:?}"));
+        let is_there = |entry: &Entry| texts(&page).iter().any(|line| line.text == entry.label);
+        assert!(legend.iter().all(|entry| is_there(entry) != is_lacking), "case {case}");
+        legends[usize::from(is_lacking)] += legend.len();
         let shown: String = texts(&page).iter().map(|line| line.text.as_str()).collect();
         let first: String =
             labels.title.split_whitespace().next().unwrap_or("").chars().take(3).collect();
@@ -461,6 +502,7 @@ fn figures_keep_to_their_page() {
         count += 1;
     }
     assert!(count > 200, "{count}");
+    assert!(legends[0] > legends[1] && legends[1] > 0, "{legends:?}");
 }
 
 #[test]
@@ -478,8 +520,11 @@ fn panels_keep_to_their_page() {
         let captions: Vec<&str> = all.iter().map(|labels| labels.title.as_str()).collect();
         let Ok(room) = panel_area(&title, &captions, grid, &design) else { continue };
         let picture = plate(half, room, &random_style(&mut random, half));
-        let mut panel =
-            |labels| Panel { bar_of: Some(random.below(20)), ..panel(&picture, labels) };
+        let mut panel = |labels| Panel {
+            bar_of: Some(random.below(20)),
+            legend: random_legend(&mut random),
+            ..panel(&picture, labels)
+        };
         let all: Vec<Panel<'_>> = all.into_iter().map(&mut panel).collect();
         let page = panels(&title, &all, grid, &design).unwrap();
         check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));

@@ -1,6 +1,5 @@
 //! Arrows of vectors and crosses of principal stresses.
 
-use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::glyph::{Glyph, Principal};
 use ppum_render::image::Rgba;
@@ -10,6 +9,7 @@ use super::legend::{Entry, Symbol};
 use super::line_scale;
 use super::supports::arrow;
 use crate::canvas::{Item, Path, Pen};
+use crate::ticks::Notation;
 
 const ARROW: Rgba = [18, 18, 22, 255];
 /// Tension and compression.
@@ -41,7 +41,7 @@ pub fn arrows(view: &View, glyphs: &[Glyph<Vec2>], spacing: f64) -> (Vec<Item>, 
         arrow(&mut shafts, &mut heads, [at - half, at + half], HEAD * scale);
     }
     let pen = Pen::new(ARROW, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
-    let entry = Entry::new(Symbol::Line(pen), format!("longest arrow {}", trimmed(longest)));
+    let entry = Entry::new(Symbol::Line(pen), format!("longest arrow {}", number(longest)));
     let items = vec![Item::Line { path: shafts, pen }, Item::Fill { outline: heads, color: ARROW }];
     (items, if longest > 0.0 { vec![entry] } else { Vec::new() })
 }
@@ -75,10 +75,16 @@ pub fn crosses(view: &View, glyphs: &[Glyph<Principal>], spacing: f64) -> (Vec<I
         }
     }
     if let Some(last) = entries.last_mut() {
-        last.label = format!("{}, longest {}", last.label, trimmed(longest));
+        last.label = format!("{}, longest {}", last.label, number(longest));
     }
     let lines = [(tension, TENSION), (compression, COMPRESSION)];
     (lines.map(|(path, color)| Item::Line { path, pen: pen(color) }).into(), entries)
+}
+
+/// A number as bars write it, with its power of ten, in few digits.
+fn number(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse().unwrap_or(value);
+    Notation::PLAIN.label(rounded)
 }
 
 /// The largest of the lengths but for a few peaks, as there are at tips; 0 if there is none.
@@ -122,6 +128,8 @@ mod tests {
         assert!(((tip(0) + shafts[0][0]) * 0.5 - vec2(150.0, 100.0)).length() < 1e-9);
         assert_eq!(entries[0].label, "longest arrow 2");
         assert!(arrows(&view(), &[], 40.0).1.is_empty());
+        let long = [glyph(0.0, vec2(1.909_13e6, 0.0))];
+        assert_eq!(arrows(&view(), &long, 40.0).1[0].label, "longest arrow 1.909×10⁶");
     }
 
     /// A peak does not make all others dots.

@@ -2,7 +2,6 @@
 
 use ppum::crack::Crack;
 use ppum::segment;
-use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
@@ -12,6 +11,7 @@ use ppum_render::view::View;
 use super::line_scale;
 use crate::canvas::Halo;
 use crate::canvas::{Align, Item, Lettering, Path, Pen};
+use crate::ticks::Notation;
 
 const LINE: Rgba = [18, 18, 22, 235];
 const SEAM: Rgba = [255, 255, 255, 105];
@@ -26,15 +26,18 @@ const ROOM: [f64; 2] = [2.5, 6.0];
 pub struct Room {
     columns: usize,
     is_free: Vec<bool>,
+    /// The way levels are written.
+    notation: Notation,
 }
 
 impl Room {
-    /// The room of a picture: where it is not transparent.
+    /// The room of a picture: where it is not transparent. Levels are written in some notation: that of the bar beside the
+    /// picture, or a plain one where there is none.
     #[must_use]
-    pub fn new(picture: &Picture, cracks: &[Crack]) -> Self {
+    pub fn new(picture: &Picture, cracks: &[Crack], notation: Notation) -> Self {
         let image = &picture.image;
         let is_free = image.rgba.chunks_exact(4).map(|pixel| pixel[3] > 0).collect();
-        let mut room = Self { columns: image.size[0] as usize, is_free };
+        let mut room = Self { columns: image.size[0] as usize, is_free, notation };
         for ends in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
             room.close([ends[0], ends[1]].map(|p| picture.view.pixel(p)));
         }
@@ -52,6 +55,19 @@ impl Room {
                 self.is_free[pixel] = false;
             }
         }
+    }
+
+    /// The room without a box.
+    #[must_use]
+    pub fn without(mut self, [min, max]: [Vec2; 2]) -> Self {
+        for (row, pixels) in (0u32..).zip(self.is_free.chunks_mut(self.columns.max(1))) {
+            let is_in =
+                |at: u32, min: f64, max: f64| f64::from(at) + 1.0 > min && f64::from(at) < max;
+            for (column, is_free) in (0u32..).zip(pixels).filter(|_| is_in(row, min.y, max.y)) {
+                *is_free &= !is_in(column, min.x, max.x);
+            }
+        }
+        self
     }
 
     fn pixel(&self, p: Vec2) -> Option<usize> {
@@ -144,7 +160,7 @@ struct Taken {
 /// where there is no room.
 fn label(view: &View, level: f64, points: &[Vec2], taken: &mut Taken) -> Option<Lettering> {
     let size = TEXT * line_scale(view.pixels);
-    let line = Lettering::new(trimmed(level).replace('-', "−"), size, Vec2::ZERO, LINE);
+    let line = Lettering::new(taken.room.notation.label(level), size, Vec2::ZERO, LINE);
     let half = 0.5 * line.width();
     let arcs = arc_lengths(points);
     let length = *arcs.last()?;
@@ -207,6 +223,7 @@ mod tests {
     use ppum::crack::CrackEnd;
     use ppum_render::picture::Style;
     use ppum_render::raster::Raster;
+    use ppum_testkit::random::Random;
 
     fn view() -> View {
         View::window(-1.0, -1.0, 1.0, 1.0, [600, 600]).unwrap()
@@ -266,12 +283,35 @@ mod tests {
         assert!(thinned(Vec::new()).is_empty());
     }
 
+    const NOTATION: Notation = Notation::PLAIN;
+
     /// A white picture but for a hole at its right.
     fn room(cracks: &[Crack]) -> Room {
         let is_hole = |i: u32, j: u32| (f64::from(i) - 560.0).hypot(f64::from(j) - 300.0) < 100.0;
         let value = |i, j| if is_hole(i, j) { f64::NAN } else { 1.0 };
         let raster = Raster::from_fn([600, 600], value);
-        Room::new(&Picture::bare(&raster, &view(), &Style::default()).unwrap(), cracks)
+        Room::new(&Picture::bare(&raster, &view(), &Style::default()).unwrap(), cracks, NOTATION)
+    }
+
+    /// Labels keep away from a box, wherever it is, with all of their letters.
+    #[test]
+    fn labels_keep_clear_of_boxes() {
+        let mut random = Random(18);
+        let lines = [circle(0.8, 1.0), circle(0.6, 2.0), circle(0.4, 3.0)];
+        let mut found = 0;
+        for _ in 0..40 {
+            let mut place = || vec2(random.between(-50.0, 600.0), random.between(-50.0, 600.0));
+            let (a, b) = (place(), place());
+            let [min, max] = [a.min(b), a.max(b)];
+            for item in isolines(&view(), &lines, Some(room(&[]).without([min, max]))) {
+                let (true, [lo, hi]) = (matches!(item, Item::Text(_)), item.bounds()) else {
+                    continue;
+                };
+                found += 1;
+                assert!(lo.x > max.x || hi.x < min.x || lo.y > max.y || hi.y < min.y, "{item:?}");
+            }
+        }
+        assert!(found > 40, "{found}");
     }
 
     /// Labels stand neither on holes nor on cracks, with all of their letters.

@@ -1,12 +1,12 @@
 //! Legends: what marks and colours mean.
 
-use ppum::vec2::vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use super::line_scale;
 use crate::canvas::{Item, Lettering, Path, Pen};
-use crate::text::CAP_HEIGHT;
+use crate::text::{self, CAP_HEIGHT};
 
 /// A line of a legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,25 +43,53 @@ const GROUND: Rgba = [255, 255, 255, 225];
 const FRAME: Rgba = [120, 120, 126, 255];
 const INK: Rgba = [38, 38, 42, 255];
 
-/// A box in the upper right corner of a view with a line for each entry; nothing without entries.
+/// Largest parts of a picture's width and height that a legend in it takes.
+const PART: [f64; 2] = [0.75, 0.4];
+
+/// The corners, upper left and lower right, of a box with a line for each entry in the upper right corner of a view; none
+/// without entries, and none where it would hide most of the view or not fit into it.
+#[must_use]
+pub fn legend_box(view: &View, entries: &[Entry]) -> Option<[Vec2; 2]> {
+    let (scale, pixels) = (line_scale(view.pixels), view.pixels.map(f64::from));
+    let size = legend_size(entries, scale);
+    let fits = size.x <= PART[0] * pixels[0] && size.y <= PART[1] * pixels[1];
+    let corner = corner(view.pixels, size, scale);
+    (fits && !entries.is_empty()).then_some([corner, corner + size])
+}
+
+/// That box; nothing where there is none.
 #[must_use]
 pub fn legend(view: &View, entries: &[Entry]) -> Vec<Item> {
-    legend_in(view.pixels, entries, line_scale(view.pixels))
+    let place = legend_box(view, entries);
+    place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, line_scale(view.pixels)))
 }
 
 /// A box in the upper right corner of a page of some size.
 pub(crate) fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<Item> {
+    legend_at(corner(pixels, legend_size(entries, scale), scale), entries, scale)
+}
+
+fn corner(pixels: [u32; 2], size: Vec2, scale: f64) -> Vec2 {
+    let right = f64::from(pixels[0]) - MARGIN * scale;
+    vec2((right - size.x).max(0.0), MARGIN * scale)
+}
+
+/// Width and height of a legend's box.
+pub(crate) fn legend_size(entries: &[Entry], scale: f64) -> Vec2 {
+    let widest = entries.iter().map(|entry| text::width(&entry.label, TEXT * scale));
+    vec2(
+        (3.0 * MARGIN + MARK) * scale + widest.fold(0.0, f64::max),
+        (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
+    )
+}
+
+/// A legend's box with its upper left corner at a place; nothing without entries.
+pub(crate) fn legend_at(corner: Vec2, entries: &[Entry], scale: f64) -> Vec<Item> {
     if entries.is_empty() {
         return Vec::new();
     }
     let letter = |entry: &Entry| Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
-    let widest = entries.iter().map(|entry| letter(entry).width()).fold(0.0, f64::max);
-    let size = vec2(
-        (3.0 * MARGIN + MARK) * scale + widest,
-        (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
-    );
-    let right = f64::from(pixels[0]) - MARGIN * scale;
-    let corner = vec2((right - size.x).max(0.0), MARGIN * scale);
+    let size = legend_size(entries, scale);
     let mut outline = Path::default();
     outline.rect(corner, corner + size);
     let mut items = vec![
@@ -87,4 +115,42 @@ pub(crate) fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<
         items.push(Item::Text(Lettering { at: base, ..letter(entry) }));
     }
     items
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum_testkit::random::Random;
+
+    /// Whatever the picture's shape, the box is whole and leaves most of the picture, or is not there.
+    #[test]
+    fn legends_are_whole_or_not_there() {
+        let mut random = Random(15);
+        let mut found = [0, 0];
+        for _ in 0..500 {
+            let mut side = || {
+                let most = random.pick(&[40, 1500]);
+                1 + random.below(most) as u32
+            };
+            let view = View::new(Vec2::ZERO, 1.0, [side(), side()]).unwrap();
+            let label = "longest arrow 0.1".repeat(1 + random.below(2));
+            let entries: Vec<Entry> = (0..=random.below(5))
+                .map(|_| Entry::new(Symbol::Square(INK), label.clone()))
+                .collect();
+            let items = legend(&view, &entries);
+            found[usize::from(items.is_empty())] += 1;
+            let size = Vec2::from(view.pixels.map(f64::from));
+            for item in &items {
+                let [lo, hi] = item.bounds();
+                let inside = lo.x >= 0.0 && lo.y >= 0.0 && hi.x <= size.x && hi.y <= size.y;
+                assert!(inside, "{view:?} {item:?}");
+            }
+            if let Some([min, max]) = legend_box(&view, &entries) {
+                let part = (max - min).x * (max - min).y / (size.x * size.y);
+                assert!(part < 0.31 && !items.is_empty(), "{view:?}");
+            }
+        }
+        assert!(found.iter().all(|count| *count > 50), "{found:?}");
+        assert!(legend(&View::new(Vec2::ZERO, 1.0, [900; 2]).unwrap(), &[]).is_empty());
+    }
 }

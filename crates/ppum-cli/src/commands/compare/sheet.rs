@@ -120,6 +120,7 @@ impl Layout {
         let panel = |((shows, labels), picture): ((&Shows, &Labels), _)| Panel {
             picture,
             layers: layers.clone(),
+            legend: Vec::new(),
             labels: labels.clone(),
             cracks,
             bar_of: bar.filter(|_| matches!(shows, Shows::Resampled(_))),

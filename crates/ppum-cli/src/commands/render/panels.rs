@@ -1,15 +1,16 @@
 //! Several quantities, or parts of a field, in one figure.
 
 use anyhow::{Context as _, ensure};
-use ppum_figure::figure::{FigureError, Grid, Labels, Panel, panel_area, panels};
+use ppum_figure::figure::{FigureError, Grid, Labels, Panel, lacks_legend, panel_area, panels};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Span;
 
-use super::{Args, Plate, titled, told, warn};
+use super::{Args, Plate, titled, told, warn, warn_of_infinite};
 use crate::deformed::words;
 use crate::drawing::{Drawn, Seen};
 use crate::look::{DEFAULT_SIZE, Look, letters};
 use crate::output::Output;
+use crate::overlays::{Layers, tell_legend};
 use crate::page;
 use crate::range::Telling;
 use crate::subject::Asked;
@@ -35,27 +36,34 @@ impl Args {
         let drawn = subjects.iter().map(|(plate, asked)| {
             let drawn = self.drawn(plate.field, &seen, asked)?;
             warn(asked, drawn.undefined());
+            warn_of_infinite(asked, &drawn);
             Ok(drawn)
         });
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
         let mut pictures = self.pictures(&seen, &subjects, &drawn)?;
         let layers = subjects.iter().zip(drawn.iter().zip(&pictures));
         let layers = layers.map(|((plate, asked), (drawn, picture))| {
-            self.layers(plate, &seen, asked, drawn, picture)
+            self.layers(plate, &seen, asked, drawn, picture, &design)
         });
         let layers = layers.collect::<anyhow::Result<Vec<_>>>()?;
         let cracks = seen.cracks(field);
         let factor = seen.moved().map(|points| words(points.view.factor()));
         pictures.iter_mut().for_each(|picture| self.blank(picture));
-        let panel = |((picture, labels), layers)| Panel {
+        let panel = |((picture, labels), Layers { items, legend })| Panel {
             picture,
-            layers,
+            layers: items,
+            legend,
             labels,
             cracks: &cracks,
             bar_of: None,
         };
         let all: Vec<Panel<'_>> =
             pictures.iter().zip(labels.clone()).zip(layers).map(panel).collect();
+        let room = panel_area(&untold, &captions, grid, &design)?;
+        let lacking = all.iter().filter(|panel| lacks_legend(panel, room, &design));
+        let mut lacking: Vec<_> = lacking.map(|panel| &panel.legend).collect();
+        lacking.dedup();
+        lacking.into_iter().for_each(|legend| tell_legend(legend));
         let page = panels(&worded(titled(title.clone(), factor.as_deref())), &all, grid, &design)?;
         let names = subjects.iter().step_by(plates.len()).map(|(_, asked)| asked.name.as_str());
         let names = names.collect::<Vec<_>>().join(", ");
