@@ -15,13 +15,12 @@ pub enum RenderError {
     /// The watcher stopped the call.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// Isolines would have more points than [`MOST_POINTS`](crate::isoline::MOST_POINTS).
+    /// Isolines would have more points than this.
     #[error(
-        "the isolines have more than {} points: the quantity passes so many levels in the picture that they say nothing; \
-         ask for fewer levels, or show less",
-        crate::isoline::MOST_POINTS
+        "the isolines have more than {0} points: the quantity passes so many levels in the picture that they say nothing; \
+         ask for fewer levels, or show less"
     )]
-    TooManyLines,
+    TooManyLines(usize),
     /// The samples of the view's pixels cannot be told apart.
     #[error(transparent)]
     View(#[from] ViewError),

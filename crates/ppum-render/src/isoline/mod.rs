@@ -140,7 +140,8 @@ impl Search<'_, '_> {
         parts.finish_one()?;
         let points = found.iter().flatten().map(|segment| segment.points.len()).sum();
         let before = self.points.fetch_add(points, Ordering::Relaxed);
-        if before + points > MOST_POINTS { Err(RenderError::TooManyLines) } else { Ok(found) }
+        let is_too_many = before + points > MOST_POINTS;
+        if is_too_many { Err(RenderError::TooManyLines(MOST_POINTS)) } else { Ok(found) }
     }
 }
 
