@@ -9,7 +9,7 @@ use anyhow::{Context as _, ensure};
 use ppum::field::Field;
 use ppum::progress::{Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
-use ppum::sample::{self, Place};
+use ppum::sample::{self, Curve, Place};
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
@@ -110,16 +110,60 @@ impl Profile {
         field: &Field<'_>,
         quantities: &[(String, Quantity)],
     ) -> anyhow::Result<Table> {
+        let count = self.checked_count()?;
+        if let Some(crack) = self.crack {
+            return along::table(field, quantities, crack, count);
+        }
+        self.listed(field, quantities, self.places(field, count)?)
+    }
+
+    /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it passes through,
+    /// first that from which it comes.
+    pub(crate) fn drawn(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+    ) -> anyhow::Result<Table> {
+        let count = self.checked_count()?;
+        let Some(curve) = self.curve() else { return self.table(field, quantities) };
+        let mut places = self.places(field, count)?;
+        let unit = if self.variable() == Variable::Angle { f64::to_degrees } else { |at| at };
+        let near = 1e-12 * unit(curve.length());
+        for passage in sample::passages(&field.step.cracks, curve) {
+            let at = unit(passage.at);
+            places.retain(|(v, place)| place.on.is_none() || (v - at).abs() > near);
+            let next = places.partition_point(|(v, _)| *v < at);
+            places.splice(next..next, passage.places.map(|place| (at, place)));
+        }
+        self.listed(field, quantities, places)
+    }
+
+    /// The line or the circle.
+    fn curve(&self) -> Option<Curve> {
+        let circle = self.circle.map(|(center, radius)| Curve::Circle(center, radius));
+        self.line.map(Curve::Line).or(circle)
+    }
+
+    fn checked_count(&self) -> anyhow::Result<usize> {
         // clap does not ask for `--tip` where something else of its group is given
         let is_at_tip = self.tip.is_some() || (self.radius.is_none() && self.angle.is_none());
         ensure!(is_at_tip, "--radius and --angle belong to --tip");
         let count = self.count.unwrap_or(COUNT);
         ensure!(count >= 2, "--count {count}: a line has two points or more");
         ensure!(count <= MOST, "--count {count}: at most {MOST} points at a time");
-        if let Some(crack) = self.crack {
-            return along::table(field, quantities, crack, count);
+        Ok(count)
+    }
+
+    fn listed(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+        places: Vec<(f64, Place)>,
+    ) -> anyhow::Result<Table> {
+        let (variables, mut places): (Vec<_>, Vec<_>) = places.into_iter().unzip();
+        if self.tip.is_none() {
+            sample::settle(&field.domain, &mut places);
         }
-        let (variables, places): (Vec<_>, Vec<_>) = self.places(field, count)?.into_iter().unzip();
         let variable = self.variable();
         let first = Column::new(variable.name(), variable.unit());
         Ok(listed(field, quantities, &places)?.with_first(first, variables))

@@ -50,7 +50,7 @@ pub fn legend(view: &View, entries: &[Entry]) -> Vec<Item> {
 }
 
 /// A box in the upper right corner of a page of some size.
-pub(crate) fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<Item> {
+fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<Item> {
     if entries.is_empty() {
         return Vec::new();
     }

@@ -25,7 +25,6 @@ pub use cover::{Enrichment, cells, centers, enrichments, patches, points};
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
 pub use isolines::{Room, isolines};
-pub(crate) use legend::legend_in;
 pub use legend::{Entry, Symbol, legend};
 pub use rings::rings;
 pub use supports::{Load, Support, loads, supports};
