@@ -80,6 +80,9 @@ const COUNT: usize = 201;
 /// Most points at a time: their table takes some gigabytes.
 pub(crate) const MOST: usize = 20_000_000;
 
+/// Values of a curve's variable that are the same but for rounding, in parts of its range.
+const SAME: f64 = 1e-12;
+
 /// The smallest distance of a ray from its tip, in parts of the largest.
 const NEAREST: f64 = 1e-6;
 
@@ -118,7 +121,7 @@ impl Profile {
     }
 
     /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it passes through,
-    /// first that from which it comes.
+    /// first that from which it comes; at its ends that alone which it runs on.
     pub(crate) fn drawn(
         &self,
         field: &Field<'_>,
@@ -127,13 +130,28 @@ impl Profile {
         let count = self.checked_count()?;
         let Some(curve) = self.curve() else { return self.table(field, quantities) };
         let mut places = self.places(field, count)?;
-        let unit = if self.variable() == Variable::Angle { f64::to_degrees } else { |at| at };
-        let near = 1e-12 * unit(curve.length());
+        let [Some((start, _)), Some((end, _))] =
+            [places.first(), places.last()].map(|p| p.copied())
+        else {
+            return self.listed(field, quantities, places);
+        };
+        let is_same = |a: f64, b: f64| (a - b).abs() <= SAME * (end - start);
         for passage in sample::passages(&field.step.cracks, curve) {
-            let at = unit(passage.at);
-            places.retain(|(v, place)| place.on.is_none() || (v - at).abs() > near);
-            let next = places.partition_point(|(v, _)| *v < at);
-            places.splice(next..next, passage.places.map(|place| (at, place)));
+            let at = if self.circle.is_some() { passage.at.to_degrees() } else { passage.at };
+            let [before, after] = passage.places;
+            let is_seam = self.circle.is_some() && is_same(at.abs(), end);
+            let sides = match () {
+                () if is_seam => vec![(start, after), (end, before)],
+                () if is_same(at, start) => vec![(start, after)],
+                () if is_same(at, end) => vec![(end, before)],
+                () => vec![(at, before), (at, after)],
+            };
+            let is_replaced = |v: f64| sides.iter().any(|(at, _)| is_same(v, *at));
+            places.retain(|(v, place)| place.on.is_none() || !is_replaced(*v));
+            for (at, place) in sides {
+                let next = places.partition_point(|(v, _)| *v <= at);
+                places.insert(next, (at, place));
+            }
         }
         self.listed(field, quantities, places)
     }
