@@ -329,6 +329,47 @@ mod tests {
         assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
 
+    /// On a logarithmic axis values that are not positive are gaps, and nothing is drawn below the frame for them.
+    #[test]
+    fn logarithmic_axes_leave_out_what_has_no_place() {
+        let points: Vec<_> = (0..400).map(|k| [f64::from(k), (0.1 * f64::from(k)).sin()]).collect();
+        let mut waves = line(&points);
+        waves.y = waves.y.logarithmic();
+        let size = [640, 480];
+        let drawn = paths(&plot(&waves, size));
+        let positive = points.chunk_by(|a, b| (a[1] > 0.0) == (b[1] > 0.0));
+        let expected: Vec<_> =
+            positive.filter(|run| run[0][1] > 0.0).map(<[[f64; 2]]>::len).collect();
+        assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), expected);
+        assert!(drawn.iter().flatten().all(|p| p.y > 0.0 && p.y < f64::from(size[1])));
+    }
+
+    /// Pens of many curves differ in colour or dashes.
+    #[test]
+    fn curves_are_told_apart() {
+        let pens: Vec<_> = (0..30).map(|k| pen(Look::Line, k, 1.0)).collect();
+        for (k, pen) in pens.iter().enumerate() {
+            assert!(!pens[..k].contains(pen), "{k}");
+        }
+    }
+
+    /// Given marks are those of the axis; where they have no room, some of them at equal steps.
+    #[test]
+    fn angles_have_right_angles() {
+        let mut around = line(&[[-180.0, 1.0], [180.0, 2.0]]);
+        around.x.marks = vec![-180.0, -90.0, 0.0, 90.0, 180.0];
+        let words = |size| {
+            let is_mark = |text: &String| text.contains("180") || text == "−90" || text == "90";
+            let texts = plot(&around, size).items.into_iter().filter_map(|item| match item {
+                Item::Text(lettering) => Some(lettering.text),
+                _ => None,
+            });
+            texts.filter(is_mark).collect::<Vec<_>>()
+        };
+        assert_eq!(words([900, 600]), ["−180", "−90", "90", "180"]);
+        assert_eq!(words(LEAST), ["−180", "180"]);
+    }
+
     /// Nothing but numbers that can be drawn, whatever is plotted, and everything on the page.
     #[test]
     fn odd_data_still_make_a_plot() {
