@@ -101,7 +101,7 @@ impl Args {
         let cracks = &field.step.cracks;
         if let Some(path) = &self.points {
             let mut places = sample::points(cracks, &points::read(path)?);
-            sample::settle(&field.domain, &mut places);
+            sample::settle(field.domain, &mut places);
             return listed(field, quantities, &places);
         }
         let Some([nx, ny]) = self.grid else {
@@ -112,7 +112,7 @@ impl Args {
         ensure!(points <= MOST, "--grid {nx}x{ny}: at most {MOST} points at a time");
         let window = self.view.unwrap_or(field.domain.bounds);
         let mut places = sample::grid(cracks, window, [nx, ny]);
-        sample::settle(&field.domain, &mut places);
+        sample::settle(field.domain, &mut places);
         Ok(listed(field, quantities, &places)?.with_shape([ny as usize, nx as usize]))
     }
 }

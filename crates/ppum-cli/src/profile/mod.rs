@@ -180,7 +180,7 @@ impl Profile {
     ) -> anyhow::Result<Table> {
         let (variables, mut places): (Vec<_>, Vec<_>) = places.into_iter().unzip();
         if self.tip.is_none() {
-            sample::settle(&field.domain, &mut places);
+            sample::settle(field.domain, &mut places);
         }
         let variable = self.variable();
         let first = Column::new(variable.name(), variable.unit());
