@@ -137,6 +137,19 @@ impl LocalDomain {
     pub fn contains(&self, offset: Vec2) -> bool {
         self.bounds.contains(offset) && !self.holes.iter().any(|hole| hole.contains(offset))
     }
+
+    /// The offset itself if its point belongs to the domain; that of a point of the domain beside it, no farther than
+    /// a few times `reach`, if the point lies in a hole or outside the box by no more than `reach`; else none.
+    #[must_use]
+    pub fn settled(&self, offset: Vec2, reach: f64) -> Option<Vec2> {
+        let inside = |p: Vec2| self.bounds.min.max(self.bounds.max.min(p));
+        let clamped = inside(offset);
+        if (clamped - offset).length() > 2.0 * reach {
+            return None;
+        }
+        let out = self.holes.iter().fold(clamped, |p, hole| hole.left_by(p, reach));
+        [out, inside(out)].into_iter().find(|&p| self.contains(p))
+    }
 }
 
 /// A hole seen from an anchor.
@@ -175,6 +188,32 @@ impl LocalHole {
             }
         }
     }
+
+    /// A point outside, beyond the rim by about `reach`, for one that lies inside by no more than that; else the
+    /// point as it is.
+    fn left_by(&self, offset: Vec2, reach: f64) -> Vec2 {
+        if !self.contains(offset) {
+            return offset;
+        }
+        match &self.0 {
+            LocalRim::Circle { d, excess } => {
+                let (out, value) = (*d + offset, excess + (*d * 2.0 + offset).dot(offset));
+                let far = out.length();
+                // |c|² − r² = (|c| − r) (|c| + r) for the point c from the centre
+                let radius = (far * far - value).max(0.0).sqrt();
+                let is_near = -value <= reach * (far + radius);
+                if is_near { offset + out.unit() * (2.0 * reach) } else { offset }
+            }
+            LocalRim::Polygon(sides) => {
+                let near = sides.iter().filter(|side| side.distance(offset) <= reach);
+                let beyond = |side: &LocalSide| {
+                    let step = side.direction.unit().left() * (2.0 * reach);
+                    offset + if side.left(offset) > 0.0 { -step } else { step }
+                };
+                near.map(beyond).find(|&p| !self.contains(p)).unwrap_or(offset)
+            }
+        }
+    }
 }
 
 /// A side of a polygon from `a` to `b`, relative to the anchor.
@@ -198,6 +237,13 @@ impl LocalSide {
     /// Positive on the left of the side's line.
     fn left(&self, offset: Vec2) -> f64 {
         self.cross + self.direction.cross(offset)
+    }
+
+    /// Distance of the point from the side.
+    fn distance(&self, offset: Vec2) -> f64 {
+        let tangent = self.direction.unit();
+        let beyond = tangent.dot(self.a - offset).max(tangent.dot(offset - self.b)).max(0.0);
+        beyond.hypot(self.left(offset) / self.direction.length())
     }
 
     /// True if the ray from the point to the right crosses the side.

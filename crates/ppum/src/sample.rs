@@ -24,14 +24,18 @@
 //! # }
 //! ```
 
+mod crossings;
+
 use std::f64::consts::PI;
 
 use crate::crack::{Crack, End, SegmentId, Side, TipId};
+use crate::domain::Domain;
 use crate::field::{Field, LocalField};
 use crate::progress::{Cancelled, Phase, Progress, Watcher};
 use crate::quantity::Quantity;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
+pub use crossings::{Curve, Passage, passages};
 
 /// A point with the side of a crack that is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,6 +80,33 @@ impl Place {
             (Some(_), Side::Below) => -1.0,
         }
     }
+}
+
+/// Rounding of a point's coordinates and of its distance from a rim, in parts of their size.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Makes places that lie on the border of the domain or on the rim of a hole, but for the rounding of their
+/// coordinates, places of the domain: they are seen from a few roundings beside it, on its side, and keep their `point`.
+/// Places that are not given by their coordinates need none of it: their offsets mean what they say.
+pub fn settle(domain: &Domain, places: &mut [Place]) {
+    let Rect { min, max } = domain.bounds;
+    let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest);
+    for seat in places.chunk_by_mut(|a, b| a.anchor == b.anchor) {
+        let (local, anchor) = (domain.at(seat[0].anchor), seat[0].anchor);
+        for place in seat {
+            let away = largest(place.offset.x, place.offset.y);
+            let size = extent.max(largest(anchor.x, anchor.y)).max(away);
+            // an offset that is tiny itself has no rounding of that size
+            let finest = if away > 0.0 { 1e-3 * away } else { f64::INFINITY };
+            if let Some(offset) = local.settled(place.offset, (ROUNDING * size).min(finest)) {
+                place.offset = offset;
+            }
+        }
+    }
+}
+
+fn largest(a: f64, b: f64) -> f64 {
+    a.abs().max(b.abs())
 }
 
 /// Points that share an anchor: near each other, and few enough to be work for one thread.
@@ -362,6 +393,7 @@ impl Station {
 mod tests {
     use super::*;
     use crate::crack::CrackEnd;
+    use crate::domain::Hole;
 
     #[test]
     fn ends_are_exact() {
@@ -375,6 +407,58 @@ mod tests {
         let bounds = Rect::new(vec2(-1.1, 0.1), vec2(0.7, 1.3));
         let corners = grid(&[], bounds, [7, 9]);
         assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
+    }
+
+    /// Points of a rim by their rounded coordinates, and of the border, are of the plate; those that lie inside by more
+    /// than rounding are not, and those given by tiny offsets mean what they say.
+    #[test]
+    fn rims_and_borders_are_of_the_plate() {
+        let bounds = Rect::new(vec2(-1.1, -1.3), vec2(1.7, 0.9));
+        for k in 0..200 {
+            let number = |n: u32| (f64::from(5 * k + n) * 12.9898).sin() * 43758.5453 % 1.0;
+            let (center, radius) = (vec2(0.4 * number(0), 0.4 * number(1)), 0.3 + 0.2 * number(2));
+            let on = |angle: f64, r: f64| center + vec2(angle.cos(), angle.sin()) * r;
+            let points: Vec<Vec2> = (0..5).map(|n| on(1.1 * f64::from(n), radius)).collect();
+            let round = Hole::Circle { center, radius };
+            let cornered = Hole::Polygon { points: points.clone() };
+            let is_in = |domain: &Domain, p: Place| domain.at(p.anchor).contains(p.offset);
+            let settled = |domain: &Domain, mut places: Vec<Place>| {
+                settle(domain, &mut places);
+                places.into_iter().map(|p| is_in(domain, p)).collect::<Vec<_>>()
+            };
+            let circled = |r: f64| circle(&[], center, r, 97).into_iter().map(|(_, p)| p);
+            let plate = Domain { bounds, holes: vec![round] };
+            assert!(settled(&plate, circled(radius).collect()).iter().all(|&v| v));
+            assert!(!settled(&plate, circled(radius * (1.0 - 1e-13)).collect()).contains(&true));
+            let listed: Vec<_> = (0..97).map(|n| on(0.1 * f64::from(n), radius)).collect();
+            assert!(settled(&plate, super::points(&[], &listed)).iter().all(|&v| v));
+            let plate = Domain { bounds, holes: vec![cornered] };
+            let along = |a: Vec2, b: Vec2| line(&[], a, b, 53);
+            for n in 0..5 {
+                let [a, b] = [points[n], points[(n + 1) % 5]];
+                assert!(settled(&plate, along(a, b)).iter().all(|&v| v), "{k} {n}");
+                let [a, b] = [a, b].map(|p| center + (p - center) * (1.0 - 1e-12));
+                assert!(!settled(&plate, along(a, b)).contains(&true), "{k} {n}");
+            }
+            let edge = 0.1 * number(3).abs();
+            let plate = Domain::from(Rect::new(bounds.min, vec2(center.x + radius, 0.9)));
+            assert!(settled(&plate, circled(radius).collect()).iter().all(|&v| v));
+            let right = plate.bounds.max.x;
+            let (a, b) = (vec2(right, -1.3), vec2(right, 0.9 - edge));
+            assert!(settled(&plate, along(a, b)).iter().all(|&v| v));
+            let beyond = along(a + vec2(1e-13, 0.0), b + vec2(1e-13, 0.0));
+            assert!(!settled(&plate, beyond).contains(&true));
+        }
+        // a circle 1e-18 wide about a point of the rim is half of it in the hole
+        let hole = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 };
+        let plate = Domain { bounds, holes: vec![hole] };
+        let mut tiny: Vec<_> = circle(&[], vec2(0.875, 0.75), 1e-18, 101)
+            .into_iter()
+            .unzip::<_, _, Vec<_>, Vec<_>>()
+            .1;
+        settle(&plate, &mut tiny);
+        let inside = tiny.iter().filter(|p| plate.at(p.anchor).contains(p.offset)).count();
+        assert!((49..=52).contains(&inside), "{inside}");
     }
 
     /// Places on faces know their side: above the crack θ = π at its last tip, and −π at its first.

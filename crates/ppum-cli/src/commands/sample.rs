@@ -100,7 +100,9 @@ impl Args {
         }
         let cracks = &field.step.cracks;
         if let Some(path) = &self.points {
-            return listed(field, quantities, &sample::points(cracks, &points::read(path)?));
+            let mut places = sample::points(cracks, &points::read(path)?);
+            sample::settle(field.domain, &mut places);
+            return listed(field, quantities, &places);
         }
         let Some([nx, ny]) = self.grid else {
             bail!("give --line, --crack, --circle, --tip, --points or --grid")
@@ -109,7 +111,8 @@ impl Args {
         ensure!(nx > 0 && ny > 0, "--grid {nx}x{ny}: has no points");
         ensure!(points <= MOST, "--grid {nx}x{ny}: at most {MOST} points at a time");
         let window = self.view.unwrap_or(field.domain.bounds);
-        let places = sample::grid(cracks, window, [nx, ny]);
+        let mut places = sample::grid(cracks, window, [nx, ny]);
+        sample::settle(field.domain, &mut places);
         Ok(listed(field, quantities, &places)?.with_shape([ny as usize, nx as usize]))
     }
 }

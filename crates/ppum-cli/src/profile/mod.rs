@@ -9,7 +9,7 @@ use anyhow::{Context as _, ensure};
 use ppum::field::Field;
 use ppum::progress::{Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
-use ppum::sample::{self, Place};
+use ppum::sample::{self, Curve, Place};
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
@@ -80,6 +80,9 @@ const COUNT: usize = 201;
 /// Most points at a time: their table takes some gigabytes.
 pub(crate) const MOST: usize = 20_000_000;
 
+/// Values of a curve's variable that are the same but for rounding, in parts of its range.
+const SAME: f64 = 1e-12;
+
 /// The smallest distance of a ray from its tip, in parts of the largest.
 const NEAREST: f64 = 1e-6;
 
@@ -110,16 +113,75 @@ impl Profile {
         field: &Field<'_>,
         quantities: &[(String, Quantity)],
     ) -> anyhow::Result<Table> {
+        let count = self.checked_count()?;
+        if let Some(crack) = self.crack {
+            return along::table(field, quantities, crack, count);
+        }
+        self.listed(field, quantities, self.places(field, count)?)
+    }
+
+    /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it passes through,
+    /// first that from which it comes; at its ends that alone which it runs on.
+    pub(crate) fn drawn(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+    ) -> anyhow::Result<Table> {
+        let count = self.checked_count()?;
+        let Some(curve) = self.curve() else { return self.table(field, quantities) };
+        let mut places = self.places(field, count)?;
+        let [Some((start, _)), Some((end, _))] =
+            [places.first(), places.last()].map(|p| p.copied())
+        else {
+            return self.listed(field, quantities, places);
+        };
+        let is_same = |a: f64, b: f64| (a - b).abs() <= SAME * (end - start);
+        for passage in sample::passages(&field.step.cracks, curve) {
+            let at = if self.circle.is_some() { passage.at.to_degrees() } else { passage.at };
+            let [before, after] = passage.places;
+            let is_seam = self.circle.is_some() && is_same(at.abs(), end);
+            let sides = match () {
+                () if is_seam => vec![(start, after), (end, before)],
+                () if is_same(at, start) => vec![(start, after)],
+                () if is_same(at, end) => vec![(end, before)],
+                () => vec![(at, before), (at, after)],
+            };
+            let is_replaced = |v: f64| sides.iter().any(|(at, _)| is_same(v, *at));
+            places.retain(|(v, place)| place.on.is_none() || !is_replaced(*v));
+            for (at, place) in sides {
+                let next = places.partition_point(|(v, _)| *v <= at);
+                places.insert(next, (at, place));
+            }
+        }
+        self.listed(field, quantities, places)
+    }
+
+    /// The line or the circle.
+    fn curve(&self) -> Option<Curve> {
+        let circle = self.circle.map(|(center, radius)| Curve::Circle(center, radius));
+        self.line.map(Curve::Line).or(circle)
+    }
+
+    fn checked_count(&self) -> anyhow::Result<usize> {
         // clap does not ask for `--tip` where something else of its group is given
         let is_at_tip = self.tip.is_some() || (self.radius.is_none() && self.angle.is_none());
         ensure!(is_at_tip, "--radius and --angle belong to --tip");
         let count = self.count.unwrap_or(COUNT);
         ensure!(count >= 2, "--count {count}: a line has two points or more");
         ensure!(count <= MOST, "--count {count}: at most {MOST} points at a time");
-        if let Some(crack) = self.crack {
-            return along::table(field, quantities, crack, count);
+        Ok(count)
+    }
+
+    fn listed(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+        places: Vec<(f64, Place)>,
+    ) -> anyhow::Result<Table> {
+        let (variables, mut places): (Vec<_>, Vec<_>) = places.into_iter().unzip();
+        if self.tip.is_none() {
+            sample::settle(field.domain, &mut places);
         }
-        let (variables, places): (Vec<_>, Vec<_>) = self.places(field, count)?.into_iter().unzip();
         let variable = self.variable();
         let first = Column::new(variable.name(), variable.unit());
         Ok(listed(field, quantities, &places)?.with_first(first, variables))

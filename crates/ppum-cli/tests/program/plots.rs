@@ -65,7 +65,7 @@ fn plots_are_drawn() {
     let told = lab.run("plot plate.h5 --crack 0 -o b.pdf");
     assert!(told.contains("b.pdf: opening, sliding"), "{told}");
     assert!(read(&lab, "b.pdf").starts_with("%PDF-"));
-    lab.run("plot plate.h5 --line 0.1,0.1,0.9,0.3 -q sxx,syy --log y --size 400x300 -o c.png");
+    lab.run("plot plate.h5 --line 0.1,0.1,0.9,0.3 -q von-mises --log y --size 400x300 -o c.png");
     assert_eq!(Png::read(&lab.path("c.png")).size, [400, 300]);
     let told = lab.run("plot plate.h5 --history -o d.png");
     assert!(told.contains("plate"), "{told}");
@@ -83,6 +83,11 @@ fn plots_that_cannot_be_are_refused() {
         ("--line 0,0,0,0", "its two points are equal"),
         ("--line 0,0,1,1 --count 1", "two points or more"),
         ("--convergence", "three datasets or more"),
+        ("plate.h5 plate.h5 --convergence", "three different numbers of unknowns"),
+        ("--line 50,50,60,60", "would show nothing"),
+        ("--line 0.1,0.1,0.9,0.3 -q 1/0", "all values are infinite"),
+        ("--line 0.1,0.1,0.9,0.3 -q=-1 --log y", "no value is positive"),
+        ("--crack 0 --size 239x500", "give at least 240x180"),
         ("--line 0,0,1,1 -q nonsense", "nonsense"),
         ("", "required"),
         ("--line 0,0,1,1 --crack 0", "cannot be used with"),
@@ -115,4 +120,47 @@ fn convergence_has_its_rates() {
     };
     assert!((slope("energy norm") - 1.0).abs() < 0.12, "{told}");
     assert!((slope("L² norm") - 1.5).abs() < 0.2, "{told}");
+}
+
+/// Datasets of different equations are not of one problem.
+#[test]
+fn convergence_is_of_one_problem() {
+    let lab = Lab::solved(CRACKED);
+    std::fs::copy(lab.path("plate.h5"), lab.path("cracked.h5")).unwrap();
+    lab.write("linear.toml", LINEAR);
+    lab.run("solve linear.toml -o linear.h5");
+    let told = lab.fail("plot cracked.h5 cracked.h5 linear.h5 --convergence -o a.png");
+    assert!(told.contains("cracked and linear are of two: the equation"), "{told}");
+}
+
+/// The subpaths of the curves of a plot.
+fn strokes(svg: &str) -> usize {
+    let paths = svg.split("<path").filter(|path| path.contains("#0072b2") && !path.contains(" Z"));
+    paths.map(|path| path.split('/').next().unwrap().matches('M').count()).max().unwrap_or(0)
+}
+
+/// A line through a crack is two strokes, with both faces where it passes.
+#[test]
+fn lines_break_at_cracks() {
+    let lab = Lab::solved(CRACKED);
+    for (way, expected) in [
+        ("--line 0.1,-0.43,0.2,0.57", 2),
+        ("--line 0.1,-0.4,0.1,0.4", 2),
+        ("--line 0.1,-0.43,0.2,-0.01", 1),
+        ("--line 0.6,-0.43,0.6,0.57", 1),
+        ("--circle 0.5,0.1,0.3", 2),
+        // the halves below and above the crack
+        ("--circle 0,0,0.4", 2),
+    ] {
+        lab.run(&format!("plot plate.h5 {way} -q uy -o curve.svg"));
+        assert_eq!(strokes(&read(&lab, "curve.svg")), expected, "{way}");
+    }
+}
+
+/// What has no place on a logarithmic axis is told of.
+#[test]
+fn values_without_a_logarithm_are_told() {
+    let lab = Lab::solved(CRACKED);
+    let (_, told) = lab.warned("plot plate.h5 --line 0.1,0.1,0.9,0.1 -q x-0.5 --log y -o a.svg");
+    assert!(told.contains("is not positive at"), "{told}");
 }

@@ -64,11 +64,7 @@ pub fn legend(view: &View, entries: &[Entry]) -> Vec<Item> {
     place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, line_scale(view.pixels)))
 }
 
-/// A box in the upper right corner of a page of some size.
-pub(crate) fn legend_in(pixels: [u32; 2], entries: &[Entry], scale: f64) -> Vec<Item> {
-    legend_at(corner(pixels, legend_size(entries, scale), scale), entries, scale)
-}
-
+/// The upper left corner of a box in the upper right one of a page.
 fn corner(pixels: [u32; 2], size: Vec2, scale: f64) -> Vec2 {
     let right = f64::from(pixels[0]) - MARGIN * scale;
     vec2((right - size.x).max(0.0), MARGIN * scale)

@@ -26,7 +26,7 @@ pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_
 pub use glyphs::{arrows, crosses};
 pub use isolines::{Room, isolines};
 pub use legend::{Entry, Symbol, legend, legend_box};
-pub(crate) use legend::{legend_at, legend_in, legend_size};
+pub(crate) use legend::{legend_at, legend_size};
 pub use rings::rings;
 pub use supports::{Load, Support, loads, supports};
 

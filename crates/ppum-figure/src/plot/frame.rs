@@ -4,7 +4,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::scale::Normalization;
 
-use super::{Plot, PlotAxis};
+use super::{Plot, PlotAxis, has_place};
 use crate::canvas::{Align, Item, Lettering, Path, Pen};
 use crate::overlay::line_scale;
 use crate::text::{self, CAP_HEIGHT};
@@ -40,9 +40,10 @@ impl Frame {
     pub(super) fn new(plot: &Plot, norms: [Normalization; 2], size: [u32; 2]) -> Self {
         let scale = line_scale(size);
         let most = |k: usize| (f64::from(size[k]) / (DISTANCE[k] * scale)) as usize;
-        let ticks = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| match axis.names.as_slice() {
-            [] => ticks::bar(&norms[k], most(k).clamp(2, 10)),
-            names => named(names, &norms[k]),
+        let ticks = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| match () {
+            () if !axis.names.is_empty() => named(&axis.names, &norms[k]),
+            () if !axis.marks.is_empty() => marked(&axis.marks, &norms[k], most(k).clamp(2, 10)),
+            () => ticks::bar(&norms[k], most(k).clamp(2, 10)),
         });
         let widths = ticks[1].major.iter().map(|t| text::width(&t.label, TICK_TEXT * scale));
         let widest = widths.fold(0.0, f64::max);
@@ -66,6 +67,11 @@ impl Frame {
     /// The corner of the curves' page.
     pub(super) fn corner(&self) -> [u32; 2] {
         self.min.map(|c| c as u32)
+    }
+
+    /// True if the axes have a place for a point.
+    pub(super) fn has_place(&self, point: [f64; 2]) -> bool {
+        self.norms.iter().zip(point).all(|(norm, v)| has_place(norm.scale(), v))
     }
 
     /// The position of a point on the curves' page; far outside of it, but not too far to be drawn, where the
@@ -161,6 +167,23 @@ fn named(names: &[String], norm: &Normalization) -> Ticks {
     let tick =
         |(k, name): (usize, &String)| Tick { at: norm.position(k as f64), label: name.clone() };
     Ticks { major: names.iter().enumerate().map(tick).collect(), ..Ticks::default() }
+}
+
+/// Ticks at values, a label at every one or, where there is no room for so many, at every second, third, …
+fn marked(values: &[f64], norm: &Normalization, most: usize) -> Ticks {
+    let intervals = values.len() - 1;
+    let step =
+        (1..=intervals).find(|step| intervals.is_multiple_of(*step) && intervals / step < most);
+    let (mut ticks, step) = (Ticks::default(), step.unwrap_or(1));
+    for (k, &value) in values.iter().enumerate() {
+        let at = norm.position(value);
+        if k.is_multiple_of(step) {
+            ticks.major.push(Tick { at, label: value.to_string().replace('-', "−") });
+        } else {
+            ticks.minor.push(at);
+        }
+    }
+    ticks
 }
 
 /// Places and lengths of ticks.

@@ -1,16 +1,21 @@
 //! Plots: curves over axes.
 //!
 //! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`Curve`]s in colours that people with
-//! any colour vision tell apart. Curves break where a value is missing, and are cut off at the frame.
+//! any colour vision tell apart, with dashes where there are more of them. Curves break where a value is missing or
+//! has no place on its axis, and are cut off at the frame.
 
 mod frame;
+mod legend;
+mod thin;
 
 use ppum_render::image::Rgba;
 use ppum_render::scale::{Normalization, Scale};
 
 use crate::canvas::{Canvas, Item, Path, Pen};
-use crate::overlay::{Entry, Symbol, legend_in};
+use crate::overlay::{Entry, Symbol};
 use frame::Frame;
+use legend::legend;
+use thin::thinned;
 
 /// Curves over axes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,12 +43,14 @@ pub struct PlotAxis {
     pub range: Option<[f64; 2]>,
     /// Names of the values 0, 1, 2, … in place of numbers; none of an axis of numbers.
     pub names: Vec<String>,
+    /// The values with a label, rising; found if there are none.
+    pub marks: Vec<f64>,
 }
 
 impl Default for PlotAxis {
     fn default() -> Self {
         let (label, unit, names) = (String::new(), String::new(), Vec::new());
-        Self { label, unit, scale: Scale::Linear, range: None, names }
+        Self { label, unit, scale: Scale::Linear, range: None, names, marks: Vec::new() }
     }
 }
 
@@ -126,6 +133,8 @@ const COLORS: [Rgba; 7] = [
 ];
 const WIDTH: f64 = 1.8;
 const DOT: f64 = 3.2;
+/// Dashes and gaps of the curves that have the colours once more, and of those after them.
+const DASHES: [[f64; 2]; 4] = [[9.0, 4.0], [2.0, 3.0], [16.0, 4.0], [5.0, 7.0]];
 /// Room between the outermost values and the frame, in parts of the axis.
 const MARGIN: f64 = 0.04;
 
@@ -136,7 +145,7 @@ pub const LEAST: [u32; 2] = [240, 180];
 #[must_use]
 pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
     let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
-    let [x, y] = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| scale_of(axis, &plot.curves, k));
+    let [x, y] = [0, 1].map(|k| scale_of(plot, k));
     let frame = Frame::new(plot, [x, y], size);
     let mut page = Canvas::new(size, frame::PAPER);
     page.items.extend(frame.grid());
@@ -149,16 +158,20 @@ pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
 /// The curves with their legend, on a page of the frame's size.
 fn inside(plot: &Plot, frame: &Frame) -> Item {
     let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
-    let mut entries = Vec::new();
+    let (mut entries, mut paths) = (Vec::new(), Vec::new());
     let bars = plot.curves.iter().filter(|curve| curve.look == Look::Bars).count();
     for (k, curve) in plot.curves.iter().enumerate() {
         let color = COLORS[k % COLORS.len()];
-        let pen = pen(curve, color, frame.scale);
+        let pen = pen(curve.look, k, frame.scale);
         let is_bar = curve.look == Look::Bars;
         canvas.items.extend(if is_bar {
-            vec![Item::Fill { outline: bars_of(curve, [k, bars], frame), color }]
+            let outline = bars_of(curve, [k, bars], frame);
+            paths.extend(outline.pieces.clone());
+            vec![Item::Fill { outline, color }]
         } else {
-            drawn(curve, pen, frame)
+            let (items, path) = drawn(curve, pen, frame);
+            paths.extend(path.pieces);
+            items
         });
         if !curve.label.is_empty() {
             let symbol = if is_bar { Symbol::Square(color) } else { Symbol::Line(pen) };
@@ -166,14 +179,22 @@ fn inside(plot: &Plot, frame: &Frame) -> Item {
         }
     }
     if plot.curves.len() > 1 || entries.len() > 1 {
-        canvas.items.extend(legend_in(frame.pixels(), &entries, frame.scale));
+        canvas.items.extend(legend(frame.pixels(), &entries, &paths, frame.scale));
     }
     Item::Inset { corner: frame.corner(), canvas }
 }
 
-fn pen(curve: &Curve, color: Rgba, scale: f64) -> Pen {
-    let pen = Pen::new(color, WIDTH * scale);
-    if curve.look == Look::Dashed { pen.dashed(7.0 * scale, 4.0 * scale) } else { pen }
+/// The pen of curve k: colours in turn, and dashes where they come again.
+fn pen(look: Look, k: usize, scale: f64) -> Pen {
+    let pen = Pen::new(COLORS[k % COLORS.len()], WIDTH * scale);
+    let again = k / COLORS.len() + usize::from(look == Look::Dashed);
+    match again.checked_sub(1) {
+        Some(k) => {
+            let [dash, gap] = DASHES[k % DASHES.len()].map(|length| length * scale);
+            pen.dashed(dash, gap)
+        }
+        None => pen,
+    }
 }
 
 /// The bars of curve k of `count`, side by side around their places.
@@ -188,39 +209,45 @@ fn bars_of(curve: &Curve, [k, count]: [usize; 2], frame: &Frame) -> Path {
 }
 
 /// The unbroken pieces of a curve, and its dots.
-fn drawn(curve: &Curve, pen: Pen, frame: &Frame) -> Vec<Item> {
-    let is_missing = |p: &[f64; 2]| p.map(|v| v.is_finite()) != [true; 2];
-    let pieces = curve.points.split(is_missing).filter(|piece| !piece.is_empty());
-    let positions = |piece: &[[f64; 2]]| piece.iter().map(|&p| frame.position(p)).collect();
+fn drawn(curve: &Curve, pen: Pen, frame: &Frame) -> (Vec<Item>, Path) {
+    let pieces = curve.points.split(|p| !frame.has_place(*p)).filter(|piece| !piece.is_empty());
+    let positions = |piece: &[[f64; 2]]| thinned(piece.iter().map(|&p| frame.position(p)));
     let path = Path { pieces: pieces.map(positions).collect() };
     let mut items = vec![Item::Line { path: path.clone(), pen }];
     if curve.look == Look::Dotted {
-        let dots = path.pieces.into_iter().flatten().map(|p| vec![p]).collect();
+        let dots = path.pieces.iter().flatten().map(|&p| vec![p]).collect();
         let pen = Pen::new(pen.color, 2.0 * DOT * frame.scale);
         items.push(Item::Line { path: Path { pieces: dots }, pen });
     }
-    items
+    (items, path)
 }
 
 /// The scale of an axis: its range, or that of the curves' values with some room.
-fn scale_of(axis: &PlotAxis, curves: &[Curve], k: usize) -> Normalization {
+fn scale_of(plot: &Plot, k: usize) -> Normalization {
+    let (axes, curves) = ([&plot.x, &plot.y], &plot.curves);
+    let axis = axes[k];
     let is_log = axis.scale == Scale::Log;
-    let is_seen = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
-    let whole = |p: &&[f64; 2]| p.iter().all(|v| v.is_finite());
-    let points = curves.iter().flat_map(|curve| &curve.points).filter(whole);
+    let fits = |(axis, v): (&PlotAxis, &f64)| has_place(axis.scale, *v);
+    let is_seen = |p: &&[f64; 2]| axes.into_iter().zip(*p).all(fits);
+    let points = curves.iter().flat_map(|curve| &curve.points).filter(is_seen);
     let have_bars = !is_log && curves.iter().any(|curve| curve.look == Look::Bars);
     let [min, max] = axis.range.unwrap_or_else(|| {
         if !axis.names.is_empty() {
             return [-0.6, axis.names.len() as f64 - 0.4];
         }
         let zero = (have_bars && k == 1).then_some(0.0);
-        let values = points.map(|p| p[k]).filter(is_seen).chain(zero);
+        let values = points.map(|p| p[k]).chain(zero);
         let start = [f64::INFINITY, f64::NEG_INFINITY];
         roomy(values.fold(start, |[a, b], v| [a.min(v), b.max(v)]), is_log)
     });
     let usable = min < max && (max - min).is_normal() && (!is_log || min > 0.0);
     let [min, max] = if usable { [min, max] } else { [0.1, 1.0] };
     Normalization::new(axis.scale, min, max)
+}
+
+/// True if an axis of this scale has a place for a value.
+fn has_place(scale: Scale, value: f64) -> bool {
+    value.is_finite() && (scale != Scale::Log || value > 0.0)
 }
 
 /// A range with some room at its ends; around a single value, or where there is none, some range.
@@ -300,6 +327,47 @@ mod tests {
             [[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, f64::INFINITY], [4.0, 1.0], [5.0, 2.0]];
         let drawn = paths(&plot(&line(&gaps), [640, 480]));
         assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+    }
+
+    /// On a logarithmic axis values that are not positive are gaps, and nothing is drawn below the frame for them.
+    #[test]
+    fn logarithmic_axes_leave_out_what_has_no_place() {
+        let points: Vec<_> = (0..400).map(|k| [f64::from(k), (0.1 * f64::from(k)).sin()]).collect();
+        let mut waves = line(&points);
+        waves.y = waves.y.logarithmic();
+        let size = [640, 480];
+        let drawn = paths(&plot(&waves, size));
+        let positive = points.chunk_by(|a, b| (a[1] > 0.0) == (b[1] > 0.0));
+        let expected: Vec<_> =
+            positive.filter(|run| run[0][1] > 0.0).map(<[[f64; 2]]>::len).collect();
+        assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), expected);
+        assert!(drawn.iter().flatten().all(|p| p.y > 0.0 && p.y < f64::from(size[1])));
+    }
+
+    /// Pens of many curves differ in colour or dashes.
+    #[test]
+    fn curves_are_told_apart() {
+        let pens: Vec<_> = (0..30).map(|k| pen(Look::Line, k, 1.0)).collect();
+        for (k, pen) in pens.iter().enumerate() {
+            assert!(!pens[..k].contains(pen), "{k}");
+        }
+    }
+
+    /// Given marks are those of the axis; where they have no room, some of them at equal steps.
+    #[test]
+    fn angles_have_right_angles() {
+        let mut around = line(&[[-180.0, 1.0], [180.0, 2.0]]);
+        around.x.marks = vec![-180.0, -90.0, 0.0, 90.0, 180.0];
+        let words = |size| {
+            let is_mark = |text: &String| text.contains("180") || text == "−90" || text == "90";
+            let texts = plot(&around, size).items.into_iter().filter_map(|item| match item {
+                Item::Text(lettering) => Some(lettering.text),
+                _ => None,
+            });
+            texts.filter(is_mark).collect::<Vec<_>>()
+        };
+        assert_eq!(words([900, 600]), ["−180", "−90", "90", "180"]);
+        assert_eq!(words(LEAST), ["−180", "180"]);
     }
 
     /// Nothing but numbers that can be drawn, whatever is plotted, and everything on the page.

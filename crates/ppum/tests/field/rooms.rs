@@ -49,7 +49,7 @@ const FLOORS: Floors<'_> = &[
                 "weight",
             ],
         ),
-        ("sample", &["crack", "field", "progress", "quantity", "sides", "vec2"]),
+        ("sample", &["crack", "domain", "field", "progress", "quantity", "sides", "vec2"]),
     ],
 ];
 

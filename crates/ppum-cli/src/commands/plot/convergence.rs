@@ -1,6 +1,6 @@
 //! Errors of solutions of one problem, against their unknowns.
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use ppum::dataset::{Dataset, Step};
 use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, Scope};
@@ -24,7 +24,15 @@ pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Pl
         ensure!(found.is_some(), "{name}: there is no step {index}");
         solutions.extend(found.map(|step| Solution { dataset, index, step }));
     }
+    of_one_problem(datasets)?;
     solutions.sort_by(|a, b| unknowns(a.step).total_cmp(&unknowns(b.step)));
+    let mut sizes: Vec<f64> = solutions.iter().map(|solution| unknowns(solution.step)).collect();
+    sizes.dedup();
+    ensure!(
+        sizes.len() >= 3,
+        "--convergence compares solutions of three different numbers of unknowns or more; these have {}",
+        sizes.iter().map(f64::to_string).collect::<Vec<_>>().join(" and ")
+    );
     let mut curves = exact(&solutions)?;
     if curves.is_empty() {
         curves = distances(&solutions.iter().map(|solution| solution.step).collect::<Vec<_>>());
@@ -38,6 +46,32 @@ pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Pl
     plot.title.clone_from(&datasets[0].dataset.title);
     plot.curves = curves;
     Ok(plot)
+}
+
+/// Datasets of different problems have no common solution that they could come near.
+fn of_one_problem(datasets: &[Named]) -> anyhow::Result<()> {
+    let [Named { name, dataset: first }, others @ ..] = datasets else { return Ok(()) };
+    for Named { name: other, dataset } in others {
+        let cracks = |dataset: &Dataset| dataset.steps.first().map(|step| step.cracks.clone());
+        let what = match () {
+            () if dataset.equation != first.equation => "the equation or the material",
+            () if dataset.domain != first.domain => "the plate",
+            () if cracks(dataset) != cracks(first) => "the cracks",
+            () if exact_texts(dataset) != exact_texts(first) => "the exact solution",
+            () => continue,
+        };
+        bail!(
+            "--convergence compares solutions of one problem, but {name} and {other} are of two: {what} differ{}",
+            if what.ends_with("cracks") { "" } else { "s" }
+        );
+    }
+    Ok(())
+}
+
+/// The exact solutions of a dataset's fields.
+fn exact_texts(dataset: &Dataset) -> Vec<&[String]> {
+    let fields = dataset.steps.first().map_or(&[][..], |step| &step.fields);
+    fields.iter().map(|field| field.exact.as_slice()).collect()
 }
 
 fn record(step: &Step, name: &str) -> Option<f64> {

@@ -3,12 +3,13 @@
 mod convergence;
 mod history;
 mod profiles;
+mod seen;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
 use ppum::dataset::Dataset;
-use ppum_figure::plot::{Plot, plot};
+use ppum_figure::plot::{LEAST, Plot, plot};
 
 use crate::arguments::page as page_size;
 use crate::dataset::open;
@@ -46,7 +47,7 @@ pub(crate) struct Args {
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
-    /// Logarithmic axes: x, y or both
+    /// Logarithmic axes: x, y or x,y
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     log: Vec<Axis>,
     /// Size in pixels
@@ -84,16 +85,20 @@ struct Named {
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         target::check(&self.output, target::Kind::Picture, self.inputs())?;
+        let [[width, height], [least_width, least_height]] = [self.size, LEAST];
+        ensure!(
+            width >= least_width && height >= least_height,
+            "a plot of {width}x{height} pixels leaves no room; give at least {least_width}x{least_height}"
+        );
         let datasets = self.datasets()?;
         let mut drawn = self.plot(&datasets)?;
         for axis in &self.log {
             let axis = if *axis == Axis::X { &mut drawn.x } else { &mut drawn.y };
             *axis = std::mem::take(axis).logarithmic();
         }
-        let texts = texts(&datasets, &drawn);
-        let curves: Vec<_> = drawn.curves.iter().map(|curve| curve.label.as_str()).collect();
+        seen::check(&drawn)?;
         let page = plot(&drawn, self.size);
-        page::save(&self.output, &page, None, &texts, &curves.join(", "), out)
+        page::save(&self.output, &page, None, &texts(&datasets, &drawn), &curves(&drawn), out)
     }
 
     fn plot(&self, datasets: &[Named]) -> anyhow::Result<Plot> {
@@ -129,8 +134,7 @@ impl Args {
 /// What a plot's file says of itself.
 fn texts(datasets: &[Named], plot: &Plot) -> Vec<(String, String)> {
     let names: Vec<_> = datasets.iter().map(|named| named.name.as_str()).collect();
-    let curves: Vec<_> = plot.curves.iter().map(|curve| curve.label.as_str()).collect();
-    let summary = format!("{} of {}, evaluated exactly", curves.join(", "), names.join(", "));
+    let summary = format!("{} of {}, evaluated exactly", curves(plot), names.join(", "));
     [
         ("Title", plot.title.clone()),
         ("Software", concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -138,6 +142,22 @@ fn texts(datasets: &[Named], plot: &Plot) -> Vec<(String, String)> {
     ]
     .map(|(key, text)| (key.to_owned(), text))
     .into()
+}
+
+/// The names of the curves.
+fn curves(plot: &Plot) -> String {
+    plot.curves.iter().map(|curve| plain(&curve.label)).collect::<Vec<_>>().join(", ")
+}
+
+/// A label of a plot as it is told in messages: `K_I` for `K_{I}`.
+fn plain(label: &str) -> String {
+    let mut parts = label.split("_{");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (subscript, rest) = part.split_once('}').unwrap_or((part, ""));
+        text.extend(["_", subscript, rest]);
+    }
+    text
 }
 
 /// A label of several curves: with the dataset's name where there are several datasets.

@@ -23,7 +23,7 @@ pub(super) fn plot(
     for named in datasets {
         let field = field(&named.dataset, step)?;
         let quantities = asked(&field, wanted, profile)?;
-        let table = profile.table(&field, &quantities)?;
+        let table = profile.drawn(&field, &quantities)?;
         for (name, points) in columns(&table, variable, wanted.is_empty() && profile.is_crack()) {
             let name = label(datasets, named, &name);
             plot.curves.push(curve(name, points, variable));
@@ -46,7 +46,11 @@ pub(super) fn plot(
 fn axis(variable: Variable) -> PlotAxis {
     match variable {
         Variable::Length => PlotAxis::new("s", ""),
-        Variable::Angle => PlotAxis { range: Some([-180.0, 180.0]), ..PlotAxis::new("θ", "°") },
+        Variable::Angle => PlotAxis {
+            range: Some([-180.0, 180.0]),
+            marks: vec![-180.0, -90.0, 0.0, 90.0, 180.0],
+            ..PlotAxis::new("θ", "°")
+        },
         Variable::Distance => PlotAxis::new("r", "").logarithmic(),
     }
 }
@@ -75,12 +79,35 @@ fn columns(table: &Table, variable: Variable, jumps: bool) -> Vec<(String, Vec<[
         true => is_jump(name),
         false => !PLACES.contains(*name) && !is_jump(name),
     };
+    let sides = table.column("side").filter(|_| variable != Variable::Distance);
     let points = |name: &&str| {
         let column = table.column(name)?;
-        let points = first.iter().zip(column).map(|(&x, y)| [x, y]).collect();
+        let points: Vec<_> = first.iter().zip(column).map(|(&x, y)| [x, y]).collect();
+        let points = match &sides {
+            Some(sides) => broken(&points, sides),
+            None => points,
+        };
         Some(((*name).to_owned(), points))
     };
     names.iter().filter(is_wanted).filter_map(points).collect()
+}
+
+/// The points of a curve with a gap between the two sides of a crack: where it passes through one, and where it runs
+/// along one, then one side after the other.
+fn broken(points: &[[f64; 2]], sides: &[f64]) -> Vec<[f64; 2]> {
+    let mut all = Vec::with_capacity(points.len());
+    let mut start = 0;
+    for run in sides.chunk_by(|a, b| (*a == 0.0) == (*b == 0.0)) {
+        let points = &points[start..start + run.len()];
+        start += run.len();
+        let is_first = |k: &usize| run[*k] == run[0];
+        all.extend((0..run.len()).filter(is_first).map(|k| points[k]));
+        if run.iter().any(|side| *side != run[0]) {
+            all.push([f64::NAN; 2]);
+            all.extend((0..run.len()).filter(|k| !is_first(k)).map(|k| points[k]));
+        }
+    }
+    all
 }
 
 /// The part of a ray, one in so many of its points, that is near enough to the tip for the exponent there.
