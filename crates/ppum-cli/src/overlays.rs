@@ -217,7 +217,7 @@ impl Overlays {
             Values::Single(raster) => isolines(field, view, quantity, levels, raster, &bar),
         }?;
         let room = self.room(ground, &field.step.cracks, legend);
-        Ok(shown(view, &lines, levels, room))
+        Ok(self.shown(view, &lines, room))
     }
 
     /// Isolines of the plate as it was, where they have moved to.
@@ -235,7 +235,18 @@ impl Overlays {
         let lines = isolines(field, &view, quantity, &levels, &raster, &Bar::new())?;
         let lines = overlay::carried(&points.view, &lines);
         // cracks have opened, or closed: nothing can be said of their lines
-        Ok(shown(&points.view.view, &lines, &levels, self.room(ground, &[], legend)))
+        Ok(self.shown(&points.view.view, &lines, self.room(ground, &[], legend)))
+    }
+
+    /// Isolines, or a word that there are none of the levels that were listed; others lie in the range, if there is one.
+    fn shown(&self, view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
+        if let Some(Levels::At(_)) = self.isolines {
+            warn_of_none(
+                lines.len(),
+                "isoline lies in the picture: its values pass none of the levels",
+            );
+        }
+        overlay::isolines(view, lines, room)
     }
 
     /// Where labels of levels may stand, if they are asked for: not below a legend.
@@ -358,16 +369,6 @@ impl Overlays {
         }
         Vec::new()
     }
-}
-
-/// Isolines, or a word that there are none.
-fn shown(view: &View, lines: &[Isoline], levels: &[f64], room: Option<Room>) -> Vec<Item> {
-    // without levels there is one value, which is told
-    warn_of_none(
-        lines.len() + usize::from(levels.is_empty()),
-        "isoline lies in the picture: its values pass none of the levels",
-    );
-    overlay::isolines(view, lines, room)
 }
 
 /// Tells that nothing is drawn where something was asked for.

@@ -54,7 +54,7 @@ fn arguments_that_are_not_what_they_should_be() {
         ("render plate.h5 -o a.png --size 90000x90000", "90000"),
         ("render plate.h5 -o a.png --figure --size 100x100", "leaves no room"),
         ("render plate.h5 -o a.png --colormap jet", "turbo"),
-        ("render plate.h5 -o a.png --range 2,1", "smaller one first"),
+        ("render plate.h5 -o a.png --range 2,1", "smaller number first"),
         ("render plate.h5 -o a.png --scale log --range 0,1", "logarithmic"),
         ("render plate.h5 -o a.png --range wide", "P%,Q%"),
         ("render plate.h5 -o a.png --range 98%,2%", "smaller one first"),

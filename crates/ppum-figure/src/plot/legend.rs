@@ -5,7 +5,7 @@ use ppum_render::image::Rgba;
 
 use crate::canvas::{Item, Lettering, Path, Pen};
 use crate::overlay::{Entry, Symbol};
-use crate::text::CAP_HEIGHT;
+use crate::text::{self, CAP_HEIGHT};
 
 // Lengths in pixels of a plot of 1024 × 768; others are scaled.
 const TEXT: f64 = 13.0;
@@ -14,6 +14,8 @@ const MARGIN: f64 = 9.0;
 /// Length of a line's sample: dashes are told apart in it.
 const SAMPLE: f64 = 34.0;
 const SQUARE: f64 = 11.0;
+/// Longest label, in parts of the page.
+const LONGEST: f64 = 0.4;
 /// Distance of the points of curves that are counted.
 const STEP: f64 = 3.0;
 const GROUND: Rgba = [255, 255, 255, 225];
@@ -30,6 +32,7 @@ pub(super) fn legend(
     if entries.is_empty() {
         return Vec::new();
     }
+    let entries: Vec<Entry> = entries.iter().map(|entry| short(entry, pixels[0], scale)).collect();
     let mark = if entries.iter().any(is_line) { SAMPLE } else { SQUARE };
     let widths = entries.iter().map(|entry| letter(entry, scale).width());
     let size = vec2(
@@ -48,6 +51,12 @@ pub(super) fn legend(
         items.extend(line(entry, corner + vec2(MARGIN * scale, down), mark * scale, scale));
     }
     items
+}
+
+/// The entry with a label that leaves room for the plot: what tells quantities apart is often their end.
+fn short(entry: &Entry, columns: u32, scale: f64) -> Entry {
+    let room = LONGEST * f64::from(columns);
+    Entry { label: text::squeezed(&entry.label, TEXT * scale, room), ..entry.clone() }
 }
 
 fn is_line(entry: &Entry) -> bool {
@@ -140,5 +149,23 @@ mod tests {
             );
             assert_eq!(nearest(&box_of(&[curve])), Some(free), "{free}");
         }
+    }
+
+    /// Labels of any length leave room, and keep their ends.
+    #[test]
+    fn long_labels_are_shortened_in_their_middle() {
+        let pen = Pen::new(INK, 2.0);
+        let entry =
+            |end: &str| Entry::new(Symbol::Line(pen), format!("{}{end}", "x + ".repeat(200)));
+        let items = legend([700, 450], &[entry("_above"), entry("_below")], &[], 1.0);
+        let texts: Vec<&Lettering> = items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Text(text) => Some(text),
+                _ => None,
+            })
+            .collect();
+        assert!(texts.iter().all(|text| text.width() <= 0.41 * 700.0));
+        assert!(texts[0].text.ends_with("_above") && texts[1].text.ends_with("_below"));
     }
 }

@@ -121,6 +121,16 @@ pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
     (logs.len() > 1 && spread > 1e-20 * count).then(|| both / spread)
 }
 
+/// A curve's label with the exponent of its power law in so many decimals: `σ_yy, slope −0.500`.
+#[must_use]
+pub fn with_slope(label: &str, slope: f64, decimals: usize) -> String {
+    let written = format!("{slope:.decimals$}");
+    // zero has no sign
+    let is_zero = written.trim_start_matches(['-', '0', '.']).is_empty();
+    let written = if is_zero { written.trim_start_matches('-').to_owned() } else { written };
+    format!("{label}, slope {}", written.replace('-', "−"))
+}
+
 /// Colours by M. Okabe and K. Ito (2008), told apart with any colour vision.
 const COLORS: [Rgba; 7] = [
     [0, 114, 178, 255],
@@ -293,6 +303,13 @@ mod tests {
             }
         }
         found
+    }
+
+    #[test]
+    fn exponents_are_written_without_a_minus_zero() {
+        assert_eq!(with_slope("σ", -0.5, 3), "σ, slope −0.500");
+        assert_eq!(with_slope("K_{I}", -0.0001, 3), "K_{I}, slope 0.000");
+        assert_eq!(with_slope("u", 1.996, 2), "u, slope 2.00");
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! in the colours below and above. On a logarithmic scale the same is done with the logarithms of the
 //! positive values. Further:
 //!
-//! - where a quantity is not positive everywhere, a logarithmic scale begins where the robust range does;
+//! - a logarithmic scale begins where the robust range does: zeros are peaks of the logarithm;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
 //! - one value c everywhere, but for rounding, gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
@@ -303,13 +303,17 @@ impl<T: Sample> Seen<'_, T> {
             return (Basis::All, Some((value, value)));
         }
         match self.extremes() {
+            Some((min, max)) if self.is_log && max > 0.0 => self.to_zero(min, max),
             Some((min, max)) if self.is_usable(min) => (Basis::All, Some((min, max))),
-            // the upper end of a logarithmic scale is known
-            Some((_, max)) if max > 0.0 => {
-                (Basis::Robust, self.robust().map(|(low, high)| (low, max.max(high))))
-            }
             _ => (Basis::Robust, self.robust()),
         }
+    }
+
+    /// Between extrema on a logarithmic scale, where zeros are peaks as poles are: errors are zero somewhere.
+    fn to_zero(&self, min: f64, max: f64) -> (Basis, Bounds) {
+        let bounds = self.robust().map(|(low, high)| (low, max.max(high)));
+        let is_whole = bounds.is_some_and(|(low, _)| low <= min);
+        (if is_whole { Basis::All } else { Basis::Robust }, bounds)
     }
 
     /// The quantiles, moved out to the extremes where these are near on the scale.

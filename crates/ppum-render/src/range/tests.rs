@@ -379,3 +379,20 @@ fn shared_ranges_hold_all() {
     assert_eq!(Span::shared(&[], true), None);
     assert_eq!(Span::shared(std::slice::from_ref(&a), true), Some(a));
 }
+
+/// A zero is a peak of the logarithm: what is near it does not take all colours; a smooth field has them all.
+#[test]
+fn zeros_are_peaks_on_logarithmic_scales() {
+    let extrema = |min: f64, max: f64| {
+        let extremum = |value| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
+        Extrema { min: extremum(min), max: extremum(max), singular: Vec::new() }
+    };
+    let at = |i: u32| f64::from(i) - 99.7;
+    let error = Raster::from_fn([200, 200], |i, j| at(i).hypot(at(j)) * 1e-5 + 1e-12);
+    let span = Range::Auto.span(Scale::Log, false, &error, Some(extrema(1e-12, 1.5e-3)));
+    assert!(span.min > 1e-5 && span.max == 1.5e-3 && span.basis == Basis::Robust, "{span:?}");
+    let smooth = Raster::from_fn([200, 200], |i, j| (0.02 * f64::from(i + j)).exp());
+    let (min, max) = (0.99, (0.02f64 * 398.0).exp() * 1.01);
+    let span = Range::Auto.span(Scale::Log, false, &smooth, Some(extrema(min, max)));
+    assert_eq!((span.min, span.max, span.basis), (min, max, Basis::All));
+}

@@ -6,7 +6,7 @@ use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, Scope};
 use ppum::jet::Jet;
 use ppum::vec2::Vec2;
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope};
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope, with_slope};
 
 use ppum_solve::norms::norms;
 use ppum_solve::space::Space;
@@ -152,7 +152,7 @@ fn distances(steps: &[&Step]) -> Vec<Curve> {
 /// A curve with dots, and the exponent of its power law.
 fn curve(label: &str, points: Vec<[f64; 2]>) -> Curve {
     let text = match slope(&points) {
-        Some(slope) => format!("{label}, slope {slope:.2}").replace("slope -", "slope −"),
+        Some(slope) => with_slope(label, slope, 2),
         None => label.to_owned(),
     };
     Curve::new(text, points).with_look(Look::Dotted)

@@ -2,7 +2,7 @@
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope};
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope, with_slope};
 
 use super::{Named, label};
 use crate::dataset::{field, quantities};
@@ -123,7 +123,7 @@ fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
     let points: Vec<_> = points.into_iter().map(|[r, v]| [r, v.abs()]).collect();
     let shown = if is_negative { format!("|{name}|") } else { name };
     let text = match slope(&points[..points.len() / NEAR]) {
-        Some(slope) => format!("{shown}, slope {slope:.3}").replace("slope -", "slope −"),
+        Some(slope) => with_slope(&shown, slope, 3),
         None => shown,
     };
     Curve::new(text, points).with_look(Look::Line)
