@@ -1,6 +1,6 @@
 //! The range of values that the colours span: chosen, or found from the values.
 //!
-//! The *automatic range* spans the [extrema] of the view where they are known and finite: the true ones, whatever the number of
+//! The *automatic range* spans the [extrema](crate::extrema::extrema) of the view where they are known and finite: the true ones, whatever the number of
 //! pixels. Stresses grow like r^(−1/2) towards a tip, so with a tip in the view the largest value of a raster says how near a pixel's
 //! centre happens to be and nothing about the field. There, and where no extrema are known, the range is *robust*: it
 //! looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme value bounds the range if it lies at most
