@@ -13,7 +13,7 @@
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
 //! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
 //! are left out: there the last digits of the field decide. An extremum is infinite too if a pixel is, and if the search runs away from all pixels,
-//! beyond [`RUNAWAY`] times their size: 1/x does between two of them.
+//! beyond [`RUNAWAY`] times their size, to a pole: 1/x does between two of them. A peak that is narrow but finite keeps its value.
 
 mod bent;
 mod climb;
@@ -49,7 +49,10 @@ const SAMPLES: usize = 1 << 13;
 /// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
 const SEGMENTS: usize = 64;
 
-/// Distance from the pixels' values, in parts of their size, from which an extremum counts as infinite. On a rim that is no wider than a
+/// Distance of the places that tell a pole from a narrow peak, pixels.
+const BESIDE: f64 = 1e-5;
+
+/// Distance from the pixels' values, in parts of their size, from which an extremum may be a pole. On a rim that is no wider than a
 /// pixel stresses are some three times those around; 1/x grows by a million on the way from a pixel to its zero.
 pub const RUNAWAY: f64 = 10.0;
 
@@ -203,23 +206,8 @@ pub fn extrema<T: Sample>(
         return Ok(Extrema::of_pixels(raster, view));
     };
     let [min, max] =
-        [(min, -1.0), (max, 1.0)].map(|(best, sign)| at_most(best, sign, raster, view));
+        [(min, -1.0), (max, 1.0)].map(|(best, sign)| search.at_most(best, sign, raster));
     Ok(Some(Extrema { min, max, singular }))
-}
-
-/// The extremum, infinite if a pixel is or if it has run away from all of them.
-fn at_most<T: Sample>(best: Extremum, sign: f64, raster: &Raster<T>, view: &View) -> Extremum {
-    let value = sign * f64::INFINITY;
-    let infinite = raster.values.iter().position(|&v| v.into() == value);
-    if let Some(pixel) = infinite.filter(|_| best.value.is_finite()) {
-        let columns = raster.size[0] as usize;
-        let offset = view.offset((pixel % columns) as u32, (pixel / columns) as u32);
-        return Extremum { value, offset, on: On::Inside };
-    }
-    let Statistics { finite, min, max, .. } = raster.statistics();
-    let (size, extreme) = (min.abs().max(max.abs()), if sign > 0.0 { max } else { min });
-    let runs_away = finite > 0 && sign * (best.value - extreme) > RUNAWAY * size;
-    if runs_away { Extremum { value, ..best } } else { best }
 }
 
 /// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.
@@ -252,6 +240,33 @@ struct Search<'a, 'f> {
 type Promise<P> = (f64, P);
 
 impl Search<'_, '_> {
+    /// The extremum, infinite if a pixel is or if it has run away from all of them to a pole.
+    fn at_most<T: Sample>(&self, best: Extremum, sign: f64, raster: &Raster<T>) -> Extremum {
+        let value = sign * f64::INFINITY;
+        let infinite = raster.values.iter().position(|&v| v.into() == value);
+        if let Some(pixel) = infinite.filter(|_| best.value.is_finite()) {
+            let columns = raster.size[0] as usize;
+            let offset = self.view.offset((pixel % columns) as u32, (pixel / columns) as u32);
+            return Extremum { value, offset, on: On::Inside };
+        }
+        let Statistics { finite, min, max, .. } = raster.statistics();
+        let (size, extreme) = (min.abs().max(max.abs()), if sign > 0.0 { max } else { min });
+        let is_far = finite > 0 && sign * (best.value - extreme) > RUNAWAY * size;
+        if is_far && self.is_pole(best) { Extremum { value, ..best } } else { best }
+    }
+
+    /// True if hardly any value around a place is half as large: not even the half of a peak that a border or a crack leaves, and
+    /// of a line of poles two points.
+    fn is_pole(&self, best: Extremum) -> bool {
+        let mut local = self.field.at(self.view.center);
+        let mut is_high = |k: u32| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
+            let around = best.offset + Vec2 { x: cos, y: sin } * (BESIDE * self.view.pixel_size());
+            self.slope.quantity().at(&mut local, around, Side::Above) / best.value > 0.5
+        };
+        (0..8).filter(|&k| is_high(k)).count() < 3
+    }
+
     /// The quantity along each curve.
     fn sampled(&self, samples: &[usize]) -> Result<Vec<Vec<f64>>, RenderError> {
         let anchor = self.view.center;

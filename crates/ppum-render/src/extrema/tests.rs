@@ -331,4 +331,14 @@ fn poles_are_infinite() {
         }
         assert!(found.is_infinite());
     }
+    // a peak a thousandth of a pixel wide beside a pixel is finite
+    let narrow = column + vec2(0.3, -0.2) * view.pixel_size();
+    let width = 1e-3 * view.pixel_size();
+    let text = format!("1/(1 + (hypot(x - ({:?}), y - ({:?}))/({width:?}))^2)", narrow.x, narrow.y);
+    let quantity = Quantity::parse(&text, &field).expect("a quantity");
+    let raster = f64::render(&field, &view, &quantity, unwatched()).expect("a raster");
+    assert!(raster.statistics().max < 1e-2, "far above all pixels");
+    let found = extrema(&field, &view, &quantity, &raster, unwatched()).expect("a search");
+    let max = found.expect("values").max.value;
+    assert!((max - 1.0).abs() < 1e-6, "{max}");
 }
