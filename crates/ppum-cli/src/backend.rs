@@ -11,11 +11,11 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::samples::{Samples, means};
 use ppum_render::scatter::render;
 
-use crate::drawing::{Drawn, Job, Values};
 use crate::graphics::{Device, Method};
 use crate::output::tell;
 use crate::progress::Bar;
 use crate::{graphics, threads};
+use ppum_scene::drawing::{Drawn, Job, Values};
 
 /// The options that choose who draws.
 #[derive(Debug, clap::Args)]

@@ -6,7 +6,7 @@ use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
     bench, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
-    sif, solve,
+    sif, solve, view,
 };
 use crate::output::Output;
 
@@ -44,6 +44,7 @@ pub(crate) enum Command {
     Compare(compare::Args),
     Plot(plot::Args),
     Gallery(gallery::Args),
+    View(view::Args),
     Formula(formula::Args),
     Bench(bench::Args),
     Completions(completions::Args),
@@ -85,6 +86,7 @@ impl Command {
             Self::Render(args) => args.run(out),
             Self::Compare(args) => args.run(out),
             Self::Plot(args) => args.run(out),
+            Self::View(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out, Cli::whole()),

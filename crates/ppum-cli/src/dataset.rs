@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
-use anyhow::{Context as _, anyhow, ensure};
+use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
-use ppum::text::hint;
+use ppum::quantity::Quantity;
 use ppum_format::ReadError;
 use ppum_render::cells;
 
-use crate::drawing::Shown;
 use crate::given::{Given, parts};
 use crate::standard::{self, is_standard};
+use ppum_scene::drawing::Shown;
+use ppum_scene::scene::{self, OF_PATCHES, ShownError};
 
 /// Reads a dataset, `-` from standard input; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
@@ -55,36 +55,14 @@ fn refuse_cells(field: &Field<'_>, text: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// In front of the name of a value of cells that a quantity has too.
-pub(crate) const OF_PATCHES: &str = "patch:";
-
 /// What a picture shows by its name: a quantity or formula as [`quantity`] knows it; if there is none, or with
 /// `patch:` in front, a value of cells.
 pub(crate) fn shown(field: &Field<'_>, given: &str) -> anyhow::Result<Shown> {
-    let text = Given::read(given)?.text;
-    let text = text.trim();
-    let of_cells = |name: &str| Some(Shown::Cells(name.into(), cells::values(field, name)?));
-    if let Some(name) = text.strip_prefix(OF_PATCHES) {
-        let names = || cells::names(field).join(", ");
-        return of_cells(name)
-            .with_context(|| format!("cells have no value `{name}`; there are {}", names()));
+    let given = Given::read(given)?;
+    match scene::shown(&given.text, field) {
+        Err(ShownError::Quantity(error)) => given.explain(Err(error)),
+        other => Ok(other?),
     }
-    let cells = Quantity::parse(text, field).is_err().then(|| of_cells(text)).flatten();
-    if let Some(cells) = cells {
-        return Ok(cells);
-    }
-    quantity(field, given).map(Shown::Quantity).map_err(|error| with_cells(error, field))
-}
-
-/// The error for an unknown quantity, with the names of values of cells.
-fn with_cells(error: anyhow::Error, field: &Field<'_>) -> anyhow::Error {
-    let Some(QuantityError::Unknown { name, known, .. }) = error.downcast_ref() else {
-        return error;
-    };
-    let cells = cells::names(field);
-    let hint = hint(name, known.split(", ").chain(cells.iter().map(String::as_str)));
-    let all = QuantityError::Unknown { name: name.clone(), hint, known: known.clone() };
-    anyhow!("{all}; of cells {}", cells.join(", "))
 }
 
 /// Stresses that are told if nothing is asked for.

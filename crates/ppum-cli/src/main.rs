@@ -11,7 +11,6 @@ mod cli;
 mod commands;
 mod dataset;
 mod deformed;
-mod drawing;
 mod families;
 mod given;
 mod graphics;
@@ -24,7 +23,6 @@ mod page;
 mod panics;
 mod profile;
 mod progress;
-mod range;
 mod remedy;
 mod replacements;
 mod signals;
@@ -111,7 +109,6 @@ mod tests {
             ("undefined", &[]),
         ],
         &[
-            ("drawing", &[]),
             ("families", &["number"]),
             ("given", &["standard"]),
             ("look", &["arguments"]),
@@ -120,10 +117,9 @@ mod tests {
             ("warnings", &["number", "output"]),
         ],
         &[
-            ("dataset", &["drawing", "given", "standard"]),
-            ("graphics", &["drawing", "progress"]),
-            ("range", &["drawing", "number", "progress"]),
-            ("overlays", &["arguments", "drawing", "output", "progress"]),
+            ("dataset", &["given", "standard"]),
+            ("graphics", &["progress"]),
+            ("overlays", &["arguments", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
             (
                 "profile",
@@ -133,10 +129,10 @@ mod tests {
             ("replacements", &["arguments", "given"]),
         ],
         &[
-            ("backend", &["drawing", "graphics", "output", "progress", "threads"]),
-            ("subject", &["dataset", "drawing", "given", "replacements", "standard"]),
+            ("backend", &["graphics", "output", "progress", "threads"]),
+            ("subject", &["dataset", "given", "replacements", "standard"]),
         ],
-        &[("deformed", &["backend", "drawing", "progress", "window"])],
+        &[("deformed", &["backend", "progress", "window"])],
         &[(
             "commands",
             &[
@@ -144,7 +140,6 @@ mod tests {
                 "backend",
                 "dataset",
                 "deformed",
-                "drawing",
                 "families",
                 "given",
                 "graphics",
@@ -156,7 +151,6 @@ mod tests {
                 "page",
                 "profile",
                 "progress",
-                "range",
                 "replacements",
                 "standard",
                 "subject",

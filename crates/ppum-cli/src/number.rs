@@ -2,8 +2,6 @@
 
 use std::io::{self, Write};
 
-use ppum::dataset::Dataset;
-use ppum::text::Places;
 use serde::{Serialize, Serializer};
 
 /// Prints a result as JSON.
@@ -27,12 +25,6 @@ impl Serialize for Number {
             v => serializer.serialize_f64(v),
         }
     }
-}
-
-/// Writes places of a dataset, whichever step they are of.
-pub(crate) fn places(dataset: &Dataset) -> Places {
-    let cracks: Vec<_> = dataset.steps.iter().flat_map(|step| &step.cracks).cloned().collect();
-    Places::new(&dataset.domain.bounds, &cracks)
 }
 
 /// `1 tip`, `2 tips`.

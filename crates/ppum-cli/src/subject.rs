@@ -1,6 +1,5 @@
 //! What commands that draw have in common: the quantities that are drawn, and their colours.
 
-use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -15,9 +14,11 @@ use ppum_render::colormap::{Colormap, LONGEST, NAMES};
 use ppum_render::picture::Style;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
+use ppum_scene::colors;
+use ppum_scene::drawing::{Drawn, Shown, classes};
+use ppum_scene::scene::default_quantity;
 
 use crate::dataset::{field, open, quantity, shown};
-use crate::drawing::{Drawn, Shown, classes};
 use crate::given::{self, parts};
 use crate::replacements::Replacements;
 use crate::standard::{self, is_standard};
@@ -132,14 +133,6 @@ impl Asked {
     }
 }
 
-/// The quantity without a word on it.
-fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
-    match field.equation.elastic() {
-        Some(_) => "von-mises",
-        None => &field.data.components[0],
-    }
-}
-
 /// The options of colours.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Colors {
@@ -191,45 +184,30 @@ impl Colors {
 
     /// The style with a colour for each of some classes, unless range, scale or bands are given.
     pub(crate) fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
-        let is_free =
-            self.range == Range::Auto && self.bands.is_none() && self.scale == Scale::Linear;
-        match classes.filter(|_| is_free) {
-            Some(classes) => style.classed(&classes),
-            None => style,
-        }
+        self.chosen().classed(style, classes)
     }
 
     /// The way a quantity's values become colours, or those of cells.
     pub(crate) fn style(&self, quantity: Option<&Quantity>) -> anyhow::Result<Style> {
-        let period = quantity.and_then(period);
-        let default = if period.is_some() { "twilight" } else { "viridis" };
-        let mut colormap = colormap(self.colormap.as_deref().unwrap_or(default))?;
-        let range = match (self.range, period) {
-            (Range::Auto, Some([from, to])) if colormap.cyclic => Range::Fixed(from, to),
-            // values of cells have no peaks between the pixels
-            (Range::Auto, None) if quantity.is_none() => Range::Full,
-            (range, _) => range,
-        };
-        if self.extremes == Extremes::Contrast {
-            colormap = colormap.contrasting();
+        let default = colors::Colors::default_map(quantity);
+        let colormap = colormap(self.colormap.as_deref().unwrap_or(default))?;
+        Ok(self.chosen().style(quantity, colormap))
+    }
+
+    fn chosen(&self) -> colors::Colors {
+        colors::Colors {
+            colormap: self.colormap.clone(),
+            range: self.range,
+            scale: self.scale,
+            contrast: self.extremes == Extremes::Contrast,
+            bands: self.bands,
         }
-        if let Some(count) = self.bands {
-            colormap = colormap.banded(count);
-        }
-        Ok(Style { colormap, range, scale: self.scale, ..Style::default() })
     }
 
     /// The file of the colour map, if it is one.
     pub(crate) fn input(&self) -> Option<&Path> {
         self.colormap.as_deref().map(Path::new)
     }
-}
-
-/// The values that an angle goes round through.
-fn period(quantity: &Quantity) -> Option<[f64; 2]> {
-    // π/2 rounded to single precision, as graphics cards have it, lies above π/2
-    let quarter = f64::from(FRAC_PI_2 as f32);
-    matches!(quantity, Quantity::PrincipalDirection).then_some([-quarter, quarter])
 }
 
 /// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too,

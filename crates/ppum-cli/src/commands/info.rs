@@ -13,9 +13,10 @@ use std::path::{Path, PathBuf};
 use clap::ArgGroup;
 
 use ppum::dataset::Dataset;
+use ppum_scene::range::places;
 
 use crate::dataset::{field, open, quantity};
-use crate::number::{json, places};
+use crate::number::json;
 
 /// Show what is inside a dataset, or what graphics adapters there are
 #[derive(Debug, clap::Args)]

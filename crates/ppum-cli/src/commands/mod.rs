@@ -15,3 +15,4 @@ pub(crate) mod sample;
 pub(crate) mod sif;
 pub(crate) mod solve;
 mod tour;
+pub(crate) mod view;

@@ -19,18 +19,21 @@ use ppum_render::view::View;
 
 use crate::arguments::layout;
 use crate::backend::Engine;
-use crate::deformed::{Deformed, Deforming, draw, points, words};
-use crate::drawing::{Drawn, Job, Seen, Shown};
+use crate::deformed::{Deformed, Deforming, draw, points};
 use crate::look::{DEFAULT_SIZE, Look};
 use crate::number::count;
 use crate::output::{Output, tell};
-use crate::overlays::{Ground, Layers, Overlays, tell_legend};
+use crate::overlays::{Overlays, tell_legend};
 use crate::page;
-use crate::range::{self, Telling};
+use crate::progress::Bar;
 use crate::subject::{Asked, Colors, Subject};
 use crate::target;
 use crate::undefined;
 use crate::window::{Frame, Window};
+use ppum_scene::deformed::words;
+use ppum_scene::drawing::{Drawn, Job, Seen, Shown};
+use ppum_scene::layers::{Ground, Layers};
+use ppum_scene::range::{self, Telling};
 use series::Series;
 
 /// Draw a quantity, exactly at every pixel
@@ -312,7 +315,7 @@ impl Args {
         style: &Style,
     ) -> anyhow::Result<Span> {
         let Some(quantity) = asked.shown.quantity() else { return Ok(drawn.span(style, None)) };
-        let found = || range::found(field, seen, quantity, drawn, style);
+        let found = || range::found(field, seen, quantity, drawn, style, &Bar::new());
         Ok(self.engine.with_threads(found)??)
     }
 
@@ -326,7 +329,7 @@ impl Args {
     ) -> anyhow::Result<Sheet> {
         let Shot { plate, asked, labels, .. } = shot;
         let mut picture = coloring.picture(drawn)?;
-        let Layers { items: layers, legend } =
+        let Layers { items: layers, legend, .. } =
             self.layers(plate, seen, asked, drawn, &picture, design)?;
         self.blank(&mut picture);
         let (labels, cracks) = (labels.clone(), seen.cracks(plate.field));
@@ -366,10 +369,7 @@ impl Args {
         };
         let ground = Ground { dataset, field, quantity, picture, values, is_figure, has_bar };
         let outline = self.deformed.outline;
-        self.engine.with_threads(|| match seen {
-            Seen::Plate(_) => self.overlays.items(ground),
-            Seen::Moved(points) => self.overlays.deformed_items(ground, points, outline),
-        })?
+        self.engine.with_threads(|| self.overlays.layers(ground, seen, outline))?
     }
 
     /// What was done to the dataset and the plate, as texts of the picture.

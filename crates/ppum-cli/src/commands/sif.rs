@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, Warning};
+use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::intensity::Outcome;
@@ -13,7 +14,7 @@ use ppum_solve::problem::Problem;
 use serde::Serialize;
 
 use crate::dataset::open;
-use crate::number::{json, places};
+use crate::number::json;
 use crate::progress::Bar;
 use crate::standard;
 use crate::tips::{Tip, all_tips, table};

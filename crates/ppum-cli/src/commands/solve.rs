@@ -13,9 +13,11 @@ use serde::Serialize;
 
 use super::info::reactions::{self, ReactionRow};
 use super::info::report::{HistoryRow, history_row};
+use ppum_scene::range::places;
+
 use crate::arguments::positive;
 use crate::memory;
-use crate::number::{Number, count, json, places};
+use crate::number::{Number, count, json};
 use crate::output::Output;
 use crate::progress::Bar;
 use crate::standard::{self, is_standard};

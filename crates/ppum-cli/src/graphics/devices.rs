@@ -5,8 +5,8 @@ use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, Samples};
 
 use super::{Adapter, Device, Failure, Method, drivers};
-use crate::drawing::{Drawn, Job};
 use crate::progress::Bar;
+use ppum_scene::drawing::{Drawn, Job};
 
 impl From<Device> for Choice {
     fn from(device: Device) -> Self {

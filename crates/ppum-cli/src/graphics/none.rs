@@ -8,7 +8,7 @@ use ppum_render::samples::Samples;
 use ppum_render::view::View;
 
 use super::{Adapter, Device, Failure, Method};
-use crate::drawing::{Drawn, Job};
+use ppum_scene::drawing::{Drawn, Job};
 
 /// The answer of `ppum info --gpu`.
 pub(crate) const MISSING: &str = "\

@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 10] = [
+const ARROWS: [(&str, &[&str]); 12] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
@@ -15,7 +15,21 @@ const ARROWS: [(&str, &[&str]); 10] = [
     ("ppum-solve", &["ppum", "ppum-file"]),
     ("ppum-render", &["ppum"]),
     ("ppum-figure", &["ppum", "ppum-render"]),
+    ("ppum-scene", &["ppum", "ppum-figure", "ppum-render", "ppum-solve"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
+    (
+        "ppum-viewer",
+        &[
+            "ppum",
+            "ppum-file",
+            "ppum-figure",
+            "ppum-format",
+            "ppum-gpu",
+            "ppum-render",
+            "ppum-scene",
+            "ppum-solve",
+        ],
+    ),
     (
         "ppum-cli",
         &[
@@ -25,16 +39,20 @@ const ARROWS: [(&str, &[&str]); 10] = [
             "ppum-format",
             "ppum-gpu",
             "ppum-render",
+            "ppum-scene",
             "ppum-solve",
+            "ppum-viewer",
         ],
     ),
     ("ppum-testkit", &["ppum"]),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 18] = [
+const DOORS: [(&str, &str); 21] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
+    ("eframe", "ppum-viewer"),
+    ("egui", "ppum-viewer"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum-formula"),
     ("flate2", "ppum-format"),
@@ -44,6 +62,7 @@ const DOORS: [(&str, &str); 18] = [
     ("naga", "ppum-testkit"),
     ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
+    ("self_cell", "ppum-viewer"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
     ("static_aabb2d_index", "ppum"),

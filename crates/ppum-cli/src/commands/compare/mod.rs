@@ -18,12 +18,12 @@ use crate::arguments::{MOST_OF_PAGE, positive, size};
 use crate::look::Look;
 use crate::number::json;
 use crate::output::{Output, tell};
-use crate::range::Telling;
 use crate::standard::is_standard;
 use crate::subject::{Colors, Subject};
 use crate::window::{Frame, Window};
 use crate::{page, target, threads};
 use measure::{Measurements, measure};
+use ppum_scene::range::Telling;
 use report::{Report, table};
 use sheet::Layout;
 

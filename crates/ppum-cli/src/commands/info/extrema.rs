@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use crate::number::Number;
 use crate::progress::Bar;
-use crate::range::{value, words};
+use ppum_scene::range::{value, words};
 
 /// Pixels of the picture that the search begins from: peaks narrower than one of them are not seen.
 const PIXELS: [u32; 2] = [1024, 1024];

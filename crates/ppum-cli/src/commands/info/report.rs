@@ -17,8 +17,10 @@ use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
 use super::reactions::{self, ReactionRow};
+use ppum_scene::range::places;
+
 use crate::families::{Family, blocks, families};
-use crate::number::{Number, places};
+use crate::number::Number;
 use crate::tips::{Tip, all_tips};
 use crate::warnings::{WarningRow, rows};
 

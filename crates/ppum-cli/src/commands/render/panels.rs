@@ -6,14 +6,15 @@ use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Span;
 
 use super::{Args, Plate, titled, told, warn, warn_of_infinite};
-use crate::deformed::words;
-use crate::drawing::{Drawn, Seen};
 use crate::look::{DEFAULT_SIZE, Look, letters};
 use crate::output::Output;
-use crate::overlays::{Layers, tell_legend};
+use crate::overlays::tell_legend;
 use crate::page;
-use crate::range::Telling;
 use crate::subject::Asked;
+use ppum_scene::deformed::words;
+use ppum_scene::drawing::{Drawn, Seen};
+use ppum_scene::layers::Layers;
+use ppum_scene::range::Telling;
 
 /// What a panel shows, and of which plate; several parts of a field are several plates.
 type Subject<'a> = (&'a Plate<'a>, Asked);
@@ -49,7 +50,7 @@ impl Args {
         let cracks = seen.cracks(field);
         let factor = seen.moved().map(|points| words(points.view.factor()));
         pictures.iter_mut().for_each(|picture| self.blank(picture));
-        let panel = |((picture, labels), Layers { items, legend })| Panel {
+        let panel = |((picture, labels), Layers { items, legend, .. })| Panel {
             picture,
             layers: items,
             legend,

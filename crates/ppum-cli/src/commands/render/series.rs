@@ -21,14 +21,14 @@ use ppum_render::scale::Scale;
 use super::{Args, Coloring, Plate, Scene, Sheet, Shot, warn};
 use crate::arguments::positive;
 use crate::dataset::{field, open};
-use crate::deformed::words;
-use crate::drawing::{Drawn, Seen, classes, united};
 use crate::number::count;
 use crate::output::Output;
 use crate::page;
 use crate::progress;
 use crate::standard::is_standard;
 use crate::target;
+use ppum_scene::deformed::words;
+use ppum_scene::drawing::{Drawn, Seen, classes, united};
 
 /// The options of series.
 #[derive(Debug, clap::Args)]

@@ -3,6 +3,7 @@
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
+use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::text::{Places, apart, beside, trimmed};
 use ppum::vec2::vec2;
@@ -14,22 +15,21 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 
 use crate::drawing::{Drawn, Seen, Values};
-use crate::number::places;
-use crate::progress::Bar;
 
 /// The range of what was drawn; one that has to be found with the extrema of the view, which are the true ones of the plate as it was, and
 /// those of the pixels of the deformed one.
-pub(crate) fn found(
+pub fn found(
     field: &Field<'_>,
     seen: &Seen<'_>,
     quantity: &Quantity,
     drawn: &Drawn,
     style: &Style,
+    watcher: &dyn Watcher,
 ) -> Result<Span, RenderError> {
     let extrema = match &drawn.values {
         _ if !style.range.is_found() => None,
-        Values::Double(raster) => extrema_of(field, seen, quantity, raster)?,
-        Values::Single(raster) => extrema_of(field, seen, quantity, raster)?,
+        Values::Double(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
+        Values::Single(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
     };
     Ok(drawn.span(style, extrema))
 }
@@ -39,8 +39,9 @@ fn extrema_of<T: Sample>(
     seen: &Seen<'_>,
     quantity: &Quantity,
     raster: &Raster<T>,
+    watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
-    let search = |view| extrema(field, view, quantity, raster, &Bar::new());
+    let search = |view| extrema(field, view, quantity, raster, watcher);
     match seen {
         Seen::Plate(view) => search(view),
         // nothing has moved
@@ -49,8 +50,15 @@ fn extrema_of<T: Sample>(
     }
 }
 
+/// Writes places of a dataset, whichever step they are of.
+#[must_use]
+pub fn places(dataset: &Dataset) -> Places {
+    let cracks: Vec<_> = dataset.steps.iter().flat_map(|step| &step.cracks).cloned().collect();
+    Places::new(&dataset.domain.bounds, &cracks)
+}
+
 /// What is known of places.
-pub(crate) struct Telling<'a> {
+pub struct Telling<'a> {
     places: Places,
     cracks: &'a [Crack],
     /// Size of the plate.
@@ -61,7 +69,9 @@ pub(crate) struct Telling<'a> {
 const DEEP: f64 = 1e-3;
 
 impl<'a> Telling<'a> {
-    pub(crate) fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
+    /// What is known of the places of a field.
+    #[must_use]
+    pub fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
         let size = field.domain.bounds.size();
         let size = size.x.max(size.y);
         Self { places: places(dataset), cracks: &field.step.cracks, size }
@@ -69,7 +79,7 @@ impl<'a> Telling<'a> {
 
     /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust); values from 0.1 at
     /// (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
-    pub(crate) fn colors(&self, picture: &Picture) -> String {
+    pub fn colors(&self, picture: &Picture) -> String {
         let (norm, span) = (&picture.normalization, &picture.span);
         let colors = match picture.one_value {
             _ if !picture.has_values => {
@@ -160,7 +170,7 @@ fn basis(basis: Basis) -> String {
 }
 
 /// A value beside others of some size.
-pub(crate) fn value(value: f64, size: f64) -> String {
+pub fn value(value: f64, size: f64) -> String {
     match value {
         f64::INFINITY => "∞".into(),
         f64::NEG_INFINITY => "−∞".into(),
@@ -169,7 +179,7 @@ pub(crate) fn value(value: f64, size: f64) -> String {
 }
 
 /// What a place lies on, if that is anything.
-pub(crate) fn words(on: On) -> Option<String> {
+pub fn words(on: On) -> Option<String> {
     match on {
         On::Face(segment, side) => Some(format!("{} crack {}", side.name(), segment.crack)),
         On::Rim(hole) => Some(format!("on the rim of hole {hole}")),

@@ -1,4 +1,4 @@
-//! The subject of a picture, and its values once they are drawn; colours come afterwards.
+//! What is seen of a plate, and its values once they are drawn; colours come afterwards.
 
 use ppum::crack::Crack;
 use ppum::field::Field;
@@ -14,14 +14,16 @@ use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 
 /// What is seen of a plate: as it was, or deformed.
-pub(crate) enum Seen<'f> {
+pub enum Seen<'f> {
+    /// The plate as it was before it was loaded.
     Plate(View),
+    /// The plate moved by its displacements.
     Moved(DeformedPoints<'f>),
 }
 
 impl<'f> Seen<'f> {
     /// The deformed plate, if it is that.
-    pub(crate) fn moved(&self) -> Option<&DeformedPoints<'f>> {
+    pub fn moved(&self) -> Option<&DeformedPoints<'f>> {
         match self {
             Self::Plate(_) => None,
             Self::Moved(points) => Some(points),
@@ -29,14 +31,14 @@ impl<'f> Seen<'f> {
     }
 
     /// The cracks where they are seen.
-    pub(crate) fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
+    pub fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
         self.moved().map_or_else(|| field.step.cracks.clone(), |points| points.view.moved_cracks())
     }
 }
 
 /// What a picture shows.
 #[derive(Clone, Debug)]
-pub(crate) enum Shown {
+pub enum Shown {
     /// A quantity, at every point.
     Quantity(Quantity),
     /// One value per patch, on its cell, with its name.
@@ -45,7 +47,7 @@ pub(crate) enum Shown {
 
 impl Shown {
     /// The quantity, if it is one.
-    pub(crate) fn quantity(&self) -> Option<&Quantity> {
+    pub fn quantity(&self) -> Option<&Quantity> {
         match self {
             Self::Quantity(quantity) => Some(quantity),
             Self::Cells(..) => None,
@@ -65,7 +67,7 @@ impl Shown {
 const MOST_CLASSES: usize = 20;
 
 /// The values that have a colour each in pictures of one range, rising: none unless they are few whole numbers in all of them.
-pub(crate) fn classes<'a>(
+pub fn classes<'a>(
     pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)>,
 ) -> Option<Vec<f64>> {
     let values = |(shown, values): (&Shown, &Values)| {
@@ -76,7 +78,7 @@ pub(crate) fn classes<'a>(
 }
 
 /// Classes of several pictures together, if they are not too many.
-pub(crate) fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+pub fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let mut all = classes.concat();
     all.sort_by(f64::total_cmp);
     all.dedup();
@@ -84,29 +86,39 @@ pub(crate) fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
 }
 
 /// The subject of a picture of a quantity.
-#[derive(Clone, Copy)]
-pub(crate) struct Job<'a> {
-    pub(crate) field: &'a Field<'a>,
-    pub(crate) view: &'a View,
-    pub(crate) quantity: &'a Quantity,
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// The field.
+    pub field: &'a Field<'a>,
+    /// The view.
+    pub view: &'a View,
+    /// The quantity.
+    pub quantity: &'a Quantity,
 }
 
 /// Values at the centres of a view's pixels, and what drew them: `cpu f64`, `gpu f32, NAME`.
-pub(crate) struct Drawn {
-    pub(crate) view: View,
-    pub(crate) values: Values,
-    pub(crate) by: String,
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The view.
+    pub view: View,
+    /// The values.
+    pub values: Values,
+    /// What drew them.
+    pub by: String,
     /// The pixels of the plate without a value, by their place row by row.
-    pub(crate) without: Vec<u32>,
+    pub without: Vec<u32>,
     /// The pixels where the deformed plate lies over itself.
-    pub(crate) overlap: Vec<u32>,
+    pub overlap: Vec<u32>,
     /// Of values that are means, of so many samples a pixel: how much of each pixel is plate.
-    pub(crate) opacity: Option<(Samples, Vec<u8>)>,
+    pub opacity: Option<(Samples, Vec<u8>)>,
 }
 
 /// Values in the precision that they were computed in.
-pub(crate) enum Values {
+#[derive(Clone, Debug)]
+pub enum Values {
+    /// In double precision.
     Double(Raster<f64>),
+    /// In single precision.
     Single(Raster<f32>),
 }
 
@@ -131,7 +143,9 @@ impl Values {
         }
     }
 
-    pub(crate) fn statistics(&self) -> Statistics {
+    /// Counts and ends of the finite values.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
         match self {
             Self::Double(raster) => raster.statistics(),
             Self::Single(raster) => raster.statistics(),
@@ -139,7 +153,7 @@ impl Values {
     }
 
     /// The value that all pixels have, if there is no other.
-    pub(crate) fn one_value(&self) -> Option<f64> {
+    pub fn one_value(&self) -> Option<f64> {
         match self {
             Self::Double(raster) => raster.one_value(),
             Self::Single(raster) => raster.one_value(),
@@ -147,7 +161,7 @@ impl Values {
     }
 
     /// The smallest and the largest value, which may be infinite.
-    pub(crate) fn ends(&self) -> [f64; 2] {
+    pub fn ends(&self) -> [f64; 2] {
         fn of<T: Sample>(raster: &Raster<T>) -> [f64; 2] {
             let start = [f64::INFINITY, f64::NEG_INFINITY];
             let values = raster.values.iter().map(|&value| value.into());
@@ -160,7 +174,7 @@ impl Values {
     }
 
     /// Memory that they take \[bytes\].
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         match self {
             Self::Double(raster) => size_of_val(raster.values.as_slice()),
             Self::Single(raster) => size_of_val(raster.values.as_slice()),
@@ -170,7 +184,7 @@ impl Values {
 
 impl Drawn {
     /// The values of an undeformed plate.
-    pub(crate) fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
+    pub fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
         let values = values.into();
         let without = match &values {
             Values::Double(raster) => raster.undefined(field.domain, view),
@@ -181,12 +195,12 @@ impl Drawn {
     }
 
     /// One value per patch.
-    pub(crate) fn of_cells(values: &[f64], field: &Field<'_>, view: &View) -> Self {
+    pub fn of_cells(values: &[f64], field: &Field<'_>, view: &View) -> Self {
         Self::new(cells::raster(field, values, view), field, view, PROCESSOR)
     }
 
     /// The means of samples of an undeformed plate.
-    pub(crate) fn averaged<T: Sample>(means: Means<T>, job: Job<'_>, by: &str) -> Self
+    pub fn averaged<T: Sample>(means: Means<T>, job: Job<'_>, by: &str) -> Self
     where
         Values: From<Raster<T>>,
     {
@@ -196,7 +210,7 @@ impl Drawn {
     }
 
     /// The range of the values, with the extrema of the view if these are known.
-    pub(crate) fn span(&self, style: &Style, values: Option<Extrema>) -> Span {
+    pub fn span(&self, style: &Style, values: Option<Extrema>) -> Span {
         let Style { range, scale, colormap, .. } = style;
         match &self.values {
             Values::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
@@ -205,7 +219,7 @@ impl Drawn {
     }
 
     /// Gives the values colours of a range.
-    pub(crate) fn picture(&self, style: &Style, span: Span) -> Result<Picture, RangeError> {
+    pub fn picture(&self, style: &Style, span: Span) -> Result<Picture, RangeError> {
         let mut picture = match &self.values {
             Values::Double(raster) => Picture::spanning(raster, &self.view, style, span),
             Values::Single(raster) => Picture::spanning(raster, &self.view, style, span),
@@ -219,14 +233,14 @@ impl Drawn {
     }
 
     /// The number of pixels of the plate without a value, and of all of them.
-    pub(crate) fn undefined(&self) -> [usize; 2] {
+    pub fn undefined(&self) -> [usize; 2] {
         let Statistics { finite, infinite, .. } = self.values.statistics();
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }
 
 /// What draws all that is not drawn by a backend.
-pub(crate) const PROCESSOR: &str = "cpu f64";
+pub const PROCESSOR: &str = "cpu f64";
 
 /// Dark lines across the pixels where the plate lies over itself.
 fn hatch(image: &mut Image, overlap: &[u32]) {

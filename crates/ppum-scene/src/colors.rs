@@ -1,0 +1,119 @@
+//! The way values become colours, as data.
+
+use std::f64::consts::FRAC_PI_2;
+
+use ppum::quantity::Quantity;
+use ppum_render::colormap::{Colormap, ColormapError};
+use ppum_render::picture::Style;
+use ppum_render::range::Range;
+use ppum_render::scale::Scale;
+use serde::{Deserialize, Serialize};
+
+use crate::drawing::{Shown, Values, classes};
+
+/// The way values become colours, but for the map itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Colors {
+    /// Name of the map, or of a file with one; by default that of the quantity.
+    pub colormap: Option<String>,
+    /// The values that the colours span.
+    #[serde(with = "written")]
+    pub range: Range,
+    /// How values spread over the colours.
+    #[serde(with = "written")]
+    pub scale: Scale,
+    /// True if values beyond the range have colours that do not occur in the map.
+    pub contrast: bool,
+    /// So many bands of one colour each.
+    pub bands: Option<u16>,
+}
+
+/// Most bands: more than eyes, and pictures, can tell apart.
+pub const MOST_BANDS: u16 = 1000;
+
+impl Colors {
+    /// The name of the map where none is given.
+    #[must_use]
+    pub fn default_map(quantity: Option<&Quantity>) -> &'static str {
+        if quantity.and_then(period).is_some() { "twilight" } else { "viridis" }
+    }
+
+    /// The map of the name, if that is a built-in one.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub fn built_in(&self, quantity: Option<&Quantity>) -> Result<Colormap, ColormapError> {
+        Colormap::named(self.colormap.as_deref().unwrap_or(Self::default_map(quantity)))
+    }
+
+    /// The way a quantity's values become colours of a map, or those of cells.
+    #[must_use]
+    pub fn style(&self, quantity: Option<&Quantity>, mut colormap: Colormap) -> Style {
+        let range = match (self.range, quantity.and_then(period)) {
+            (Range::Auto, Some([from, to])) if colormap.cyclic => Range::Fixed(from, to),
+            // values of cells have no peaks between the pixels
+            (Range::Auto, None) if quantity.is_none() => Range::Full,
+            (range, _) => range,
+        };
+        if self.contrast {
+            colormap = colormap.contrasting();
+        }
+        if let Some(count) = self.bands {
+            colormap = colormap.banded(count);
+        }
+        Style { colormap, range, scale: self.scale, ..Style::default() }
+    }
+
+    /// The style of pictures of one range. Few whole numbers have a colour each.
+    pub fn style_of<'a>(
+        &self,
+        pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)> + Clone,
+        colormap: Colormap,
+    ) -> Style {
+        let first = pictures.clone().into_iter().next();
+        let style = self.style(first.and_then(|(shown, _)| shown.quantity()), colormap);
+        self.classed(style, classes(pictures))
+    }
+
+    /// The style with a colour for each of some classes, unless range, scale or bands are given.
+    #[must_use]
+    pub fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
+        let is_free =
+            self.range == Range::Auto && self.bands.is_none() && self.scale == Scale::Linear;
+        match classes.filter(|_| is_free) {
+            Some(classes) => style.classed(&classes),
+            None => style,
+        }
+    }
+}
+
+/// The values that an angle goes round through.
+fn period(quantity: &Quantity) -> Option<[f64; 2]> {
+    // π/2 rounded to single precision, as graphics cards have it, lies above π/2
+    let quarter = f64::from(FRAC_PI_2 as f32);
+    matches!(quantity, Quantity::PrincipalDirection).then_some([-quarter, quarter])
+}
+
+/// As the command line writes it.
+mod written {
+    use std::fmt::Display;
+    use std::str::FromStr;
+
+    use serde::{Deserialize as _, Deserializer, Serializer, de};
+
+    pub(super) fn serialize<T: Display, S: Serializer>(
+        value: &T,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(value)
+    }
+
+    pub(super) fn deserialize<'d, T, D>(deserializer: D) -> Result<T, D::Error>
+    where
+        T: FromStr<Err: Display>,
+        D: Deserializer<'d>,
+    {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
+}

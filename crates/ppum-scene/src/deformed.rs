@@ -1,0 +1,129 @@
+//! The deformed plate: how much, and what of the plane is seen of it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum::text::trimmed;
+use ppum::vec2::{Rect, Vec2};
+use ppum_render::deform::{DeformError, Deformation, DeformedPoints, automatic_factor};
+use ppum_render::raster::Raster;
+use serde::{Deserialize, Serialize};
+
+use crate::drawing::{Drawn, PROCESSOR, Shown};
+
+/// How many times its displacement a plate is drawn with: written as a number, or `auto`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Factor {
+    /// The largest displacement is some 5 % of the plate.
+    Auto,
+    /// So many times.
+    Given(f64),
+}
+
+impl FromStr for Factor {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.trim() {
+            "auto" => Ok(Self::Auto),
+            number => match number.parse() {
+                Ok(factor) if f64::is_finite(factor) => Ok(Self::Given(factor)),
+                _ => Err("write a finite number, or auto"),
+            },
+        }
+    }
+}
+
+impl fmt::Display for Factor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Given(factor) => write!(f, "{factor:?}"),
+        }
+    }
+}
+
+impl TryFrom<String> for Factor {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl From<Factor> for String {
+    fn from(factor: Factor) -> Self {
+        factor.to_string()
+    }
+}
+
+impl Factor {
+    /// The number, which for `auto` follows from the displacements of all plates.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    pub fn number(self, fields: &[&Field<'_>]) -> Result<f64, DeformError> {
+        match (self, fields.first()) {
+            (Self::Given(factor), _) => Ok(factor),
+            (Self::Auto, Some(first)) => automatic_factor(fields, &first.domain.bounds),
+            (Self::Auto, None) => Ok(1.0),
+        }
+    }
+}
+
+/// A box around the deformed plate, and around the undeformed one if its border is drawn.
+///
+/// # Errors
+/// A field that is no displacement, or a factor that is too large.
+pub fn bounds(field: &Field<'_>, factor: f64, with_outline: bool) -> Result<Rect, DeformError> {
+    let deformation = Deformation::new(field, factor)?;
+    let whole = field.domain.bounds;
+    let view = ppum_render::view::View::fit(whole, [256, 256])?;
+    let outline = deformation.seen(&view).outline();
+    let place = |offset: &Vec2| view.center + *offset;
+    let all = outline.iter().flatten().map(place).map(|p| Rect::new(p, p));
+    let moved = all.reduce(|a, b| a.union(&b)).unwrap_or(whole);
+    let shown = if with_outline { moved.union(&whole) } else { moved };
+    let room = shown.size() * ROOM;
+    Ok(Rect::new(shown.min - room, shown.max + room))
+}
+
+/// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a small picture.
+const ROOM: f64 = 0.01;
+
+/// The factor as it is told: `deformed ×100`.
+#[must_use]
+pub fn words(factor: f64) -> String {
+    format!("deformed ×{}", trimmed(factor))
+}
+
+/// The values of a picture of the deformed plate.
+///
+/// # Errors
+/// A quantity without meaning for the field; a watcher that stops it.
+pub fn draw(
+    points: &DeformedPoints<'_>,
+    shown: &Shown,
+    watcher: &dyn Watcher,
+) -> Result<Drawn, DeformError> {
+    let raster = match shown {
+        Shown::Quantity(quantity) => points.raster(quantity, watcher)?,
+        Shown::Cells(_, values) => points.cells(values),
+    };
+    let without = undefined(points, &raster.values);
+    let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
+    let (view, overlap, by) = (points.view.view, overlap.collect(), PROCESSOR.into());
+    let values = raster.values.into();
+    Ok(Drawn { view, values, by, without, overlap, opacity: None })
+}
+
+/// The pixels of the plate without a value.
+fn undefined(points: &DeformedPoints<'_>, values: &Raster) -> Vec<u32> {
+    let [columns, rows] = values.size;
+    let all = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+    let without = all.filter(|&(i, j)| values.value(i, j).is_nan() && !points.at(i, j).is_empty());
+    without.map(|(i, j)| j * columns + i).collect()
+}

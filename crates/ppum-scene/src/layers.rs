@@ -1,0 +1,311 @@
+//! The overlays of a picture, drawn.
+
+use ppum::crack::Crack;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum::quantity::{Axis, Quantity};
+use ppum_figure::canvas::Item;
+use ppum_figure::levels;
+use ppum_figure::overlay::{self, Entry, Room};
+use ppum_figure::ticks::Notation;
+use ppum_render::RenderError;
+use ppum_render::deform::{DeformError, DeformedPoints};
+use ppum_render::glyph::Lattice;
+use ppum_render::isoline::{Isoline, isolines};
+use ppum_render::picture::Picture;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+
+use crate::drawing::{Seen, Values};
+use crate::notice::Notice;
+use crate::overlays::{Levels, Overlay, Overlays};
+use crate::stations::Stations;
+
+/// What overlays are drawn on.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    /// The dataset, which may hold the problem with its supports and loads.
+    pub dataset: &'a Dataset,
+    /// Its field.
+    pub field: &'a Field<'a>,
+    /// The quantity that is shown; none of values of cells, which have no isolines.
+    pub quantity: Option<&'a Quantity>,
+    /// The picture below.
+    pub picture: &'a Picture,
+    /// Values at the centres of its pixels.
+    pub values: &'a Values,
+    /// A figure has its cracks whatever is asked for.
+    pub is_figure: bool,
+    /// True if a colour bar tells how numbers are written.
+    pub has_bar: bool,
+}
+
+/// What is drawn over a picture.
+#[derive(Debug, Default)]
+pub struct Layers {
+    /// Items in pixels of the picture, the lowest first.
+    pub items: Vec<Item>,
+    /// The entries of a legend that has no room in the picture.
+    pub legend: Vec<Entry>,
+    /// What was asked for and is not seen.
+    pub notices: Vec<Notice>,
+}
+
+/// Overlays that cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LayersError {
+    /// Crosses of a potential.
+    #[error("crosses show principal stresses, and a potential has none; arrows show its gradient")]
+    Crosses,
+    /// An overlay that belongs to the plate as it was.
+    #[error("{}: of these overlays the deformed plate has cells and cracks alone", .0.name())]
+    Deformed(Overlay),
+    /// Isolines, or values that they are found from.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Places of the deformed plate.
+    #[error(transparent)]
+    Deform(#[from] DeformError),
+}
+
+/// Most levels that are chosen by the program.
+const AUTOMATIC: usize = 14;
+/// Distance of supports and loads, in pixels of a picture 768 pixels high.
+const SPACING: f64 = 30.0;
+
+impl Overlays {
+    /// Draws them over a picture of what is seen. The deformed plate of a figure has its border and the faces of its
+    /// cracks whatever is asked for; with `outline` the border of the undeformed one too.
+    ///
+    /// # Errors
+    /// Overlays that the field or the deformed plate does not have; too many isolines; a watcher that stops it.
+    pub fn layers(
+        &self,
+        ground: Ground<'_>,
+        seen: &Seen<'_>,
+        outline: bool,
+        watcher: &dyn Watcher,
+    ) -> Result<Layers, LayersError> {
+        if self.crosses.is_some() && ground.field.equation.elastic().is_none() {
+            return Err(LayersError::Crosses);
+        }
+        let mut drawing = Drawing { overlays: self, ground, watcher, layers: Layers::default() };
+        match seen {
+            Seen::Plate(_) => drawing.plate()?,
+            Seen::Moved(points) => drawing.moved(points, outline)?,
+        }
+        Ok(drawing.with_legend())
+    }
+}
+
+/// Layers while they are drawn.
+struct Drawing<'a> {
+    overlays: &'a Overlays,
+    ground: Ground<'a>,
+    watcher: &'a dyn Watcher,
+    layers: Layers,
+}
+
+impl<'a> Drawing<'a> {
+    /// Draws over the plate as it was before it was loaded.
+    fn plate(&mut self) -> Result<(), LayersError> {
+        let Ground { field, picture, .. } = self.ground;
+        let view = &picture.view;
+        let wanted = self.wanted();
+        let glyphs = self.glyphs(|spacing| Lattice::new(field, view, spacing))?;
+        let mut centers = Vec::new();
+        if wanted.contains(&Overlay::Centers) {
+            let (items, entries) = overlay::centers(view, field);
+            centers = items;
+            self.layers.legend.extend(entries);
+        }
+        self.isolines()?;
+        self.layers.items.extend(glyphs);
+        let stations = self.stations();
+        for wanted in wanted {
+            let items = match wanted {
+                Overlay::Centers => std::mem::take(&mut centers),
+                other => self.overlay(other, &stations),
+            };
+            self.layers.items.extend(items);
+        }
+        Ok(())
+    }
+
+    /// The overlays in their order, each once.
+    fn wanted(&self) -> Vec<Overlay> {
+        let mut wanted = self.overlays.shown.clone();
+        wanted.extend(self.ground.is_figure.then_some(Overlay::Cracks));
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted
+    }
+
+    fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
+        let Ground { field, picture, .. } = self.ground;
+        let (view, step) = (&picture.view, field.step);
+        match wanted {
+            Overlay::Patches => overlay::patches(view, &step.partition),
+            Overlay::Cells => overlay::cells(view, &step.partition),
+            Overlay::Points => overlay::points(view, &step.partition),
+            Overlay::Centers => overlay::centers(view, field).0,
+            Overlay::Rings => overlay::rings(view, &step.cracks, &step.intensities),
+            Overlay::Cracks => {
+                let rims = overlay::rims(view, &field.domain.holes);
+                [rims, overlay::cracks(view, &step.cracks)].concat()
+            }
+            Overlay::Supports => overlay::supports(view, &stations.supports),
+            Overlay::Loads => overlay::loads(view, &stations.loads),
+        }
+    }
+
+    /// Draws over the deformed plate.
+    fn moved(&mut self, points: &DeformedPoints<'_>, outline: bool) -> Result<(), LayersError> {
+        if let Some(overlay) = self.overlays.undeformable() {
+            return Err(LayersError::Deformed(overlay));
+        }
+        let view = &points.view;
+        if outline {
+            self.layers.items.extend(overlay::undeformed_outline(view)?);
+        }
+        let glyphs = self.glyphs(|spacing| Lattice::deformed(points, spacing))?;
+        self.deformed_isolines(points)?;
+        self.layers.items.extend(glyphs);
+        let wanted = self.wanted();
+        if wanted.contains(&Overlay::Cells) {
+            self.layers.items.extend(overlay::deformed_cells(view));
+        }
+        if wanted.contains(&Overlay::Cracks) {
+            self.layers.items.extend(overlay::deformed_outline(view));
+            self.layers.items.extend(overlay::faces(view));
+        }
+        Ok(())
+    }
+
+    /// Isolines, found on the exact field; the picture's values say where to look for them.
+    fn isolines(&mut self) -> Result<(), LayersError> {
+        let Some(levels) = self.levels() else { return Ok(()) };
+        let Ground { field, quantity, picture, values, .. } = self.ground;
+        let Some(quantity) = quantity else { return Ok(()) };
+        let view = &picture.view;
+        let lines = match values {
+            Values::Double(raster) => {
+                isolines(field, view, quantity, &levels, raster, self.watcher)
+            }
+            Values::Single(raster) => {
+                isolines(field, view, quantity, &levels, raster, self.watcher)
+            }
+        }?;
+        let room = self.room(view, &field.step.cracks);
+        self.add_isolines(view, &lines, room);
+        Ok(())
+    }
+
+    /// Isolines of the plate as it was, where they have moved to.
+    fn deformed_isolines(&mut self, points: &DeformedPoints<'_>) -> Result<(), LayersError> {
+        let Some(levels) = self.levels() else { return Ok(()) };
+        let Some(view) = points.material_view() else { return Ok(()) };
+        let Ground { field, quantity, .. } = self.ground;
+        let Some(quantity) = quantity else { return Ok(()) };
+        let raster = render::<f64>(field, &view, quantity, self.watcher)?;
+        let lines = isolines(field, &view, quantity, &levels, &raster, self.watcher)?;
+        let lines = overlay::carried(&points.view, &lines);
+        let view = &points.view.view;
+        // cracks have opened, or closed: nothing can be said of their lines
+        let room = self.room(view, &[]);
+        self.add_isolines(view, &lines, room);
+        Ok(())
+    }
+
+    /// Isolines, or a word that there are none of the levels that were listed; others lie in the range, if there is one.
+    fn add_isolines(&mut self, view: &View, lines: &[Isoline], room: Option<Room>) {
+        if matches!(self.overlays.isolines, Some(Levels::At(_))) {
+            self.notice_of_none(lines.len(), Notice::NoIsoline);
+        }
+        self.layers.items.extend(overlay::isolines(view, lines, room));
+    }
+
+    fn notice_of_none(&mut self, count: usize, notice: Notice) {
+        self.layers.notices.extend((count == 0).then_some(notice));
+    }
+
+    /// Where labels of levels may stand, if they are asked for: not below a legend.
+    fn room(&self, view: &View, cracks: &[Crack]) -> Option<Room> {
+        let Ground { picture, has_bar, .. } = self.ground;
+        let notation = || match has_bar {
+            true => Notation::of(&picture.normalization),
+            false => Notation::PLAIN,
+        };
+        let legend = overlay::legend_box(view, &self.layers.legend);
+        let all = self.overlays.level_labels.then(|| Room::new(picture, cracks, notation()));
+        all.map(|room| legend.into_iter().fold(room, Room::without))
+    }
+
+    /// The levels of isolines, if they are asked for.
+    fn levels(&self) -> Option<Vec<f64>> {
+        let picture = self.ground.picture;
+        let norm = &picture.normalization;
+        self.overlays.isolines.as_ref().map(|levels| match levels {
+            // nothing but rounding tells values apart
+            _ if picture.one_value.is_some() => Vec::new(),
+            Levels::Auto => levels::automatic(norm, AUTOMATIC),
+            Levels::Count(count) => levels::about(norm, *count),
+            Levels::At(values) => values.clone(),
+        })
+    }
+
+    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a spacing.
+    fn glyphs<'f>(
+        &mut self,
+        lattice: impl Fn(f64) -> Lattice<'f>,
+    ) -> Result<Vec<Item>, LayersError> {
+        let Ground { field, picture: Picture { view, .. }, .. } = self.ground;
+        let mut items = Vec::new();
+        if let Some(spacing) = self.overlays.crosses {
+            let found = lattice(spacing).principal(self.watcher)?;
+            self.notice_of_none(found.len(), Notice::NoCross);
+            let (more, meaning) = overlay::crosses(view, &found, spacing);
+            items.extend(more);
+            self.layers.legend.extend(meaning);
+        }
+        if let Some(spacing) = self.overlays.arrows {
+            let shown = match field.components() {
+                2 => [Quantity::Component(0), Quantity::Component(1)],
+                _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
+            };
+            let found = lattice(spacing).vectors(&shown, self.watcher)?;
+            self.notice_of_none(found.len(), Notice::NoArrow);
+            let (more, meaning) = overlay::arrows(view, &found, spacing);
+            items.extend(more);
+            self.layers.legend.extend(meaning);
+        }
+        Ok(items)
+    }
+
+    /// Points along the border with supports and loads; none if nobody asks for them.
+    fn stations(&mut self) -> Stations {
+        if !self.overlays.have_stations() {
+            return Stations::default();
+        }
+        let view = &self.ground.picture.view;
+        let side = f64::from(view.pixels[0].min(view.pixels[1]));
+        let spacing = SPACING * (side / 768.0).max(1.0) * view.pixel_size();
+        Stations::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
+            self.layers.notices.push(notice);
+            Stations::default()
+        })
+    }
+
+    /// The layers, with their legend over them if it has room.
+    fn with_legend(self) -> Layers {
+        let mut layers = self.layers;
+        let inside = overlay::legend(&self.ground.picture.view, &layers.legend);
+        if !inside.is_empty() {
+            layers.legend.clear();
+        }
+        layers.items.extend(inside);
+        layers
+    }
+}

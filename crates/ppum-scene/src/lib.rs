@@ -1,0 +1,51 @@
+//! What a picture of a dataset shows, as data, and what is drawn of it.
+//!
+//! A picture comes about in four steps, each of which is a value of its own, so that a program can keep what has not
+//! changed: what is [`Seen`](drawing::Seen) of the plate; the values [`Drawn`](drawing::Drawn) of what is
+//! [`Shown`](drawing::Shown); their colours, a range ([`range::found`]) and a style ([`Colors`](colors::Colors)); the
+//! [`Layers`](layers::Layers) of its [`Overlays`](overlays::Overlays). What people choose is plain data that can be
+//! compared, kept and written. The program's commands and its window draw by this crate alone, so both draw the same.
+
+pub mod colors;
+pub mod deformed;
+pub mod drawing;
+pub mod layers;
+pub mod notice;
+pub mod overlays;
+pub mod range;
+pub mod scene;
+mod stations;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[("drawing", &[]), ("notice", &[]), ("overlays", &[])],
+        &[
+            ("colors", &["drawing"]),
+            ("deformed", &["drawing"]),
+            ("range", &["drawing"]),
+            ("stations", &["notice"]),
+        ],
+        &[
+            ("layers", &["drawing", "notice", "overlays", "stations"]),
+            ("scene", &["colors", "deformed", "drawing", "overlays"]),
+        ],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
+
+    #[test]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<super::layers::LayersError>();
+    }
+}

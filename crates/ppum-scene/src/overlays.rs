@@ -1,0 +1,213 @@
+//! What is drawn over the colours of a picture, as data.
+
+use std::fmt;
+use std::str::FromStr;
+
+use ppum::text::exact;
+use serde::{Deserialize, Serialize};
+
+/// Distance of arrows and crosses if none is given \[pixels\].
+pub const SPACING: f64 = 36.0;
+
+/// What is drawn over the colours.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Overlays {
+    /// In any order; each is drawn once.
+    pub shown: Vec<Overlay>,
+    /// Isolines of the quantity.
+    pub isolines: Option<Levels>,
+    /// True if the isolines bear their levels.
+    pub level_labels: bool,
+    /// Arrows of the displacement, of a potential its gradient: their distance \[pixels\].
+    pub arrows: Option<f64>,
+    /// Crosses of the principal stresses: their distance \[pixels\].
+    pub crosses: Option<f64>,
+}
+
+/// In the order in which they are drawn, the lowest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Overlay {
+    /// Supports of the patches, which overlap.
+    Patches,
+    /// Borders of the cover's cells.
+    Cells,
+    /// Points the cover was made from.
+    Points,
+    /// Centres of the cells, coloured by the kind of enrichment.
+    Centers,
+    /// Rings that the stress intensity factors are integrated over.
+    Rings,
+    /// Cracks with their tips, and rims of holes.
+    Cracks,
+    /// Supports of the plate, as its problem file has them.
+    Supports,
+    /// Loads on the plate, as its problem file has them.
+    Loads,
+}
+
+impl Overlay {
+    /// All of them, the lowest first.
+    pub const ALL: [Self; 8] = [
+        Self::Patches,
+        Self::Cells,
+        Self::Points,
+        Self::Centers,
+        Self::Rings,
+        Self::Cracks,
+        Self::Supports,
+        Self::Loads,
+    ];
+
+    /// Its word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Patches => "patches",
+            Self::Cells => "cells",
+            Self::Points => "points",
+            Self::Centers => "centers",
+            Self::Rings => "rings",
+            Self::Cracks => "cracks",
+            Self::Supports => "supports",
+            Self::Loads => "loads",
+        }
+    }
+
+    /// What it shows, in a line.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Patches => "Supports of the patches, which overlap",
+            Self::Cells => "Borders of the cover's cells",
+            Self::Points => "Points the cover was made from",
+            Self::Centers => "Centres of the cells, coloured by the kind of enrichment",
+            Self::Rings => "Rings that the stress intensity factors are integrated over",
+            Self::Cracks => "Cracks with their tips, and rims of holes",
+            Self::Supports => "Supports of the plate, as its problem file has them",
+            Self::Loads => "Loads on the plate, as its problem file has them",
+        }
+    }
+
+    /// True if the deformed plate has it too.
+    #[must_use]
+    pub fn is_deformable(self) -> bool {
+        matches!(self, Self::Cells | Self::Cracks)
+    }
+}
+
+impl Overlays {
+    /// The first of them that the deformed plate does not have.
+    #[must_use]
+    pub fn undeformable(&self) -> Option<Overlay> {
+        self.shown.iter().copied().find(|overlay| !overlay.is_deformable())
+    }
+
+    /// True if supports or loads are shown, which stand outside of the plate.
+    #[must_use]
+    pub fn have_stations(&self) -> bool {
+        self.shown.iter().any(|o| matches!(o, Overlay::Supports | Overlay::Loads))
+    }
+
+    /// Room around the plate for what stands outside of it, in parts of the plate's larger side.
+    #[must_use]
+    pub fn margin(&self) -> f64 {
+        if self.have_stations() { MARGIN } else { 0.0 }
+    }
+}
+
+/// Room for supports and loads around the plate.
+const MARGIN: f64 = 0.09;
+
+/// The levels of isolines: written `auto`, a number, or values with commas between.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Levels {
+    /// Round ones, some fourteen at most.
+    Auto,
+    /// About so many.
+    Count(usize),
+    /// These.
+    At(Vec<f64>),
+}
+
+impl FromStr for Levels {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let text = text.trim();
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        if !text.contains(',') {
+            let count = text.parse().ok().filter(|count| (1..=1000).contains(count));
+            return count.map(Self::Count).ok_or(
+                "write auto, a number of levels from 1 to 1000, or their values with commas, `0.5,` for one",
+            );
+        }
+        let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
+        let values: Option<Vec<f64>> =
+            text.split(',').filter(|part| !part.trim().is_empty()).map(number).collect();
+        let values = values.filter(|values| !values.is_empty());
+        Ok(Self::At(values.ok_or("write finite values with commas between")?))
+    }
+}
+
+impl fmt::Display for Levels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Count(count) => write!(f, "{count}"),
+            Self::At(values) => {
+                let values: Vec<_> = values.iter().map(|value| exact(*value)).collect();
+                // one value has a comma too, to tell it from a number of levels
+                let end = if values.len() == 1 { "," } else { "" };
+                write!(f, "{}{end}", values.join(","))
+            }
+        }
+    }
+}
+
+impl TryFrom<String> for Levels {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl From<Levels> for String {
+    fn from(levels: Levels) -> Self {
+        levels.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_written_as_they_are_read() {
+        let all = [
+            Levels::Auto,
+            Levels::Count(7),
+            Levels::At(vec![0.5]),
+            Levels::At(vec![-1e-300, 0.1 + 0.2, 3e25]),
+        ];
+        for levels in all {
+            assert_eq!(levels.to_string().parse(), Ok(levels));
+        }
+        for wrong in ["", ",", "0", "1001", "a", "1,a", "inf,1", "nan,"] {
+            assert!(wrong.parse::<Levels>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn all_overlays_are_listed_in_their_order() {
+        assert!(Overlay::ALL.is_sorted());
+        let mut names = Overlay::ALL.map(Overlay::name).to_vec();
+        names.dedup();
+        assert_eq!(names.len(), 8);
+    }
+}

@@ -1,0 +1,160 @@
+//! All that is chosen for one picture, but for its place: what of the dataset, which quantity, which colours, what over them.
+
+use ppum::dataset::Dataset;
+use ppum::decompose::UnknownPart;
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityError};
+use ppum::replace::{Replacements, ReplacementsError};
+use ppum::text::hint;
+use ppum_render::cells;
+use serde::{Deserialize, Serialize};
+
+use crate::colors::Colors;
+use crate::deformed::Factor;
+use crate::drawing::Shown;
+use crate::overlays::Overlays;
+
+/// What a picture shows. What is left out is chosen by the program: the last step, the whole field, its own functions and weight, von
+/// Mises' stress or the potential.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Scene {
+    /// What of the dataset is looked at.
+    pub subject: Subject,
+    /// A quantity, a formula of quantities, or a value of cells.
+    pub quantity: Option<String>,
+    /// The way values become colours.
+    pub colors: Colors,
+    /// What is drawn over the colours.
+    pub overlays: Overlays,
+    /// How many times its displacement the plate is drawn with.
+    pub deformed: Option<Factor>,
+    /// True if the border of the undeformed plate is drawn with the deformed one.
+    pub outline: bool,
+}
+
+/// What of a dataset is looked at: a step, a part of its field, functions and the weight replaced.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Subject {
+    /// Number of the step, from 0.
+    pub step: Option<usize>,
+    /// `smooth`, `jump`, `tip`, `other` or `patch:N`.
+    pub part: Option<String>,
+    /// Functions by name or number, and formulas in their place.
+    pub functions: Vec<(String, String)>,
+    /// The weight: one of the library, or a formula of t.
+    pub weight: Option<String>,
+}
+
+/// A subject that a dataset does not have.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SubjectError {
+    /// No word for a part.
+    #[error(transparent)]
+    Part(#[from] UnknownPart),
+    /// A part that the step does not have, or a replacement that does not fit.
+    #[error(transparent)]
+    Replacements(#[from] ReplacementsError),
+}
+
+impl Subject {
+    /// The number of the step in a dataset.
+    #[must_use]
+    pub fn step_of(&self, dataset: &Dataset) -> usize {
+        self.step.unwrap_or(dataset.steps.len().saturating_sub(1))
+    }
+
+    /// True if nothing of the dataset is changed.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.part.is_none() && self.functions.is_empty() && self.weight.is_none()
+    }
+
+    /// Changes a dataset to what is looked at.
+    ///
+    /// # Errors
+    /// What the dataset does not have, formulas that are wrong.
+    pub fn apply(&self, dataset: &mut Dataset) -> Result<(), SubjectError> {
+        if self.is_whole() {
+            return Ok(());
+        }
+        let replacements = Replacements {
+            part: self.part.as_deref().map(str::parse).transpose()?,
+            functions: self.functions.clone(),
+            weight: self.weight.clone(),
+        };
+        let step = self.step_of(dataset);
+        Ok(replacements.apply(dataset, step)?)
+    }
+}
+
+/// In front of the name of a value of cells that a quantity has too.
+pub const OF_PATCHES: &str = "patch:";
+
+/// A text that means nothing that could be shown.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShownError {
+    /// Cells have no such value.
+    #[error("cells have no value `{name}`; there are {known}")]
+    Cells {
+        /// The name.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// Neither a quantity nor a value of cells.
+    #[error("{error}; of cells {cells}")]
+    Unknown {
+        /// The reason why it is no quantity.
+        #[source]
+        error: Box<QuantityError>,
+        /// Names of values of cells.
+        cells: String,
+    },
+    /// No quantity of the field.
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+}
+
+/// What a text shows of a field: a quantity or formula; if there is none, or with `patch:` in front, a value of cells.
+///
+/// # Errors
+/// A text that means nothing for the field, with the place of a formula's mistake.
+pub fn shown(text: &str, field: &Field<'_>) -> Result<Shown, ShownError> {
+    let text = text.trim();
+    let of_cells = |name: &str| Some(Shown::Cells(name.into(), cells::values(field, name)?));
+    let known = || cells::names(field).join(", ");
+    if let Some(name) = text.strip_prefix(OF_PATCHES) {
+        return of_cells(name)
+            .ok_or_else(|| ShownError::Cells { name: name.into(), known: known() });
+    }
+    match Quantity::parse(text, field) {
+        Ok(quantity) => {
+            quantity.check(field)?;
+            Ok(Shown::Quantity(quantity))
+        }
+        Err(error) => of_cells(text).ok_or_else(|| with_cells(error, field)),
+    }
+}
+
+/// The error for an unknown quantity, with the names of values of cells.
+fn with_cells(error: QuantityError, field: &Field<'_>) -> ShownError {
+    let QuantityError::Unknown { name, known, .. } = &error else { return error.into() };
+    let cells = cells::names(field);
+    let hint = hint(name, known.split(", ").chain(cells.iter().map(String::as_str)));
+    let error = QuantityError::Unknown { name: name.clone(), hint, known: known.clone() };
+    let error = Box::new(error);
+    ShownError::Unknown { error, cells: cells.join(", ") }
+}
+
+/// What is shown where nothing is said: von Mises' stress, of a potential its values.
+#[must_use]
+pub fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
+    match field.equation.elastic() {
+        Some(_) => "von-mises",
+        None => &field.data.components[0],
+    }
+}

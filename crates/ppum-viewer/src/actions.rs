@@ -1,0 +1,172 @@
+//! What a person can do, by a key, a menu or the palette: one list for all three, and for the help sheet.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use crate::session::Page;
+
+/// Something a person can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Show the whole plate.
+    Fit,
+    /// Fly to a tip, by its number from 0.
+    Tip(usize),
+    /// Fly to the tip after the last one.
+    NextTip,
+    /// Enlarge around the middle.
+    ZoomIn,
+    /// The opposite.
+    ZoomOut,
+    /// Move the view by parts of its size: right and up.
+    Pan(i8, i8),
+    /// To the view before.
+    Back,
+    /// To the view that one came back from.
+    Forward,
+    /// Linear, logarithmic, symmetric-logarithmic.
+    NextScale,
+    /// The range that the program finds.
+    AutomaticRange,
+    /// The next colour map.
+    NextMap,
+    /// Isolines on and off.
+    Isolines,
+    /// The deformed plate on and off.
+    Deform,
+    /// A page of the drawer, opened or closed.
+    Drawer(Page),
+    /// One view, or two side by side.
+    Split,
+    /// Take back the last change of settings.
+    Undo,
+    /// Do it again.
+    Redo,
+    /// Panels shown or hidden.
+    Panels,
+    /// Light, dark.
+    Theme,
+    /// The list of keys.
+    Help,
+    /// Find an action by its name.
+    Palette,
+}
+
+/// An action with its name and key.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// What is done.
+    pub action: Action,
+    /// Its name in menus and the palette.
+    pub name: &'static str,
+    /// Its key, if it has one.
+    pub key: Option<KeyboardShortcut>,
+    /// The heading that it stands below on the help sheet.
+    pub group: &'static str,
+}
+
+const fn entry(
+    action: Action,
+    name: &'static str,
+    key: Option<KeyboardShortcut>,
+    group: &'static str,
+) -> Entry {
+    Entry { action, name, key, group }
+}
+
+const fn key(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::NONE, key))
+}
+
+const fn shift(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::SHIFT, key))
+}
+
+const fn control(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
+}
+
+const fn control_shift(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key))
+}
+
+/// Headings of the help sheet, in their order.
+pub const GROUPS: [&str; 5] = ["Moving", "Colours", "Over the picture", "Reading", "Window"];
+
+/// All actions, in the order of the help sheet.
+pub const ALL: &[Entry] = &[
+    entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
+    entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
+    entry(Action::Tip(0), "Fly to tip 0", key(Key::Num1), "Moving"),
+    entry(Action::Tip(1), "Fly to tip 1", key(Key::Num2), "Moving"),
+    entry(Action::Tip(2), "Fly to tip 2", key(Key::Num3), "Moving"),
+    entry(Action::Tip(3), "Fly to tip 3", key(Key::Num4), "Moving"),
+    entry(Action::Tip(4), "Fly to tip 4", key(Key::Num5), "Moving"),
+    entry(Action::Tip(5), "Fly to tip 5", key(Key::Num6), "Moving"),
+    entry(Action::Tip(6), "Fly to tip 6", key(Key::Num7), "Moving"),
+    entry(Action::Tip(7), "Fly to tip 7", key(Key::Num8), "Moving"),
+    entry(Action::Tip(8), "Fly to tip 8", key(Key::Num9), "Moving"),
+    entry(Action::ZoomIn, "Enlarge", key(Key::Plus), "Moving"),
+    entry(Action::ZoomOut, "Reduce", key(Key::Minus), "Moving"),
+    entry(Action::Pan(-1, 0), "Move left", key(Key::ArrowLeft), "Moving"),
+    entry(Action::Pan(1, 0), "Move right", key(Key::ArrowRight), "Moving"),
+    entry(Action::Pan(0, 1), "Move up", key(Key::ArrowUp), "Moving"),
+    entry(Action::Pan(0, -1), "Move down", key(Key::ArrowDown), "Moving"),
+    entry(Action::Back, "Back to the view before", key(Key::Backspace), "Moving"),
+    entry(Action::Forward, "Forward to the view after", shift(Key::Backspace), "Moving"),
+    entry(Action::NextScale, "Linear, logarithmic, symlog", key(Key::L), "Colours"),
+    entry(Action::AutomaticRange, "Automatic range", key(Key::R), "Colours"),
+    entry(Action::NextMap, "Next colour map", key(Key::M), "Colours"),
+    entry(Action::Isolines, "Isolines", key(Key::I), "Over the picture"),
+    entry(Action::Deform, "Deformed plate", key(Key::D), "Over the picture"),
+    entry(Action::Drawer(Page::Plot), "Plot along a curve", key(Key::X), "Reading"),
+    entry(Action::Drawer(Page::Tips), "Table of the tips", key(Key::T), "Reading"),
+    entry(Action::Drawer(Page::Series), "Values over the steps", None, "Reading"),
+    entry(Action::Drawer(Page::Solver), "The solver's report", None, "Reading"),
+    entry(Action::Drawer(Page::Problem), "The problem's text", None, "Reading"),
+    entry(Action::Split, "Two views side by side", key(Key::V), "Window"),
+    entry(Action::Undo, "Undo", control(Key::Z), "Window"),
+    entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),
+    entry(Action::Panels, "Show or hide the panels", key(Key::Tab), "Window"),
+    entry(Action::Theme, "Light or dark", None, "Window"),
+    entry(Action::Help, "Keys", key(Key::H), "Window"),
+    entry(Action::Palette, "Find an action", control(Key::K), "Window"),
+];
+
+/// The actions whose keys were pressed, unless someone writes.
+pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
+    let is_writing = ctx.egui_wants_keyboard_input();
+    let mut all: Vec<&Entry> = ALL.iter().collect();
+    // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not take Ctrl+Shift+Z
+    all.sort_by_key(|entry| {
+        entry.key.map_or(0, |k| -i32::from(k.modifiers.shift) - i32::from(k.modifiers.command))
+    });
+    ctx.input_mut(|input| {
+        let is_pressed = |entry: &&&Entry| {
+            let Some(key) = entry.key else { return false };
+            let is_free = !is_writing || key.modifiers.command;
+            is_free && input.consume_shortcut(&key)
+        };
+        all.iter().filter(is_pressed).map(|entry| entry.action).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn no_key_has_two_meanings_and_no_two_actions_one_name() {
+        let keys: Vec<String> =
+            ALL.iter().filter_map(|entry| entry.key).map(|key| format!("{key:?}")).collect();
+        assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len());
+        let names: BTreeSet<_> = ALL.iter().map(|entry| entry.name).collect();
+        assert_eq!(names.len(), ALL.len());
+    }
+
+    #[test]
+    fn every_action_stands_below_a_heading() {
+        assert!(ALL.iter().all(|entry| GROUPS.contains(&entry.group)));
+    }
+}

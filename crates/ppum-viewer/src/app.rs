@@ -1,0 +1,205 @@
+//! The window as a whole: what is open, what is shown around the plate, what actions do.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use egui::{CentralPanel, Panel, Ui};
+use ppum::dataset::Dataset;
+use ppum_render::colormap::NAMES;
+use ppum_render::range::Range;
+use ppum_render::scale::Scale;
+use ppum_scene::deformed::Factor;
+use ppum_scene::overlays::Levels;
+
+use crate::actions::{self, Action};
+use crate::desk::Desk;
+use crate::fonts::fonts;
+use crate::panels::palette::Palette;
+use crate::panels::{self, help, top};
+use crate::session::{Page, Pane, Session, Theme};
+use crate::stage::{Opened, Stage};
+use crate::undo::Undo;
+
+/// The window.
+pub struct Viewer {
+    /// What is chosen.
+    pub session: Session,
+    /// What is shown of it.
+    pub stages: Vec<Stage>,
+    settings: Undo<Session>,
+    palette: Option<Palette>,
+    has_help: bool,
+    tip: usize,
+}
+
+impl Viewer {
+    /// A window that shows a session.
+    #[must_use]
+    pub fn new(ctx: &egui::Context, mut session: Session) -> Self {
+        ctx.set_fonts(fonts());
+        session.mend();
+        let stages = session.panes.iter().map(|_| Stage::new(ctx)).collect();
+        let settings = Undo::new(session.clone());
+        Self { session, stages, settings, palette: None, has_help: false, tip: 0 }
+    }
+
+    /// Shows a dataset in the active pane.
+    pub fn open(&mut self, path: Option<PathBuf>, dataset: Arc<Dataset>) {
+        let active = self.session.active;
+        self.session.panes[active].file.clone_from(&path);
+        self.stages[active].opened = Some(Opened { path, dataset });
+    }
+
+    /// Shows the window once.
+    pub fn show(&mut self, ui: &mut Ui) {
+        let mut actions = actions::pressed(ui.ctx());
+        let Self { session, stages, .. } = self;
+        let mut desk = Desk { session, stages, actions: &mut actions };
+        Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
+        if desk.session.panels {
+            Panel::right("side").default_size(300.0).show(ui, |ui| panels::side(ui, &mut desk));
+        }
+        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
+        help::show(ui, &mut self.has_help);
+        if let Some(palette) = &mut self.palette {
+            let (is_done, chosen) = palette.show(ui);
+            actions.extend(chosen);
+            if is_done {
+                self.palette = None;
+            }
+        }
+        for action in actions {
+            self.act(ui.ctx(), action);
+        }
+        if !ui.input(|input| input.pointer.any_down()) {
+            self.settings.note(&without_places(&self.session));
+        }
+    }
+
+    /// Does what was asked for.
+    pub fn act(&mut self, ctx: &egui::Context, action: Action) {
+        let active = self.session.active;
+        let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
+        match action {
+            Action::Fit => stage.fly_to(pane, None),
+            Action::Tip(number) => {
+                self.tip = number;
+                stage.fly_to_tip(pane, number);
+            }
+            Action::NextTip => {
+                stage.fly_to_tip(pane, self.tip);
+                self.tip += 1;
+            }
+            Action::ZoomIn => stage.nudge(pane, 0.0, 0.0, 1.5),
+            Action::ZoomOut => stage.nudge(pane, 0.0, 0.0, 1.0 / 1.5),
+            Action::Pan(right, up) => stage.nudge(pane, f64::from(right), f64::from(up), 1.0),
+            Action::Back => {
+                if let Some(place) = stage.trail.back().copied() {
+                    pane.place = place;
+                }
+            }
+            Action::Forward => {
+                if let Some(place) = stage.trail.forward().copied() {
+                    pane.place = place;
+                }
+            }
+            Action::NextScale => {
+                pane.scene.colors.scale = match pane.scene.colors.scale {
+                    Scale::Linear => Scale::Log,
+                    Scale::Log => Scale::SymLog,
+                    Scale::SymLog => Scale::Linear,
+                }
+            }
+            Action::AutomaticRange => pane.scene.colors.range = Range::Auto,
+            Action::NextMap => next_map(pane),
+            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
+            Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
+            Action::Drawer(page) => toggle(&mut self.session.drawer, page),
+            Action::Split => self.split(ctx),
+            Action::Undo => self.restore(ctx, true),
+            Action::Redo => self.restore(ctx, false),
+            Action::Panels => self.session.panels = !self.session.panels,
+            Action::Theme => self.turn_theme(ctx),
+            Action::Help => self.has_help = !self.has_help,
+            Action::Palette => self.palette = Some(Palette::default()),
+        }
+    }
+
+    /// One view, or two side by side.
+    fn split(&mut self, ctx: &egui::Context) {
+        if self.session.panes.len() == 2 {
+            self.session.panes.truncate(1);
+            self.stages.truncate(1);
+            self.session.active = 0;
+        } else {
+            self.session.panes.push(self.session.panes[0].clone());
+            let mut stage = Stage::new(ctx);
+            stage.opened.clone_from(&self.stages[0].opened);
+            self.stages.push(stage);
+        }
+    }
+
+    /// Goes a step back or forward in the settings; places stay where they are.
+    fn restore(&mut self, ctx: &egui::Context, back: bool) {
+        let state = if back { self.settings.back() } else { self.settings.forward() };
+        let Some(mut state) = state.cloned() else { return };
+        for (old, new) in self.session.panes.iter().zip(&mut state.panes) {
+            new.place = old.place;
+        }
+        if state.panes.len() != self.session.panes.len() {
+            self.split(ctx);
+        }
+        self.session = state;
+    }
+
+    fn turn_theme(&mut self, ctx: &egui::Context) {
+        self.session.theme = match self.session.theme {
+            Theme::Dark => Theme::Light,
+            _ => Theme::Dark,
+        };
+        ctx.set_theme(match self.session.theme {
+            Theme::System => egui::ThemePreference::System,
+            Theme::Light => egui::ThemePreference::Light,
+            Theme::Dark => egui::ThemePreference::Dark,
+        });
+    }
+}
+
+/// Without the places, which have a history of their own.
+fn without_places(session: &Session) -> Session {
+    let mut settings = session.clone();
+    settings.panes.iter_mut().for_each(|pane| pane.place = None);
+    settings
+}
+
+fn toggle<T: PartialEq>(setting: &mut Option<T>, on: T) {
+    *setting = if setting.as_ref() == Some(&on) { None } else { Some(on) };
+}
+
+fn next_map(pane: &mut Pane) {
+    let colors = &mut pane.scene.colors;
+    let name = colors.colormap.as_deref().unwrap_or(NAMES[0]);
+    let at = NAMES.iter().position(|known| *known == name).map_or(0, |at| at + 1);
+    colors.colormap = Some(NAMES[at % NAMES.len()].to_owned());
+}
+
+/// The panes side by side.
+fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let count = desk.session.panes.len();
+    ui.columns(count, |columns| {
+        for (number, ui) in columns.iter_mut().enumerate() {
+            ui.push_id(number, |ui| {
+                desk.stages[number].show(ui, &mut desk.session.panes[number]);
+            });
+        }
+    });
+}
+
+impl eframe::App for Viewer {
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        self.show(ui);
+    }
+}
+
+/// Pages of the drawer, in their order.
+pub const PAGES: [Page; 5] = [Page::Plot, Page::Tips, Page::Series, Page::Solver, Page::Problem];

@@ -1,0 +1,35 @@
+//! The bar above the plate.
+
+use egui::Ui;
+
+use crate::actions::Action;
+use crate::desk::Desk;
+
+/// Title, and what one does all the time.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    ui.horizontal(|ui| {
+        let (_, stage) = desk.active();
+        let title = stage.opened.as_ref().map_or("ppum", |opened| &opened.dataset.title);
+        ui.strong(title);
+        for (sign, name, action) in [
+            ("⌂", "Show the whole plate", Action::Fit),
+            ("↶", "Undo", Action::Undo),
+            ("↷", "Redo", Action::Redo),
+            ("←", "Back to the view before", Action::Back),
+            ("→", "Forward to the view after", Action::Forward),
+            ("☰", "Find an action", Action::Palette),
+            ("?", "Keys", Action::Help),
+        ] {
+            if button(ui, sign, name).clicked() {
+                desk.actions.push(action);
+            }
+        }
+    });
+}
+
+/// A button with a sign, which has a name too.
+pub fn button(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
+    let response = ui.button(sign).on_hover_text(name);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    response
+}

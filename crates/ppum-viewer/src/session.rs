@@ -1,0 +1,133 @@
+//! All that a person chooses: what is looked at, where, and how. Plain data that is compared, undone, kept and written.
+
+use std::path::PathBuf;
+
+use ppum::vec2::{Vec2, vec2};
+use ppum_render::view::{View, ViewError};
+use ppum_scene::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// The state of the window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Session {
+    /// One view, or two side by side.
+    pub panes: Vec<Pane>,
+    /// The pane that keys and panels act on.
+    pub active: usize,
+    /// True if both panes show the same place.
+    pub linked: bool,
+    /// True if the panels on the right are open.
+    pub panels: bool,
+    /// The page of the drawer below, if it is open.
+    pub drawer: Option<Page>,
+    /// Colours of the window.
+    pub theme: Theme,
+}
+
+/// One view.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Pane {
+    /// The dataset's file.
+    pub file: Option<PathBuf>,
+    /// What is shown of it.
+    pub scene: Scene,
+    /// Where; the whole plate if nothing is said.
+    pub place: Option<Place>,
+}
+
+/// A part of the plane, whatever the number of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// The middle.
+    pub center: [f64; 2],
+    /// The width of the picture.
+    pub width: f64,
+}
+
+/// Pages of the drawer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Page {
+    /// Values along a curve.
+    Plot,
+    /// A table of the crack tips.
+    Tips,
+    /// Values over the steps.
+    Series,
+    /// The solver's report.
+    Solver,
+    /// The problem's text.
+    Problem,
+}
+
+/// Colours of the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Theme {
+    /// As the system has it.
+    #[default]
+    System,
+    /// Dark on white.
+    Light,
+    /// Light on black.
+    Dark,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self {
+            panes: vec![Pane::default()],
+            active: 0,
+            linked: true,
+            panels: true,
+            drawer: None,
+            theme: Theme::default(),
+        }
+    }
+}
+
+impl Session {
+    /// The pane that keys and panels act on.
+    #[must_use]
+    pub fn pane(&self) -> &Pane {
+        &self.panes[self.active]
+    }
+
+    /// The same, to be changed.
+    pub fn pane_mut(&mut self) -> &mut Pane {
+        &mut self.panes[self.active]
+    }
+
+    /// Mends what a file may say and the window cannot show: no pane, more than two, one active that is not there.
+    pub fn mend(&mut self) {
+        self.panes.truncate(2);
+        if self.panes.is_empty() {
+            self.panes.push(Pane::default());
+        }
+        self.active = self.active.min(self.panes.len() - 1);
+    }
+}
+
+impl Place {
+    /// The place of a view.
+    #[must_use]
+    pub fn of(view: &View) -> Self {
+        Self { center: view.center.into(), width: view.width }
+    }
+
+    /// The view of it on so many pixels.
+    ///
+    /// # Errors
+    /// As [`View::new`].
+    pub fn view(&self, pixels: [u32; 2]) -> Result<View, ViewError> {
+        View::new(self.center(), self.width, pixels)
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(&self) -> Vec2 {
+        vec2(self.center[0], self.center[1])
+    }
+}

@@ -1,0 +1,110 @@
+//! What is drawn over pictures, as shapes of the window: sharp at any magnification of the display.
+
+use egui::{Color32, FontId, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use ppum_figure::canvas::{Align, Item, Lettering, Path, Pen};
+use ppum_render::image::Rgba;
+
+/// Where the pixels of a picture lie in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// The picture's upper left corner.
+    pub corner: Pos2,
+    /// Points of the window per pixel of the picture.
+    pub scale: f32,
+}
+
+impl Placed {
+    /// A position in pixels of the picture.
+    #[must_use]
+    pub fn at(&self, point: ppum::vec2::Vec2) -> Pos2 {
+        self.corner + vec2(point.x as f32, point.y as f32) * self.scale
+    }
+
+    fn length(&self, pixels: f64) -> f32 {
+        pixels as f32 * self.scale
+    }
+}
+
+/// Draws items.
+pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
+    for item in items {
+        match item {
+            Item::Line { path, pen } => lines(painter, placed, path, pen),
+            Item::Fill { outline, color } => fill(painter, placed, outline, *color),
+            Item::Text(lettering) => text(painter, placed, lettering),
+            Item::Inset { corner, canvas } => {
+                let corner = placed.at(corner.map(f64::from).into());
+                let inner = Placed { corner, ..placed };
+                let size = canvas.size.map(|n| n as f32 * placed.scale);
+                let clip = Rect::from_min_size(corner, vec2(size[0], size[1]));
+                draw(
+                    &painter.with_clip_rect(clip.intersect(painter.clip_rect())),
+                    inner,
+                    &canvas.items,
+                );
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A colour of figures.
+#[must_use]
+pub fn color([r, g, b, a]: Rgba) -> Color32 {
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
+fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
+    let pieces =
+        || path.pieces.iter().map(|piece| piece.iter().map(|p| placed.at(*p)).collect::<Vec<_>>());
+    if let Some(halo) = pen.halo {
+        let stroke = Stroke::new(placed.length(pen.width + 2.0 * halo.width), color(halo.color));
+        pieces().for_each(|piece| {
+            painter.add(Shape::line(piece, stroke));
+        });
+    }
+    let stroke = Stroke::new(placed.length(pen.width), color(pen.color));
+    for piece in pieces() {
+        match pen.dashes {
+            Some([dash, gap]) => {
+                let [dash, gap] = [dash, gap].map(|length| placed.length(length).max(0.5));
+                painter.extend(Shape::dashed_line(&piece, stroke, dash, gap));
+            }
+            None => {
+                painter.add(Shape::line(piece, stroke));
+            }
+        }
+    }
+}
+
+fn fill(painter: &egui::Painter, placed: Placed, outline: &Path, fill: Rgba) {
+    for piece in &outline.pieces {
+        let points: Vec<_> = piece.iter().map(|p| placed.at(*p)).collect();
+        painter.add(Shape::convex_polygon(points, color(fill), Stroke::NONE));
+    }
+}
+
+fn text(painter: &egui::Painter, placed: Placed, lettering: &Lettering) {
+    let font = FontId::proportional(placed.length(lettering.size).max(1.0));
+    let galley = painter.layout_no_wrap(plain(&lettering.text), font, color(lettering.color));
+    let width = galley.size().x;
+    let shift = match lettering.align {
+        Align::Start => 0.0,
+        Align::Middle => -0.5 * width,
+        Align::End => -width,
+    };
+    let at = placed.at(lettering.at);
+    // the base line of letters lies at about four fifths of their line
+    let rise = 0.8 * galley.size().y;
+    let angle = -lettering.angle as f32;
+    let (sin, cos) = angle.sin_cos();
+    let corner = pos2(at.x + cos * shift + sin * rise, at.y + sin * shift - cos * rise);
+    let shape =
+        egui::epaint::TextShape::new(corner, galley, color(lettering.color)).with_angle(angle);
+    painter.add(shape);
+}
+
+/// Without the signs of subscripts, which labels have no room for.
+fn plain(text: &str) -> String {
+    text.replace("_{", "").replace('}', "")
+}

@@ -1,0 +1,50 @@
+//! A window without a display.
+
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+use std::time::Duration;
+
+use egui_kittest::Harness;
+use ppum::dataset::Dataset;
+use ppum::progress::unwatched;
+use ppum_solve::problem::Problem;
+use ppum_solve::solve::solve;
+use ppum_viewer::Viewer;
+use ppum_viewer::session::Session;
+
+/// A window of some size that shows a dataset, its picture complete.
+pub(crate) fn window(dataset: Dataset, size: [f32; 2]) -> Harness<'static, Viewer> {
+    let dataset = Arc::new(dataset);
+    let mut harness = Harness::builder().with_size(size).with_max_steps(1000).build_eframe(|cc| {
+        let mut viewer = Viewer::new(&cc.egui_ctx, Session::default());
+        viewer.open(None, dataset);
+        viewer
+    });
+    settle(&mut harness);
+    harness
+}
+
+/// Shows frames until nothing better is on its way.
+pub(crate) fn settle(harness: &mut Harness<'static, Viewer>) {
+    for _ in 0..2000 {
+        harness.step();
+        let is_working = |stage: &ppum_viewer::stage::Stage| stage.frames.is_working();
+        if !harness.state().stages.iter().any(is_working) {
+            harness.step();
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    panic!("the window does not come to rest");
+}
+
+/// A plate with a crack, solved coarsely.
+pub(crate) fn plate() -> Dataset {
+    static PLATE: LazyLock<Dataset> = LazyLock::new(|| {
+        let text = include_str!("../../../../examples/centre-crack.toml");
+        let text = text.replace("level = 6", "level = 3");
+        let problem = Problem::parse(&text, "plate", Path::new(".")).expect("it is a problem");
+        solve(&problem, unwatched()).expect("it can be solved")
+    });
+    PLATE.clone()
+}
