@@ -16,9 +16,9 @@ use crate::desk::Desk;
 use crate::fonts::fonts;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
-use crate::session::{Page, Pane, Session, Theme};
+use crate::session::{Page, Pane, Place, Session, Theme};
 use crate::stage::{Opened, Stage};
-use crate::undo::Undo;
+use crate::undo::{Rest, Undo};
 
 /// The window.
 pub struct Viewer {
@@ -27,6 +27,7 @@ pub struct Viewer {
     /// What is shown of it.
     pub stages: Vec<Stage>,
     settings: Undo<Session>,
+    rest: Rest<Session>,
     palette: Option<Palette>,
     has_help: bool,
     tip: usize,
@@ -39,8 +40,9 @@ impl Viewer {
         ctx.set_fonts(fonts());
         session.mend();
         let stages = session.panes.iter().map(|_| Stage::new(ctx)).collect();
-        let settings = Undo::new(session.clone());
-        Self { session, stages, settings, palette: None, has_help: false, tip: 0 }
+        let settings = Undo::new(without_places(&session));
+        let rest = Rest::new(without_places(&session));
+        Self { session, stages, settings, rest, palette: None, has_help: false, tip: 0 }
     }
 
     /// Shows a dataset in the active pane.
@@ -71,8 +73,16 @@ impl Viewer {
         for action in actions {
             self.act(ui.ctx(), action);
         }
-        if !ui.input(|input| input.pointer.any_down()) {
-            self.settings.note(&without_places(&self.session));
+        self.note(ui);
+    }
+
+    /// Notes the settings once nothing changes and nothing is dragged.
+    fn note(&mut self, ui: &Ui) {
+        let settings = without_places(&self.session);
+        match self.rest.until(&settings, ui.input(|input| input.time)) {
+            Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
+            None if ui.input(|input| input.pointer.any_down()) => {}
+            None => self.settings.note(&settings),
         }
     }
 
@@ -93,16 +103,8 @@ impl Viewer {
             Action::ZoomIn => stage.nudge(pane, 0.0, 0.0, 1.5),
             Action::ZoomOut => stage.nudge(pane, 0.0, 0.0, 1.0 / 1.5),
             Action::Pan(right, up) => stage.nudge(pane, f64::from(right), f64::from(up), 1.0),
-            Action::Back => {
-                if let Some(place) = stage.trail.back().copied() {
-                    pane.place = place;
-                }
-            }
-            Action::Forward => {
-                if let Some(place) = stage.trail.forward().copied() {
-                    pane.place = place;
-                }
-            }
+            Action::Back => stage.go_back(pane),
+            Action::Forward => stage.go_forward(pane),
             Action::NextScale => {
                 pane.scene.colors.scale = match pane.scene.colors.scale {
                     Scale::Linear => Scale::Log,
@@ -141,14 +143,17 @@ impl Viewer {
 
     /// Goes a step back or forward in the settings; places stay where they are.
     fn restore(&mut self, ctx: &egui::Context, back: bool) {
+        // a change that is not yet at rest is a step too
+        self.settings.note(&without_places(&self.session));
         let state = if back { self.settings.back() } else { self.settings.forward() };
         let Some(mut state) = state.cloned() else { return };
-        for (old, new) in self.session.panes.iter().zip(&mut state.panes) {
-            new.place = old.place;
-        }
         if state.panes.len() != self.session.panes.len() {
             self.split(ctx);
         }
+        for (old, new) in self.session.panes.iter().zip(&mut state.panes) {
+            new.place = old.place;
+        }
+        self.rest = Rest::new(without_places(&state));
         self.session = state;
     }
 
@@ -186,13 +191,38 @@ fn next_map(pane: &mut Pane) {
 /// The panes side by side.
 fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
     let count = desk.session.panes.len();
+    let before: Vec<_> = desk.session.panes.iter().map(|pane| pane.place).collect();
+    ui.spacing_mut().item_spacing.x = 2.0;
     ui.columns(count, |columns| {
         for (number, ui) in columns.iter_mut().enumerate() {
+            let rect = ui.max_rect();
+            let is_pressed =
+                ui.rect_contains_pointer(rect) && ui.input(|i| i.pointer.any_pressed());
+            if is_pressed {
+                desk.session.active = number;
+            }
             ui.push_id(number, |ui| {
                 desk.stages[number].show(ui, &mut desk.session.panes[number]);
             });
+            if count > 1 && desk.session.active == number {
+                let stroke = ui.visuals().selection.stroke;
+                ui.painter().rect_stroke(rect, 0.0, stroke, egui::StrokeKind::Inside);
+            }
         }
     });
+    link(desk.session, &before);
+}
+
+/// Moves the other pane to where one has moved, if they are linked.
+fn link(session: &mut Session, before: &[Option<Place>]) {
+    if !session.linked || session.panes.len() < 2 {
+        return;
+    }
+    let moved = session.panes.iter().zip(before).position(|(pane, before)| pane.place != *before);
+    if let Some(number) = moved {
+        let place = session.panes[number].place;
+        session.panes.iter_mut().for_each(|pane| pane.place = place);
+    }
 }
 
 impl eframe::App for Viewer {

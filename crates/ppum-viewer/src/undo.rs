@@ -55,6 +55,33 @@ impl<T: Clone + PartialEq> Undo<T> {
     }
 }
 
+/// Seconds without a change after which a state counts as one.
+const PAUSE: f64 = 0.4;
+
+/// Tells when something that changes has come to rest, so that a drag or a word is one step and not many.
+#[derive(Clone, Debug)]
+pub struct Rest<T> {
+    last: T,
+    since: f64,
+}
+
+impl<T: Clone + PartialEq> Rest<T> {
+    /// Begins with a state.
+    pub fn new(last: T) -> Self {
+        Self { last, since: f64::NEG_INFINITY }
+    }
+
+    /// Looks at a state at a time \[s\]: nothing if it is at rest, else the seconds until it will be.
+    pub fn until(&mut self, state: &T, now: f64) -> Option<f64> {
+        if self.last != *state {
+            self.last = state.clone();
+            self.since = now;
+        }
+        let left = PAUSE - (now - self.since);
+        (left > 0.0).then_some(left)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,6 +100,15 @@ mod tests {
         assert_eq!([undo.back().copied(), undo.back().copied()], [Some(2), Some(1)]);
         assert_eq!([undo.back().copied(), undo.back().copied()], [Some(0), None]);
         assert_eq!(undo.has(), [false, true]);
+    }
+
+    #[test]
+    fn what_changes_is_not_at_rest() {
+        let mut rest = Rest::new(0);
+        assert_eq!(rest.until(&0, 5.0), None);
+        assert_eq!(rest.until(&1, 6.0), Some(PAUSE));
+        assert!(rest.until(&1, 6.0 + 0.5 * PAUSE).is_some_and(|left| left < PAUSE));
+        assert_eq!(rest.until(&1, 6.0 + 2.0 * PAUSE), None);
     }
 
     #[test]

@@ -1,8 +1,6 @@
 //! Flights from one place to another: out, across and in, along the shortest way in scale and place
 //! (van Wijk and Nuij 2003, "Smooth and efficient zooming and panning").
 
-use std::time::{Duration, Instant};
-
 use ppum::vec2::Vec2;
 
 use crate::session::Place;
@@ -14,8 +12,9 @@ pub struct Flight {
     to: Place,
     /// What the place is set to at the end: none for the whole plate.
     pub end: Option<Place>,
-    began: Instant,
-    takes: Duration,
+    /// When it began, and what it takes \[s\], by the window's clock.
+    began: f64,
+    takes: f64,
 }
 
 /// How much a flight rises before it moves on: the ρ of the paper.
@@ -25,18 +24,17 @@ const PACE: f64 = 0.12;
 const LONGEST: f64 = 2.0;
 
 impl Flight {
-    /// A flight that begins now.
+    /// A flight that begins at a time.
     #[must_use]
-    pub fn new(from: Place, to: Place, end: Option<Place>) -> Self {
-        let seconds = (PACE * Path::new(from, to).length).clamp(0.0, LONGEST);
-        let takes = Duration::from_secs_f64(seconds);
-        Self { from, to, end, began: Instant::now(), takes }
+    pub fn new(from: Place, to: Place, end: Option<Place>, now: f64) -> Self {
+        let takes = (PACE * Path::new(from, to).length).clamp(0.0, LONGEST);
+        Self { from, to, end, began: now, takes }
     }
 
     /// Where it is; nothing once it has ended.
     #[must_use]
-    pub fn at(&self, now: Instant) -> Option<Place> {
-        let part = now.duration_since(self.began).as_secs_f64() / self.takes.as_secs_f64();
+    pub fn at(&self, now: f64) -> Option<Place> {
+        let part = (now - self.began) / self.takes;
         if part.is_nan() || part >= 1.0 {
             return None;
         }

@@ -1,10 +1,11 @@
 //! The plate, edge to edge: shown from the newest picture, moved by the mouse.
 
 pub mod flight;
+pub mod locator;
+pub mod scale_bar;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 use egui::{Color32, PointerButton, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 use ppum::crack::tips;
@@ -12,11 +13,13 @@ use ppum::dataset::Dataset;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
+use crate::field::OwnedField;
 use crate::frames::{Frame, Frames, Wanted};
 use crate::session::{Pane, Place};
 use crate::shapes::{self, Placed};
-use crate::undo::Undo;
+use crate::undo::{Rest, Undo};
 use flight::Flight;
+use locator::Locator;
 
 /// A dataset that is open.
 #[derive(Clone, Debug)]
@@ -41,6 +44,12 @@ pub struct Stage {
     pub hover: Option<Vec2>,
     texture: Option<Texture>,
     flight: Option<Flight>,
+    rest: Rest<Option<Place>>,
+    /// The map of the plate, and the field that it was drawn of.
+    locator: Option<(Arc<OwnedField>, Option<Locator>)>,
+    /// True if someone wants to go deeper than doubles do.
+    is_at_the_end: bool,
+    now: f64,
 }
 
 /// A picture on its way to the screen.
@@ -68,6 +77,10 @@ impl Stage {
             hover: None,
             texture: None,
             flight: None,
+            rest: Rest::new(None),
+            locator: None,
+            is_at_the_end: false,
+            now: 0.0,
         }
     }
 
@@ -78,18 +91,36 @@ impl Stage {
         let scale = ui.pixels_per_point();
         let pixels = [rect.width(), rect.height()].map(|n| ((n * scale).round() as u32).max(1));
         let Some(opened) = self.opened.clone() else { return };
+        self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
         let Some(view) = view(pane, &opened.dataset, pixels) else { return };
         self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
         let view = crate::stage::view(pane, &opened.dataset, pixels).unwrap_or(view);
         self.view = Some(view);
         self.hover = response.hover_pos().map(|at| offset(&view, rect, at));
-        if self.flight.is_none() && !response.dragged() {
-            self.trail.note(&pane.place);
+        match self.rest.until(&pane.place, self.now) {
+            None => self.trail.note(&pane.place),
+            Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
         self.frames.want(Wanted { dataset: opened.dataset, scene: pane.scene.clone(), view });
         self.frames.poll();
         self.paint(ui, rect, &view);
+        self.furnish(ui, rect, pane, &view);
+    }
+
+    /// Flies to the view before.
+    pub fn go_back(&mut self, pane: &Pane) {
+        self.trail.note(&pane.place);
+        if let Some(place) = self.trail.back().copied() {
+            self.fly_to(pane, place);
+        }
+    }
+
+    /// Flies to the view that one came back from.
+    pub fn go_forward(&mut self, pane: &Pane) {
+        if let Some(place) = self.trail.forward().copied() {
+            self.fly_to(pane, place);
+        }
     }
 
     /// Flies to a place, or to the whole plate.
@@ -98,7 +129,7 @@ impl Stage {
         let mut target = pane.clone();
         target.place = to;
         let Some(end) = crate::stage::view(&target, &opened.dataset, view.pixels) else { return };
-        self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to));
+        self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
     }
 
     /// Flies to a tip of the step that is looked at, by its number.
@@ -113,17 +144,36 @@ impl Stage {
         self.fly_to(pane, Some(Place { center: center.into(), width }));
     }
 
+    /// The map, the scale bar, and a word where it goes no deeper.
+    fn furnish(&mut self, ui: &Ui, rect: Rect, pane: &mut Pane, view: &View) {
+        scale_bar::show(ui, rect, view);
+        if self.is_at_the_end {
+            end_of_doubles(ui, rect);
+        }
+        let Some(frame) = self.frames.newest() else { return };
+        if self.locator.as_ref().is_none_or(|(field, _)| !Arc::ptr_eq(field, &frame.field)) {
+            let locator = Locator::new(frame.field.field());
+            self.locator = Some((Arc::clone(&frame.field), locator));
+        }
+        let Some((_, Some(locator))) = &self.locator else { return };
+        if let Some(point) = locator.show(ui, rect, view) {
+            self.fly_to(pane, Some(Place { center: point.into(), width: view.width }));
+        }
+    }
+
     /// Moves the view by parts of its size, and enlarges it around its middle.
     pub fn nudge(&mut self, pane: &mut Pane, right: f64, up: f64, factor: f64) {
         let (Some(view), Some(opened)) = (self.view, &self.opened) else { return };
         let shift = ppum::vec2::vec2(right * view.width, up * view.height()) * PAN;
         let moved = Place { center: (view.center + shift).into(), width: view.width / factor };
-        pane.place = Some(bounded(moved, &opened.dataset));
+        let (place, is_at_the_end) = bounded(moved, &opened.dataset);
+        self.is_at_the_end = is_at_the_end;
+        pane.place = Some(place);
     }
 
     fn fly(&mut self, ui: &Ui, pane: &mut Pane) {
         let Some(flight) = &self.flight else { return };
-        match flight.at(Instant::now()) {
+        match flight.at(ui.input(|input| input.time)) {
             Some(place) => {
                 pane.place = Some(place);
                 ui.ctx().request_repaint();
@@ -153,7 +203,8 @@ impl Stage {
             let delta = response.drag_delta();
             let by = ppum::vec2::vec2(-f64::from(delta.x), f64::from(delta.y));
             let center = view.center + by * (scale * view.pixel_size());
-            pane.place = Some(Place { center: center.into(), width: view.width });
+            let place = Place { center: center.into(), width: view.width };
+            pane.place = Some(bounded(place, dataset).0);
             self.flight = None;
         }
         if let Some(at) = response.hover_pos() {
@@ -166,7 +217,9 @@ impl Stage {
                 let shift = view.offset_at(pixel) * (1.0 - 1.0 / factor);
                 let place =
                     Place { center: (view.center + shift).into(), width: view.width / factor };
-                pane.place = Some(bounded(place, dataset));
+                let (place, is_at_the_end) = bounded(place, dataset);
+                self.is_at_the_end = is_at_the_end;
+                pane.place = Some(place);
                 self.flight = None;
             }
         }
@@ -224,12 +277,32 @@ pub fn view(pane: &Pane, dataset: &Dataset, pixels: [u32; 2]) -> Option<View> {
 /// Room around the whole plate, in parts of its size.
 const ROOM: f64 = 0.03;
 
-/// A place no wider and no narrower than can be shown.
+/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell pixels apart, never
+/// beside the plate; and whether it was narrower.
 #[must_use]
-pub fn bounded(place: Place, dataset: &Dataset) -> Place {
-    let size = dataset.domain.bounds.size();
-    let size = size.x.max(size.y);
-    Place { width: place.width.clamp(NARROWEST * size, WIDEST * size), ..place }
+pub fn bounded(place: Place, dataset: &Dataset) -> (Place, bool) {
+    let bounds = dataset.domain.bounds;
+    let size = bounds.size().x.max(bounds.size().y);
+    let far =
+        bounds.min.x.abs().max(bounds.max.x.abs()).max(bounds.min.y.abs()).max(bounds.max.y.abs());
+    let narrowest = (NARROWEST * size).max(COARSEST * f64::EPSILON * far);
+    let width = place.width.clamp(narrowest, (WIDEST * size).max(narrowest));
+    let center = place.center().max(bounds.min).min(bounds.max);
+    (Place { center: center.into(), width }, place.width < narrowest)
+}
+
+/// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
+const COARSEST: f64 = 2048.0;
+
+/// Says that it goes no deeper.
+fn end_of_doubles(ui: &Ui, rect: Rect) {
+    let painter = ui.painter_at(rect);
+    let words = "As deep as double precision goes".to_owned();
+    let galley = painter.layout_no_wrap(words, egui::FontId::proportional(13.0), Color32::WHITE);
+    let at =
+        egui::Align2::CENTER_TOP.anchor_size(rect.center_top() + vec2(0.0, 14.0), galley.size());
+    painter.rect_filled(at.expand(6.0), 4.0, Color32::from_black_alpha(170));
+    painter.galley(at.min, galley, Color32::WHITE);
 }
 
 /// Where a picture made for one view lies in a rectangle that shows another.

@@ -15,11 +15,14 @@ use ppum_viewer::session::Session;
 /// A window of some size that shows a dataset, its picture complete.
 pub(crate) fn window(dataset: Dataset, size: [f32; 2]) -> Harness<'static, Viewer> {
     let dataset = Arc::new(dataset);
-    let mut harness = Harness::builder().with_size(size).with_max_steps(1000).build_eframe(|cc| {
-        let mut viewer = Viewer::new(&cc.egui_ctx, Session::default());
-        viewer.open(None, dataset);
-        viewer
-    });
+    let mut harness =
+        Harness::builder().with_size(size).with_max_steps(1000).with_step_dt(0.05).build_eframe(
+            |cc| {
+                let mut viewer = Viewer::new(&cc.egui_ctx, Session::default());
+                viewer.open(None, dataset);
+                viewer
+            },
+        );
     settle(&mut harness);
     harness
 }
