@@ -7,6 +7,7 @@
 //! compared, kept and written. The program's commands and its window draw by this crate alone, so both draw the same.
 
 pub mod colors;
+pub mod command;
 pub mod deformed;
 pub mod drawing;
 pub mod layers;
@@ -14,6 +15,7 @@ pub mod notice;
 pub mod overlays;
 pub mod range;
 pub mod scene;
+pub mod shot;
 mod stations;
 
 #[cfg(test)]
@@ -34,6 +36,7 @@ mod tests {
             ("layers", &["drawing", "notice", "overlays", "stations"]),
             ("scene", &["colors", "deformed", "drawing", "overlays"]),
         ],
+        &[("command", &["scene"]), ("shot", &["deformed", "drawing", "layers", "range", "scene"])],
     ];
 
     #[test]

@@ -3,6 +3,7 @@
 
 mod backend;
 mod bench;
+mod commands;
 mod compare;
 #[cfg(target_os = "linux")]
 mod cost;

@@ -1,0 +1,130 @@
+//! The command that a window shows draws the picture that it shows.
+
+use std::sync::Arc;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::unwatched;
+use ppum::vec2::vec2;
+use ppum_figure::figure::Design;
+use ppum_render::range::Range;
+use ppum_render::scale::Scale;
+use ppum_render::view::View;
+use ppum_scene::colors::Colors;
+use ppum_scene::command;
+use ppum_scene::deformed::Factor;
+use ppum_scene::overlays::{Levels, Overlay, Overlays};
+use ppum_scene::scene::{Scene, Subject};
+use ppum_scene::shot;
+use ppum_testkit::random::Random;
+
+use super::{CRACKED, Lab, Png};
+
+fn maybe<T>(random: &mut Random, make: impl FnOnce(&mut Random) -> T) -> Option<T> {
+    (random.below(3) == 0).then(|| make(random))
+}
+
+fn colors(random: &mut Random) -> Colors {
+    let ranges =
+        [Range::Auto, Range::Full, Range::Fixed(0.125, 3.0), Range::Percentiles(2.0, 97.5)];
+    Colors {
+        colormap: maybe(random, |r| r.pick(&["vik_r", "coolwarm", "viridis"]).to_owned()),
+        range: random.pick(&ranges),
+        scale: random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
+        contrast: random.below(2) == 0,
+        bands: maybe(random, |r| r.below(20) as u16 + 1),
+    }
+}
+
+fn overlays(random: &mut Random, is_deformed: bool) -> Overlays {
+    let fits = |o: &Overlay| !is_deformed || o.is_deformable();
+    let all: Vec<Overlay> = Overlay::ALL.into_iter().filter(fits).collect();
+    let levels =
+        [Levels::Auto, Levels::Count(5), Levels::At(vec![0.75]), Levels::At(vec![0.5, 1.5])];
+    Overlays {
+        shown: (0..random.below(4)).map(|_| random.pick(&all)).collect(),
+        isolines: maybe(random, |r| levels[r.below(levels.len())].clone()),
+        level_labels: random.below(2) == 0,
+        arrows: maybe(random, |r| r.between(20.0, 50.0)),
+        crosses: maybe(random, |r| r.between(20.0, 50.0)),
+    }
+}
+
+fn scene(random: &mut Random) -> Scene {
+    let subject = Subject {
+        step: maybe(random, |_| 0),
+        part: maybe(random, |r| r.pick(&["smooth", "jump", "tip", "patch:7"]).to_owned()),
+        functions: maybe(random, |_| ("westergaard 1".to_owned(), "r*(1 + y)".to_owned()))
+            .into_iter()
+            .collect(),
+        weight: maybe(random, |r| r.pick(&["bump", "(1 - t)^2"]).to_owned()),
+    };
+    let deformed = maybe(random, |r| r.pick(&[Factor::Auto, Factor::Given(0.013)]));
+    let quantities = ["von-mises", "-uy", "(sxx + syy)/2", "s1", "sqrt(ux^2 + uy^2)"];
+    Scene {
+        subject,
+        quantity: maybe(random, |r| r.pick(&quantities).to_owned()),
+        colors: colors(random),
+        overlays: overlays(random, deformed.is_some()),
+        deformed,
+        outline: random.below(2) == 0,
+    }
+}
+
+/// The view: of any depth around a point of the plate that is seen also where it is deformed.
+fn view(random: &mut Random) -> View {
+    let width = 10f64.powf(random.between(-6.0, 0.5));
+    let center = vec2(random.between(-0.8, 0.8), random.between(-0.8, 0.8));
+    View::new(center, width, [64, 48]).unwrap()
+}
+
+#[test]
+fn the_command_of_a_picture_draws_it_again() {
+    let lab = Lab::solved(CRACKED);
+    let dataset = Arc::new(ppum_format::read(&lab.path("plate.h5")).unwrap());
+    let mut random = Random(15);
+    let mut drawn = [0; 2];
+    for number in 0..60 {
+        let (scene, view) = (scene(&mut random), view(&mut random));
+        let size = (number % 4 == 0).then_some([400, 300]);
+        let own = page(&dataset, &scene, &view, size);
+        let seen = own.as_ref().map_or(view, |(_, seen)| *seen);
+        let words = command::render(&scene, "plate.h5", &seen, "again.png", size);
+        let _ = std::fs::remove_file(lab.path("again.png"));
+        let mut again = lab.command("");
+        let again = again.args(&words[1..]).arg("--backend=cpu").output().unwrap();
+        match (own, again.status.success()) {
+            (Ok((rgba, _)), true) => {
+                assert!(
+                    Png::read(&lab.path("again.png")).rgba == rgba,
+                    "{}",
+                    command::line(&words)
+                );
+                drawn[usize::from(size.is_some())] += 1;
+            }
+            (Err(_), false) => {}
+            (own, _) => panic!(
+                "{}\n{:?}\n{}",
+                command::line(&words),
+                own.map(|(_, view)| view),
+                String::from_utf8_lossy(&again.stderr)
+            ),
+        }
+    }
+    assert!(drawn[0] > 20 && drawn[1] > 5, "{drawn:?} pictures and figures only");
+}
+
+/// The pixels of a scene's picture, and its view; of a figure those of its page.
+fn page(
+    dataset: &Dataset,
+    scene: &Scene,
+    view: &View,
+    size: Option<[u32; 2]>,
+) -> Result<(Vec<u8>, View), String> {
+    let mut dataset = dataset.clone();
+    scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
+    let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
+    let design = size.map(Design::pixels);
+    let made = shot::page(&dataset, &field, scene, view, design.as_ref(), unwatched());
+    made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
+}

@@ -1,0 +1,229 @@
+//! A picture of a scene from a view, made in one go.
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{Design, FigureError, Labels, Panel, bare, figure, plot_area};
+use ppum_render::RenderError;
+use ppum_render::cells;
+use ppum_render::colormap::ColormapError;
+use ppum_render::deform::{DeformError, Deformation};
+use ppum_render::picture::Picture;
+use ppum_render::png::Text;
+use ppum_render::range::RangeError;
+use ppum_render::scatter::render;
+use ppum_render::view::{View, ViewError};
+
+use crate::deformed::{self, words};
+use crate::drawing::{Drawn, PROCESSOR, Seen, Shown};
+use crate::layers::{Ground, Layers, LayersError};
+use crate::range;
+use crate::scene::{Scene, ShownError, default_quantity, shown};
+
+/// A picture with what lies over it.
+#[derive(Debug)]
+pub struct Shot {
+    /// What is shown.
+    pub shown: Shown,
+    /// The colours.
+    pub picture: Picture,
+    /// What lies over them.
+    pub layers: Layers,
+    /// What computed the values.
+    pub by: String,
+    /// How many times its displacement the plate is drawn with, if it is deformed.
+    pub factor: Option<f64>,
+}
+
+/// The reason why there is no such picture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShotError {
+    /// Nothing that could be shown.
+    #[error(transparent)]
+    Shown(#[from] ShownError),
+    /// The quantity, isolines, or a watcher that stopped it.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The deformed plate.
+    #[error(transparent)]
+    Deform(#[from] DeformError),
+    /// The colour map.
+    #[error(transparent)]
+    Colormap(#[from] ColormapError),
+    /// The range of the colours.
+    #[error(transparent)]
+    Range(#[from] RangeError),
+    /// The overlays.
+    #[error(transparent)]
+    Layers(#[from] Box<LayersError>),
+    /// The page.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The view.
+    #[error(transparent)]
+    View(#[from] ViewError),
+}
+
+/// Draws a scene's picture from a view on the processor, in double precision. The field is that of the scene's subject, see
+/// [`Subject::apply`](crate::scene::Subject::apply). With `is_figure` the cracks are drawn whatever is asked for.
+///
+/// # Errors
+/// What the field does not have; a range that does not fit; a watcher that stops it.
+pub fn shot(
+    dataset: &Dataset,
+    field: &Field<'_>,
+    scene: &Scene,
+    view: &View,
+    is_figure: bool,
+    watcher: &dyn Watcher,
+) -> Result<Shot, ShotError> {
+    let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
+    let factor = scene.deformed.map(|factor| factor.number(&[field])).transpose()?;
+    let seen = seen(field, view, factor, watcher)?;
+    let drawn = drawn(field, &seen, &shown, watcher)?;
+    let colormap = scene.colors.built_in(shown.quantity())?;
+    let style = scene.colors.style_of([(&shown, &drawn.values)], colormap);
+    let span = match shown.quantity() {
+        Some(quantity) => range::found(field, &seen, quantity, &drawn, &style, watcher)?,
+        None => drawn.span(&style, None),
+    };
+    let picture = drawn.picture(&style, span)?;
+    let (quantity, values) = (shown.quantity(), &drawn.values);
+    let ground = Ground {
+        dataset,
+        field,
+        quantity,
+        picture: &picture,
+        values,
+        is_figure,
+        has_bar: is_figure,
+    };
+    let layers = scene.overlays.layers(ground, &seen, scene.outline, watcher).map_err(Box::new)?;
+    drop(seen);
+    Ok(Shot { shown, picture, layers, by: drawn.by, factor })
+}
+
+fn seen<'f>(
+    field: &'f Field<'f>,
+    view: &View,
+    factor: Option<f64>,
+    watcher: &dyn Watcher,
+) -> Result<Seen<'f>, DeformError> {
+    let Some(factor) = factor else { return Ok(Seen::Plate(*view)) };
+    Ok(Seen::Moved(Deformation::new(field, factor)?.seen(view).points(watcher)?))
+}
+
+fn drawn(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    shown: &Shown,
+    watcher: &dyn Watcher,
+) -> Result<Drawn, ShotError> {
+    Ok(match (seen, shown) {
+        (Seen::Plate(view), Shown::Quantity(quantity)) => {
+            let raster = render::<f64>(field, view, quantity, watcher)?;
+            Drawn::new(raster, field, view, PROCESSOR)
+        }
+        (Seen::Plate(view), Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
+        (Seen::Moved(points), shown) => deformed::draw(points, shown, watcher)?,
+    })
+}
+
+/// The view of the same part of the plane, or more where the shapes differ, on other pixels.
+///
+/// # Errors
+/// As [`View::new`].
+pub fn reshaped(view: &View, pixels: [u32; 2]) -> Result<View, ViewError> {
+    let aspect = f64::from(pixels[0]) / f64::from(pixels[1].max(1));
+    View::new(view.center, view.width.max(view.height() * aspect), pixels)
+}
+
+/// The view of a figure of a design that shows the part of the plane that a view shows, or more.
+///
+/// # Errors
+/// As [`page`].
+pub fn view_in(
+    dataset: &Dataset,
+    field: &Field<'_>,
+    scene: &Scene,
+    view: &View,
+    design: &Design,
+) -> Result<View, ShotError> {
+    Ok(reshaped(view, plot_area(&title(dataset, field, scene)?, design)?)?)
+}
+
+/// The page of a scene's picture as a figure of a design, or bare without one, of the part of the plane that a view shows.
+///
+/// # Errors
+/// As [`shot`]; a design without room.
+pub fn page(
+    dataset: &Dataset,
+    field: &Field<'_>,
+    scene: &Scene,
+    view: &View,
+    design: Option<&Design>,
+    watcher: &dyn Watcher,
+) -> Result<(Canvas, Shot), ShotError> {
+    let Some(design) = design else {
+        let shot = shot(dataset, field, scene, view, false, watcher)?;
+        return Ok((bare(&shot.picture, shot.layers.items.clone()), shot));
+    };
+    let view = view_in(dataset, field, scene, view, design)?;
+    let title = title(dataset, field, scene)?;
+    let shot = shot(dataset, field, scene, &view, true, watcher)?;
+    let panel = Panel {
+        picture: &shot.picture,
+        layers: shot.layers.items.clone(),
+        legend: shot.layers.legend.clone(),
+        labels: labels(&shot.shown, title, field),
+        cracks: &field.step.cracks,
+        bar_of: None,
+    };
+    Ok((figure(panel, design)?, shot))
+}
+
+/// The title of a figure: that of the dataset, with the step of a series, the part, and the factor of the deformed plate.
+fn title(dataset: &Dataset, field: &Field<'_>, scene: &Scene) -> Result<String, DeformError> {
+    let mut title = dataset.title.clone();
+    let mut add = |text: String| title = format!("{title} ({text})").trim_start().to_owned();
+    if dataset.steps.len() > 1 {
+        add(format!("step {}", scene.subject.step_of(dataset)));
+    }
+    if let Some(part) = &scene.subject.part {
+        add(format!("{part} only"));
+    }
+    if let Some(factor) = scene.deformed {
+        add(words(factor.number(&[field])?));
+    }
+    Ok(title)
+}
+
+/// The words of a figure of what is shown.
+#[must_use]
+pub fn labels(shown: &Shown, title: String, field: &Field<'_>) -> Labels {
+    let (quantity, unit) = match shown {
+        Shown::Quantity(quantity) => {
+            (quantity.symbol(&field.data.components), quantity.unit(field).to_owned())
+        }
+        Shown::Cells(name, _) => (cells::label(name).to_owned(), String::new()),
+    };
+    Labels { title, quantity, unit, ..Labels::default() }
+}
+
+impl Shot {
+    /// The texts of its file: what it shows, of which dataset, under which command.
+    #[must_use]
+    pub fn texts(&self, title: &str, file: &str, scene: &Scene, command: &str) -> Vec<Text> {
+        let quantity = scene.quantity.as_deref().unwrap_or_default();
+        let mut texts = self.picture.description(title, file, quantity);
+        let mut add = |key: &str, text: String| texts.push((format!("ppum:{key}"), text));
+        add("backend", self.by.clone());
+        add("command", command.to_owned());
+        if let Some(factor) = self.factor {
+            add("deformed", format!("{factor:?}"));
+        }
+        texts
+    }
+}
