@@ -1,4 +1,4 @@
-//! Pages as files: PNG, SVG or PDF, by the name's end.
+//! Pages as files.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -6,45 +6,12 @@ use std::path::Path;
 use anyhow::Context as _;
 use ppum::printable::printable;
 use ppum_figure::canvas::Canvas;
-use ppum_render::png::{self, Text};
+use ppum_figure::form::Form;
+use ppum_render::png::Text;
 
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
 use crate::target;
-
-/// The form of a picture's file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
-    Png,
-    Svg,
-    Pdf,
-}
-
-impl Form {
-    /// The form that a name ends in; PNG for standard output.
-    pub(crate) fn of(path: &Path) -> Self {
-        let ends_in =
-            |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
-        match () {
-            () if ends_in("svg") => Self::Svg,
-            () if ends_in("pdf") => Self::Pdf,
-            () => Self::Png,
-        }
-    }
-
-    /// The file's bytes; `dpi` is its number of pixels per inch if that was given.
-    fn bytes(self, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> anyhow::Result<Vec<u8>> {
-        // that of screens, as the design of figures has it
-        let known = dpi.unwrap_or(96.0);
-        Ok(match self {
-            Self::Png => {
-                png::encode_at(&page.image(), dpi, texts).context("cannot encode the picture")?
-            }
-            Self::Svg => page.svg(known, texts).into_bytes(),
-            Self::Pdf => page.pdf(known, texts),
-        })
-    }
-}
 
 /// Writes a page to a file or to standard output, and tells `told` of it, which begins with `wrote PATH: `.
 pub(crate) fn save(
@@ -75,7 +42,7 @@ pub(crate) fn put(
     let form = Form::of(path);
     warn_of_missing(page, form);
     if is_standard(path) {
-        return Ok(out.exact().write_all(&form.bytes(page, dpi, texts)?)?);
+        return Ok(out.exact().write_all(&bytes(form, page, dpi, texts)?)?);
     }
     write(path, page, dpi, texts)
 }
@@ -87,8 +54,12 @@ pub(crate) fn write(
     dpi: Option<f64>,
     texts: &[Text],
 ) -> anyhow::Result<()> {
-    let bytes = Form::of(path).bytes(page, dpi, texts)?;
+    let bytes = bytes(Form::of(path), page, dpi, texts)?;
     target::save(path, |out| out.write_all(&bytes))
+}
+
+fn bytes(form: Form, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> anyhow::Result<Vec<u8>> {
+    form.bytes(page, dpi, texts).context("cannot encode the picture")
 }
 
 /// Tells which characters the font of figures lacks.

@@ -7,6 +7,7 @@
 
 pub mod canvas;
 pub mod figure;
+pub mod form;
 pub mod levels;
 pub mod overlay;
 pub mod plot;
@@ -22,7 +23,7 @@ mod tests {
     const FLOORS: Floors<'_> = &[
         &[("text", &[]), ("ticks", &[])],
         &[("canvas", &["text"]), ("levels", &["ticks"])],
-        &[("overlay", &["canvas", "text", "ticks"])],
+        &[("form", &["canvas"]), ("overlay", &["canvas", "text", "ticks"])],
         &[
             ("figure", &["canvas", "overlay", "text", "ticks"]),
             ("plot", &["canvas", "overlay", "text", "ticks"]),

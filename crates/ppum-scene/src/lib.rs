@@ -11,6 +11,7 @@ pub mod command;
 pub mod deformed;
 pub mod drawing;
 pub mod layers;
+pub mod moving;
 pub mod notice;
 pub mod overlays;
 pub mod range;
@@ -37,6 +38,7 @@ mod tests {
             ("scene", &["colors", "deformed", "drawing", "overlays"]),
         ],
         &[("command", &["scene"]), ("shot", &["deformed", "drawing", "layers", "range", "scene"])],
+        &[("moving", &["deformed", "scene", "shot"])],
     ];
 
     #[test]

@@ -9,9 +9,11 @@
 pub mod actions;
 pub mod app;
 pub mod desk;
+pub mod export;
 pub mod field;
 pub mod fonts;
 pub mod frames;
+pub mod job;
 pub mod panels;
 pub mod session;
 pub mod shapes;

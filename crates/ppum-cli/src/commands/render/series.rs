@@ -353,7 +353,7 @@ impl<'a> Film<'a> {
     fn write(&self, steps: &[usize], out: &mut Output) -> anyhow::Result<()> {
         let path = &self.args.output;
         let first = self.sheet(0)?;
-        page::warn_of_missing(&first.page, page::Form::of(path));
+        page::warn_of_missing(&first.page, ppum_figure::form::Form::of(path));
         let told = self.told(first.page.size);
         let files = match Form::of(path) {
             Form::Pictures => self.pictures(first, steps)?,

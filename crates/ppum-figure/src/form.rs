@@ -1,0 +1,49 @@
+//! The forms of files that pages are written in, by the name's end.
+
+use std::io;
+use std::path::Path;
+
+use ppum_render::png::{self, Text};
+
+use crate::canvas::Canvas;
+
+/// The form of a page's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Pixels.
+    Png,
+    /// Vectors, for the web and for drawing programs.
+    Svg,
+    /// Vectors, for papers.
+    Pdf,
+}
+
+/// Pixels per inch of screens, as the design of figures has it.
+const SCREEN: f64 = 96.0;
+
+impl Form {
+    /// The form that a name ends in; PNG if it ends in nothing known.
+    #[must_use]
+    pub fn of(path: &Path) -> Self {
+        let ends_in =
+            |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
+        match () {
+            () if ends_in("svg") => Self::Svg,
+            () if ends_in("pdf") => Self::Pdf,
+            () => Self::Png,
+        }
+    }
+
+    /// The file's bytes; `dpi` is its number of pixels per inch if that is known.
+    ///
+    /// # Errors
+    /// A picture that is too large to be encoded.
+    pub fn bytes(self, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> io::Result<Vec<u8>> {
+        let known = dpi.unwrap_or(SCREEN);
+        Ok(match self {
+            Self::Png => png::encode_at(&page.image(), dpi, texts).map_err(io::Error::other)?,
+            Self::Svg => page.svg(known, texts).into_bytes(),
+            Self::Pdf => page.pdf(known, texts),
+        })
+    }
+}

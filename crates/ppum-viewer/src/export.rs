@@ -1,0 +1,133 @@
+//! What is taken out of the window: pictures, figures, moving pictures, and the command that draws them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ppum::progress::Watcher;
+use ppum_figure::figure::Design;
+use ppum_figure::form::Form;
+use ppum_render::animation;
+use ppum_render::view::View;
+use ppum_scene::command;
+use ppum_scene::moving::Moving;
+use ppum_scene::scene::Scene;
+use ppum_scene::shot::{page, reshaped, view_in};
+
+use crate::field::OwnedField;
+
+/// What is written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// The picture alone, as it is seen.
+    Picture,
+    /// With axes, colour bar and title.
+    Figure,
+    /// Several, one after the other, so many a second.
+    Moving(Moving, f64),
+}
+
+/// A picture that is to be written.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The field that is looked at, with what is replaced in it.
+    pub field: Arc<OwnedField>,
+    /// The file of its dataset.
+    pub file: Option<PathBuf>,
+    /// What is shown, and how.
+    pub scene: Scene,
+    /// Where.
+    pub view: View,
+    /// Columns and rows of the page.
+    pub size: [u32; 2],
+    /// What is written.
+    pub kind: Kind,
+}
+
+/// Most pixels of an animation, all pictures together: they are kept until the file is written.
+const MOST: u64 = 400_000_000;
+
+impl Order {
+    fn design(&self) -> Option<Design> {
+        (self.kind != Kind::Picture).then(|| Design::pixels(self.size))
+    }
+
+    /// The file's bytes, in the form that its name ends in.
+    ///
+    /// # Errors
+    /// What keeps the picture from being drawn, or from being encoded, in words.
+    pub fn bytes(&self, path: &Path, watcher: &dyn Watcher) -> Result<Vec<u8>, String> {
+        match &self.kind {
+            Kind::Moving(moving, rate) => self.moving(moving, *rate, path, watcher),
+            _ => self.still(path, watcher),
+        }
+    }
+
+    fn still(&self, path: &Path, watcher: &dyn Watcher) -> Result<Vec<u8>, String> {
+        let (dataset, field) = (self.field.dataset(), self.field.field());
+        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        let design = self.design();
+        let made = page(dataset, field, &self.scene, &view, design.as_ref(), watcher);
+        let (page, shot) = made.map_err(|e| e.to_string())?;
+        let file = name(self.file.as_deref());
+        let texts = shot.texts(&dataset.title, &file, &self.scene, &self.command(path)?);
+        Form::of(path).bytes(&page, None, &texts).map_err(|e| e.to_string())
+    }
+
+    fn moving(
+        &self,
+        moving: &Moving,
+        rate: f64,
+        path: &Path,
+        watcher: &dyn Watcher,
+    ) -> Result<Vec<u8>, String> {
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * moving.count() as u64;
+        if pixels > MOST {
+            return Err(
+                "so many pictures of that size do not fit into memory; choose a smaller size"
+                    .into(),
+            );
+        }
+        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        let design = self.design();
+        let mut images = Vec::new();
+        let mut take = |image| images.push(image);
+        moving
+            .draw(self.field.dataset(), &self.scene, &view, design.as_ref(), watcher, &mut take)
+            .map_err(|e| e.to_string())?;
+        let milliseconds = (1000.0 / rate).round().clamp(10.0, 60_000.0) as u16;
+        let made = match path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif")) {
+            true => animation::gif(&images, milliseconds),
+            false => animation::apng(&images, milliseconds, &[]),
+        };
+        made.map_err(|e| e.to_string())
+    }
+
+    /// The command that draws the same.
+    ///
+    /// # Errors
+    /// A size without room for a figure, in words.
+    pub fn command(&self, output: &Path) -> Result<String, String> {
+        let (dataset, field) = (self.field.dataset(), self.field.field());
+        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        let (view, page) = match self.design() {
+            None => (view, None),
+            Some(design) => {
+                let view = view_in(dataset, field, &self.scene, &view, &design);
+                (view.map_err(|e| e.to_string())?, Some(self.size))
+            }
+        };
+        let file = name(self.file.as_deref());
+        let output = output.to_string_lossy();
+        let mut words = command::render(&self.scene, &file, &view, &output, page);
+        if let Kind::Moving(Moving::Steps(_), rate) = self.kind {
+            words.retain(|word| !word.starts_with("--step="));
+            words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);
+        }
+        Ok(command::line(&words))
+    }
+}
+
+/// The name of a file, as a command would say it.
+fn name(path: Option<&Path>) -> String {
+    path.map_or_else(|| "FILE.h5".into(), |path| path.to_string_lossy().into_owned())
+}
