@@ -10,6 +10,7 @@ use ppum_render::scale::Scale;
 use serde::{Deserialize, Serialize};
 
 use crate::drawing::{Shown, Values, classes};
+use crate::written;
 
 /// The way values become colours, but for the map itself.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -93,27 +94,4 @@ fn period(quantity: &Quantity) -> Option<[f64; 2]> {
     // π/2 rounded to single precision, as graphics cards have it, lies above π/2
     let quarter = f64::from(FRAC_PI_2 as f32);
     matches!(quantity, Quantity::PrincipalDirection).then_some([-quarter, quarter])
-}
-
-/// As the command line writes it.
-mod written {
-    use std::fmt::Display;
-    use std::str::FromStr;
-
-    use serde::{Deserialize as _, Deserializer, Serializer, de};
-
-    pub(super) fn serialize<T: Display, S: Serializer>(
-        value: &T,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(value)
-    }
-
-    pub(super) fn deserialize<'d, T, D>(deserializer: D) -> Result<T, D::Error>
-    where
-        T: FromStr<Err: Display>,
-        D: Deserializer<'d>,
-    {
-        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
-    }
 }

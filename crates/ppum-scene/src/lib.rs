@@ -8,6 +8,7 @@
 
 pub mod colors;
 pub mod command;
+pub mod compare;
 pub mod deformed;
 pub mod drawing;
 pub mod layers;
@@ -18,6 +19,7 @@ pub mod range;
 pub mod scene;
 pub mod shot;
 mod stations;
+mod written;
 
 #[cfg(test)]
 mod tests {
@@ -26,9 +28,10 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("drawing", &[]), ("notice", &[]), ("overlays", &[])],
+        &[("drawing", &[]), ("notice", &[]), ("overlays", &[]), ("written", &[])],
         &[
-            ("colors", &["drawing"]),
+            ("colors", &["drawing", "written"]),
+            ("compare", &["written"]),
             ("deformed", &["drawing"]),
             ("range", &["drawing"]),
             ("stations", &["notice"]),

@@ -5,12 +5,17 @@ use std::thread;
 use std::time::Instant;
 
 use ppum::dataset::Dataset;
+use ppum::field::Field;
 use ppum::progress::{Progress, Verdict, Watcher};
 use ppum_render::deform::Deformation;
-use ppum_render::picture::Picture;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::Range;
+use ppum_render::resample::norms::{Norms, difference};
+use ppum_render::resample::representation_bytes;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, Seen, Shown};
+use ppum_scene::compare::{Compare, Resampled, signed};
+use ppum_scene::drawing::{Drawn, Seen, Shown, Values};
 use ppum_scene::layers::{Ground, Layers};
 use ppum_scene::scene::{Scene, default_quantity, shown};
 use ppum_scene::{deformed, range};
@@ -26,6 +31,18 @@ pub struct Wanted {
     pub scene: Scene,
     /// Where, on how many pixels.
     pub view: View,
+    /// What resampling gives beside it, if that is asked for.
+    pub compare: Option<Compare>,
+    /// True if a range that was found stays as it is, whatever is seen.
+    pub keeps_range: bool,
+}
+
+impl Wanted {
+    /// A view of a scene, and nothing beside it.
+    #[must_use]
+    pub fn new(dataset: Arc<Dataset>, scene: Scene, view: View) -> Self {
+        Self { dataset, scene, view, compare: None, keeps_range: false }
+    }
 }
 
 impl PartialEq for Wanted {
@@ -33,6 +50,8 @@ impl PartialEq for Wanted {
         Arc::ptr_eq(&self.dataset, &other.dataset)
             && self.scene == other.scene
             && self.view == other.view
+            && self.compare == other.compare
+            && self.keeps_range == other.keeps_range
     }
 }
 
@@ -53,8 +72,29 @@ pub struct Frame {
     pub layers: Layers,
     /// How many times its displacement the plate is drawn with, if it is deformed.
     pub factor: Option<f64>,
+    /// What resampling gives, if that was asked for; of an older view until it is there.
+    pub other: Option<Arc<Other>>,
     /// What it took \[s\].
     pub seconds: f64,
+}
+
+/// What resampling gives in a view, beside the direct picture.
+#[derive(Debug)]
+pub struct Other {
+    /// The way of resampling.
+    pub compare: Compare,
+    /// What was resampled, in the colours of the direct picture.
+    pub picture: Picture,
+    /// The difference, resampled − direct: blue, white, red.
+    pub difference: Picture,
+    /// The errors over the pixels of the view.
+    pub norms: Norms,
+    /// Memory of the samples.
+    pub bytes: u64,
+    /// Memory of what the field is evaluated from.
+    pub direct_bytes: u64,
+    /// What sampling and drawing took \[s\].
+    pub seconds: [f64; 2],
 }
 
 /// Where a mistake lies that keeps a picture from being made.
@@ -70,6 +110,8 @@ pub enum Fault {
     Colors,
     /// Isolines, arrows, crosses.
     Overlays,
+    /// The comparison with resampling.
+    Compare,
 }
 
 /// The reason why there is no picture of what is wanted.
@@ -277,11 +319,48 @@ fn try_frame(wanted: &Wanted, kept: &mut Kept, watcher: &dyn Watcher) -> Outcome
         .overlays
         .layers(ground, &seen, scene.outline, watcher)
         .map_err(|e| Failure::new(Fault::Overlays, &e))?;
+    let direct = (&drawn, &picture, &style);
+    let other = wanted.compare.map(|compare| other(compare, field, &shown, direct, watcher));
+    let other = other.transpose()?.map(Arc::new);
     drop(seen);
     let seconds = start.elapsed().as_secs_f64();
     let (wanted, field) = (wanted.clone(), Arc::clone(&owned));
-    Ok(Arc::new(Frame { wanted, field, shown, drawn, picture, layers, factor, seconds }))
+    Ok(Arc::new(Frame { wanted, field, shown, drawn, picture, layers, factor, other, seconds }))
 }
+
+/// What resampling gives.
+fn other(
+    compare: Compare,
+    field: &Field<'_>,
+    shown: &Shown,
+    (drawn, picture, style): (&Drawn, &Picture, &Style),
+    watcher: &dyn Watcher,
+) -> Result<Other, Failure> {
+    let failure = |e: &dyn std::error::Error| Failure::new(Fault::Compare, e);
+    let (Values::Double(direct), Some(quantity)) = (&drawn.values, shown.quantity()) else {
+        return Err(Failure { fault: Fault::Compare, message: NOT_RESAMPLED.to_owned() });
+    };
+    let start = Instant::now();
+    let grid = compare.grid_over(field).map_err(|e| failure(&e))?;
+    let samples = grid.sample(field, quantity, watcher).map_err(|e| failure(&e))?;
+    let sampling = start.elapsed().as_secs_f64();
+    let found = Resampled::on_grid(&samples, compare.method, &drawn.view, direct);
+    let drawing = start.elapsed().as_secs_f64() - sampling;
+    let norm = &picture.normalization;
+    let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
+    let apart = difference(direct, &found.raster);
+    Ok(Other {
+        compare,
+        picture: Picture::bare(&found.raster, &drawn.view, &fixed).map_err(|e| failure(&e))?,
+        difference: signed(&apart, &drawn.view).map_err(|e| failure(&e))?,
+        norms: found.norms,
+        bytes: found.bytes,
+        direct_bytes: representation_bytes(field),
+        seconds: [sampling, drawing],
+    })
+}
+
+const NOT_RESAMPLED: &str = "values of cells are not resampled; choose a quantity to compare";
 
 /// The field that is looked at; the one of before if it is the same.
 fn field(wanted: &Wanted, kept: &mut Kept) -> Result<Arc<OwnedField>, Failure> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
+use ppum_scene::compare::Compare;
 use ppum_scene::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,10 @@ pub struct Pane {
     pub scene: Scene,
     /// Where; the whole plate if nothing is said.
     pub place: Option<Place>,
+    /// What resampling gives beside it, if that is looked at.
+    pub compare: Option<Compare>,
+    /// True if a range that was found stays as it is while one moves on.
+    pub keeps_range: bool,
 }
 
 /// A part of the plane, whatever the number of pixels.

@@ -102,7 +102,13 @@ impl Stage {
             None => self.trail.note(&pane.place),
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
-        self.frames.want(Wanted { dataset: opened.dataset, scene: pane.scene.clone(), view });
+        self.frames.want(Wanted {
+            dataset: opened.dataset,
+            scene: pane.scene.clone(),
+            view,
+            compare: pane.compare,
+            keeps_range: pane.keeps_range,
+        });
         self.frames.poll();
         self.paint(ui, rect, &view);
         self.furnish(ui, rect, pane, &view);

@@ -7,10 +7,10 @@ use ppum::quantity::Quantity;
 use ppum_render::RenderError;
 use ppum_render::raster::Raster;
 use ppum_render::resample::need::{Convergence, Subject, converge};
-use ppum_render::resample::norms::{Norms, norms};
-use ppum_render::resample::{Grid, GridError, Interpolation, cells, representation_bytes};
+use ppum_render::resample::{Grid, GridError, Interpolation, representation_bytes};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
+use ppum_scene::compare::Resampled;
 
 use super::{Args, Over};
 use crate::progress::Bar;
@@ -29,28 +29,22 @@ pub(super) struct Measurements {
     pub(super) direct: Raster,
     pub(super) direct_seconds: f64,
     pub(super) direct_bytes: u64,
-    pub(super) resampled: Vec<Resampled>,
+    pub(super) methods: Vec<Method>,
 }
 
 /// What one method gave.
-pub(super) struct Resampled {
-    /// Of the cells of the cover none.
-    pub(super) interpolation: Option<Interpolation>,
-    /// Points of the grid.
-    pub(super) grid: Option<[u32; 2]>,
-    pub(super) bytes: u64,
+pub(super) struct Method {
+    pub(super) resampled: Resampled,
     /// Seconds for the samples, and for the picture made of them; those of cells are together.
     pub(super) seconds: [f64; 2],
-    pub(super) raster: Raster,
-    pub(super) norms: Norms,
     /// Errors of other grids, and the error that was asked for.
     pub(super) convergence: Option<(Convergence, f64)>,
 }
 
-impl Resampled {
+impl Method {
     /// `bilinear, 64×64`.
     pub(super) fn name(&self) -> String {
-        name(self.interpolation, self.grid.unwrap_or_default())
+        name(self.resampled.interpolation, self.resampled.grid.unwrap_or_default())
     }
 }
 
@@ -70,17 +64,13 @@ pub(super) fn measure(
     let Job { field, view, quantity, .. } = job;
     let grid = job.grid()?;
     let (direct, direct_seconds) = timed(|| render::<f64>(field, &view, quantity, &Bar::new()))?;
-    let resampled = methods.iter().map(|method| match method {
+    let measured = methods.iter().map(|method| match method {
         Some(interpolation) => job.on_grid(&direct, grid, *interpolation),
         None => job.on_cells(&direct),
     });
-    let resampled = resampled.collect::<anyhow::Result<_>>()?;
-    Ok(Measurements {
-        resampled,
-        direct,
-        direct_seconds,
-        direct_bytes: representation_bytes(field),
-    })
+    let (methods, direct_bytes) =
+        (measured.collect::<anyhow::Result<_>>()?, representation_bytes(field));
+    Ok(Measurements { methods, direct, direct_seconds, direct_bytes })
 }
 
 impl Job<'_> {
@@ -96,35 +86,22 @@ impl Job<'_> {
         direct: &Raster,
         grid: Grid,
         interpolation: Interpolation,
-    ) -> anyhow::Result<Resampled> {
+    ) -> anyhow::Result<Method> {
         let Self { field, view, quantity, args } = *self;
         let (samples, sampling) = timed(|| grid.sample(field, quantity, &Bar::new()))?;
-        let (raster, drawing) = timed(|| Ok(samples.raster(interpolation, &view)))?;
+        let draw = || Ok(Resampled::on_grid(&samples, interpolation, &view, direct));
+        let (resampled, drawing) = timed(draw)?;
         let subject = Subject { field, view: &view, quantity, grid, interpolation };
         let found = |error| anyhow::Ok((converge(&subject, error, &Bar::new())?, error));
-        Ok(Resampled {
-            interpolation: Some(interpolation),
-            grid: Some(grid.size),
-            bytes: grid.bytes(),
-            seconds: [sampling, drawing],
-            norms: norms(direct, &raster),
-            raster,
-            convergence: args.error.map(found).transpose()?,
-        })
+        let convergence = args.error.map(found).transpose()?;
+        Ok(Method { resampled, seconds: [sampling, drawing], convergence })
     }
 
-    fn on_cells(&self, direct: &Raster) -> anyhow::Result<Resampled> {
+    fn on_cells(&self, direct: &Raster) -> anyhow::Result<Method> {
         let Self { field, view, quantity, .. } = *self;
-        let (raster, seconds) = timed(|| cells(field, &view, quantity, &Bar::new()))?;
-        Ok(Resampled {
-            interpolation: None,
-            grid: None,
-            bytes: 8 * field.step.partition.len() as u64,
-            seconds: [seconds, 0.0],
-            norms: norms(direct, &raster),
-            raster,
-            convergence: None,
-        })
+        let draw = || Resampled::on_cells(field, quantity, &view, direct, &Bar::new());
+        let (resampled, seconds) = timed(draw)?;
+        Ok(Method { resampled, seconds: [seconds, 0.0], convergence: None })
     }
 }
 

@@ -178,7 +178,7 @@ impl Args {
                 *text = format!("{name} of {file}, direct and resampled");
             }
         }
-        let methods = found.resampled.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
+        let methods = found.methods.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
         texts.extend(methods.chain(self.subject.replacements.notes()));
         texts
     }

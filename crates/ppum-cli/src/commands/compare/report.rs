@@ -8,7 +8,7 @@ use ppum_render::resample::norms::{NAMES, Norms};
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::measure::{Measurements, Resampled};
+use super::measure::{Measurements, Method};
 use crate::number::Number;
 
 /// All numbers, as JSON shows them.
@@ -93,21 +93,24 @@ impl Report {
             width: view.width,
             pixels: view.pixels,
             direct: Cost { bytes: found.direct_bytes, seconds: found.direct_seconds },
-            resampled: found.resampled.iter().map(Row::new).collect(),
+            resampled: found.methods.iter().map(Row::new).collect(),
         }
     }
 }
 
 impl Row {
-    fn new(one: &Resampled) -> Self {
+    fn new(one: &Method) -> Self {
         let [sampling, drawing] = one.seconds;
         Self {
-            method: one.interpolation.map_or("cells", |interpolation| interpolation.name()),
-            grid: one.grid,
-            bytes: one.bytes,
+            method: one
+                .resampled
+                .interpolation
+                .map_or("cells", |interpolation| interpolation.name()),
+            grid: one.resampled.grid,
+            bytes: one.resampled.bytes,
             seconds: sampling + drawing,
             sampling_seconds: sampling,
-            errors: Errors::new(&one.norms),
+            errors: Errors::new(&one.resampled.norms),
             needed: one.convergence.as_ref().map(|(found, error)| NeededRow::new(found, *error)),
         }
     }

@@ -9,12 +9,11 @@ use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, 
 use ppum_figure::overlay;
 use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Range, Span};
+use ppum_render::range::Range;
 use ppum_render::raster::Raster;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
-use ppum_render::scale::Scale;
-use ppum_render::view::View;
+use ppum_scene::compare::signed;
 
 use super::Args;
 use super::measure::{Job, Measurements, name};
@@ -106,10 +105,12 @@ impl Layout {
         let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
         let picture = |shows: &Shows| match *shows {
             Shows::Direct => Ok(direct.clone()),
-            Shows::Resampled(k) => Ok(Picture::bare(&found.resampled[k].raster, view, &fixed)?),
+            Shows::Resampled(k) => {
+                Ok(Picture::bare(&found.methods[k].resampled.raster, view, &fixed)?)
+            }
             Shows::Difference(k) => {
-                let apart = difference(&found.direct, &found.resampled[k].raster);
-                signed(&apart, view)
+                let apart = difference(&found.direct, &found.methods[k].resampled.raster);
+                Ok(signed(&apart, view)?)
             }
         };
         let pictures = self.panels.iter().map(picture).collect::<anyhow::Result<Vec<_>>>()?;
@@ -129,15 +130,6 @@ impl Layout {
         let all: Vec<Panel<'_>> = all.collect();
         Ok((panels(&self.title, &all, self.grid, &self.design)?, direct))
     }
-}
-
-/// The picture of a difference, with a range of both signs also where all differences have one: no difference is white.
-fn signed(apart: &Raster, view: &View) -> anyhow::Result<Picture> {
-    let style = Style { scale: Scale::Linear, ..Style::named("coolwarm")? };
-    let found = Range::Auto.span(style.scale, true, apart, None);
-    let size = found.max.max(-found.min);
-    let span = Span { min: -size, max: size, ..found };
-    Ok(Picture::spanning(apart, view, &style, span)?)
 }
 
 impl Shows {
@@ -162,20 +154,4 @@ fn direct(raster: &Raster, job: Job<'_>, style: &Style) -> anyhow::Result<Pictur
     };
     let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
     Ok(Picture::spanning(raster, &view, style, span)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ppum::vec2::Vec2;
-
-    #[test]
-    fn no_difference_is_in_the_middle_of_the_colours() {
-        let view = View::new(Vec2::ZERO, 1.0, [20, 10]).unwrap();
-        for (from, step) in [(-5.0, 0.01), (3.0, 0.1), (-1.0, 0.03), (0.0, 0.0), (2.0, 0.0)] {
-            let apart = Raster::from_fn(view.pixels, |i, j| from + step * f64::from(i * 10 + j));
-            let norm = signed(&apart, &view).unwrap().normalization;
-            assert!(norm.min() == -norm.max() && norm.max() > 0.0, "{from} {step}: {norm:?}");
-        }
-    }
 }
