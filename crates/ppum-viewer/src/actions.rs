@@ -2,6 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use crate::panels::export::What;
 use crate::session::Page;
 
 /// Something a person can do.
@@ -35,6 +36,10 @@ pub enum Action {
     Deform,
     /// A page of the drawer, opened or closed.
     Drawer(Page),
+    /// Save a picture of what is seen.
+    Save(What),
+    /// Copy the command that draws it.
+    CopyCommand,
     /// One view, or two side by side.
     Split,
     /// Take back the last change of settings.
@@ -123,6 +128,16 @@ pub const ALL: &[Entry] = &[
     entry(Action::Drawer(Page::Series), "Values over the steps", None, "Reading"),
     entry(Action::Drawer(Page::Solver), "The solver's report", None, "Reading"),
     entry(Action::Drawer(Page::Problem), "The problem's text", None, "Reading"),
+    entry(Action::Save(What::Picture), "Save a picture", key(Key::S), "Reading"),
+    entry(Action::Save(What::Figure), "Save a figure", shift(Key::S), "Reading"),
+    entry(Action::Save(What::Steps), "Save an animation of the steps", None, "Reading"),
+    entry(Action::Save(What::Deformation), "Save an animation of the deformation", None, "Reading"),
+    entry(
+        Action::CopyCommand,
+        "Copy the command that draws this",
+        control_shift(Key::C),
+        "Reading",
+    ),
     entry(Action::Split, "Two views side by side", key(Key::V), "Window"),
     entry(Action::Undo, "Undo", control(Key::Z), "Window"),
     entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),

@@ -1,6 +1,6 @@
 //! The window as a whole: what is open, what is shown around the plate, what actions do.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{CentralPanel, Panel, Ui};
@@ -13,7 +13,9 @@ use ppum_scene::overlays::Levels;
 
 use crate::actions::{self, Action};
 use crate::desk::Desk;
+use crate::export::{Kind, Order};
 use crate::fonts::fonts;
+use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::session::{Page, Pane, Place, Session, Theme};
@@ -29,6 +31,7 @@ pub struct Viewer {
     settings: Undo<Session>,
     rest: Rest<Session>,
     palette: Option<Palette>,
+    exporter: Option<Exporter>,
     has_help: bool,
     tip: usize,
 }
@@ -42,7 +45,16 @@ impl Viewer {
         let stages = session.panes.iter().map(|_| Stage::new(ctx)).collect();
         let settings = Undo::new(without_places(&session));
         let rest = Rest::new(without_places(&session));
-        Self { session, stages, settings, rest, palette: None, has_help: false, tip: 0 }
+        Self {
+            session,
+            stages,
+            settings,
+            rest,
+            palette: None,
+            exporter: None,
+            has_help: false,
+            tip: 0,
+        }
     }
 
     /// Shows a dataset in the active pane.
@@ -69,6 +81,12 @@ impl Viewer {
             if is_done {
                 self.palette = None;
             }
+        }
+        let active = self.session.active;
+        if let Some(exporter) = &mut self.exporter
+            && !exporter.show(ui, &self.session.panes[active], &self.stages[active])
+        {
+            self.exporter = None;
         }
         for action in actions {
             self.act(ui.ctx(), action);
@@ -117,6 +135,8 @@ impl Viewer {
             Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
             Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
             Action::Drawer(page) => toggle(&mut self.session.drawer, page),
+            Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
+            Action::CopyCommand => copy_command(ctx, pane, stage),
             Action::Split => self.split(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),
@@ -167,6 +187,22 @@ impl Viewer {
             Theme::Light => egui::ThemePreference::Light,
             Theme::Dark => egui::ThemePreference::Dark,
         });
+    }
+}
+
+/// Copies the command that draws what is seen.
+fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
+    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return };
+    let order = Order {
+        field: Arc::clone(&frame.field),
+        file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
+        scene: pane.scene.clone(),
+        view,
+        size: view.pixels,
+        kind: Kind::Picture,
+    };
+    if let Ok(command) = order.command(Path::new("picture.png")) {
+        ctx.copy_text(command);
     }
 }
 

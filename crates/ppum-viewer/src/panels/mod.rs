@@ -2,6 +2,7 @@
 
 pub mod colors;
 pub mod deformation;
+pub mod export;
 pub mod functions;
 pub mod help;
 pub mod overlays;

@@ -1,0 +1,263 @@
+//! Saving what is seen: a picture, a figure, a moving picture; and the command that draws it.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{ComboBox, DragValue, Grid, TextEdit, Ui, Window};
+use ppum_scene::moving::Moving;
+
+use crate::export::{Kind, Order};
+use crate::frames::Frame;
+use crate::job::Job;
+use crate::session::Pane;
+use crate::stage::Stage;
+
+/// What is to be written, while one chooses it and while it is made.
+pub struct Exporter {
+    what: What,
+    path: String,
+    size: [u32; 2],
+    /// Pictures a second.
+    rate: f64,
+    /// Pictures of the deformation's coming and going.
+    count: usize,
+    job: Option<Job<Result<String, String>>>,
+    told: Option<Result<String, String>>,
+}
+
+/// The kinds of files that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// The picture alone.
+    Picture,
+    /// With axes, colour bar and title.
+    Figure,
+    /// The steps of a series.
+    Steps,
+    /// The deformed plate, its factor growing and falling.
+    Deformation,
+}
+
+impl What {
+    const ALL: [Self; 4] = [Self::Picture, Self::Figure, Self::Steps, Self::Deformation];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "Picture",
+            Self::Figure => "Figure",
+            Self::Steps => "Animation of the steps",
+            Self::Deformation => "Animation of the deformation",
+        }
+    }
+
+    /// What the names of its files may end in, the usual one first.
+    fn ends(self) -> &'static [&'static str] {
+        match self {
+            Self::Picture | Self::Figure => &["png", "svg", "pdf"],
+            Self::Steps | Self::Deformation => &["gif", "apng", "png"],
+        }
+    }
+}
+
+/// Largest side of a page.
+const MOST: u32 = 16_384;
+
+impl Exporter {
+    /// Begins with a kind, and the size and name that suit what is seen.
+    #[must_use]
+    pub fn new(what: What, stage: &Stage) -> Self {
+        let size = stage.view.map_or([1024, 768], |view| view.pixels);
+        let path = match &stage.opened {
+            Some(opened) => beside(opened.path.as_deref(), what.ends()[0]),
+            None => String::new(),
+        };
+        Self { what, path, size, rate: 12.0, count: 36, job: None, told: None }
+    }
+
+    /// Shows the choice; false once it is closed.
+    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &Stage) -> bool {
+        self.finish();
+        let mut is_open = true;
+        let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
+        window.show(ui.ctx(), |ui| match stage.frames.newest() {
+            Some(frame) => self.choose(ui, pane, stage, frame),
+            None => {
+                ui.label("There is no picture yet.");
+            }
+        });
+        is_open
+    }
+
+    fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) {
+        Grid::new("save").num_columns(2).show(ui, |ui| self.fields(ui, frame));
+        let order = self.order(pane, stage, frame);
+        let path = PathBuf::from(self.path.trim());
+        let refused = self.refused(&path, order.file.as_deref());
+        ui.horizontal(|ui| {
+            let is_ready = refused.is_none() && self.job.is_none();
+            if ui.add_enabled(is_ready, egui::Button::new("Save file")).clicked() {
+                self.start(ui, order.clone(), path.clone());
+            }
+            if let Some(job) = &self.job {
+                ui.spinner();
+                if ui.button("Stop").clicked() {
+                    job.cancel();
+                }
+            }
+        });
+        if let Some(reason) = refused {
+            ui.colored_label(ui.visuals().warn_fg_color, reason);
+        }
+        match &self.told {
+            Some(Ok(told)) => {
+                ui.label(told);
+            }
+            Some(Err(error)) => {
+                ui.colored_label(ui.visuals().error_fg_color, error);
+            }
+            None => {}
+        }
+        if self.what != What::Deformation {
+            ui.separator();
+            command(ui, &order.command(&path));
+        }
+    }
+
+    fn fields(&mut self, ui: &mut Ui, frame: &Frame) {
+        let before = self.what;
+        ui.label("Kind");
+        ComboBox::from_id_salt("kind").selected_text(self.what.name()).show_ui(ui, |ui| {
+            for what in What::ALL {
+                let can = match what {
+                    What::Steps => frame.field.dataset().steps.len() > 1,
+                    What::Deformation => frame.field.field().equation.elastic().is_some(),
+                    _ => true,
+                };
+                let choice = egui::Button::selectable(self.what == what, what.name());
+                if ui.add_enabled(can, choice).clicked() {
+                    self.what = what;
+                }
+            }
+        });
+        ui.end_row();
+        if self.what != before {
+            let ends = self.what.ends();
+            let path = Path::new(&self.path);
+            let fits = ends.iter().any(|end| path.extension().is_some_and(|e| e == *end));
+            if !fits {
+                self.path = path.with_extension(ends[0]).to_string_lossy().into_owned();
+            }
+        }
+        let label = ui.label("File");
+        ui.add(TextEdit::singleline(&mut self.path).desired_width(340.0)).labelled_by(label.id);
+        ui.end_row();
+        ui.label("Pixels");
+        ui.horizontal(|ui| {
+            for side in &mut self.size {
+                ui.add(DragValue::new(side).range(1..=MOST).speed(4.0));
+            }
+        });
+        ui.end_row();
+        if matches!(self.what, What::Steps | What::Deformation) {
+            ui.label("Pictures a second");
+            ui.add(DragValue::new(&mut self.rate).range(0.1..=60.0).speed(0.1));
+            ui.end_row();
+        }
+        if self.what == What::Deformation {
+            ui.label("Pictures");
+            ui.add(DragValue::new(&mut self.count).range(2..=600));
+            ui.end_row();
+        }
+    }
+
+    fn order(&self, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) -> Order {
+        let steps = (0..frame.field.dataset().steps.len()).collect();
+        let factor = frame.factor.or_else(|| automatic(frame));
+        Order {
+            field: Arc::clone(&frame.field),
+            file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
+            scene: pane.scene.clone(),
+            view: stage.view.unwrap_or(frame.wanted.view),
+            size: self.size,
+            kind: match self.what {
+                What::Picture => Kind::Picture,
+                What::Figure => Kind::Figure,
+                What::Steps => Kind::Moving(Moving::Steps(steps), self.rate),
+                What::Deformation => {
+                    Kind::Moving(Moving::Factor(factor.unwrap_or(1.0), self.count), self.rate)
+                }
+            },
+        }
+    }
+
+    /// The reason why the file cannot be written under its name, if there is one.
+    fn refused(&self, path: &Path, dataset: Option<&Path>) -> Option<String> {
+        if path.as_os_str().is_empty() {
+            return Some("Write the name of a file.".into());
+        }
+        let ends = self.what.ends();
+        let fits = |end: &&&str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+        if !ends.iter().any(|end| fits(&end)) {
+            return Some(format!("The name must end in .{}.", ends.join(", .")));
+        }
+        let is_input = dataset.is_some_and(|dataset| dataset == path);
+        is_input.then(|| "This file is the dataset itself.".into())
+    }
+
+    fn start(&mut self, ui: &Ui, order: Order, path: PathBuf) {
+        self.told = None;
+        self.job = Some(Job::start(ui.ctx(), move |stop| {
+            let bytes = order.bytes(&path, stop)?;
+            write(&path, &bytes)?;
+            Ok(format!("wrote {}", path.display()))
+        }));
+    }
+
+    fn finish(&mut self) {
+        let Some(outcome) = self.job.as_ref().and_then(Job::poll) else { return };
+        self.job = None;
+        self.told = Some(outcome.and_then(|outcome| outcome));
+    }
+}
+
+/// The command that draws the picture, to be copied.
+pub fn command(ui: &mut Ui, command: &Result<String, String>) {
+    match command {
+        Ok(command) => {
+            ui.horizontal(|ui| {
+                ui.strong("The same on the command line");
+                if ui.button("Copy").clicked() {
+                    ui.ctx().copy_text(command.clone());
+                }
+            });
+            let mut shown = command.as_str();
+            let text = TextEdit::multiline(&mut shown).code_editor().desired_rows(2);
+            ui.add(text.desired_width(ui.available_width().max(340.0)));
+        }
+        Err(error) => {
+            ui.colored_label(ui.visuals().error_fg_color, error);
+        }
+    }
+}
+
+/// The factor that shows the largest displacement as some 5 % of the plate.
+fn automatic(frame: &Frame) -> Option<f64> {
+    ppum_scene::deformed::Factor::Auto.number(&[frame.field.field()]).ok()
+}
+
+/// A name beside the dataset's.
+fn beside(dataset: Option<&Path>, end: &str) -> String {
+    let path = dataset.map_or_else(|| PathBuf::from("picture"), Path::to_path_buf);
+    path.with_extension(end).to_string_lossy().into_owned()
+}
+
+#[cfg(feature = "solve")]
+fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    ppum_file::replace(path, |out| out.write_all(bytes))
+        .map_err(|error: std::io::Error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(not(feature = "solve"))]
+fn write(path: &Path, _: &[u8]) -> Result<(), String> {
+    Err(format!("{}: there are no files here", path.display()))
+}
