@@ -9,7 +9,6 @@ use ppum::field::Field;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum_figure::figure::Labels;
-use ppum_render::cells;
 use ppum_render::colormap::{Colormap, LONGEST, NAMES};
 use ppum_render::picture::Style;
 use ppum_render::range::Range;
@@ -123,12 +122,7 @@ impl Asked {
 
     /// The words of its figure.
     pub(crate) fn labels(&self, title: String, field: &Field<'_>) -> Labels {
-        let (quantity, unit) = match &self.shown {
-            Shown::Quantity(quantity) => {
-                (quantity.symbol(&field.data.components), quantity.unit(field).to_owned())
-            }
-            Shown::Cells(name, _) => (cells::label(name).to_owned(), String::new()),
-        };
+        let [quantity, unit] = self.shown.words(field);
         Labels { title, quantity, unit, ..Labels::default() }
     }
 }
@@ -156,6 +150,9 @@ pub(crate) struct Colors {
     /// Show values in so many bands of one colour each
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     bands: Option<u16>,
+    /// Put zero in the middle of a range that is found and holds it, as diverging maps always do
+    #[arg(long)]
+    symmetric: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -201,6 +198,7 @@ impl Colors {
             scale: self.scale,
             contrast: self.extremes == Extremes::Contrast,
             bands: self.bands,
+            symmetric: self.symmetric,
         }
     }
 

@@ -201,6 +201,24 @@ impl Span {
 }
 
 impl FormulaError {
+    /// The mistake in words, without its place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        self.mistake.message(&self.found)
+    }
+
+    /// The bytes of the offending text in the formula, to mark them; of a long one the first part. Empty at the end of the
+    /// formula.
+    #[must_use]
+    pub fn place(&self, formula: &str) -> Range<usize> {
+        let start = formula.split_inclusive('\n').take(self.line - 1).map(str::len).sum::<usize>();
+        let rest = formula.get(start..).unwrap_or_default();
+        let bytes = |text: &str, chars: usize| text.chars().take(chars).map(char::len_utf8).sum();
+        let before: usize = bytes(rest, self.column - 1);
+        let length: usize = bytes(&rest[before..], self.found.chars().count());
+        start + before..start + before + length
+    }
+
     /// The error at a place of `source`.
     pub(crate) fn new(source: &str, span: Span, mistake: Mistake) -> Self {
         let before = &source[..span.start];
@@ -266,6 +284,22 @@ pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The text that an error names is the text at its place, whatever stands before it.
+    #[test]
+    fn places_are_those_of_the_offending_text() {
+        for (formula, found) in [
+            ("1 + thet", "thet"),
+            ("# α β\nlet a = 1;\na*über + 1", "über"),
+            ("(1 +\n 2", ""),
+            ("", ""),
+        ] {
+            let scope = crate::Scope::cartesian();
+            let error = crate::Formula::parse(formula, &scope).expect_err("it is wrong");
+            assert_eq!((&formula[error.place(formula)], error.found.as_str()), (found, found));
+            assert!(error.to_string().contains(&error.message()));
+        }
+    }
 
     #[test]
     fn excerpt_of_a_long_line_stays_short() {

@@ -120,6 +120,7 @@ pub use jets::FormulaJets;
 pub use kinks::Kink;
 pub use lanes::real;
 pub use language::scope::{Scope, ScopeError, VARIABLES};
+pub use library::function_names;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_NODES};
 pub use table::{Table, TableError};
 pub use wgsl::{WgslError, wgsl_prelude};

@@ -38,6 +38,11 @@ impl Function {
     }
 }
 
+/// Names of all functions, to be listed and completed.
+pub fn function_names() -> impl Iterator<Item = &'static str> {
+    FUNCTIONS.iter().map(|(name, _)| *name)
+}
+
 /// All functions.
 pub(crate) const FUNCTIONS: [(&str, Function); 26] = [
     ("sqrt", Function::Unary(Unary::Sqrt)),

@@ -28,6 +28,8 @@ pub struct Colors {
     pub contrast: bool,
     /// So many bands of one colour each.
     pub bands: Option<u16>,
+    /// True if a range that is found lies evenly around zero, where it holds zero, as it always does with diverging maps.
+    pub symmetric: bool,
 }
 
 /// Most bands: more than eyes, and pictures, can tell apart.
@@ -63,6 +65,7 @@ impl Colors {
         if let Some(count) = self.bands {
             colormap = colormap.banded(count);
         }
+        colormap.diverging |= self.symmetric;
         Style { colormap, range, scale: self.scale, ..Style::default() }
     }
 

@@ -54,6 +54,17 @@ impl Shown {
         }
     }
 
+    /// Its symbol, or the words for it, and its unit, as figures have them.
+    #[must_use]
+    pub fn words(&self, field: &Field<'_>) -> [String; 2] {
+        match self {
+            Self::Quantity(quantity) => {
+                [quantity.symbol(&field.data.components), quantity.unit(field).to_owned()]
+            }
+            Self::Cells(name, _) => [cells::label(name).to_owned(), String::new()],
+        }
+    }
+
     /// True if its values are whole numbers by their nature.
     fn is_whole(&self) -> bool {
         match self {

@@ -104,6 +104,13 @@ impl Overlays {
         self.shown.iter().copied().find(|overlay| !overlay.is_deformable())
     }
 
+    /// Those that the deformed plate has.
+    #[must_use]
+    pub fn deformable(&self) -> Self {
+        let shown = self.shown.iter().copied().filter(|overlay| overlay.is_deformable());
+        Self { shown: shown.collect(), ..self.clone() }
+    }
+
     /// True if supports or loads are shown, which stand outside of the plate.
     #[must_use]
     pub fn have_stations(&self) -> bool {

@@ -108,6 +108,14 @@ impl<'a> Telling<'a> {
     }
 
     fn values(&self, values: &Extrema, view: &View) -> String {
+        let [min, max] = self.extrema(values, view);
+        let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
+        format!("{whose} from {min} to {max}")
+    }
+
+    /// The smallest and the largest value with their places: `0.1 at (0.2, 0.3)`, `∞ at tip 0 (0.5, 0)`.
+    #[must_use]
+    pub fn extrema(&self, values: &Extrema, view: &View) -> [String; 2] {
         let both = [&values.min, &values.max];
         let finite = both.map(|extremum| extremum.value).into_iter().filter(|v| v.is_finite());
         let size = finite.map(f64::abs).fold(0.0, f64::max);
@@ -117,9 +125,7 @@ impl<'a> Telling<'a> {
             false => both.map(|extremum| value(extremum.value, size)),
         };
         let place = |k: usize| format!("{} at {}", shown[k], self.place(both[k], view));
-        let told = [place(0), place(1)];
-        let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
-        format!("{whose} from {} to {}", told[0], told[1])
+        [place(0), place(1)]
     }
 
     /// Where an extremum lies.

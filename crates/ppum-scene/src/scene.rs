@@ -33,6 +33,18 @@ pub struct Scene {
     pub outline: bool,
 }
 
+impl Scene {
+    /// What can be drawn of it: on the deformed plate the overlays that this has.
+    #[must_use]
+    pub fn drawn(&self) -> Self {
+        let overlays = match self.deformed {
+            Some(_) => self.overlays.deformable(),
+            None => self.overlays.clone(),
+        };
+        Self { overlays, ..self.clone() }
+    }
+}
+
 /// What of a dataset is looked at: a step, a part of its field, functions and the weight replaced.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -60,6 +72,20 @@ pub enum SubjectError {
 }
 
 impl Subject {
+    /// The formula in the place of a function, by the name that it was replaced by.
+    #[must_use]
+    pub fn replaced(&self, which: &str) -> Option<&str> {
+        self.functions.iter().find(|(name, _)| name == which).map(|(_, text)| text.as_str())
+    }
+
+    /// Puts a formula in the place of a function, or gives that of the dataset back.
+    pub fn replace(&mut self, which: &str, text: Option<String>) {
+        self.functions.retain(|(name, _)| name != which);
+        self.functions.extend(text.map(|text| (which.to_owned(), text)));
+        // in one order, whatever the order of changes: equal subjects are compared
+        self.functions.sort();
+    }
+
     /// The number of the step in a dataset.
     #[must_use]
     pub fn step_of(&self, dataset: &Dataset) -> usize {

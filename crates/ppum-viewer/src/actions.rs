@@ -30,10 +30,22 @@ pub enum Action {
     AutomaticRange,
     /// The next colour map.
     NextMap,
+    /// Choose a quantity.
+    Quantity,
+    /// The colour map from its other end.
+    ReverseMap,
+    /// The range stays as it is.
+    FreezeRange,
+    /// All overlays on and off.
+    Overlays,
     /// Isolines on and off.
     Isolines,
     /// The deformed plate on and off.
     Deform,
+    /// The deformed plate in motion.
+    Swing,
+    /// Direct against resampled.
+    Compare,
     /// A page of the drawer, opened or closed.
     Drawer(Page),
     /// Save a picture of what is seen.
@@ -118,11 +130,17 @@ pub const ALL: &[Entry] = &[
     entry(Action::Pan(0, -1), "Move down", key(Key::ArrowDown), "Moving"),
     entry(Action::Back, "Back to the view before", key(Key::Backspace), "Moving"),
     entry(Action::Forward, "Forward to the view after", shift(Key::Backspace), "Moving"),
+    entry(Action::Quantity, "Choose a quantity", key(Key::Q), "Colours"),
     entry(Action::NextScale, "Linear, logarithmic, symlog", key(Key::L), "Colours"),
     entry(Action::AutomaticRange, "Automatic range", key(Key::R), "Colours"),
     entry(Action::NextMap, "Next colour map", key(Key::M), "Colours"),
+    entry(Action::ReverseMap, "Reverse the colour map", shift(Key::M), "Colours"),
+    entry(Action::FreezeRange, "Freeze the range", shift(Key::R), "Colours"),
+    entry(Action::Overlays, "All overlays", key(Key::O), "Over the picture"),
     entry(Action::Isolines, "Isolines", key(Key::I), "Over the picture"),
     entry(Action::Deform, "Deformed plate", key(Key::D), "Over the picture"),
+    entry(Action::Swing, "Play the deformation", shift(Key::D), "Over the picture"),
+    entry(Action::Compare, "Direct against resampled", key(Key::C), "Over the picture"),
     entry(Action::Drawer(Page::Plot), "Plot along a curve", key(Key::X), "Reading"),
     entry(Action::Drawer(Page::Tips), "Table of the tips", key(Key::T), "Reading"),
     entry(Action::Drawer(Page::Series), "Values over the steps", None, "Reading"),
@@ -158,7 +176,9 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     ctx.input_mut(|input| {
         let is_pressed = |entry: &&&Entry| {
             let Some(key) = entry.key else { return false };
-            let is_free = !is_writing || key.modifiers.command;
+            // a text takes back its own changes
+            let is_of_texts = matches!(entry.action, Action::Undo | Action::Redo);
+            let is_free = !is_writing || (key.modifiers.command && !is_of_texts);
             is_free && input.consume_shortcut(&key)
         };
         all.iter().filter(is_pressed).map(|entry| entry.action).collect()

@@ -8,10 +8,13 @@ use ppum::dataset::Dataset;
 use ppum_render::colormap::NAMES;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
+use ppum_scene::colors::Colors;
+use ppum_scene::compare::Compare;
 use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::Levels;
 
 use crate::actions::{self, Action};
+use crate::controls::swing::Swing;
 use crate::desk::Desk;
 use crate::export::{Kind, Order};
 use crate::fonts::fonts;
@@ -100,6 +103,8 @@ impl Viewer {
         match self.rest.until(&settings, ui.input(|input| input.time)) {
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
             None if ui.input(|input| input.pointer.any_down()) => {}
+            // what is written is one step, however long it takes
+            None if ui.ctx().egui_wants_keyboard_input() => {}
             None => self.settings.note(&settings),
         }
     }
@@ -131,9 +136,23 @@ impl Viewer {
                 }
             }
             Action::AutomaticRange => pane.scene.colors.range = Range::Auto,
+            Action::FreezeRange => freeze(pane, stage),
             Action::NextMap => next_map(pane),
+            Action::ReverseMap => reverse_map(pane, stage),
+            Action::Quantity => {
+                stage.controls.quantities.open();
+                stage.controls.wants_quantity = true;
+                self.session.panels = true;
+            }
+            Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
             Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
             Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
+            Action::Swing => {
+                let now = ctx.input(|input| input.time);
+                stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
+                pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
+            }
+            Action::Compare => toggle_comparison(pane),
             Action::Drawer(page) => toggle(&mut self.session.drawer, page),
             Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
             Action::CopyCommand => copy_command(ctx, pane, stage),
@@ -217,11 +236,38 @@ fn toggle<T: PartialEq>(setting: &mut Option<T>, on: T) {
     *setting = if setting.as_ref() == Some(&on) { None } else { Some(on) };
 }
 
+/// Direct against resampled, on and off.
+fn toggle_comparison(pane: &mut Pane) {
+    pane.compare = match pane.compare {
+        None => Some(Compare::default()),
+        Some(_) => None,
+    };
+}
+
+/// The next map, reversed if this one is.
 fn next_map(pane: &mut Pane) {
     let colors = &mut pane.scene.colors;
     let name = colors.colormap.as_deref().unwrap_or(NAMES[0]);
-    let at = NAMES.iter().position(|known| *known == name).map_or(0, |at| at + 1);
-    colors.colormap = Some(NAMES[at % NAMES.len()].to_owned());
+    let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
+    let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
+    colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
+}
+
+/// The map from its other end; that of the picture if none is chosen.
+fn reverse_map(pane: &mut Pane, stage: &Stage) {
+    let quantity = stage.frames.newest().and_then(|frame| frame.shown.quantity());
+    let colors = &mut pane.scene.colors;
+    let name = colors.colormap.as_deref().unwrap_or(Colors::default_map(quantity));
+    let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
+    colors.colormap = Some(reversed);
+}
+
+/// Keeps the range of the picture.
+fn freeze(pane: &mut Pane, stage: &Stage) {
+    if let Some(frame) = stage.frames.newest() {
+        let norm = &frame.picture.normalization;
+        pane.scene.colors.range = Range::Fixed(norm.min(), norm.max());
+    }
 }
 
 /// The panes side by side.

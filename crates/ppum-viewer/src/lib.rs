@@ -8,6 +8,7 @@
 
 pub mod actions;
 pub mod app;
+pub mod controls;
 pub mod desk;
 pub mod export;
 pub mod field;

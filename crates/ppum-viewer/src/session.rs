@@ -38,8 +38,26 @@ pub struct Pane {
     pub place: Option<Place>,
     /// What resampling gives beside it, if that is looked at.
     pub compare: Option<Compare>,
+    /// How that is looked at.
+    pub against: Against,
     /// True if a range that was found stays as it is while one moves on.
     pub keeps_range: bool,
+}
+
+/// How the direct picture is seen beside what resampling gives of it: that on the right of a divider.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Against {
+    /// Place of the divider, in parts of the picture's width.
+    pub divider: f64,
+    /// True if the difference is shown, not the resampled picture.
+    pub difference: bool,
+}
+
+impl Default for Against {
+    fn default() -> Self {
+        Self { divider: 0.5, difference: false }
+    }
 }
 
 /// A part of the plane, whatever the number of pixels.

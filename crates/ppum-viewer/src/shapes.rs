@@ -1,8 +1,8 @@
 //! What is drawn over pictures, as shapes of the window: sharp at any magnification of the display.
 
-use egui::{Color32, FontId, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Color32, FontId, Mesh, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use ppum_figure::canvas::{Align, Item, Lettering, Path, Pen};
-use ppum_render::image::Rgba;
+use ppum_render::image::{Image, Rgba};
 
 /// Where the pixels of a picture lie in the window.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +32,7 @@ pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
             Item::Line { path, pen } => lines(painter, placed, path, pen),
             Item::Fill { outline, color } => fill(painter, placed, outline, *color),
             Item::Text(lettering) => text(painter, placed, lettering),
+            Item::Picture { image, corner } => picture(painter, placed, image, *corner),
             Item::Inset { corner, canvas } => {
                 let corner = placed.at(corner.map(f64::from).into());
                 let inner = Placed { corner, ..placed };
@@ -46,6 +47,31 @@ pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
             _ => {}
         }
     }
+}
+
+/// A picture of few colours, as that of a bar is: what is equal in a row is one rectangle, and so are equal rows.
+fn picture(painter: &egui::Painter, placed: Placed, image: &Image, corner: [u32; 2]) {
+    let columns = image.size[0].max(1) as usize;
+    let mut mesh = Mesh::default();
+    let rows: Vec<&[Rgba]> = image.rgba.as_chunks().0.chunks(columns).collect();
+    let mut top = 0;
+    for equal in rows.chunk_by(|a, b| a == b) {
+        let mut left = 0;
+        for run in equal[0].chunk_by(|a, b| a == b) {
+            let at = |x: usize, y: usize| {
+                let [x, y] = [corner[0] as usize + x, corner[1] as usize + y].map(|n| n as f64);
+                placed.at(ppum::vec2::vec2(x, y))
+            };
+            let (right, bottom) = (left + run.len(), top + equal.len());
+            mesh.add_colored_rect(
+                Rect::from_min_max(at(left, top), at(right, bottom)),
+                color(run[0]),
+            );
+            left = right;
+        }
+        top += equal.len();
+    }
+    painter.add(mesh);
 }
 
 /// A colour of figures.
@@ -104,7 +130,7 @@ fn text(painter: &egui::Painter, placed: Placed, lettering: &Lettering) {
     painter.add(shape);
 }
 
-/// Without the signs of subscripts, which labels have no room for.
-fn plain(text: &str) -> String {
+/// A text of figures without the signs of subscripts, which labels have no room for.
+pub(crate) fn plain(text: &str) -> String {
     text.replace("_{", "").replace('}', "")
 }

@@ -154,6 +154,23 @@ impl Step {
         text: &str,
         tables: &[Arc<Table>],
     ) -> Result<Vec<usize>, ReplaceError> {
+        let indices = self.check_function(which, text, tables)?;
+        for &index in &indices {
+            self.functions[index].kind.set_formula(text);
+        }
+        Ok(indices)
+    }
+
+    /// The functions that a text could replace, which stay as they are.
+    ///
+    /// # Errors
+    /// As [`replace_function`](Self::replace_function).
+    pub fn check_function(
+        &self,
+        which: &str,
+        text: &str,
+        tables: &[Arc<Table>],
+    ) -> Result<Vec<usize>, ReplaceError> {
         let indices = self.functions_called(which);
         if indices.is_empty() {
             let stems: BTreeSet<_> = self.functions.iter().map(Function::stem).collect();
@@ -165,9 +182,6 @@ impl Step {
             let parameters = self.functions[index].kind.parameters();
             let scope = function_scope(parameters, self.cracks.len(), tables)?;
             Formula::parse(text, &scope)?;
-        }
-        for &index in &indices {
-            self.functions[index].kind.set_formula(text);
         }
         Ok(indices)
     }
@@ -182,12 +196,20 @@ impl Step {
         text: &str,
         tables: &[Arc<Table>],
     ) -> Result<(), ReplaceError> {
-        self.partition.weight = match WeightFunction::from_library(text.trim()) {
-            Some(weight) => weight,
-            None => WeightFunction::formula(text, &Scope::new(&["t"])?.with_tables(tables)?)
-                .map_err(|error| no_weight(text.trim(), error))?,
-        };
+        self.partition.weight = weight_of(text, tables)?;
         Ok(())
+    }
+}
+
+/// The weight that a text means: one of the [library](crate::library::WEIGHTS), or a formula of t.
+///
+/// # Errors
+/// A text that is neither.
+pub fn weight_of(text: &str, tables: &[Arc<Table>]) -> Result<WeightFunction, ReplaceError> {
+    match WeightFunction::from_library(text.trim()) {
+        Some(weight) => Ok(weight),
+        None => WeightFunction::formula(text, &Scope::new(&["t"])?.with_tables(tables)?)
+            .map_err(|error| no_weight(text.trim(), error)),
     }
 }
 

@@ -189,6 +189,36 @@ pub(super) struct ColorBar {
     pub(super) length: f64,
 }
 
+/// A colour bar that stands by itself, upright, for programs that let people change its range.
+#[derive(Clone, Debug)]
+pub struct Bar {
+    /// What is drawn, in pixels; the bar's upper left corner is the origin.
+    pub items: Vec<Item>,
+    /// How far below the origin the lower and the upper end of the range lie.
+    pub ends: [f64; 2],
+    /// Width of what is coloured.
+    pub width: f64,
+}
+
+impl Bar {
+    /// The bar of a picture, of some length with the triangles at its ends.
+    #[must_use]
+    pub fn new(picture: &Picture, labels: &Labels, design: &Design, length: f64) -> Self {
+        let mut ink = Ink::new(design);
+        let bar = ColorBar::upright(Key::new(picture, labels), design, length.round());
+        let start = vec2(0.0, bar.length);
+        bar.draw(&mut ink, start, bar.length);
+        let ends = bar.ends(ink.scale).map(|along| bar.length - along);
+        Self { items: ink.items, ends, width: (BAR * ink.scale).round() }
+    }
+
+    /// The box around it: upper left and lower right corner.
+    #[must_use]
+    pub fn bounds(&self) -> [Vec2; 2] {
+        super::ink::bounds(&self.items)
+    }
+}
+
 /// A bar at its place: `start` is its lower end's corner nearest to the picture.
 struct Placed<'b> {
     bar: &'b ColorBar,

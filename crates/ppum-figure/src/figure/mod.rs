@@ -28,6 +28,7 @@ use crate::canvas::{Canvas, Item};
 use crate::overlay::Entry;
 use ppum_render::picture::Picture;
 
+pub use color_bar::Bar;
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
 pub use layout::{Grid, panel_area, panels, plot_area};
 pub use sheet::lacks_legend;

@@ -1,10 +1,100 @@
-//! The deformed plate.
+//! The deformed plate: how much, at rest or in motion.
 
-use egui::Ui;
+use egui::{RichText, Slider, Ui};
+use ppum::text::trimmed_to;
+use ppum_scene::deformed::{Factor, words};
 
+use super::failure;
+use crate::controls::Controls;
+use crate::controls::swing::Swing;
 use crate::desk::Desk;
+use crate::frames::Fault;
+use crate::session::Pane;
+use crate::stage::Stage;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let _ = (ui, desk);
+    let (pane, stage) = desk.active();
+    let is_possible = stage.controls.facts.is_elastic || pane.scene.deformed.is_some();
+    ui.add_enabled_ui(is_possible, |ui| {
+        kinds(ui, pane, &stage.controls);
+        if pane.scene.deformed.is_some() {
+            factor(ui, pane, &stage.controls);
+            motion(ui, pane, &mut stage.controls);
+        }
+    });
+    if !is_possible {
+        ui.weak("A potential has no displacements");
+    }
+    told(ui, stage);
+    failure(ui, stage, Fault::Deformed);
+}
+
+fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
+    let deformed = &mut pane.scene.deformed;
+    let given = match *deformed {
+        Some(Factor::Given(factor)) => factor,
+        _ => controls.factor.unwrap_or(1.0),
+    };
+    ui.horizontal(|ui| {
+        for (factor, name, meaning) in [
+            (None, "off", "The plate as it was before it was loaded"),
+            (Some(Factor::Auto), "automatic", "The largest displacement is some 5 % of the plate"),
+            (Some(Factor::Given(given)), "factor", "So many times its displacement"),
+        ] {
+            ui.selectable_value(deformed, factor, name).on_hover_text(meaning);
+        }
+    });
+}
+
+/// The factor on a logarithmic scale on both sides of zero; whoever moves it chooses it.
+fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
+    let usual = controls.factor.unwrap_or(1.0);
+    let mut factor = match pane.scene.deformed {
+        Some(Factor::Given(factor)) => factor,
+        _ => usual,
+    };
+    let most = DECADES * usual.abs();
+    let slider = Slider::new(&mut factor, -most..=most)
+        .logarithmic(true)
+        .smallest_positive(most / (DECADES * DECADES))
+        .clamping(egui::SliderClamping::Never)
+        .custom_formatter(|factor, _| trimmed_to(factor, 3))
+        .custom_parser(super::colors::range::parse);
+    if ui.add(slider).accessible_name("Factor of the deformation").changed() && factor.is_finite() {
+        pane.scene.deformed = Some(Factor::Given(factor));
+    }
+}
+
+/// The slider's ends are so many times the automatic factor, its smallest step one over that.
+const DECADES: f64 = 100.0;
+
+/// The factor from nothing to all and back; the border of the plate as it was.
+fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
+    ui.horizontal(|ui| {
+        let (sign, name) = match controls.swing {
+            None => ("▶", "Play the deformation"),
+            Some(_) => ("■", "Stop the deformation"),
+        };
+        if super::top::button(ui, sign, name).clicked() {
+            let now = ui.input(|input| input.time);
+            controls.swing = controls.swing.is_none().then(|| Swing::new(now));
+        }
+        let text = "The border of the plate as it was";
+        ui.checkbox(&mut pane.scene.outline, "outline").on_hover_text(text);
+    });
+}
+
+/// The factor of the picture.
+fn told(ui: &mut Ui, stage: &Stage) {
+    let factor = stage.frames.newest().and_then(|frame| frame.factor);
+    if let Some(factor) = factor {
+        // a factor in motion has no digits that one could read
+        let shown = if stage.controls.swing.is_some() { rounded(factor) } else { factor };
+        ui.label(RichText::new(words(shown)).weak().small());
+    }
+}
+
+fn rounded(factor: f64) -> f64 {
+    format!("{factor:.1e}").parse().unwrap_or(factor)
 }

@@ -1,10 +1,127 @@
-//! Functions and the weight, replaced.
+//! Functions and the weight, replaced: the coefficients stay, the functions are others.
 
-use egui::Ui;
+use egui::{Button, ComboBox, RichText, Ui};
+use ppum::dataset::Dataset;
+use ppum::formula::function_names;
+use ppum::library::WEIGHTS;
+use ppum::replace::weight_of;
+use std::sync::Arc;
 
+use super::editor::{Mistake, Subject};
+use super::{back, failure};
+use crate::controls::Controls;
+use crate::controls::facts::Stem;
 use crate::desk::Desk;
+use crate::frames::Fault;
+use crate::session::Pane;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let _ = (ui, desk);
+    let (pane, stage) = desk.active();
+    let Some(opened) = &stage.opened else { return };
+    let dataset = Arc::clone(&opened.dataset);
+    let controls = &mut stage.controls;
+    weight(ui, pane, controls, &dataset);
+    for stem in controls.facts.functions.clone() {
+        function(ui, pane, controls, &dataset, &stem);
+    }
+    let subject = &mut pane.scene.subject;
+    let is_changed = !subject.functions.is_empty() || subject.weight.is_some();
+    let all = Button::new("Back to the file's, all of them");
+    if ui.add_enabled(is_changed, all).clicked() {
+        subject.functions.clear();
+        subject.weight = None;
+        controls.editors.retain(|name, _| name == "quantity");
+    }
+    failure(ui, stage, Fault::Subject);
+}
+
+/// The weight: one of the library, or a formula of t.
+fn weight(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dataset) {
+    let own = controls.facts.weight.clone();
+    let current = pane.scene.subject.weight.clone().unwrap_or_else(|| own.clone());
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.strong("weight");
+        let list = ComboBox::from_id_salt("weights").selected_text("library").width(90.0);
+        let list = list.show_ui(ui, |ui| {
+            for entry in &WEIGHTS {
+                let row = ui.selectable_label(entry.name == current, entry.name);
+                if row.on_hover_text(format!("{}: {}", entry.about, entry.texts[0])).clicked() {
+                    chosen = Some(entry.name.to_owned());
+                }
+            }
+        });
+        list.response.accessible_name("Weights of the library");
+        if back(ui, "Back to the file's weight", pane.scene.subject.weight.is_some()) {
+            controls.editor("weight").forget();
+            chosen = Some(own.clone());
+        }
+    });
+    let names = names(["t"].into_iter().chain(WEIGHTS.iter().map(|entry| entry.name)), &[]);
+    let subject =
+        Subject { name: "Formula of the weight", current: &current, names: &names, version: 0 };
+    let check = |text: &str| match weight_of(text, &dataset.tables) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Mistake::of_replacement(&error, text)),
+    };
+    chosen = chosen.or(controls.editor("weight").show(ui, &subject, check));
+    if let Some(text) = chosen {
+        pane.scene.subject.weight = (text != own).then_some(text);
+    }
+}
+
+/// A function at all its places.
+fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dataset, stem: &Stem) {
+    let name = format!("function {}", stem.name);
+    let replaced = pane.scene.subject.replaced(&stem.name).map(str::to_owned);
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.strong(&stem.name);
+        ui.label(RichText::new(used(stem)).weak().small());
+        if back(ui, &format!("Back to the file's {}", stem.name), replaced.is_some()) {
+            controls.editor(&name).forget();
+            chosen = Some(stem.text.clone());
+        }
+    });
+    let parameters = stem.parameters.iter().map(String::as_str);
+    let names = names(["x", "y", "r", "theta"].into_iter().chain(parameters), &dataset.tables);
+    let current = replaced.unwrap_or_else(|| stem.text.clone());
+    let title = format!("Formula of {}", stem.name);
+    let subject = Subject { name: &title, current: &current, names: &names, version: 0 };
+    let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
+    let check = |text: &str| match step {
+        // the text of the file may be words for what is no formula
+        Some(step) if text != stem.text => step
+            .check_function(&stem.name, text, &dataset.tables)
+            .map(|_| ())
+            .map_err(|error| Mistake::of_replacement(&error, text)),
+        _ => Ok(()),
+    };
+    chosen = chosen.or(controls.editor(&name).show(ui, &subject, check));
+    if let Some(text) = chosen {
+        let text = (text != stem.text).then_some(text);
+        pane.scene.subject.replace(&stem.name, text);
+    }
+}
+
+fn used(stem: &Stem) -> String {
+    let patches = match stem.patches {
+        1 => "1 patch".to_owned(),
+        count => format!("{count} patches"),
+    };
+    match stem.places {
+        1 => patches,
+        places => format!("{patches}, {places} places"),
+    }
+}
+
+/// Names of variables, tables and functions of the language.
+fn names<'a>(
+    variables: impl Iterator<Item = &'a str>,
+    tables: &[Arc<ppum::formula::Table>],
+) -> Vec<String> {
+    let variables = variables.map(str::to_owned);
+    let tables = tables.iter().map(|table| table.name().to_owned());
+    variables.chain(tables).chain(function_names().map(str::to_owned)).collect()
 }

@@ -1,7 +1,10 @@
 //! What stands around the plate. Panels change the session and nothing else.
 
+pub mod chooser;
 pub mod colors;
+pub mod compare;
 pub mod deformation;
+pub mod editor;
 pub mod export;
 pub mod functions;
 pub mod help;
@@ -11,24 +14,42 @@ pub mod parts;
 pub mod quantity;
 pub mod top;
 
-use egui::{CollapsingHeader, ScrollArea, Ui};
+use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
 use crate::desk::Desk;
+use crate::frames::Fault;
+use crate::stage::Stage;
 
 /// The panels on the right, one below the other, each of which folds.
 pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
     type Show = fn(&mut Ui, &mut Desk<'_>);
-    const ALL: [(&str, Show, bool); 6] = [
+    const ALL: [(&str, Show, bool); 7] = [
         ("Quantity", quantity::show, true),
         ("Colours", colors::show, true),
         ("Overlays", overlays::show, true),
         ("Parts", parts::show, false),
         ("Deformation", deformation::show, false),
+        ("Compare", compare::show, false),
         ("Functions", functions::show, false),
     ];
+    let wants_quantity = std::mem::take(&mut desk.active().1.controls.wants_quantity);
     ScrollArea::vertical().show(ui, |ui| {
         for (name, show, is_open) in ALL {
-            CollapsingHeader::new(name).default_open(is_open).show(ui, |ui| show(ui, desk));
+            let opened = (wants_quantity && name == "Quantity").then_some(true);
+            let header = CollapsingHeader::new(name).default_open(is_open).open(opened);
+            header.show_unindented(ui, |ui| show(ui, desk));
         }
     });
+}
+
+/// The reason why there is no picture of what is wanted, where it arose.
+fn failure(ui: &mut Ui, stage: &Stage, fault: Fault) {
+    if let Some(failure) = stage.frames.failure().filter(|failure| failure.fault == fault) {
+        ui.label(RichText::new(&failure.message).color(ui.visuals().error_fg_color));
+    }
+}
+
+/// A button that takes back what was changed; nothing where nothing was.
+fn back(ui: &mut Ui, name: &str, is_changed: bool) -> bool {
+    is_changed && top::button(ui, "↺", name).clicked()
 }

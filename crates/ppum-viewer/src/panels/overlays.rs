@@ -1,10 +1,153 @@
 //! What lies over the colours.
 
-use egui::Ui;
+use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
+use ppum_figure::overlay::{Entry, Symbol};
+use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
+use super::failure;
+use crate::controls::Controls;
 use crate::desk::Desk;
+use crate::frames::Fault;
+use crate::session::Pane;
+use crate::shapes::color;
+use crate::stage::Stage;
+
+/// Distances of arrows and crosses \[pixels\].
+const SPACINGS: std::ops::RangeInclusive<f64> = 8.0..=400.0;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let _ = (ui, desk);
+    let (pane, stage) = desk.active();
+    ui.columns(2, |columns| {
+        for (number, overlay) in Overlay::ALL.into_iter().enumerate() {
+            switch(&mut columns[number % 2], pane, &stage.controls, overlay);
+        }
+    });
+    let is_elastic = stage.controls.facts.is_elastic;
+    let overlays = &mut pane.scene.overlays;
+    isolines(ui, overlays, &mut stage.controls);
+    let arrows = if is_elastic { "arrows of the displacement" } else { "arrows of the gradient" };
+    glyphs(ui, &mut overlays.arrows, arrows, None);
+    let why = (!is_elastic).then_some("A potential has no stresses; arrows show its gradient");
+    glyphs(ui, &mut overlays.crosses, "crosses of principal stresses", why);
+    legend(ui, stage);
+    failure(ui, stage, Fault::Overlays);
+}
+
+/// An overlay, with the reason why there is none of it.
+fn switch(ui: &mut Ui, pane: &mut Pane, controls: &Controls, overlay: Overlay) {
+    let shown = &mut pane.scene.overlays.shown;
+    let mut is_on = shown.contains(&overlay);
+    let absent = controls.facts.without.iter().find(|(other, _)| *other == overlay);
+    let is_moved = pane.scene.deformed.is_some() && !overlay.is_deformable();
+    let why = match absent {
+        Some((_, why)) => Some(*why),
+        None => is_moved.then_some("The deformed plate has cells and cracks alone"),
+    };
+    let response = ui.add_enabled(why.is_none() || is_on, Checkbox::new(&mut is_on, name(overlay)));
+    let text = why.unwrap_or(overlay.meaning());
+    if response.on_hover_text(text).on_disabled_hover_text(text).changed() {
+        shown.retain(|other| *other != overlay);
+        shown.extend(is_on.then_some(overlay));
+    }
+}
+
+/// Its word on a switch.
+fn name(overlay: Overlay) -> &'static str {
+    match overlay {
+        // as people write it; files and options have it the other way
+        Overlay::Centers => "centres",
+        other => other.name(),
+    }
+}
+
+/// Isolines: chosen levels, a number of them, or those that are listed.
+fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
+    ui.horizontal(|ui| {
+        let mut is_on = overlays.isolines.is_some();
+        let text = "Lines of one value, found on the exact field";
+        if ui.checkbox(&mut is_on, "isolines").on_hover_text(text).changed() {
+            overlays.isolines = is_on.then_some(Levels::Auto);
+        }
+        if is_on {
+            levels(ui, overlays, controls);
+            ui.checkbox(&mut overlays.level_labels, "labels")
+                .on_hover_text("Write levels on the lines");
+        }
+    });
+    if let Some(mistake) = controls.levels.mistake.as_ref().filter(|_| overlays.isolines.is_some())
+    {
+        ui.label(RichText::new(mistake).color(ui.visuals().error_fg_color));
+    }
+}
+
+/// Levels while they are written.
+#[derive(Clone, Debug, Default)]
+pub struct Draft {
+    text: String,
+    base: Option<Levels>,
+    mistake: Option<String>,
+}
+
+fn levels(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
+    let draft = &mut controls.levels;
+    if draft.base != overlays.isolines {
+        let text = overlays.isolines.as_ref().map(Levels::to_string).unwrap_or_default();
+        *draft = Draft { text, base: overlays.isolines.clone(), mistake: None };
+    }
+    let edit = TextEdit::singleline(&mut draft.text).desired_width(90.0);
+    let help = "auto, a number of levels, or their values with commas: 0.5, for one";
+    let edit = ui.add(edit).accessible_name("Levels of isolines").on_hover_text(help);
+    if edit.changed() {
+        match draft.text.parse::<Levels>() {
+            Ok(levels) => {
+                (draft.base, draft.mistake) = (Some(levels.clone()), None);
+                overlays.isolines = Some(levels);
+            }
+            Err(mistake) => draft.mistake = Some(mistake.to_owned()),
+        }
+    }
+}
+
+/// Arrows or crosses with their distance.
+fn glyphs(ui: &mut Ui, spacing: &mut Option<f64>, name: &str, why: Option<&str>) {
+    ui.horizontal(|ui| {
+        let mut is_on = spacing.is_some();
+        let response = ui.add_enabled(why.is_none() || is_on, Checkbox::new(&mut is_on, name));
+        if response.on_disabled_hover_text(why.unwrap_or_default()).changed() {
+            *spacing = is_on.then_some(SPACING);
+        }
+        if let Some(spacing) = spacing {
+            let value = DragValue::new(spacing).range(SPACINGS).speed(0.5).suffix(" px");
+            ui.add(value.fixed_decimals(0)).accessible_name(format!("Distance of {name}"));
+        }
+    });
+}
+
+/// What marks mean that the plate has no room for, and what is not seen.
+fn legend(ui: &mut Ui, stage: &Stage) {
+    let Some(frame) = stage.frames.newest() else { return };
+    for entry in &frame.layers.legend {
+        line(ui, entry);
+    }
+    for notice in &frame.layers.notices {
+        ui.label(RichText::new(notice.to_string()).weak());
+    }
+}
+
+fn line(ui: &mut Ui, entry: &Entry) {
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+        match entry.symbol {
+            Symbol::Line(pen) => {
+                let stroke = egui::Stroke::new(pen.width as f32, color(pen.color));
+                ui.painter().hline(rect.x_range(), rect.center().y, stroke);
+            }
+            Symbol::Square(fill) => {
+                ui.painter().rect_filled(rect, 1.0, color(fill));
+            }
+            _ => {}
+        }
+        ui.small(&entry.label);
+    });
 }

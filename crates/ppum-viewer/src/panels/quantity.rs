@@ -1,16 +1,88 @@
-//! The quantity: by its name or by a formula.
+//! The quantity: chosen by its name, or written as a formula.
 
-use egui::Ui;
+use egui::{Button, RichText, Ui};
+use ppum::quantity::Quantity;
+use ppum_scene::drawing::Shown;
+use ppum_scene::scene::{default_quantity, shown};
 
+use super::chooser::named;
+use super::editor::{Mistake, Subject};
+use super::failure;
 use crate::desk::Desk;
+use crate::field::OwnedField;
+use crate::frames::Fault;
+use crate::shapes::plain;
+use std::sync::Arc;
 
-/// A field for a name or formula; a mistake stands below it, while the last good picture stays.
+/// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let (pane, _) = desk.active();
-    let mut text = pane.scene.quantity.clone().unwrap_or_default();
-    let label = ui.label("Quantity or formula");
-    let field = egui::TextEdit::singleline(&mut text).code_editor().hint_text("von-mises");
-    if ui.add(field).labelled_by(label.id).changed() {
-        pane.scene.quantity = (!text.trim().is_empty()).then_some(text);
+    let (pane, stage) = desk.active();
+    let field = stage.controls.known.field().cloned();
+    let default = field.as_ref().map_or("", |field| default_quantity(field.field()));
+    let current = pane.scene.quantity.clone().unwrap_or_else(|| default.to_owned());
+    let controls = &mut stage.controls;
+    let words = field.as_deref().map_or(String::new(), |field| words(&current, field));
+    let button = Button::new(RichText::new(words)).right_text("▾").truncate();
+    if ui
+        .add_sized([ui.available_width(), 24.0], button)
+        .accessible_name("Choose a quantity")
+        .clicked()
+    {
+        controls.quantities.toggle();
     }
+    let choices = &controls.known.choices;
+    let mut chosen = controls.quantities.show(ui, "Search quantities", &current, choices, named);
+    let names = controls.known.names.clone();
+    let subject = Subject {
+        name: "Quantity or formula",
+        current: &current,
+        names: &names,
+        version: version(field.as_ref()),
+    };
+    let check = |text: &str| check(text, field.as_deref());
+    let written = controls.editor("quantity").show(ui, &subject, check);
+    chosen = chosen.or(written);
+    if let Some(text) = formula_of(&current, field.as_deref())
+        && ui
+            .small_button("Show its formula")
+            .on_hover_text("As a formula, it can be changed")
+            .clicked()
+    {
+        chosen = Some(text);
+    }
+    if let Some(text) = chosen {
+        pane.scene.quantity = (text != default).then_some(text);
+    }
+    failure(ui, stage, Fault::Quantity);
+}
+
+/// Another number for another field.
+pub(super) fn version(field: Option<&Arc<OwnedField>>) -> usize {
+    field.map_or(0, |field| Arc::as_ptr(field) as usize)
+}
+
+fn check(text: &str, field: Option<&OwnedField>) -> Result<(), Mistake> {
+    let Some(field) = field else { return Ok(()) };
+    shown(text, field.field()).map(|_| ()).map_err(|error| Mistake::of_quantity(&error, text))
+}
+
+/// The words for what a text shows; the text itself if it shows nothing.
+fn words(text: &str, field: &OwnedField) -> String {
+    let field = field.field();
+    match shown(text, field) {
+        Ok(shown) => {
+            let [symbol, unit] = shown.words(field).map(|text| plain(&text));
+            if unit.is_empty() { symbol } else { format!("{symbol} [{unit}]") }
+        }
+        Err(_) => text.to_owned(),
+    }
+}
+
+/// The formula behind a name of the file's or of the library's, to begin one's own with.
+fn formula_of(name: &str, field: Option<&OwnedField>) -> Option<String> {
+    let field = field?.field();
+    let is_name = matches!(shown(name, field), Ok(Shown::Quantity(quantity))
+        if !matches!(&quantity, Quantity::Formula(formula) if formula.label() != name));
+    let vocabulary = ppum::quantity::Vocabulary::of(field);
+    vocabulary.definition(name).filter(|_| is_name).map(str::to_owned)
 }

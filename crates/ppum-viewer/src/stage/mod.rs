@@ -1,5 +1,7 @@
 //! The plate, edge to edge: shown from the newest picture, moved by the mouse.
 
+pub mod against;
+pub mod bar;
 pub mod flight;
 pub mod locator;
 pub mod scale_bar;
@@ -10,14 +12,17 @@ use std::sync::Arc;
 use egui::{Color32, PointerButton, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 use ppum::crack::tips;
 use ppum::dataset::Dataset;
+use ppum::decompose::Part;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
+use crate::controls::Controls;
 use crate::field::OwnedField;
 use crate::frames::{Frame, Frames, Wanted};
 use crate::session::{Pane, Place};
 use crate::shapes::{self, Placed};
 use crate::undo::{Rest, Undo};
+use against::Against;
 use flight::Flight;
 use locator::Locator;
 
@@ -42,6 +47,10 @@ pub struct Stage {
     pub view: Option<View>,
     /// The position of the mouse, as an offset from the view's centre.
     pub hover: Option<Vec2>,
+    /// What the panels of this view remember.
+    pub controls: Controls,
+    grip: bar::Grip,
+    against: Against,
     texture: Option<Texture>,
     flight: Option<Flight>,
     rest: Rest<Option<Place>>,
@@ -75,6 +84,9 @@ impl Stage {
             trail: Undo::new(None),
             view: None,
             hover: None,
+            controls: Controls::default(),
+            grip: bar::Grip::default(),
+            against: Against::default(),
             texture: None,
             flight: None,
             rest: Rest::new(None),
@@ -102,16 +114,38 @@ impl Stage {
             None => self.trail.note(&pane.place),
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
-        self.frames.want(Wanted {
-            dataset: opened.dataset,
-            scene: pane.scene.clone(),
-            view,
-            compare: pane.compare,
-            keeps_range: pane.keeps_range,
-        });
+        self.pick(&response, pane, &opened.dataset);
         self.frames.poll();
+        let step = pane.scene.subject.step_of(&opened.dataset);
+        self.controls.facts.look_up(&opened.dataset, step);
+        self.controls.advance(ui.ctx(), pane, &self.frames);
+        let scene = self.controls.drawn(&pane.scene);
+        let Pane { compare, keeps_range, .. } = *pane;
+        let dataset = opened.dataset;
+        self.frames.want(Wanted { dataset, scene, view, compare, keeps_range });
         self.paint(ui, rect, &view);
+        if let Some(frame) = self.frames.newest() {
+            let hover = self.hover.map(|offset| (&view, offset));
+            self.against.show(ui, rect, pane, frame, &view);
+            bar::show(ui, rect, &mut self.grip, &mut pane.scene.colors, frame, hover);
+            bar::of_difference(ui, rect, pane, frame);
+        }
         self.furnish(ui, rect, pane, &view);
+    }
+
+    /// Chooses the patch that is clicked on, if one is to be chosen.
+    fn pick(&mut self, response: &egui::Response, pane: &mut Pane, dataset: &Dataset) {
+        let (Some(view), Some(offset)) = (&self.view, self.hover) else { return };
+        if !self.controls.is_picking || !response.clicked() {
+            return;
+        }
+        self.controls.is_picking = false;
+        let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
+        let cells = step.map_or(&[][..], |step| &step.partition.cell);
+        let at = view.center + offset;
+        if let Some(patch) = (0u32..).zip(cells).find(|(_, cell)| cell.contains(at)) {
+            pane.scene.subject.part = Some(Part::Patch(patch.0).to_string());
+        }
     }
 
     /// Flies to the view before.

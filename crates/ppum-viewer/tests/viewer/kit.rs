@@ -51,3 +51,10 @@ pub(crate) fn plate() -> Dataset {
     });
     PLATE.clone()
 }
+
+/// Writes what the window shows to the folder that `PPUM_SHOTS` names; without it nothing.
+pub(crate) fn shot(harness: &mut Harness<'static, Viewer>, name: &str) {
+    let Ok(folder) = std::env::var("PPUM_SHOTS") else { return };
+    let image = harness.render().expect("it can be drawn");
+    image.save(Path::new(&folder).join(name).with_extension("png")).expect("it can be written");
+}

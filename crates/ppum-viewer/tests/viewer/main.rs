@@ -1,4 +1,5 @@
 //! The window, driven by its labels, keys and the mouse.
 
+mod controls;
 mod kit;
 mod moving;

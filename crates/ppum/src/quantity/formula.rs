@@ -129,6 +129,12 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
+    /// All names that formulas may use, but for those of the language.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        let inputs = self.inputs().into_iter().map(|(name, _)| name);
+        inputs.chain(self.definitions().map(|(name, _)| name))
+    }
+
     /// The input of a formula by its name; `None` for names that are no inputs.
     #[must_use]
     pub fn input(&self, name: &str) -> Option<Input> {

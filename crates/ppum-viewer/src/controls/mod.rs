@@ -1,0 +1,108 @@
+//! What the panels of one view remember while it is open, and what is not the session's: texts that are being written, lists that
+//! are open, work in the background, a factor that swings.
+
+pub mod facts;
+pub mod known;
+pub mod swing;
+pub mod whole;
+
+use std::collections::BTreeMap;
+
+use ppum_scene::deformed::Factor;
+use ppum_scene::overlays::{Overlay, Overlays};
+use ppum_scene::scene::Scene;
+
+use crate::frames::Frames;
+use crate::panels::chooser::Chooser;
+use crate::panels::editor::Editor;
+use crate::panels::overlays::Draft;
+use crate::session::Pane;
+use facts::Facts;
+use known::Known;
+use swing::Swing;
+use whole::{Outcome, Whole};
+
+/// What the panels of one view remember.
+#[derive(Default)]
+pub struct Controls {
+    /// The list of quantities.
+    pub quantities: Chooser,
+    /// The list of colour maps.
+    pub maps: Chooser,
+    /// Texts that are written, by what they are of.
+    pub editors: BTreeMap<String, Editor>,
+    /// What the dataset has.
+    pub facts: Facts,
+    /// What its field can show.
+    pub known: Known,
+    /// The range of the whole plate, while it is looked for.
+    pub whole: Option<Whole>,
+    /// The reason why a range was refused.
+    pub refused: Option<String>,
+    /// Levels of isolines that are written.
+    pub levels: Draft,
+    /// The factor of the deformation, while it swings.
+    pub swing: Option<Swing>,
+    /// The overlays that were there before all were hidden.
+    pub hidden: Option<Overlays>,
+    /// True while the next click on the plate chooses a patch.
+    pub is_picking: bool,
+    /// True if the panel of the quantities is to be opened.
+    pub wants_quantity: bool,
+    /// The automatic factor of the deformation, once it is known.
+    pub factor: Option<f64>,
+}
+
+impl Controls {
+    /// Goes on with all that goes on by itself: what is known, the range of the plate, the factor that swings.
+    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, frames: &Frames) {
+        if let Some(frame) = frames.newest() {
+            self.known.look_up(&frame.field);
+            if frame.wanted.scene.deformed == Some(Factor::Auto) {
+                self.factor = frame.factor;
+            }
+        }
+        match self.whole.as_mut().map(Whole::advance) {
+            None | Some(Outcome::Working) => {}
+            Some(Outcome::Found(range)) => (pane.scene.colors.range, self.whole) = (range, None),
+            Some(Outcome::Failed(reason)) => (self.refused, self.whole) = (Some(reason), None),
+        }
+        // a picture that is being made is not taken back for the next one: it would never be seen
+        if let Some(swing) = self.swing.as_mut().filter(|_| !frames.is_working()) {
+            swing.go_on(ctx.input(|input| input.time));
+            ctx.request_repaint();
+        }
+    }
+
+    /// What is drawn of a scene: its factor as it swings, and the overlays that there are then.
+    #[must_use]
+    pub fn drawn(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.drawn();
+        if let (Some(swing), Some(factor)) = (&self.swing, &mut scene.deformed) {
+            let whole = match *factor {
+                Factor::Given(whole) => Some(whole),
+                Factor::Auto => self.factor,
+            };
+            *factor = whole.map_or(*factor, |whole| swing.of(whole));
+        }
+        scene
+    }
+
+    /// Hides all overlays, or shows those that were there before.
+    pub fn toggle_overlays(&mut self, overlays: &mut Overlays) {
+        if *overlays == Overlays::default() {
+            let usual = || Overlays { shown: vec![Overlay::Cracks], ..Overlays::default() };
+            *overlays = self.hidden.take().unwrap_or_else(usual);
+        } else {
+            self.hidden = Some(std::mem::take(overlays));
+        }
+    }
+
+    /// The text that is written of something.
+    pub fn editor(&mut self, of: &str) -> &mut Editor {
+        if !self.editors.contains_key(of) {
+            self.editors.insert(of.to_owned(), Editor::default());
+        }
+        self.editors.get_mut(of).expect("it has just been made")
+    }
+}

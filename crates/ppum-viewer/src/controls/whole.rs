@@ -1,0 +1,110 @@
+//! The range of the whole plate, of one step or of all: found in the background, then fixed.
+
+use std::collections::VecDeque;
+use std::ops::Range as Steps;
+use std::sync::Arc;
+
+use ppum::dataset::Dataset;
+use ppum_render::range::Range;
+use ppum_scene::overlays::Overlays;
+use ppum_scene::scene::Scene;
+
+use crate::frames::{Frames, Wanted};
+use crate::session::Pane;
+use crate::stage;
+
+/// A range that is looked for.
+pub struct Whole {
+    frames: Frames,
+    scene: Scene,
+    dataset: Arc<Dataset>,
+    steps: VecDeque<usize>,
+    total: usize,
+    found: Option<[f64; 2]>,
+}
+
+/// Pixels of the pictures that it is found from.
+const PIXELS: [u32; 2] = [512, 512];
+
+/// How far one is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It is looked for.
+    Working,
+    /// The range.
+    Found(Range),
+    /// The reason why there is none.
+    Failed(String),
+}
+
+impl Whole {
+    /// Looks for the range of a scene on the whole plate at some steps, whatever its range and its overlays are.
+    #[must_use]
+    pub fn new(
+        ctx: &egui::Context,
+        dataset: &Arc<Dataset>,
+        scene: &Scene,
+        steps: Steps<usize>,
+    ) -> Self {
+        let ctx = ctx.clone();
+        let mut scene = Scene { overlays: Overlays::default(), deformed: None, ..scene.clone() };
+        scene.colors.range = Range::Auto;
+        Self {
+            frames: Frames::new(move || ctx.request_repaint()),
+            scene,
+            dataset: Arc::clone(dataset),
+            total: steps.len(),
+            steps: steps.collect(),
+            found: None,
+        }
+    }
+
+    /// How far it is, in words.
+    #[must_use]
+    pub fn told(&self) -> String {
+        format!("{} of {} steps are done", self.total - self.steps.len(), self.total)
+    }
+
+    /// Takes what has been found since.
+    pub fn advance(&mut self) -> Outcome {
+        if self.frames.poll() {
+            if let Some(failure) = self.frames.failure() {
+                return Outcome::Failed(failure.message.clone());
+            }
+            self.take();
+        }
+        let Some(&step) = self.steps.front() else { return self.end() };
+        let mut pane = Pane { scene: self.scene.clone(), ..Pane::default() };
+        pane.scene.subject.step = Some(step);
+        let Some(view) = stage::view(&pane, &self.dataset, PIXELS) else {
+            return Outcome::Failed("the plate has no size".into());
+        };
+        let dataset = Arc::clone(&self.dataset);
+        self.frames.want(Wanted::new(dataset, pane.scene, view));
+        Outcome::Working
+    }
+
+    /// Adds the range of a picture that is done.
+    fn take(&mut self) {
+        let Some(frame) = self.frames.newest() else { return };
+        if self.frames.is_working()
+            || frame.wanted.scene.subject.step != self.steps.front().copied()
+        {
+            return;
+        }
+        self.steps.pop_front();
+        if !frame.picture.has_values {
+            return;
+        }
+        let norm = &frame.picture.normalization;
+        let [min, max] = self.found.unwrap_or([norm.min(), norm.max()]);
+        self.found = Some([min.min(norm.min()), max.max(norm.max())]);
+    }
+
+    fn end(&self) -> Outcome {
+        match self.found {
+            Some([min, max]) => Outcome::Found(Range::Fixed(min, max)),
+            None => Outcome::Failed("the quantity has no finite values on the plate".into()),
+        }
+    }
+}

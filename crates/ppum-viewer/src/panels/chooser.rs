@@ -1,0 +1,170 @@
+//! A list that one chooses from: closed it is a button; open, a text above it says what is looked for.
+
+use egui::{Button, Key, Modifiers, Response, RichText, ScrollArea, TextEdit, Ui};
+
+/// Something that can be chosen.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Choice {
+    /// What is chosen, as it is written.
+    pub value: String,
+    /// What it means.
+    pub about: String,
+    /// The heading that it stands below; all of one heading stand together.
+    pub group: &'static str,
+}
+
+/// The list while it is shown.
+#[derive(Clone, Debug, Default)]
+pub struct Chooser {
+    is_open: bool,
+    /// True until the text has been given the keys.
+    is_new: bool,
+    text: String,
+    at: usize,
+}
+
+/// Height of the open list \[points\].
+const HEIGHT: f32 = 260.0;
+
+impl Chooser {
+    /// Opens the list, ready to be written in.
+    pub fn open(&mut self) {
+        *self = Self { is_open: true, is_new: true, ..Self::default() };
+    }
+
+    /// True if the list is open.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// Opens or closes it.
+    pub fn toggle(&mut self) {
+        if self.is_open {
+            *self = Self::default();
+        } else {
+            self.open();
+        }
+    }
+
+    /// Shows the list if it is open; returns what is chosen. `row` shows a choice, true if the keys are at it.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        name: &str,
+        current: &str,
+        choices: &[Choice],
+        row: impl Fn(&mut Ui, &Choice, bool) -> Response,
+    ) -> Option<String> {
+        if !self.is_open {
+            return None;
+        }
+        let found = found(&self.text, choices);
+        if self.is_new {
+            self.at = found.iter().position(|choice| choice.value == current).unwrap_or(0);
+        }
+        let (enter, has_moved) = self.keys(ui, found.len());
+        self.field(ui, name);
+        let mut chosen = found.get(self.at).filter(|_| enter).copied();
+        let area = ScrollArea::vertical().max_height(HEIGHT).auto_shrink([false, true]);
+        area.id_salt(name).show(ui, |ui| {
+            let mut group = "";
+            for (number, choice) in found.iter().copied().enumerate() {
+                if choice.group != group {
+                    group = choice.group;
+                    ui.label(RichText::new(group).small().weak());
+                }
+                let response = row(ui, choice, number == self.at);
+                if number == self.at && has_moved {
+                    response.scroll_to_me(None);
+                }
+                if response.clicked() {
+                    chosen = Some(choice);
+                }
+            }
+            if found.is_empty() {
+                ui.weak("nothing has this name; formulas are written below");
+            }
+        });
+        let value = chosen.map(|choice| choice.value.clone());
+        if value.is_some() {
+            *self = Self::default();
+        }
+        value
+    }
+
+    /// The text that is looked for.
+    fn field(&mut self, ui: &mut Ui, name: &str) {
+        let edit = TextEdit::singleline(&mut self.text).hint_text("type to search");
+        let edit = ui.add(edit.desired_width(f32::INFINITY)).accessible_name(name);
+        if self.is_new {
+            edit.request_focus();
+            self.is_new = false;
+        }
+        if edit.changed() {
+            self.at = 0;
+        }
+    }
+
+    /// Takes the keys of the list; true if something is chosen, and true if the place has changed.
+    fn keys(&mut self, ui: &Ui, count: usize) -> (bool, bool) {
+        let keys = [Key::Escape, Key::Enter, Key::ArrowDown, Key::ArrowUp];
+        let [escape, enter, down, up] =
+            ui.input_mut(|input| keys.map(|key| input.consume_key(Modifiers::NONE, key)));
+        let last = count.saturating_sub(1);
+        self.at = (self.at + usize::from(down)).min(last).saturating_sub(usize::from(up));
+        if escape {
+            *self = Self::default();
+        }
+        (enter && self.is_open, down || up || self.is_new)
+    }
+}
+
+/// The choices that have all words of a text; those whose own name begins with it come first in their group.
+fn found<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
+    let text = text.to_lowercase();
+    let fits = |choice: &&Choice| {
+        let all = format!("{} {} {}", choice.value, choice.about, choice.group).to_lowercase();
+        text.split_whitespace().all(|word| all.contains(word))
+    };
+    let mut found: Vec<&Choice> = choices.iter().filter(fits).collect();
+    if let Some(best) =
+        found.iter().position(|choice| !text.is_empty() && choice.value.starts_with(text.trim()))
+    {
+        found[..=best].rotate_right(1);
+    }
+    found
+}
+
+/// A row with a name and its meaning.
+pub fn named(ui: &mut Ui, choice: &Choice, is_at: bool) -> Response {
+    let about = RichText::new(&choice.about).weak().small();
+    let name = RichText::new(&choice.value).monospace();
+    let button = Button::selectable(is_at, name).right_text(about).truncate();
+    let response = ui.add_sized([ui.available_width(), 20.0], button).on_hover_text(&choice.about);
+    response.accessible_name(&choice.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn choice(value: &str, about: &str) -> Choice {
+        Choice { value: value.into(), about: about.into(), group: "all" }
+    }
+
+    #[test]
+    fn all_words_are_looked_for_and_names_come_first() {
+        let all =
+            [choice("sxx", "σxx, stress"), choice("tresca", "Tresca stress"), choice("s1", "")];
+        let values = |text: &str| -> Vec<String> {
+            found(text, &all).iter().map(|choice| choice.value.clone()).collect()
+        };
+        assert_eq!(values(""), ["sxx", "tresca", "s1"]);
+        assert_eq!(values("stress"), ["sxx", "tresca"]);
+        assert_eq!(values("STRESS tre"), ["tresca"]);
+        assert_eq!(values("s1"), ["s1"]);
+        assert_eq!(values("t"), ["tresca", "sxx"]);
+        assert!(values("nothing").is_empty());
+    }
+}

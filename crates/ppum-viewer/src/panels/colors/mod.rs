@@ -1,0 +1,97 @@
+//! Colours: map, scale, range, and what lies beyond it.
+
+mod maps;
+pub(crate) mod range;
+
+use egui::{DragValue, RichText, Ui};
+use ppum_render::colormap::Colormap;
+use ppum_render::scale::Scale;
+use ppum_scene::colors::{Colors, MOST_BANDS};
+use ppum_scene::range::Telling;
+
+use super::failure;
+use crate::controls::Controls;
+use crate::desk::Desk;
+use crate::frames::Fault;
+use crate::stage::Stage;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let default = stage.frames.newest().map(|frame| frame.shown.quantity());
+    let default = Colors::default_map(default.flatten());
+    let colors = &mut pane.scene.colors;
+    map(ui, colors, &mut stage.controls, default);
+    scale(ui, colors);
+    range::show(ui, pane, stage);
+    beyond(ui, &mut pane.scene.colors);
+    told(ui, stage);
+    failure(ui, stage, Fault::Colors);
+}
+
+/// The map: which, reversed, in steps.
+fn map(ui: &mut Ui, colors: &mut Colors, controls: &mut Controls, default: &str) {
+    let name = colors.colormap.clone().unwrap_or_else(|| default.to_owned());
+    let base = name.strip_suffix("_r").unwrap_or(&name).to_owned();
+    let mut is_reversed = base != name;
+    let shown = Colormap::named(&name).map(|map| match colors.bands {
+        Some(count) => map.banded(count),
+        None => map,
+    });
+    if shown.is_ok_and(|map| maps::preview(ui, &map).clicked()) {
+        controls.maps.toggle();
+    }
+    let chosen = controls.maps.show(ui, "Search colour maps", &base, &maps::CHOICES, maps::row);
+    let mut has_changed = chosen.is_some();
+    let base = chosen.unwrap_or(base);
+    ui.horizontal(|ui| {
+        ui.label(&base);
+        has_changed |= ui.checkbox(&mut is_reversed, "reversed").changed();
+        bands(ui, colors);
+    });
+    if has_changed {
+        let name = if is_reversed { format!("{base}_r") } else { base };
+        colors.colormap = (name != default).then_some(name);
+    }
+}
+
+fn bands(ui: &mut Ui, colors: &mut Colors) {
+    let mut has_bands = colors.bands.is_some();
+    if ui.checkbox(&mut has_bands, "in steps").changed() {
+        colors.bands = has_bands.then_some(8);
+    }
+    if let Some(count) = &mut colors.bands {
+        let value = DragValue::new(count).range(1..=MOST_BANDS).speed(0.1);
+        ui.add(value).accessible_name("Number of steps");
+    }
+}
+
+fn scale(ui: &mut Ui, colors: &mut Colors) {
+    ui.horizontal(|ui| {
+        for (scale, name, meaning) in [
+            (Scale::Linear, "linear", "Equal steps"),
+            (Scale::Log, "log", "Equal ratios, of positive values"),
+            (Scale::SymLog, "symlog", "Logarithmic on both sides of zero, linear around it"),
+        ] {
+            ui.selectable_value(&mut colors.scale, scale, name).on_hover_text(meaning);
+        }
+    });
+}
+
+/// The colours of values below and above the range.
+fn beyond(ui: &mut Ui, colors: &mut Colors) {
+    let text = "Colours below and above the range that do not occur in the map";
+    ui.checkbox(&mut colors.contrast, "contrast beyond the range").on_hover_text(text);
+}
+
+/// What the colours mean, and between which values all others lie.
+fn told(ui: &mut Ui, stage: &Stage) {
+    let Some(frame) = stage.frames.newest() else { return };
+    let telling = Telling::new(frame.field.dataset(), frame.field.field());
+    let mut text = telling.colors(&frame.picture);
+    let [without, all] = frame.drawn.undefined();
+    if without > 0 {
+        text = format!("{text}; hatched: no value at {without} of {all} pixels");
+    }
+    ui.label(RichText::new(text).weak().small());
+}

@@ -1,0 +1,150 @@
+//! The range of the colours: found, of the whole plate, fixed.
+
+use egui::{DragValue, RichText, Ui};
+use ppum::text::trimmed_to;
+use ppum_render::range::Range;
+use ppum_scene::colors::Colors;
+
+use crate::controls::whole::Whole;
+use crate::session::Pane;
+use crate::stage::Stage;
+
+/// Digits of a bound that is shown: all that a range has that was found are not read.
+const DIGITS: usize = 5;
+
+/// Shows it.
+pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
+    let colors = &mut pane.scene.colors;
+    let bounds = stage.frames.newest().map(|frame| {
+        let norm = &frame.picture.normalization;
+        [norm.min(), norm.max()]
+    });
+    let bounds = bounds.unwrap_or([0.0, 1.0]);
+    kinds(ui, colors, bounds);
+    if let Range::Percentiles(p, q) = colors.range {
+        percentiles(ui, colors, [p, q]);
+    } else {
+        fixed(ui, colors, stage, bounds);
+    }
+    ui.horizontal_wrapped(|ui| {
+        let colors = &mut pane.scene.colors;
+        let text = "Zero in the middle, where the range holds it";
+        let is_symmetric = ui.checkbox(&mut colors.symmetric, "symmetric about zero");
+        if is_symmetric.on_hover_text(text).changed() && colors.symmetric {
+            mirror(colors);
+        }
+        whole(ui, pane, stage);
+    });
+}
+
+/// The rules.
+fn kinds(ui: &mut Ui, colors: &mut Colors, bounds: [f64; 2]) {
+    ui.horizontal_wrapped(|ui| {
+        let percentiles = match colors.range {
+            found @ Range::Percentiles(..) => found,
+            _ => Range::Percentiles(2.0, 98.0),
+        };
+        let frozen = match colors.range {
+            given @ Range::Fixed(..) => given,
+            _ => Range::Fixed(bounds[0], bounds[1]),
+        };
+        for (range, name, meaning) in [
+            (
+                Range::Auto,
+                "auto",
+                "All values of the view, but robust against peaks that are infinite",
+            ),
+            (Range::Full, "full", "All finite values of the view"),
+            (percentiles, "percentiles", "Between two percentiles of the view"),
+            (frozen, "fixed", "The range stays as it is now, wherever one goes"),
+        ] {
+            ui.selectable_value(&mut colors.range, range, name).on_hover_text(meaning);
+        }
+    });
+}
+
+fn percentiles(ui: &mut Ui, colors: &mut Colors, [mut p, mut q]: [f64; 2]) {
+    ui.horizontal(|ui| {
+        let low = DragValue::new(&mut p).range(0.0..=q - 0.1).speed(0.1).suffix(" %");
+        let low = ui.add(low).accessible_name("Lower percentile");
+        let high = DragValue::new(&mut q).range(p + 0.1..=100.0).speed(0.1).suffix(" %");
+        if low.union(ui.add(high).accessible_name("Upper percentile")).changed() {
+            colors.range = Range::Percentiles(p, q);
+        }
+    });
+}
+
+/// The two ends as numbers, those that were found too: whoever changes one fixes both.
+fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) {
+    let mut ends = match colors.range {
+        Range::Fixed(min, max) => [min, max],
+        _ => bounds,
+    };
+    let speed = ((ends[1] - ends[0]).abs() / 300.0).max(f64::MIN_POSITIVE);
+    let mut changed = None;
+    ui.horizontal(|ui| {
+        for (end, name) in [(0, "Lower end"), (1, "Upper end")] {
+            let value = DragValue::new(&mut ends[end]).speed(speed).update_while_editing(false);
+            let value = value.custom_formatter(|value, _| trimmed_to(value, DIGITS));
+            let response = ui.add(value.custom_parser(parse)).accessible_name(name);
+            changed = changed.or(response.changed().then_some(end));
+        }
+    });
+    if let Some(end) = changed {
+        stage.controls.refused = set(colors, ends, end).err();
+    }
+    if let Some(refused) = &stage.controls.refused {
+        ui.label(RichText::new(refused).color(ui.visuals().error_fg_color));
+    }
+}
+
+/// A number as people and this program write it.
+pub(crate) fn parse(text: &str) -> Option<f64> {
+    text.trim().replace('−', "-").parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Fixes the range to two ends, of which one was changed.
+///
+/// # Errors
+/// A range that is none; nothing has changed then.
+pub(crate) fn set(colors: &mut Colors, ends: [f64; 2], changed: usize) -> Result<(), String> {
+    let [min, max] = match (colors.symmetric, ends[changed].abs()) {
+        (true, size) => [-size, size],
+        (false, _) => ends,
+    };
+    let range = format!("{min:?},{max:?}").parse().map_err(|error| format!("{error}"))?;
+    colors.range = range;
+    Ok(())
+}
+
+/// Makes a fixed range one around zero.
+fn mirror(colors: &mut Colors) {
+    if let Range::Fixed(min, max) = colors.range {
+        let size = min.abs().max(max.abs());
+        colors.range = Range::Fixed(-size, size);
+    }
+}
+
+/// The range of the whole plate, found in the background.
+fn whole(ui: &mut Ui, pane: &Pane, stage: &mut Stage) {
+    let Some(opened) = &stage.opened else { return };
+    let controls = &mut stage.controls;
+    if let Some(whole) = &controls.whole {
+        ui.spinner();
+        if ui.button("stop").on_hover_text(whole.told()).clicked() {
+            controls.whole = None;
+        }
+        return;
+    }
+    let count = opened.dataset.steps.len();
+    let step = pane.scene.subject.step_of(&opened.dataset);
+    let here = ("whole plate", "Finds the range of the whole plate and fixes it", step..step + 1);
+    let all = ("all steps", "Finds the range of the plate at all steps and fixes it", 0..count);
+    for (name, meaning, steps) in [here, all].into_iter().take(count.min(2)) {
+        if ui.button(name).on_hover_text(meaning).clicked() {
+            let whole = Whole::new(ui.ctx(), &opened.dataset, &pane.scene, steps);
+            controls.whole = Some(whole);
+            controls.refused = None;
+        }
+    }
+}

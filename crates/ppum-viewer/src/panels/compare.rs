@@ -1,0 +1,113 @@
+//! The direct picture against a resampled one: the method, the grid, and what it costs.
+
+use egui::{Grid, RichText, Slider, Ui};
+use ppum::text::trimmed_to;
+use ppum_render::resample::Interpolation;
+use ppum_render::resample::norms::NAMES;
+use ppum_scene::compare::Compare;
+
+use super::failure;
+use crate::desk::Desk;
+use crate::frames::{Fault, Other};
+use crate::session::Pane;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let mut is_on = pane.compare.is_some();
+    let text = "What a picture looks like that is interpolated between the points of a grid";
+    if ui.checkbox(&mut is_on, "against resampled").on_hover_text(text).changed() {
+        pane.compare = is_on.then(Compare::default);
+    }
+    if pane.compare.is_some() {
+        chosen(ui, pane);
+        let other = stage.frames.newest().and_then(|frame| frame.other.as_ref());
+        if let Some(other) = other {
+            measured(ui, other);
+        }
+    }
+    failure(ui, stage, Fault::Compare);
+}
+
+/// Method, grid, and what stands on the right of the divider.
+fn chosen(ui: &mut Ui, pane: &mut Pane) {
+    let Some(compare) = &mut pane.compare else { return };
+    ui.horizontal(|ui| {
+        for method in [Interpolation::Nearest, Interpolation::Bilinear, Interpolation::Bicubic] {
+            ui.selectable_value(&mut compare.method, method, method.name());
+        }
+    });
+    ui.add(grid(compare)).accessible_name("Points of the grid");
+    ui.horizontal(|ui| {
+        let difference = &mut pane.against.difference;
+        let text = "On the right of the divider, which can be dragged";
+        ui.selectable_value(difference, false, "resampled").on_hover_text(text);
+        ui.selectable_value(difference, true, "difference").on_hover_text(text);
+    });
+}
+
+/// Points on a side: powers of two.
+fn grid(compare: &mut Compare) -> Slider<'_> {
+    let [fewest, most] = Compare::GRIDS.map(|grid| f64::from(grid.ilog2()));
+    let get_set = move |new: Option<f64>| {
+        if let Some(power) = new {
+            compare.grid = 1 << (power.round().clamp(fewest, most) as u32);
+        }
+        f64::from(compare.grid).log2()
+    };
+    let slider = Slider::from_get_set(fewest..=most, get_set).step_by(1.0);
+    slider
+        .custom_formatter(|power, _| format!("{}²", power.exp2().round()))
+        .custom_parser(|text| text.trim_end_matches('²').parse::<f64>().ok().map(f64::log2))
+}
+
+/// Errors over the pixels that are seen, memory and time.
+fn measured(ui: &mut Ui, other: &Other) {
+    let relative = other.norms.relative();
+    Grid::new("measured").num_columns(3).spacing([14.0, 2.0]).show(ui, |ui| {
+        for (name, error) in NAMES.into_iter().zip(relative) {
+            ui.label(format!("error {name}"));
+            ui.label(percent(error));
+            ui.end_row();
+        }
+        ui.label("memory");
+        ui.label(bytes(other.bytes));
+        ui.weak(format!("direct {}", bytes(other.direct_bytes)));
+        ui.end_row();
+        ui.label("time");
+        ui.label(seconds(other.seconds[0]));
+        ui.weak(format!("drawing {}", seconds(other.seconds[1])));
+        ui.end_row();
+    });
+    let text = "Errors are those of the pixels that are seen, in parts of the field's own";
+    ui.label(RichText::new(text).weak().small());
+}
+
+fn percent(error: f64) -> String {
+    match error {
+        error if error.is_infinite() => "∞".to_owned(),
+        error => format!("{} %", trimmed_to(100.0 * error, 3)),
+    }
+}
+
+fn seconds(seconds: f64) -> String {
+    format!("{} ms", trimmed_to(1e3 * seconds, 2))
+}
+
+/// Memory in the unit that has one to three digits before the point.
+fn bytes(count: u64) -> String {
+    let units = ["bytes", "kB", "MB", "GB"];
+    let power = (count.max(1).ilog10() / 3).min(3) as usize;
+    format!("{} {}", trimmed_to(count as f64 / 1e3f64.powi(power as i32), 3), units[power])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_has_a_unit() {
+        assert_eq!([0, 999].map(bytes), ["0 bytes", "999 bytes"]);
+        assert_eq!([32_768, 134_217_728].map(bytes), ["32.8 kB", "134 MB"]);
+    }
+}

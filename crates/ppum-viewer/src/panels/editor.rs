@@ -1,0 +1,200 @@
+//! Formulas that are written: checked at every letter, mistakes marked at their place, names completed.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use egui::text::{CCursor, CharIndex, LayoutJob, TextFormat};
+use egui::{
+    CompletionPopup, FontId, Galley, Key, RectAlign, RichText, Stroke, Suggestion, TextBuffer,
+    TextEdit, Ui,
+};
+use ppum::formula::FormulaError;
+use ppum::quantity::{QuantityError, QuantityFormulaError};
+use ppum::replace::ReplaceError;
+use ppum::weight::WeightError;
+use ppum_scene::scene::ShownError;
+
+/// A text that is written. What is right is the session's at once; what is wrong stays here until it is mended, and so does the picture.
+#[derive(Clone, Debug, Default)]
+pub struct Editor {
+    draft: String,
+    /// The text that the draft began with.
+    base: Option<String>,
+    checked: Option<Checked>,
+}
+
+#[derive(Clone, Debug)]
+struct Checked {
+    text: String,
+    version: usize,
+    mistake: Option<Mistake>,
+}
+
+/// What is wrong with a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// The reason, with the remedy.
+    pub message: String,
+    /// The bytes that it lies at, if it lies somewhere; of a text that ends too early none after the last.
+    pub place: Option<Range<usize>>,
+}
+
+/// What a text is, and what it may say.
+pub struct Subject<'a> {
+    /// The name for those who do not see it.
+    pub name: &'a str,
+    /// What the session has.
+    pub current: &'a str,
+    /// Names that may be completed.
+    pub names: &'a [String],
+    /// Another number whenever the same text may have another meaning.
+    pub version: usize,
+}
+
+/// Suggestions at once.
+const MOST: usize = 12;
+
+impl Editor {
+    /// Shows it; returns a text that is new and right.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        subject: &Subject<'_>,
+        check: impl FnOnce(&str) -> Result<(), Mistake>,
+    ) -> Option<String> {
+        if self.base.as_deref() != Some(subject.current) {
+            self.base = Some(subject.current.to_owned());
+            self.draft = subject.current.to_owned();
+        }
+        let mark = self.mistake().and_then(|mistake| mistake.place.clone());
+        let is_changed = self.edit(ui, subject, mark);
+        let mistake = self.check(subject.version, check);
+        if let Some(mistake) = mistake {
+            ui.label(RichText::new(&mistake.message).color(ui.visuals().error_fg_color));
+            return None;
+        }
+        if !is_changed || self.draft == subject.current {
+            return None;
+        }
+        self.base = Some(self.draft.clone());
+        Some(self.draft.clone())
+    }
+
+    /// Forgets what is written: the session's text is shown again.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    fn mistake(&self) -> Option<&Mistake> {
+        let checked = self.checked.as_ref()?;
+        checked.mistake.as_ref().filter(|_| checked.text == self.draft)
+    }
+
+    /// The text itself; true if it was changed.
+    fn edit(&mut self, ui: &mut Ui, subject: &Subject<'_>, mark: Option<Range<usize>>) -> bool {
+        let before = self.draft.clone();
+        let mut layouter = |ui: &Ui, text: &dyn TextBuffer, width: f32| {
+            laid_out(ui, text.as_str(), mark.clone(), width)
+        };
+        let rows = self.draft.lines().count().clamp(1, 6);
+        let edit = TextEdit::multiline(&mut self.draft)
+            .desired_rows(rows)
+            .desired_width(f32::INFINITY)
+            .layouter(&mut layouter);
+        let popup = CompletionPopup::new(ui.make_persistent_id(("editor", subject.name)))
+            .word_boundary(|c| !is_of_names(c))
+            .align(RectAlign::BOTTOM_START)
+            .accept_keys([Key::Tab]);
+        let output = popup.show(ui, edit, |query| suggestions(query.word, subject.names));
+        let text = &output.text_edit;
+        if let Some(place) = mark.filter(|place| place.is_empty()) {
+            let at =
+                CCursor::new(CharIndex(before[..place.start.min(before.len())].chars().count()));
+            let end = text.galley.pos_from_cursor(at).translate(text.galley_pos.to_vec2());
+            let stroke = Stroke::new(2.0, ui.visuals().error_fg_color);
+            ui.painter().hline(end.left()..=end.left() + 8.0, end.bottom(), stroke);
+        }
+        text.response.response.clone().accessible_name(subject.name);
+        self.draft != before
+    }
+
+    fn check(
+        &mut self,
+        version: usize,
+        check: impl FnOnce(&str) -> Result<(), Mistake>,
+    ) -> Option<&Mistake> {
+        let is_checked =
+            |checked: &Checked| checked.text == self.draft && checked.version == version;
+        if !self.checked.as_ref().is_some_and(is_checked) {
+            let mistake = check(&self.draft).err();
+            self.checked = Some(Checked { text: self.draft.clone(), version, mistake });
+        }
+        self.checked.as_ref().and_then(|checked| checked.mistake.as_ref())
+    }
+}
+
+fn is_of_names(c: char) -> bool {
+    c.is_alphanumeric() || "_-:".contains(c)
+}
+
+/// Names that begin like a word, then those that hold it; none for a word that is a name.
+fn suggestions(word: &str, names: &[String]) -> Vec<Suggestion> {
+    let is_number = word.starts_with(|c: char| c.is_ascii_digit());
+    if word.is_empty() || is_number || names.iter().any(|name| name == word) {
+        return Vec::new();
+    }
+    let begin = names.iter().filter(|name| name.starts_with(word));
+    let hold = names.iter().filter(|name| !name.starts_with(word) && name.contains(word));
+    begin.chain(hold).take(MOST).map(Suggestion::new).collect()
+}
+
+/// The text in letters of one width, its mistake underlined.
+fn laid_out(ui: &Ui, text: &str, mark: Option<Range<usize>>, width: f32) -> Arc<Galley> {
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = width;
+    let plain = TextFormat::simple(FontId::monospace(13.0), ui.visuals().text_color());
+    let wrong = ui.visuals().error_fg_color;
+    let marked = TextFormat { underline: Stroke::new(1.5, wrong), color: wrong, ..plain.clone() };
+    let at = |byte: usize| text.floor_char_boundary(byte);
+    let mark = mark.map_or(0..0, |mark| at(mark.start)..at(mark.end));
+    job.append(&text[..mark.start], 0.0, plain.clone());
+    job.append(&text[mark.clone()], 0.0, marked);
+    job.append(&text[mark.end..], 0.0, plain);
+    ui.fonts_mut(|fonts| fonts.layout_job(job))
+}
+
+impl Mistake {
+    fn of_formula(error: &FormulaError, text: &str) -> Self {
+        Self { message: error.message(), place: Some(error.place(text)) }
+    }
+
+    fn of_all(error: &dyn std::error::Error, text: &str) -> Self {
+        Self { message: error.to_string(), place: Some(0..text.len()) }
+    }
+
+    /// What keeps a text from being a quantity.
+    #[must_use]
+    pub fn of_quantity(error: &ShownError, text: &str) -> Self {
+        match error {
+            ShownError::Quantity(QuantityError::Formula(QuantityFormulaError::Formula(error))) => {
+                // the text was trimmed before it was read
+                let before = text.len() - text.trim_start().len();
+                let mistake = Self::of_formula(error, text.trim());
+                let shifted = |place: Range<usize>| place.start + before..place.end + before;
+                Self { place: mistake.place.map(shifted), ..mistake }
+            }
+            other => Self::of_all(other, text),
+        }
+    }
+
+    /// What keeps a text from taking the place of a function or of the weight.
+    #[must_use]
+    pub fn of_replacement(error: &ReplaceError, text: &str) -> Self {
+        match error {
+            ReplaceError::Formula(error) | ReplaceError::Weight(WeightError::Formula(error)) => {
+                Self::of_formula(error, text)
+            }
+            other => Self::of_all(other, text),
+        }
+    }
+}

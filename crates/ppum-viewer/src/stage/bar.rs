@@ -1,0 +1,413 @@
+//! The colour bar on the plate: drawn as figures draw it, and the control of the range. Its ends are dragged, its middle shifts both,
+//! the wheel spreads them; a click on an end edits its number, a double click leaves the range to the program.
+
+use egui::{
+    Align2, Area, Color32, CursorIcon, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke,
+    TextEdit, Ui, pos2, vec2,
+};
+use ppum::text::{exact, trimmed_to};
+use ppum::vec2::Vec2;
+use ppum_figure::figure::{Bar, Design, Labels, Theme};
+use ppum_render::extrema::Extremum;
+use ppum_render::picture::Picture;
+use ppum_render::range::Range;
+use ppum_render::scale::Normalization;
+use ppum_render::view::View;
+use ppum_scene::colors::Colors;
+use ppum_scene::drawing::Values;
+use ppum_scene::range::{Telling, value};
+
+use crate::frames::Frame;
+use crate::panels::colors::range::{parse, set};
+use crate::session::Pane;
+use crate::shapes::{self, Placed};
+
+/// What is done to the bar just now.
+#[derive(Clone, Debug, Default)]
+pub struct Grip {
+    /// The range when it was grabbed, and the position that it was grabbed at.
+    grabbed: Option<(Normalization, f64)>,
+    /// The end that is written, and what.
+    edited: Option<Edited>,
+}
+
+#[derive(Clone, Debug)]
+struct Edited {
+    end: usize,
+    text: String,
+    mistake: Option<String>,
+    is_new: bool,
+}
+
+/// Length of the bar in parts of the plate's height, and at most; no bar where it would be shorter than the least.
+const PART: f32 = 0.6;
+const MOST: f32 = 420.0;
+const LEAST: f32 = 140.0;
+/// From the plate's border, and around the bar.
+const MARGIN: f32 = 10.0;
+const ROOM: f32 = 8.0;
+/// Height of what counts as an end.
+const END: f32 = 22.0;
+/// Letters in parts of those of a figure of 1024 × 768 pixels.
+const LETTERS: f64 = 0.92;
+/// Turns of the wheel, in points, that spread the range e times.
+const WHEEL: f64 = 240.0;
+/// Names of the ends.
+const ENDS: [&str; 2] = ["Lower end of the colours", "Upper end of the colours"];
+
+/// A bar at its place.
+struct Standing<'a> {
+    frame: &'a Frame,
+    bar: Bar,
+    /// The bar's upper left corner.
+    corner: Pos2,
+}
+
+/// Shows the bar of a picture on a plate. `hover` is the place of the pointer as an offset from the view's centre. Returns true while
+/// the pointer is on it.
+pub fn show(
+    ui: &mut Ui,
+    plate: Rect,
+    grip: &mut Grip,
+    colors: &mut Colors,
+    frame: &Frame,
+    hover: Option<(&View, Vec2)>,
+) {
+    let length = (PART * plate.height()).min(MOST);
+    if length < LEAST || plate.width() < LEAST {
+        return;
+    }
+    let standing = Standing::new(ui, plate, frame, length);
+    standing.paint(ui);
+    standing.body(ui, grip, colors);
+    for end in [0, 1] {
+        standing.end(ui, grip, colors, end);
+    }
+    standing.extrema(ui);
+    standing.edit(ui, grip, colors);
+    if let Some(value) = hover.and_then(|(view, offset)| value_at(frame, view, offset)) {
+        standing.follow(ui, value);
+    }
+}
+
+/// Shows the bar of the difference to a resampled picture, where that is seen: beside the other one, and nothing drags it.
+pub fn of_difference(ui: &Ui, plate: Rect, pane: &Pane, frame: &Frame) {
+    let length = (PART * plate.height()).min(MOST);
+    let Some(other) = frame.other.as_ref().filter(|_| pane.compare.is_some()) else { return };
+    if length < LEAST || plate.width() < 2.0 * LEAST || !pane.against.difference {
+        return;
+    }
+    let labels = Labels { quantity: "resampled − direct".into(), ..Labels::default() };
+    let beside = Standing::new(ui, plate, frame, length).whole().left();
+    let bar = bar(ui, &other.difference, &labels, length);
+    let standing = Standing::at(plate, frame, bar, beside - MARGIN);
+    standing.paint(ui);
+}
+
+/// A bar in the window's colours.
+fn bar(ui: &Ui, picture: &Picture, labels: &Labels, length: f32) -> Bar {
+    let mut design = Design::pixels([1024, 768]);
+    design.font_size *= LETTERS;
+    design.theme = if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light };
+    Bar::new(picture, labels, &design, f64::from(length))
+}
+
+impl<'a> Standing<'a> {
+    fn new(ui: &Ui, plate: Rect, frame: &'a Frame, length: f32) -> Self {
+        let [quantity, unit] = frame.shown.words(frame.field.field());
+        let labels = Labels { quantity, unit, ..Labels::default() };
+        let bar = bar(ui, &frame.picture, &labels, length);
+        Self::at(plate, frame, bar, plate.right() - MARGIN)
+    }
+
+    /// In the middle of a plate's height, on the left of something.
+    fn at(plate: Rect, frame: &'a Frame, bar: Bar, right: f32) -> Self {
+        let [min, max] = bar.bounds().map(|p| vec2(p.x as f32, p.y as f32));
+        let top = plate.center().y - 0.5 * (max.y - min.y);
+        let corner = pos2((right - ROOM - max.x).round(), (top - min.y).round());
+        Self { frame, bar, corner }
+    }
+
+    fn norm(&self) -> &Normalization {
+        &self.frame.picture.normalization
+    }
+
+    /// True if values have a colour each, so that there is no range.
+    fn has_classes(&self) -> bool {
+        !self.frame.picture.colormap.classes().is_empty()
+    }
+
+    /// The height of a position from 0 to 1.
+    fn height(&self, position: f64) -> f32 {
+        let [low, high] = self.bar.ends;
+        self.corner.y + (low + position * (high - low)) as f32
+    }
+
+    /// The position of a height.
+    fn position(&self, height: f32) -> f64 {
+        let [low, high] = self.bar.ends;
+        (f64::from(height - self.corner.y) - low) / (high - low)
+    }
+
+    /// What is coloured evenly.
+    fn colored(&self) -> Rect {
+        let right = self.corner.x + self.bar.width as f32;
+        Rect::from_min_max(pos2(self.corner.x, self.height(1.0)), pos2(right, self.height(0.0)))
+    }
+
+    /// All of it.
+    fn whole(&self) -> Rect {
+        let [min, max] = self.bar.bounds().map(|p| self.corner + vec2(p.x as f32, p.y as f32));
+        Rect::from_min_max(min, max).expand(ROOM)
+    }
+
+    fn paint(&self, ui: &Ui) {
+        let ground = ui.visuals().panel_fill.gamma_multiply(0.88);
+        ui.painter().rect_filled(self.whole(), 6.0, ground);
+        let placed = Placed { corner: self.corner, scale: 1.0 };
+        shapes::draw(ui.painter(), placed, &self.bar.items);
+    }
+
+    /// The middle: shifts the range, the wheel spreads it.
+    fn body(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors) {
+        let id = ui.scope_id().with("colour bar");
+        // the ground takes the mouse, so that the plate below does not move
+        ui.interact(self.whole(), id.with("ground"), Sense::click_and_drag());
+        let response = ui.interact(self.colored(), id, Sense::click_and_drag());
+        name(&response, "Range of the colours");
+        let response = response.on_hover_text(
+            "Drag to shift the range, its ends to change them; the wheel spreads it, a double click finds it",
+        );
+        if self.has_classes() {
+            return;
+        }
+        if let Some((norm, from, at)) = self.grabbed(&response, grip) {
+            let ends = [0.0, 1.0].map(|end| norm.value(end - (at - from)));
+            shift(colors, ends);
+        }
+        let wheel = ui.input(|input| f64::from(input.smooth_scroll_delta().y));
+        if let Some(at) = response.hover_pos().filter(|_| wheel != 0.0) {
+            let (at, factor) = (self.position(at.y), (-wheel / WHEEL).exp());
+            shift(colors, [0.0, 1.0].map(|end| self.norm().value(at + (end - at) * factor)));
+        }
+        self.automatic(&response, grip, colors);
+    }
+
+    /// An end: dragged to where its value is to be, or written.
+    fn end(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors, end: usize) {
+        let rect = self.end_rect(end);
+        let id = ui.scope_id().with("colour bar").with(end);
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        name(&response, ENDS[end]);
+        let response = response.on_hover_cursor(CursorIcon::ResizeVertical);
+        if self.has_classes() {
+            return;
+        }
+        let ends = [self.norm().min(), self.norm().max()];
+        if let Some((norm, from, at)) = self.grabbed(&response, grip) {
+            let mut ends = [norm.min(), norm.max()];
+            ends[end] = norm.value(end as f64 + (at - from));
+            // an impossible end stays where it was
+            let _ = set(colors, ends, end);
+        } else if response.clicked() {
+            let text = exact(short(ends[end], ends));
+            grip.edited = Some(Edited { end, text, mistake: None, is_new: true });
+        }
+        self.automatic(&response, grip, colors);
+    }
+
+    /// The part of the bar that belongs to an end, with what stands beside it.
+    fn end_rect(&self, end: usize) -> Rect {
+        let colored = self.colored();
+        let at = if end == 0 { colored.bottom() } else { colored.top() };
+        let inside = END.min(0.25 * colored.height());
+        let (top, bottom) = match end {
+            0 => (at - inside, at + END),
+            _ => (at - END, at + inside),
+        };
+        Rect::from_min_max(
+            pos2(colored.left() - 4.0, top),
+            pos2(self.whole().right() - ROOM, bottom),
+        )
+    }
+
+    /// While it is dragged: the range when that began, the position then and now.
+    fn grabbed(&self, response: &Response, grip: &mut Grip) -> Option<(Normalization, f64, f64)> {
+        let at = self.position(response.interact_pointer_pos()?.y);
+        if response.drag_started() {
+            grip.grabbed = Some((*self.norm(), at));
+            grip.edited = None;
+        }
+        let dragged = response.dragged();
+        grip.grabbed.filter(|_| dragged).map(|(norm, from)| (norm, from, at))
+    }
+
+    fn automatic(&self, response: &Response, grip: &mut Grip, colors: &mut Colors) {
+        if response.double_clicked() {
+            colors.range = Range::Auto;
+            grip.edited = None;
+        }
+    }
+
+    /// Small marks at the smallest and the largest value of all, with their places.
+    fn extrema(&self, ui: &Ui) {
+        let picture = &self.frame.picture;
+        let Some(extrema) = &picture.span.values else { return };
+        if self.has_classes() || picture.one_value.is_some() || !picture.has_values {
+            return;
+        }
+        for (number, extremum) in [&extrema.min, &extrema.max].into_iter().enumerate() {
+            let at = pos2(self.corner.x - 3.0, self.mark(extremum));
+            let points = vec![at, at + vec2(-7.0, -4.5), at + vec2(-7.0, 4.5)];
+            let ink = ui.visuals().strong_text_color();
+            ui.painter().add(Shape::convex_polygon(points, ink, Stroke::NONE));
+            let rect = Rect::from_center_size(at - vec2(3.0, 0.0), vec2(14.0, 14.0));
+            let id = ui.scope_id().with("extremum").with(number);
+            let response = ui.interact(rect, id, Sense::hover());
+            let told = || {
+                let dataset = self.frame.field.dataset();
+                let telling = Telling::new(dataset, self.frame.field.field());
+                let all = telling.extrema(extrema, &picture.view);
+                format!("{}: {}", ["smallest value", "largest value"][number], all[number])
+            };
+            name(&response, ["Smallest value", "Largest value"][number]);
+            response.on_hover_ui(|ui| {
+                ui.label(told());
+            });
+        }
+    }
+
+    /// The height of an extremum's mark: beyond the ends at the points of the triangles.
+    fn mark(&self, extremum: &Extremum) -> f32 {
+        let position = self.norm().position(extremum.value).clamp(0.0, 1.0);
+        let beyond = match extremum.value {
+            value if value > self.norm().max() => -10.0,
+            value if value < self.norm().min() => 10.0,
+            _ => 0.0,
+        };
+        self.height(position) + beyond
+    }
+
+    /// A tick at the value below the pointer, with the value.
+    fn follow(&self, ui: &Ui, found: f64) {
+        if found.is_nan() || self.has_classes() {
+            return;
+        }
+        let at = self.height(self.norm().position(found).clamp(0.0, 1.0));
+        let size = self.norm().min().abs().max(self.norm().max().abs());
+        let text = value(rounded(found, 4), size);
+        let ink = ui.visuals().strong_text_color();
+        let font = FontId::proportional(12.0);
+        let galley = ui.painter().layout_no_wrap(text, font, ink);
+        let left = self.corner.x - 12.0;
+        let rect = Align2::RIGHT_CENTER.anchor_size(pos2(left - 4.0, at), galley.size());
+        ui.painter().rect_filled(rect.expand(3.0), 3.0, ui.visuals().panel_fill);
+        ui.painter().galley(rect.min, galley, ink);
+        let colored = self.colored();
+        let line = Stroke::new(1.5, contrast(ui));
+        ui.painter().hline(left..=colored.right(), at, line);
+    }
+
+    /// The number of an end, while it is written.
+    fn edit(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors) {
+        let Some(mut edited) = grip.edited.take() else { return };
+        let end = edited.end;
+        let place = pos2(self.whole().left() - 112.0, self.height(end as f64) - 12.0);
+        let id = Id::unique("an end of the colours");
+        let area = Area::new(id).fixed_pos(place).order(egui::Order::Foreground);
+        let is_done = area.show(ui.ctx(), |ui| {
+            egui::Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| field(ui, &mut edited))
+        });
+        let mut is_done = is_done.inner.inner;
+        if is_done == Done::Entered {
+            match self.entered(&edited, colors) {
+                Ok(()) => {}
+                Err(mistake) => {
+                    (edited.mistake, edited.is_new, is_done) = (Some(mistake), true, Done::No);
+                }
+            }
+        }
+        if is_done == Done::No {
+            grip.edited = Some(edited);
+        }
+    }
+
+    fn entered(&self, edited: &Edited, colors: &mut Colors) -> Result<(), String> {
+        let mut ends = match colors.range {
+            Range::Fixed(min, max) => [min, max],
+            _ => [self.norm().min(), self.norm().max()],
+        };
+        ends[edited.end] = parse(&edited.text).ok_or("write a finite number")?;
+        set(colors, ends, edited.end)
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Done {
+    No,
+    Entered,
+    Left,
+}
+
+/// The field that a number is written in.
+fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
+    let edit = TextEdit::singleline(&mut edited.text).desired_width(90.0);
+    let edit = ui.add(edit).accessible_name(format!("{} as a number", ENDS[edited.end]));
+    if edited.is_new {
+        edit.request_focus();
+        edited.is_new = false;
+    }
+    if let Some(mistake) = &edited.mistake {
+        ui.colored_label(ui.visuals().error_fg_color, mistake);
+    }
+    let [enter, escape] = [Key::Enter, Key::Escape].map(|key| ui.input(|i| i.key_pressed(key)));
+    match (edit.lost_focus(), enter, escape) {
+        (_, _, true) => Done::Left,
+        (true, true, _) => Done::Entered,
+        (true, false, _) => Done::Left,
+        _ => Done::No,
+    }
+}
+
+/// Fixes the range to both ends; one that is none leaves the range as it was.
+fn shift(colors: &mut Colors, [min, max]: [f64; 2]) {
+    if let Ok(range) = format!("{min:?},{max:?}").parse() {
+        colors.range = range;
+    }
+}
+
+fn name(response: &Response, name: &str) {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+}
+
+fn contrast(ui: &Ui) -> Color32 {
+    if ui.visuals().dark_mode { Color32::WHITE } else { Color32::BLACK }
+}
+
+/// An end with the digits that its range gives a meaning to.
+fn short(end: f64, [min, max]: [f64; 2]) -> f64 {
+    let step = 10f64.powi(((max - min) / 1000.0).log10().floor() as i32);
+    let rounded = format!("{:.12e}", (end / step).round() * step).parse().unwrap_or(end);
+    if f64::is_finite(rounded) { rounded } else { end }
+}
+
+/// A value with so many digits.
+fn rounded(value: f64, digits: usize) -> f64 {
+    trimmed_to(value, digits).parse().unwrap_or(value)
+}
+
+/// The value of a picture below a place of the view.
+fn value_at(frame: &Frame, view: &View, offset: Vec2) -> Option<f64> {
+    let made = &frame.wanted.view;
+    let pixel = made.pixel_of_offset(offset + (view.center - made.center));
+    let [columns, rows] = made.pixels;
+    let is_inside = pixel.x >= 0.0
+        && pixel.y >= 0.0
+        && pixel.x < f64::from(columns)
+        && pixel.y < f64::from(rows);
+    let (i, j) = (pixel.x as u32, pixel.y as u32);
+    is_inside.then(|| match &frame.drawn.values {
+        Values::Double(raster) => raster.value(i, j),
+        Values::Single(raster) => f64::from(raster.value(i, j)),
+    })
+}
