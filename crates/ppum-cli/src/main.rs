@@ -121,10 +121,7 @@ mod tests {
             ("graphics", &["progress"]),
             ("overlays", &["arguments", "output", "progress"]),
             ("page", &["output", "standard", "target"]),
-            (
-                "profile",
-                &["arguments", "number", "output", "progress", "target", "tips", "undefined"],
-            ),
+            ("profile", &["arguments", "output", "progress", "target", "tips", "undefined"]),
             ("window", &["arguments", "tips"]),
             ("replacements", &["arguments", "given"]),
         ],

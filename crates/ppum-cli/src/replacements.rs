@@ -8,6 +8,7 @@ use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::replace::{self, ReplacementsError};
+use ppum_scene::scene::{SubjectError, define};
 
 use crate::arguments::assignment;
 use crate::given::{Given, file};
@@ -25,6 +26,9 @@ pub(crate) struct Replacements {
     /// Replace the weight function: by one of the library or a formula of t
     #[arg(long, value_name = "FORMULA", allow_hyphen_values = true)]
     weight: Option<String>,
+    /// Give a quantity that the dataset names another formula; may be given more than once
+    #[arg(long, value_name = "NAME=FORMULA", value_parser = assignment)]
+    define: Vec<(String, String)>,
 }
 
 /// A part of the field, or all of it.
@@ -102,7 +106,9 @@ impl Replacements {
             weight: weight.as_ref().map(|given| given.text.clone()),
         };
         let step = step.unwrap_or(dataset.steps.len().saturating_sub(1));
-        let Err(error) = replacements.apply(dataset, step) else { return Ok(()) };
+        let Err(error) = replacements.apply(dataset, step) else {
+            return self.define(dataset, step);
+        };
         match (error, &weight) {
             (ReplacementsError::Part(error), _) => Err(error).context("--part"),
             (ReplacementsError::Function { index, which, error }, _) => {
@@ -115,9 +121,23 @@ impl Replacements {
         }
     }
 
+    /// Gives named quantities their formulas.
+    fn define(&self, dataset: &mut Dataset, step: usize) -> anyhow::Result<()> {
+        for (name, text) in &self.define {
+            let given = Given::read(text)?;
+            let defined = define(dataset, step, name, &given.text);
+            match defined {
+                Err(SubjectError::Quantity { error, .. }) => given.explain(Err(*error)),
+                other => other.map_err(Into::into),
+            }
+            .with_context(|| format!("--define {name}"))?;
+        }
+        Ok(())
+    }
+
     /// The files that formulas are read from.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
-        let functions = self.function.iter().map(|(_, given)| given);
+        let functions = self.function.iter().chain(&self.define).map(|(_, given)| given);
         functions.chain(&self.weight).filter_map(|given| file(given))
     }
 
@@ -141,7 +161,9 @@ impl Replacements {
     pub(crate) fn notes(&self) -> impl Iterator<Item = (String, String)> {
         let functions = self.function.iter().map(|(which, text)| format!("{which} = {text}"));
         let weight = self.weight.iter().map(|text| format!("weight = {text}"));
-        let replaced = functions.chain(weight).map(|note| ("ppum:replaced".to_owned(), note));
+        let defined = self.define.iter().map(|(name, text)| format!("{name} = {text}"));
+        let replaced =
+            functions.chain(weight).chain(defined).map(|note| ("ppum:replaced".to_owned(), note));
         let parts: Vec<String> = self.part.iter().map(Choice::to_string).collect();
         let part = (!parts.is_empty()).then(|| ("ppum:part".to_owned(), parts.join(", ")));
         part.into_iter().chain(replaced)

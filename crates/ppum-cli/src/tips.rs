@@ -7,9 +7,9 @@ use anyhow::{Context as _, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Ring, Step, TipIntensity};
 use ppum::field::Field;
-use ppum::text::{Places, beside, short};
+use ppum::text::Places;
 use ppum::vec2::Vec2;
-use ppum_solve::diagnostics::relative_spread;
+use ppum_scene::tips::words;
 use serde::Serialize;
 
 use crate::number::{Number, count};
@@ -66,7 +66,7 @@ impl Tip {
             angle: axis.y.atan2(axis.x),
             k1: Number(*k1),
             k2: Number(*k2),
-            spread: Number(relative_spread(intensity)),
+            spread: Number(intensity.spread()),
             rings: rings.iter().map(RingRow::new).collect(),
         }
     }
@@ -97,15 +97,7 @@ pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::R
     for group in tips.chunk_by(|a, b| a.step == b.step) {
         for (number, tip) in group.iter().enumerate() {
             let Tip { crack, tip: at, spread, .. } = tip;
-            let size = tip.k1.0.hypot(tip.k2.0);
-            let shown =
-                |k: Number| if k.0.is_nan() { "–".into() } else { short(beside(k.0, size)) };
-            let [k1, k2] = [tip.k1, tip.k2].map(shown);
-            let spread = match spread.0 {
-                s if s.is_nan() => "–".into(),
-                0.0 => "0".into(),
-                s => format!("{s:.0e}"),
-            };
+            let [k1, k2, spread] = words(tip.k1.0, tip.k2.0, spread.0);
             let at = places.show(Vec2::from(*at));
             let row = format!("{at:>24}  {k1:>12}  {k2:>12}  {spread:>7}");
             writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;

@@ -76,6 +76,9 @@ fn subject(scene: &Scene, words: &mut Words) {
     for (which, formula) in &subject.functions {
         words.add(format!("--function={which}={formula}"));
     }
+    for (name, formula) in &subject.quantities {
+        words.add(format!("--define={name}={formula}"));
+    }
     if let Some(weight) = &subject.weight {
         words.add(format!("--weight={weight}"));
     }
@@ -91,6 +94,9 @@ fn colors(scene: &Scene, words: &mut Words) {
     }
     if colors.scale != Scale::Linear {
         words.add(format!("--scale={}", colors.scale));
+    }
+    if colors.symmetric {
+        words.add("--symmetric");
     }
     if colors.contrast {
         words.add("--extremes=contrast");

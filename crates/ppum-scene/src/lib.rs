@@ -15,10 +15,13 @@ pub mod layers;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
+pub mod profile;
 pub mod range;
 pub mod scene;
 pub mod shot;
 mod stations;
+pub mod table;
+pub mod tips;
 mod written;
 
 #[cfg(test)]
@@ -28,11 +31,19 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("drawing", &[]), ("notice", &[]), ("overlays", &[]), ("written", &[])],
+        &[
+            ("drawing", &[]),
+            ("notice", &[]),
+            ("overlays", &[]),
+            ("table", &[]),
+            ("tips", &[]),
+            ("written", &[]),
+        ],
         &[
             ("colors", &["drawing", "written"]),
             ("compare", &["written"]),
             ("deformed", &["drawing"]),
+            ("profile", &["table"]),
             ("range", &["drawing"]),
             ("stations", &["notice"]),
         ],

@@ -3,7 +3,7 @@
 use ppum::dataset::Dataset;
 use ppum::decompose::UnknownPart;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityError};
+use ppum::quantity::{Quantity, QuantityError, QuantityFormula, QuantityFormulaError, Vocabulary};
 use ppum::replace::{Replacements, ReplacementsError};
 use ppum::text::hint;
 use ppum_render::cells;
@@ -57,6 +57,8 @@ pub struct Subject {
     pub functions: Vec<(String, String)>,
     /// The weight: one of the library, or a formula of t.
     pub weight: Option<String>,
+    /// Quantities that the dataset names, and formulas in the place of theirs.
+    pub quantities: Vec<(String, String)>,
 }
 
 /// A subject that a dataset does not have.
@@ -69,21 +71,76 @@ pub enum SubjectError {
     /// A part that the step does not have, or a replacement that does not fit.
     #[error(transparent)]
     Replacements(#[from] ReplacementsError),
+    /// A quantity that the dataset does not name.
+    #[error("the dataset names no quantity `{name}`{hint}; it names {known}")]
+    Unnamed {
+        /// The name.
+        name: String,
+        /// A suggestion, if a known name is similar, see [`hint`].
+        hint: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A formula that is no quantity.
+    #[error("quantity {name}: {error}")]
+    Quantity {
+        /// The name.
+        name: String,
+        /// The reason.
+        #[source]
+        error: Box<QuantityFormulaError>,
+    },
+}
+
+/// Gives a quantity that a dataset names another formula, which may use the quantities before it.
+///
+/// # Errors
+/// No such name; a text that is no quantity of the step's field. Nothing has changed then.
+pub fn define(
+    dataset: &mut Dataset,
+    step: usize,
+    name: &str,
+    text: &str,
+) -> Result<(), SubjectError> {
+    let Dataset { quantities, equation, tables, steps, .. } = dataset;
+    let Some(at) = quantities.iter().position(|named| named.name == name) else {
+        let names: Vec<&str> = quantities.iter().map(|named| named.name.as_str()).collect();
+        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        let hint = hint(name, names.iter().copied());
+        return Err(SubjectError::Unnamed { name: name.to_owned(), hint, known });
+    };
+    let field = steps.get(step).and_then(|step| step.fields.first());
+    let components = field.map_or(&[][..], |field| &field.components);
+    let vocabulary = Vocabulary { equation, components, tables, named: &quantities[..at] };
+    QuantityFormula::new(text, &vocabulary).map_err(|error| SubjectError::Quantity {
+        name: name.to_owned(),
+        error: Box::new(error),
+    })?;
+    text.clone_into(&mut quantities[at].text);
+    Ok(())
 }
 
 impl Subject {
     /// The formula in the place of a function, by the name that it was replaced by.
     #[must_use]
     pub fn replaced(&self, which: &str) -> Option<&str> {
-        self.functions.iter().find(|(name, _)| name == which).map(|(_, text)| text.as_str())
+        given(&self.functions, which)
     }
 
     /// Puts a formula in the place of a function, or gives that of the dataset back.
     pub fn replace(&mut self, which: &str, text: Option<String>) {
-        self.functions.retain(|(name, _)| name != which);
-        self.functions.extend(text.map(|text| (which.to_owned(), text)));
-        // in one order, whatever the order of changes: equal subjects are compared
-        self.functions.sort();
+        give(&mut self.functions, which, text);
+    }
+
+    /// The formula in the place of that of a named quantity.
+    #[must_use]
+    pub fn defined(&self, name: &str) -> Option<&str> {
+        given(&self.quantities, name)
+    }
+
+    /// Puts a formula in the place of that of a named quantity, or gives that of the dataset back.
+    pub fn define(&mut self, name: &str, text: Option<String>) {
+        give(&mut self.quantities, name, text);
     }
 
     /// The number of the step in a dataset.
@@ -95,7 +152,10 @@ impl Subject {
     /// True if nothing of the dataset is changed.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        self.part.is_none() && self.functions.is_empty() && self.weight.is_none()
+        self.part.is_none()
+            && self.functions.is_empty()
+            && self.weight.is_none()
+            && self.quantities.is_empty()
     }
 
     /// Changes a dataset to what is looked at.
@@ -112,8 +172,21 @@ impl Subject {
             weight: self.weight.clone(),
         };
         let step = self.step_of(dataset);
-        Ok(replacements.apply(dataset, step)?)
+        replacements.apply(dataset, step)?;
+        let mut quantities = self.quantities.iter();
+        quantities.try_for_each(|(name, text)| define(dataset, step, name, text))
     }
+}
+
+fn given<'a>(texts: &'a [(String, String)], name: &str) -> Option<&'a str> {
+    texts.iter().find(|(known, _)| known == name).map(|(_, text)| text.as_str())
+}
+
+/// Gives something a text, or none; in one order, whatever the order of changes, since subjects are compared.
+fn give(texts: &mut Vec<(String, String)>, name: &str, text: Option<String>) {
+    texts.retain(|(known, _)| known != name);
+    texts.extend(text.map(|text| (name.to_owned(), text)));
+    texts.sort();
 }
 
 /// In front of the name of a value of cells that a quantity has too.
@@ -182,5 +255,42 @@ pub fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
     match field.equation.elastic() {
         Some(_) => "von-mises",
         None => &field.data.components[0],
+    }
+}
+
+/// The parts of a list: what commas separate that stand in no parentheses and no comment.
+#[must_use]
+pub fn parts(list: &str) -> Vec<&str> {
+    let (mut depth, mut comment, mut start) = (0usize, false, 0);
+    let mut parts = Vec::new();
+    for (at, c) in list.char_indices() {
+        match c {
+            '\n' => comment = false,
+            _ if comment => {}
+            '#' => comment = true,
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                parts.push(list[start..at].trim());
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(list[start..].trim());
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commas_part_what_is_outside_of_parentheses() {
+        assert_eq!(parts("ux, uy"), ["ux", "uy"]);
+        assert_eq!(parts("max(ux, hypot(uy, 1)),@q.txt"), ["max(ux, hypot(uy, 1))", "@q.txt"]);
+        assert_eq!(parts("ux # a, b (\n + uy, 1"), ["ux # a, b (\n + uy", "1"]);
+        assert_eq!(parts("a), (b, c"), ["a)", "(b, c"]);
+        assert_eq!(parts(""), [""]);
     }
 }

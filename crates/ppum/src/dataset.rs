@@ -367,6 +367,27 @@ pub struct TipIntensity {
     pub rings: Vec<Ring>,
 }
 
+impl TipIntensity {
+    /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
+    /// the denominator; NaN where that is zero, or without rings.
+    ///
+    /// A check that the integrals agree, and no estimate of the error of K: all radii see the same field, and
+    /// most of its error enters them alike. Errors a hundred times as large are common.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        self.largest_difference() / self.k1.hypot(self.k2)
+    }
+
+    /// The same, not in parts of K.
+    #[must_use]
+    pub fn largest_difference(&self) -> f64 {
+        let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);
+        let pairs =
+            self.rings.iter().flat_map(|a| self.rings.iter().map(move |b| difference(a, b)));
+        pairs.fold(f64::NAN, f64::max)
+    }
+}
+
 /// One evaluation of the interaction integral: the cut-off is one inside `r1` and zero outside `r2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {

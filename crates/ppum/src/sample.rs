@@ -35,7 +35,7 @@ use crate::progress::{Cancelled, Phase, Progress, Watcher};
 use crate::quantity::Quantity;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
-pub use crossings::{Curve, Passage, passages};
+pub use crossings::{Curve, Passage, passages, passages_from};
 
 /// A point with the side of a crack that is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,6 +165,14 @@ pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
 pub fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
     let all: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
     points(cracks, &all)
+}
+
+/// The same from `anchor + a` to `anchor + b`: near the anchor no digit of them is lost, and points mean what they say.
+#[must_use]
+pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
+    let segments = Segments::new(cracks);
+    let offsets = (0..count).map(|k| between(a, b, k, count));
+    offsets.flat_map(|offset| Place::sides(&segments, anchor, offset)).collect()
 }
 
 /// Places at the points of a grid of nx columns and ny rows that includes the borders of the window, in rows

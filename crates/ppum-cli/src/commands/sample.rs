@@ -5,17 +5,18 @@ mod points;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{bail, ensure};
+use anyhow::bail;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::sample;
 use ppum::vec2::Rect;
+use ppum_scene::table::Table;
 
 use crate::arguments::{corners, size};
 use crate::dataset::{field, open, quantities};
 use crate::given::{self, parts};
 use crate::output::Output;
-use crate::profile::{MOST, Profile, Table, listed};
+use crate::profile::{Profile, check_grid, listed, save};
 use crate::replacements::Replacements;
 use crate::standard::is_standard;
 use crate::target;
@@ -79,7 +80,7 @@ impl Args {
         table.check_names()?;
         match self.output.as_deref().filter(|path| !is_standard(path)) {
             Some(path) => {
-                table.save(path)?;
+                save(&table, path)?;
                 writeln!(out, "wrote {}: {}", path.display(), table.summary())?;
             }
             None => table.write_csv(out.exact())?,
@@ -102,17 +103,15 @@ impl Args {
         if let Some(path) = &self.points {
             let mut places = sample::points(cracks, &points::read(path)?);
             sample::settle(field.domain, &mut places);
-            return listed(field, quantities, &places);
+            return listed(field, quantities, places);
         }
         let Some([nx, ny]) = self.grid else {
             bail!("give --line, --crack, --circle, --tip, --points or --grid")
         };
-        let points = nx as usize * ny as usize;
-        ensure!(nx > 0 && ny > 0, "--grid {nx}x{ny}: has no points");
-        ensure!(points <= MOST, "--grid {nx}x{ny}: at most {MOST} points at a time");
+        check_grid([nx, ny])?;
         let window = self.view.unwrap_or(field.domain.bounds);
         let mut places = sample::grid(cracks, window, [nx, ny]);
         sample::settle(field.domain, &mut places);
-        Ok(listed(field, quantities, &places)?.with_shape([ny as usize, nx as usize]))
+        Ok(listed(field, quantities, places)?.with_shape([ny as usize, nx as usize]))
     }
 }

@@ -30,7 +30,7 @@ pub(super) struct Frame {
     /// Upper left and lower right corner of the curves' page, whole pixels.
     min: [f64; 2],
     max: [f64; 2],
-    norms: [Normalization; 2],
+    pub(super) norms: [Normalization; 2],
     ticks: [Ticks; 2],
     /// Longest label of the vertical axis.
     widest: f64,

@@ -8,6 +8,7 @@ mod frame;
 mod legend;
 mod thin;
 
+use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::scale::{Normalization, Scale};
 
@@ -165,6 +166,42 @@ pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
     page
 }
 
+/// Where the curves of a plot lie on its page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// The upper left corner.
+    pub corner: Vec2,
+    /// Width and height.
+    pub size: Vec2,
+    norms: [Normalization; 2],
+}
+
+impl Area {
+    /// The area of a plot that [`plot`] draws in this size.
+    #[must_use]
+    pub fn new(plot: &Plot, size: [u32; 2]) -> Self {
+        let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
+        let norms = [0, 1].map(|k| scale_of(plot, k));
+        let frame = Frame::new(plot, norms, size);
+        let [corner, size] = [frame.corner(), frame.pixels()].map(|c| c.map(f64::from).into());
+        Self { corner, size, norms }
+    }
+
+    /// The value of the horizontal axis at a column of the page.
+    #[must_use]
+    pub fn across(&self, column: f64) -> f64 {
+        self.norms[0].value((column - self.corner.x) / self.size.x)
+    }
+
+    /// The position of a point on the page; none of one that the axes have no place for.
+    #[must_use]
+    pub fn position(&self, point: [f64; 2]) -> Option<Vec2> {
+        let is_seen = self.norms.iter().zip(point).all(|(norm, v)| has_place(norm.scale(), v));
+        let [x, y] = [0, 1].map(|k| self.norms[k].position(point[k]));
+        is_seen.then(|| self.corner + vec2(x * self.size.x, (1.0 - y) * self.size.y))
+    }
+}
+
 /// The curves with their legend, on a page of the frame's size.
 fn inside(plot: &Plot, frame: &Frame) -> Item {
     let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
@@ -281,7 +318,6 @@ fn roomy([min, max]: [f64; 2], is_log: bool) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::vec2::{Vec2, vec2};
 
     fn line(points: &[[f64; 2]]) -> Plot {
         let curves = vec![Curve::new("a", points.to_vec())];
@@ -303,6 +339,22 @@ mod tests {
             }
         }
         found
+    }
+
+    /// Positions and values of the area are those of what is drawn.
+    #[test]
+    fn the_area_says_where_points_are() {
+        let law = [[1e-9, 2e4], [1e-6, 3e3], [1e-3, 2e1]];
+        let mut plot_of_law = line(&law);
+        plot_of_law.x = plot_of_law.x.logarithmic();
+        let drawn = paths(&plot(&plot_of_law, [640, 480]));
+        let area = Area::new(&plot_of_law, [640, 480]);
+        for (point, position) in law.iter().zip(&drawn[0]) {
+            let found = area.position(*point).expect("it has a place");
+            assert!((found - *position).length() < 1e-9);
+            assert!((area.across(found.x) / point[0] - 1.0).abs() < 1e-9);
+        }
+        assert_eq!(area.position([-1.0, 1.0]), None);
     }
 
     #[test]

@@ -14,7 +14,6 @@ mod report;
 mod tips;
 
 pub use digits::{FEW_DIGITS, rounding};
-pub use tips::relative_spread;
 
 use crate::intensity::{Outcome, intensities_under};
 use crate::problem::Problem;

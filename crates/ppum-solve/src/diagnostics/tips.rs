@@ -4,11 +4,11 @@ use super::{LARGE_ERROR, kind, short, warning};
 use crate::geometry::AMPLE_CLEARANCE;
 use crate::intensity::{Obstacle, Outcome};
 use ppum::crack::Crack;
-use ppum::dataset::{Ring, TipIntensity, Warning};
+use ppum::dataset::{TipIntensity, Warning};
 use ppum::text::{Places, trimmed_to};
 
 /// Difference of the factors at three radii, in parts of their size, above which they are not to be
-/// trusted. Below it they may be wrong as well, see [`relative_spread`].
+/// trusted. Below it they may be wrong as well, see [`TipIntensity::spread`].
 pub(super) const LARGE_SPREAD: f64 = 0.01;
 
 /// Part of |K| that K_I may be negative by where it should be zero.
@@ -49,23 +49,6 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -
     outcomes.iter().flat_map(of_tip).collect()
 }
 
-/// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
-/// the denominator; NaN where that is zero, or without rings.
-///
-/// A check that the integrals agree, and no estimate of the error of K: all radii see the same field, and
-/// most of its error enters them alike. Errors a hundred times as large are common.
-#[must_use]
-pub fn relative_spread(intensity: &TipIntensity) -> f64 {
-    largest_difference(intensity) / intensity.k1.hypot(intensity.k2)
-}
-
-fn largest_difference(intensity: &TipIntensity) -> f64 {
-    let rings = &intensity.rings;
-    let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);
-    let pairs = rings.iter().flat_map(|a| rings.iter().map(move |b| difference(a, b)));
-    pairs.fold(f64::NAN, f64::max)
-}
-
 /// |K|, or more where that is nothing but noise.
 fn size(outcome: &Outcome, factors: &TipIntensity) -> f64 {
     factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
@@ -83,7 +66,7 @@ fn negative(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warni
 }
 
 fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
-    let spread = largest_difference(factors) / size(outcome, factors);
+    let spread = factors.largest_difference() / size(outcome, factors);
     let message = format!(
         "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
          which may be larger); use smaller cells there",
@@ -183,6 +166,7 @@ fn coarse(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
 mod tests {
     use super::*;
     use ppum::crack::{End, TipId};
+    use ppum::dataset::Ring;
 
     #[test]
     fn the_spread_is_that_of_both_factors() {
@@ -190,7 +174,7 @@ mod tests {
         let tip = TipId { crack: 0, end: End::Start };
         let rings = vec![ring(3.0, 4.03), ring(3.04, 4.0), ring(3.0, 4.0)];
         let intensity = TipIntensity { tip, k1: 3.0, k2: 4.0, rings };
-        assert!((relative_spread(&intensity) - 0.01).abs() < 1e-15);
-        assert!(relative_spread(&TipIntensity { rings: Vec::new(), ..intensity }).is_nan());
+        assert!((intensity.spread() - 0.01).abs() < 1e-15);
+        assert!(TipIntensity { rings: Vec::new(), ..intensity }.spread().is_nan());
     }
 }

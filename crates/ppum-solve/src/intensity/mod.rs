@@ -34,9 +34,9 @@ use crate::watched::Stage;
 use integral::{Found, Interaction, RINGS, found};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, Ring, TipIntensity};
-use ppum::field::Field;
+use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages most.
 const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
@@ -134,6 +134,76 @@ pub fn intensities(
     Ok(tips)
 }
 
+/// The reason why there are no factors on a circle.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CircleError {
+    /// A Poisson problem.
+    #[error("only displacements of elasticity have stress intensity factors")]
+    NoDisplacement,
+    /// No such tip.
+    #[error("the step has no such tip")]
+    NoTip,
+    /// Something else lies in the disc.
+    #[error("the circle meets {}; its radius can be at most {}", .0.end.name(), ppum::text::trimmed(.0.radius))]
+    Disturbed(TipClearance),
+    /// A radius that is no length.
+    #[error("the radius is not positive")]
+    Radius,
+    /// The field cannot be evaluated.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The watcher stopped the call.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// The largest disc around a tip of a step in which nothing disturbs its field; none if there is no such tip.
+#[must_use]
+pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
+    let step = dataset.steps.get(step)?;
+    let crack = step.cracks.get(tip.crack as usize)?;
+    let cell = cell_at(&step.partition.cell, crack.end_point(tip.end));
+    Some(TipClearance::new(dataset, &step.cracks, tip, cell))
+}
+
+/// The stress intensity factors at one tip by the discs inside a circle around it: the preferred ring is the circle's
+/// own, two others have the parts of its radius that those of [`intensities`] have. The loads are those of the
+/// problem, if one is known.
+///
+/// # Errors
+/// See [`CircleError`].
+pub fn on_circle(
+    dataset: &Dataset,
+    step: usize,
+    tip: TipId,
+    radius: f64,
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<TipIntensity, CircleError> {
+    let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;
+    if !(radius > 0.0 && radius.is_finite()) {
+        return Err(CircleError::Radius);
+    }
+    if radius > clear.radius {
+        return Err(CircleError::Disturbed(clear));
+    }
+    let field = Field::new(dataset, step)?;
+    let Dataset { domain, equation, tables, .. } = dataset;
+    if equation.elastic().is_none() || field.components() != equation.components() {
+        return Err(CircleError::NoDisplacement);
+    }
+    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
+    let rings = under(problem, |loads| {
+        let integral = Interaction::new(&field, &space, tip, radii, loads);
+        found(&space, integral.as_slice(), watcher)
+    })?;
+    let rings = rings.into_iter().next().ok_or(CircleError::NoDisplacement)?.rings;
+    let Ring { k1, k2, .. } = rings[RINGS - 1];
+    Ok(TipIntensity { tip, k1, k2, rings: rings.to_vec() })
+}
+
 /// The same under the loads of a problem that the field solves; none act without one.
 ///
 /// # Errors
@@ -145,6 +215,11 @@ pub(crate) fn intensities_under(
     space: &Space<'_>,
     watcher: &dyn Watcher,
 ) -> Result<Vec<Outcome>, Cancelled> {
+    under(problem, |loads| intensities(dataset, field, space, loads, watcher))
+}
+
+/// What is found under the loads of a problem; none act without one.
+fn under<T>(problem: Option<&Problem>, find: impl FnOnce(Loads<'_>) -> T) -> T {
     let force = |x: Vec2| problem.map_or([0.0; 2], |problem| problem.source_at(x));
     let face = |crack: u32, side: Side, x: Vec2| {
         problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
@@ -153,14 +228,19 @@ pub(crate) fn intensities_under(
         force: problem.map(|_| &force as PointLoad<'_>),
         faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
     };
-    intensities(dataset, field, space, loads, watcher)
+    find(loads)
+}
+
+/// The longest side of the cells that a point lies in.
+fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
+    let own = cells.iter().filter(|cell| cell.contains(at));
+    own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max)
 }
 
 impl Outcome {
     fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
         let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
-        let own = space.partition().cell.iter().filter(|cell| cell.contains(at));
-        let cell = own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max);
+        let cell = cell_at(&space.partition().cell, at);
         let clearance = TipClearance::new(dataset, &space.step().cracks, tip, cell);
         let reach = clearance.radius.min(AMPLE_CLEARANCE * cell);
         let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);

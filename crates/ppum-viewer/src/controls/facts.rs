@@ -16,6 +16,8 @@ pub struct Facts {
     pub parts: Vec<Part>,
     /// The functions, each once for all its places.
     pub functions: Vec<Stem>,
+    /// Quantities that it names: names and formulas.
+    pub quantities: Vec<(String, String)>,
     /// The weight as it may be written.
     pub weight: String,
     /// Number of patches.
@@ -55,6 +57,8 @@ impl Facts {
         self.patches = step.partition.len();
         self.weight = weight(&step.partition.weight);
         self.without = without(dataset, step);
+        let named = dataset.quantities.iter();
+        self.quantities = named.map(|named| (named.name.clone(), named.text.clone())).collect();
         if let Some(field) = step.fields.first() {
             let counts = counts(field, step.functions.len());
             let used = |part: &Part| {

@@ -2,6 +2,8 @@
 
 use egui::{Button, Key, Modifiers, Response, RichText, ScrollArea, TextEdit, Ui};
 
+use super::note;
+
 /// Something that can be chosen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choice {
@@ -19,6 +21,8 @@ pub struct Chooser {
     is_open: bool,
     /// True until the text has been given the keys.
     is_new: bool,
+    /// True while the text has them.
+    has_keys: bool,
     text: String,
     at: usize,
 }
@@ -72,7 +76,7 @@ impl Chooser {
             for (number, choice) in found.iter().copied().enumerate() {
                 if choice.group != group {
                     group = choice.group;
-                    ui.label(RichText::new(group).small().weak());
+                    ui.label(note(ui, group));
                 }
                 let response = row(ui, choice, number == self.at);
                 if number == self.at && has_moved {
@@ -101,6 +105,7 @@ impl Chooser {
             edit.request_focus();
             self.is_new = false;
         }
+        self.has_keys = edit.has_focus();
         if edit.changed() {
             self.at = 0;
         }
@@ -108,6 +113,9 @@ impl Chooser {
 
     /// Takes the keys of the list; true if something is chosen, and true if the place has changed.
     fn keys(&mut self, ui: &Ui, count: usize) -> (bool, bool) {
+        if !self.has_keys {
+            return (false, self.is_new);
+        }
         let keys = [Key::Escape, Key::Enter, Key::ArrowDown, Key::ArrowUp];
         let [escape, enter, down, up] =
             ui.input_mut(|input| keys.map(|key| input.consume_key(Modifiers::NONE, key)));
@@ -138,7 +146,7 @@ fn found<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
 
 /// A row with a name and its meaning.
 pub fn named(ui: &mut Ui, choice: &Choice, is_at: bool) -> Response {
-    let about = RichText::new(&choice.about).weak().small();
+    let about = note(ui, &choice.about);
     let name = RichText::new(&choice.value).monospace();
     let button = Button::selectable(is_at, name).right_text(about).truncate();
     let response = ui.add_sized([ui.available_width(), 20.0], button).on_hover_text(&choice.about);
@@ -162,7 +170,7 @@ mod tests {
         };
         assert_eq!(values(""), ["sxx", "tresca", "s1"]);
         assert_eq!(values("stress"), ["sxx", "tresca"]);
-        assert_eq!(values("STRESS tre"), ["tresca"]);
+        assert_eq!(values("STRESS resca"), ["tresca"]);
         assert_eq!(values("s1"), ["s1"]);
         assert_eq!(values("t"), ["tresca", "sxx"]);
         assert!(values("nothing").is_empty());

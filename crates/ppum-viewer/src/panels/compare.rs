@@ -1,12 +1,12 @@
 //! The direct picture against a resampled one: the method, the grid, and what it costs.
 
-use egui::{Grid, RichText, Slider, Ui};
+use egui::{Grid, Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::NAMES;
 use ppum_scene::compare::Compare;
 
-use super::failure;
+use super::{failure, note};
 use crate::desk::Desk;
 use crate::frames::{Fault, Other};
 use crate::session::Pane;
@@ -80,7 +80,7 @@ fn measured(ui: &mut Ui, other: &Other) {
         ui.end_row();
     });
     let text = "Errors are those of the pixels that are seen, in parts of the field's own";
-    ui.label(RichText::new(text).weak().small());
+    ui.label(note(ui, text));
 }
 
 fn percent(error: f64) -> String {

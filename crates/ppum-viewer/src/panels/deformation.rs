@@ -1,10 +1,10 @@
 //! The deformed plate: how much, at rest or in motion.
 
-use egui::{RichText, Slider, Ui};
+use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_scene::deformed::{Factor, words};
 
-use super::failure;
+use super::{failure, note};
 use crate::controls::Controls;
 use crate::controls::swing::Swing;
 use crate::desk::Desk;
@@ -91,7 +91,7 @@ fn told(ui: &mut Ui, stage: &Stage) {
     if let Some(factor) = factor {
         // a factor in motion has no digits that one could read
         let shown = if stage.controls.swing.is_some() { rounded(factor) } else { factor };
-        ui.label(RichText::new(words(shown)).weak().small());
+        ui.label(note(ui, words(shown)));
     }
 }
 

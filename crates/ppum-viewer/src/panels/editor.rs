@@ -187,6 +187,15 @@ impl Mistake {
         }
     }
 
+    /// What keeps a text from being the formula of a named quantity.
+    #[must_use]
+    pub fn of_definition(error: &QuantityFormulaError, text: &str) -> Self {
+        match error {
+            QuantityFormulaError::Formula(error) => Self::of_formula(error, text),
+            other => Self::of_all(other, text),
+        }
+    }
+
     /// What keeps a text from taking the place of a function or of the weight.
     #[must_use]
     pub fn of_replacement(error: &ReplaceError, text: &str) -> Self {

@@ -1,14 +1,16 @@
 //! Functions and the weight, replaced: the coefficients stay, the functions are others.
 
-use egui::{Button, ComboBox, RichText, Ui};
+use egui::{Button, ComboBox, Ui};
 use ppum::dataset::Dataset;
 use ppum::formula::function_names;
 use ppum::library::WEIGHTS;
+use ppum::quantity::{QuantityFormula, Vocabulary};
 use ppum::replace::weight_of;
 use std::sync::Arc;
 
 use super::editor::{Mistake, Subject};
-use super::{back, failure};
+use super::quantity::version;
+use super::{back, failure, note};
 use crate::controls::Controls;
 use crate::controls::facts::Stem;
 use crate::desk::Desk;
@@ -25,11 +27,16 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     for stem in controls.facts.functions.clone() {
         function(ui, pane, controls, &dataset, &stem);
     }
+    for (number, (name, own)) in controls.facts.quantities.clone().iter().enumerate() {
+        quantity(ui, pane, controls, number, (name, own));
+    }
     let subject = &mut pane.scene.subject;
-    let is_changed = !subject.functions.is_empty() || subject.weight.is_some();
+    let is_changed =
+        !subject.functions.is_empty() || !subject.quantities.is_empty() || subject.weight.is_some();
     let all = Button::new("Back to the file's, all of them");
     if ui.add_enabled(is_changed, all).clicked() {
         subject.functions.clear();
+        subject.quantities.clear();
         subject.weight = None;
         controls.editors.retain(|name, _| name == "quantity");
     }
@@ -78,7 +85,7 @@ fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dat
     let mut chosen = None;
     ui.horizontal(|ui| {
         ui.strong(&stem.name);
-        ui.label(RichText::new(used(stem)).weak().small());
+        ui.label(note(ui, used(stem)));
         if back(ui, &format!("Back to the file's {}", stem.name), replaced.is_some()) {
             controls.editor(&name).forget();
             chosen = Some(stem.text.clone());
@@ -102,6 +109,44 @@ fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dat
     if let Some(text) = chosen {
         let text = (text != stem.text).then_some(text);
         pane.scene.subject.replace(&stem.name, text);
+    }
+}
+
+/// A quantity that the file names, which may use those before it.
+fn quantity(
+    ui: &mut Ui,
+    pane: &mut Pane,
+    controls: &mut Controls,
+    number: usize,
+    (name, own): (&str, &str),
+) {
+    let key = format!("named {name}");
+    let defined = pane.scene.subject.defined(name).map(str::to_owned);
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.strong(name);
+        ui.label(note(ui, "quantity of the file"));
+        if back(ui, &format!("Back to the file's {name}"), defined.is_some()) {
+            controls.editor(&key).forget();
+            chosen = Some(own.to_owned());
+        }
+    });
+    let field = controls.known.field().cloned();
+    let names = controls.known.names.clone();
+    let current = defined.unwrap_or_else(|| own.to_owned());
+    let title = format!("Formula of {name}");
+    let version = version(field.as_ref());
+    let subject = Subject { name: &title, current: &current, names: &names, version };
+    let check = |text: &str| {
+        let Some(field) = &field else { return Ok(()) };
+        let all = Vocabulary::of(field.field());
+        let vocabulary = Vocabulary { named: &all.named[..number.min(all.named.len())], ..all };
+        let found = QuantityFormula::new(text, &vocabulary).map(|_| ());
+        found.map_err(|error| Mistake::of_definition(&error, text))
+    };
+    chosen = chosen.or(controls.editor(&key).show(ui, &subject, check));
+    if let Some(text) = chosen {
+        pane.scene.subject.define(name, (text != own).then_some(text));
     }
 }
 

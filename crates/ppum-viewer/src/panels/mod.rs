@@ -49,6 +49,14 @@ fn failure(ui: &mut Ui, stage: &Stage, fault: Fault) {
     }
 }
 
+/// Words beside a control, smaller and paler.
+fn note(ui: &Ui, text: impl Into<String>) -> RichText {
+    RichText::new(text).size(NOTE).color(ui.visuals().text_color().gamma_multiply(0.75))
+}
+
+/// Size of notes \[points\].
+const NOTE: f32 = 11.5;
+
 /// A button that takes back what was changed; nothing where nothing was.
 fn back(ui: &mut Ui, name: &str, is_changed: bool) -> bool {
     is_changed && top::button(ui, "↺", name).clicked()

@@ -4,7 +4,7 @@ use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
 use ppum_figure::overlay::{Entry, Symbol};
 use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
-use super::failure;
+use super::{failure, note};
 use crate::controls::Controls;
 use crate::desk::Desk;
 use crate::frames::Fault;
@@ -131,7 +131,7 @@ fn legend(ui: &mut Ui, stage: &Stage) {
         line(ui, entry);
     }
     for notice in &frame.layers.notices {
-        ui.label(RichText::new(notice.to_string()).weak());
+        ui.label(note(ui, notice.to_string()));
     }
 }
 

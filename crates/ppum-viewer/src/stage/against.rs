@@ -8,7 +8,7 @@ use egui::{
 };
 use ppum_render::view::View;
 
-use super::placed;
+use super::{ground, placed};
 use crate::frames::{Frame, Other};
 use crate::session::Pane;
 use crate::shapes;
@@ -44,7 +44,7 @@ impl Against {
         let place = placed(&other.picture.view, view, rect);
         let size = other.picture.image.size.map(|n| n as f32 * place.scale);
         let target = Rect::from_min_size(place.corner, vec2(size[0], size[1]));
-        painter.rect_filled(target, 0.0, ui.visuals().panel_fill);
+        painter.rect_filled(target, 0.0, ground(ui));
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(shown.handle.id(), target, whole, Color32::WHITE);
         let layers = placed(&frame.wanted.view, view, rect);

@@ -46,8 +46,12 @@ const LEAST: f32 = 140.0;
 /// From the plate's border, and around the bar.
 const MARGIN: f32 = 10.0;
 const ROOM: f32 = 8.0;
+/// Length of the marks of extrema.
+const MARK: f32 = 8.0;
 /// Height of what counts as an end.
 const END: f32 = 22.0;
+/// Plates that are narrower have bars without a name.
+const NARROW: f32 = 560.0;
 /// Letters in parts of those of a figure of 1024 × 768 pixels.
 const LETTERS: f64 = 0.92;
 /// Turns of the wheel, in points, that spread the range e times.
@@ -115,7 +119,11 @@ fn bar(ui: &Ui, picture: &Picture, labels: &Labels, length: f32) -> Bar {
 impl<'a> Standing<'a> {
     fn new(ui: &Ui, plate: Rect, frame: &'a Frame, length: f32) -> Self {
         let [quantity, unit] = frame.shown.words(frame.field.field());
-        let labels = Labels { quantity, unit, ..Labels::default() };
+        let mut labels = Labels { quantity, unit, ..Labels::default() };
+        if plate.width() < NARROW {
+            // the name stands in the panel, too
+            labels.quantity.clear();
+        }
         let bar = bar(ui, &frame.picture, &labels, length);
         Self::at(plate, frame, bar, plate.right() - MARGIN)
     }
@@ -158,7 +166,8 @@ impl<'a> Standing<'a> {
     /// All of it.
     fn whole(&self) -> Rect {
         let [min, max] = self.bar.bounds().map(|p| self.corner + vec2(p.x as f32, p.y as f32));
-        Rect::from_min_max(min, max).expand(ROOM)
+        // on the left there are marks
+        Rect::from_min_max(min - vec2(MARK, 0.0), max).expand(ROOM)
     }
 
     fn paint(&self, ui: &Ui) {
@@ -196,7 +205,7 @@ impl<'a> Standing<'a> {
     /// An end: dragged to where its value is to be, or written.
     fn end(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors, end: usize) {
         let rect = self.end_rect(end);
-        let id = ui.scope_id().with("colour bar").with(end);
+        let id = ui.scope_id().with("end of the colour bar").with(end);
         let response = ui.interact(rect, id, Sense::click_and_drag());
         name(&response, ENDS[end]);
         let response = response.on_hover_cursor(CursorIcon::ResizeVertical);
@@ -235,7 +244,10 @@ impl<'a> Standing<'a> {
     fn grabbed(&self, response: &Response, grip: &mut Grip) -> Option<(Normalization, f64, f64)> {
         let at = self.position(response.interact_pointer_pos()?.y);
         if response.drag_started() {
-            grip.grabbed = Some((*self.norm(), at));
+            // where the button went down: a drag is known some points later
+            let origin = response.ctx.input(|input| input.pointer.press_origin());
+            let from = origin.map_or(at, |origin| self.position(origin.y));
+            grip.grabbed = Some((*self.norm(), from));
             grip.edited = None;
         }
         let dragged = response.dragged();
@@ -258,7 +270,7 @@ impl<'a> Standing<'a> {
         }
         for (number, extremum) in [&extrema.min, &extrema.max].into_iter().enumerate() {
             let at = pos2(self.corner.x - 3.0, self.mark(extremum));
-            let points = vec![at, at + vec2(-7.0, -4.5), at + vec2(-7.0, 4.5)];
+            let points = vec![at, at + vec2(-MARK, -5.0), at + vec2(-MARK, 5.0)];
             let ink = ui.visuals().strong_text_color();
             ui.painter().add(Shape::convex_polygon(points, ink, Stroke::NONE));
             let rect = Rect::from_center_size(at - vec2(3.0, 0.0), vec2(14.0, 14.0));
@@ -299,7 +311,7 @@ impl<'a> Standing<'a> {
         let ink = ui.visuals().strong_text_color();
         let font = FontId::proportional(12.0);
         let galley = ui.painter().layout_no_wrap(text, font, ink);
-        let left = self.corner.x - 12.0;
+        let left = self.corner.x - MARK - 4.0;
         let rect = Align2::RIGHT_CENTER.anchor_size(pos2(left - 4.0, at), galley.size());
         ui.painter().rect_filled(rect.expand(3.0), 3.0, ui.visuals().panel_fill);
         ui.painter().galley(rect.min, galley, ink);

@@ -102,6 +102,7 @@ impl Stage {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plate"));
         let scale = ui.pixels_per_point();
         let pixels = [rect.width(), rect.height()].map(|n| ((n * scale).round() as u32).max(1));
+        ui.painter().rect_filled(rect, 0.0, ground(ui));
         let Some(opened) = self.opened.clone() else { return };
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
@@ -293,6 +294,11 @@ impl Stage {
         painter.image(handle.id(), target, whole, Color32::WHITE);
         shapes::draw(&painter, placed, &frame.layers.items);
     }
+}
+
+/// The colour outside of the plate.
+fn ground(ui: &Ui) -> Color32 {
+    ui.visuals().extreme_bg_color
 }
 
 /// Width of the view around a tip that one flies to, in parts of the plate's size.

@@ -44,6 +44,24 @@ pub fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     found
 }
 
+/// The same of a curve whose points are counted from an anchor: near it no digit of them is lost.
+#[must_use]
+pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passage> {
+    if anchor == Vec2::ZERO {
+        return passages(cracks, curve);
+    }
+    let seen = |crack: &Crack| {
+        let points = crack.points.iter().map(|&p| p - anchor).collect();
+        Crack { points, ends: crack.ends }
+    };
+    let mut all = passages(&cracks.iter().map(seen).collect::<Vec<_>>(), curve);
+    for place in all.iter_mut().flat_map(|passage| &mut passage.places) {
+        let offset = place.point;
+        *place = Place { point: anchor + offset, anchor, offset, ..*place };
+    }
+    all
+}
+
 /// True if a part of a segment's length belongs to the crack, without its tips.
 fn is_on(crack: &Crack, segment: usize, part: f64) -> bool {
     let starts = segment == 0 && crack.ends[0] == CrackEnd::Tip;

@@ -5,8 +5,8 @@ use std::path::Path;
 use anyhow::{Context as _, bail, ensure};
 use ppum::vec2::{Vec2, vec2};
 
-use super::MOST;
 use crate::standard::{self, is_standard};
+use ppum_scene::profile::MOST;
 
 /// Longest file of points, in bytes: those of [`super::MOST`] points in all digits.
 const LONGEST: u64 = 1 << 30;

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use egui::{Color32, FontId, Painter, Rect, Response, Sense, Ui, pos2, vec2};
+use egui::{Color32, FontId, Mesh, Painter, Rect, Response, Sense, Ui, pos2, vec2};
 use ppum_render::colormap::{Colormap, NAMES};
 
 use crate::panels::chooser::Choice;
@@ -17,7 +17,7 @@ static STRIPS: LazyLock<Vec<(&str, Vec<Color32>)>> = LazyLock::new(|| {
 });
 
 /// Colours of a preview.
-const COUNT: usize = 64;
+const COUNT: usize = 256;
 
 fn choice(name: &str) -> Choice {
     let group = match name {
@@ -68,10 +68,10 @@ pub(super) fn preview(ui: &mut Ui, map: &Colormap) -> Response {
 
 fn paint(painter: &Painter, rect: Rect, colors: &[Color32]) {
     let width = rect.width() / colors.len().max(1) as f32;
+    let mut mesh = Mesh::default();
     for (k, color) in colors.iter().enumerate() {
         let corner = pos2(rect.left() + k as f32 * width, rect.top());
-        // a little wider than it is: no seams between neighbours
-        let piece = Rect::from_min_size(corner, vec2(width + 0.5, rect.height()));
-        painter.rect_filled(piece.intersect(rect), 0.0, *color);
+        mesh.add_colored_rect(Rect::from_min_size(corner, vec2(width, rect.height())), *color);
     }
+    painter.add(mesh);
 }

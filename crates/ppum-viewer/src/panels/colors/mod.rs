@@ -3,13 +3,13 @@
 mod maps;
 pub(crate) mod range;
 
-use egui::{DragValue, RichText, Ui};
+use egui::{DragValue, Ui};
 use ppum_render::colormap::Colormap;
 use ppum_render::scale::Scale;
 use ppum_scene::colors::{Colors, MOST_BANDS};
 use ppum_scene::range::Telling;
 
-use super::failure;
+use super::{failure, note};
 use crate::controls::Controls;
 use crate::desk::Desk;
 use crate::frames::Fault;
@@ -93,5 +93,5 @@ fn told(ui: &mut Ui, stage: &Stage) {
     if without > 0 {
         text = format!("{text}; hatched: no value at {without} of {all} pixels");
     }
-    ui.label(RichText::new(text).weak().small());
+    ui.label(note(ui, text));
 }

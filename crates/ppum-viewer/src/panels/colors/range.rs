@@ -6,6 +6,7 @@ use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
 
 use crate::controls::whole::Whole;
+use crate::panels::note;
 use crate::session::Pane;
 use crate::stage::Stage;
 
@@ -83,7 +84,8 @@ fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) 
     let speed = ((ends[1] - ends[0]).abs() / 300.0).max(f64::MIN_POSITIVE);
     let mut changed = None;
     ui.horizontal(|ui| {
-        for (end, name) in [(0, "Lower end"), (1, "Upper end")] {
+        for (end, name, word) in [(0, "Lower end", "from"), (1, "Upper end", "to")] {
+            ui.label(note(ui, word));
             let value = DragValue::new(&mut ends[end]).speed(speed).update_while_editing(false);
             let value = value.custom_formatter(|value, _| trimmed_to(value, DIGITS));
             let response = ui.add(value.custom_parser(parse)).accessible_name(name);

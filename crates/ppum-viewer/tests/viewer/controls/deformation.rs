@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use ppum_scene::deformed::Factor;
 
 use super::{click, frame, open, plate_window, scene};
-use crate::kit::settle;
+use crate::kit::{plate, settle, window};
 
 #[test]
 fn a_factor_is_chosen() {
@@ -29,7 +29,7 @@ fn a_factor_is_chosen() {
 /// A factor in motion is no change of settings: nothing is undone of it, and the session keeps its factor.
 #[test]
 fn the_deformation_plays_without_changing_the_session() {
-    let mut window = plate_window();
+    let mut window = window(plate(), [700.0, 500.0]);
     window.key_press_modifiers(Modifiers::SHIFT, Key::D);
     window.step();
     assert_eq!(scene(&window).deformed, Some(Factor::Auto));

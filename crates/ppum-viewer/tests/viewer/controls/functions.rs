@@ -2,7 +2,7 @@
 
 use egui_kittest::kittest::Queryable;
 use ppum::crack::Side;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, NamedQuantity};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::replace::Replacements;
@@ -10,11 +10,12 @@ use ppum::replace::Replacements;
 use super::{click, frame, open, plate_window, scene, write};
 use crate::kit::plate;
 
-/// The quantity of the picture a third from its corner, and that of the plate with something replaced.
+/// The quantity of the picture beside a tip, and that of the plate with something replaced.
 fn both(window: &super::Window, replacements: &Replacements) -> [f64; 2] {
     let frame = frame(window);
     let view = frame.wanted.view;
-    let [i, j] = view.pixels.map(|n| n / 3);
+    let tip = view.pixel_of_offset(ppum::vec2::vec2(0.5, 0.0) - view.center);
+    let [i, j] = [tip.x as u32 + 20, tip.y as u32 - 30];
     let ppum_scene::drawing::Values::Double(raster) = &frame.drawn.values else {
         panic!("pictures are of double precision")
     };
@@ -65,5 +66,37 @@ fn the_weight_is_one_of_the_library_or_a_formula() {
     let own = both(&window, &with("(1 - t)^3"));
     assert!(is_near(own) && own[0] != bump[0], "{own:?}");
     click(&mut window, "Back to the file's, all of them");
+    assert!(scene(&window).subject.is_whole());
+}
+
+/// Quantities that use one that is replaced are others, too.
+#[test]
+fn a_quantity_of_the_file_is_replaced() {
+    let mut dataset = plate();
+    let named = |name: &str, text: &str| NamedQuantity {
+        name: name.into(),
+        text: text.into(),
+        unit: String::new(),
+    };
+    dataset.quantities = vec![named("spread", "sxx - syy"), named("twice", "2*spread")];
+    let mut window = crate::kit::window(dataset, [1100.0, 1400.0]);
+    write(&mut window, "Quantity or formula", "twice");
+    open(&mut window, "Functions");
+    write(&mut window, "Formula of spread", "twice + 1");
+    assert!(window.query_by_label_contains("unknown name `twice`").is_some());
+    write(&mut window, "Formula of spread", "exx + 1");
+    assert_eq!(scene(&window).subject.defined("spread"), Some("exx + 1"));
+    let frame_of = frame(&window);
+    let view = frame_of.wanted.view;
+    let ppum_scene::drawing::Values::Double(raster) = &frame_of.drawn.values else {
+        panic!("pictures are of double precision")
+    };
+    let [i, j] = view.pixels.map(|n| n / 3);
+    let dataset = plate();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let exx = Quantity::parse("exx", &field).expect("a quantity");
+    let exx = exx.at(&mut field.at(view.center), view.offset(i, j), Side::Above);
+    assert!(is_near([raster.value(i, j), 2.0 * (exx + 1.0)]));
+    click(&mut window, "Back to the file's spread");
     assert!(scene(&window).subject.is_whole());
 }

@@ -16,6 +16,7 @@ fn shots() {
     window.run_steps(4);
     shot(&mut window, "quantities");
     window.key_press(Key::Escape);
+    window.run_steps(4);
     write(&mut window, "Quantity or formula", "sxx - 2*syy + thet");
     window.run_steps(4);
     shot(&mut window, "mistake");
@@ -52,6 +53,7 @@ fn shots_of_all_panels() {
         open(&mut window, panel);
     }
     window.key_press(Key::C);
+    settle(&mut window);
     click(&mut window, "difference");
     shot(&mut window, "panels");
     window.state_mut().session.theme = ppum_viewer::session::Theme::Light;

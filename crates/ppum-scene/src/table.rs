@@ -2,22 +2,20 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
-use std::path::Path;
-
-use anyhow::ensure;
-
-use crate::number::count;
-use crate::target;
 
 /// A column's name and unit; the unit may be empty.
-#[derive(Clone, Debug)]
-pub(crate) struct Column {
-    name: String,
-    unit: String,
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The name.
+    pub name: String,
+    /// The unit.
+    pub unit: String,
 }
 
 impl Column {
-    pub(crate) fn new(name: &str, unit: &str) -> Self {
+    /// A column.
+    #[must_use]
+    pub fn new(name: &str, unit: &str) -> Self {
         Self { name: name.to_owned(), unit: unit.to_owned() }
     }
 
@@ -32,7 +30,9 @@ impl Column {
     }
 }
 
-pub(crate) struct Table {
+/// Numbers in rows and columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
     columns: Vec<Column>,
     /// Row by row.
     values: Vec<f64>,
@@ -40,57 +40,81 @@ pub(crate) struct Table {
     shape: Vec<usize>,
 }
 
+/// Two columns of one name, which arrays cannot have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there would be two columns `{0}`; leave one out")]
+pub struct SameName(pub String);
+
 impl Table {
-    pub(crate) fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
+    /// A table of columns, its values row by row.
+    #[must_use]
+    pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
         let shape = vec![values.len() / columns.len()];
         Self { columns, values, shape }
     }
 
     /// The same with a first column.
-    pub(crate) fn with_first(self, column: Column, first: Vec<f64>) -> Self {
+    #[must_use]
+    pub fn with_first(self, column: Column, first: Vec<f64>) -> Self {
         let rows = first.iter().zip(self.values.chunks(self.columns.len()));
         let values = rows.flat_map(|(first, rest)| [&[*first], rest].concat()).collect();
         Self::new([vec![column], self.columns].concat(), values)
     }
 
-    pub(crate) fn with_shape(self, [rows, columns]: [usize; 2]) -> Self {
+    /// The same as an array of so many rows and columns of places.
+    #[must_use]
+    pub fn with_shape(self, [rows, columns]: [usize; 2]) -> Self {
         Self { shape: vec![rows, columns], ..self }
     }
 
     /// The names of the columns.
-    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+    pub fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
+    /// The columns.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.values.chunks(self.columns.len())
+    }
+
     /// The numbers of a column.
-    pub(crate) fn column(&self, name: &str) -> Option<Vec<f64>> {
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let at = self.names().position(|known| known == name)?;
         Some(self.values.chunks(self.columns.len()).map(|row| row[at]).collect())
     }
 
     /// Fields of arrays have names of their own.
-    pub(crate) fn check_names(&self) -> anyhow::Result<()> {
+    ///
+    /// # Errors
+    /// The name that two columns have.
+    pub fn check_names(&self) -> Result<(), SameName> {
         let mut seen = BTreeSet::new();
-        for Column { name, .. } in &self.columns {
-            ensure!(seen.insert(name), "there would be two columns `{name}`; leave one out");
+        match self.columns.iter().find(|column| !seen.insert(&column.name)) {
+            Some(column) => Err(SameName(column.name.clone())),
+            None => Ok(()),
         }
-        Ok(())
     }
 
-    pub(crate) fn summary(&self) -> String {
-        let names: Vec<_> = self.columns.iter().map(|column| column.name.as_str()).collect();
-        let rows = self.shape.iter().product();
-        format!("{} of {}", count(rows, "row", "rows"), names.join(", "))
-    }
-
-    /// Writes a file, of numpy if its extension says so.
-    pub(crate) fn save(&self, path: &Path) -> anyhow::Result<()> {
-        let is_npy = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-        target::save(path, |out| if is_npy { self.write_npy(out) } else { self.write_csv(out) })
+    /// `201 rows of s, x, y`
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let names: Vec<_> = self.names().collect();
+        let rows: usize = self.shape.iter().product();
+        format!("{rows} {} of {}", if rows == 1 { "row" } else { "rows" }, names.join(", "))
     }
 
     /// Numbers in the fewest digits that mean the same double; `nan`, `inf` and `-inf`.
-    pub(crate) fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// Those of what is written to.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let heads: Vec<_> = self.columns.iter().map(Column::head).collect();
         writeln!(out, "{}", heads.join(","))?;
         let mut line = String::new();
@@ -105,8 +129,19 @@ impl Table {
         Ok(())
     }
 
+    /// The same as a text.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut out = Vec::new();
+        self.write_csv(&mut out).expect("memory takes all that is written");
+        String::from_utf8(out).expect("names and numbers are text")
+    }
+
     /// A structured array of numpy's format 1.0, or 3.0 where names need it.
-    fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// Those of what is written to.
+    pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
         let header = self.npy_header();
         let plain = header.is_ascii() && header.len() < 65_000;
         let (version, size) = if plain { (1, 2) } else { (3, 4) };

@@ -1,15 +1,14 @@
 //! Values along a crack: both sides, jumps, opening.
 
-use anyhow::{Context as _, ensure};
 use ppum::crack::Side;
 use ppum::field::Field;
+use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::sample::{Station, Stations};
 use ppum::vec2::Vec2;
 
-use super::evaluate;
-use super::table::{Column, Table};
-use crate::number::count as counted;
+use super::{Profile, ProfileError, evaluate};
+use crate::table::{Column, Table};
 
 /// One row for each of `count` points at equal distances along the crack, its ends included.
 pub(super) fn table(
@@ -17,20 +16,15 @@ pub(super) fn table(
     quantities: &[(String, Quantity)],
     index: usize,
     count: usize,
-) -> anyhow::Result<Table> {
+    watcher: &dyn Watcher,
+) -> Result<Profile, ProfileError> {
     let cracks = &field.step.cracks;
-    ensure!(!cracks.is_empty(), "--crack {index}: the dataset has no cracks");
-    let stations = u32::try_from(index)
-        .ok()
-        .and_then(|k| Stations::along(cracks, k, count))
-        .with_context(|| {
-            let number = counted(cracks.len(), "crack", "cracks");
-            format!("--crack {index}: the dataset has {number}, numbered from 0")
-        })?;
+    let stations = u32::try_from(index).ok().and_then(|k| Stations::along(cracks, k, count));
+    let stations = stations.ok_or(ProfileError::Crack { index, count: cracks.len() })?;
     let components = (0..).map(Quantity::Component).take(field.data.components.len());
     let asked = quantities.iter().map(|(_, quantity)| quantity.clone());
     let wanted: Vec<_> = asked.chain(components).collect();
-    let values = evaluate(field, &wanted, &stations.places())?;
+    let values = evaluate(field, &wanted, &stations.places(), watcher)?;
     let (above, below) = values.split_at(values.len() / 2);
     let sides = above.chunks(wanted.len()).zip(below.chunks(wanted.len()));
     let rows = stations
@@ -39,7 +33,9 @@ pub(super) fn table(
         .zip(sides)
         .flat_map(|(station, sides)| row(station, sides, quantities.len()))
         .collect();
-    Ok(Table::new(columns(field, quantities), rows))
+    let places = stations.all().iter().map(|station| station.place(Side::Above)).collect();
+    let table = Table::new(columns(field, quantities), rows);
+    Ok(Profile { table, places, undefined: Vec::new() })
 }
 
 fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> {
