@@ -18,6 +18,7 @@ use crate::controls::swing::Swing;
 use crate::desk::Desk;
 use crate::export::{Kind, Order};
 use crate::fonts::fonts;
+use crate::frames::Backend;
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
@@ -37,15 +38,22 @@ pub struct Viewer {
     exporter: Option<Exporter>,
     has_help: bool,
     tip: usize,
+    backend: Backend,
 }
 
 impl Viewer {
     /// A window that shows a session.
     #[must_use]
-    pub fn new(ctx: &egui::Context, mut session: Session) -> Self {
+    pub fn new(ctx: &egui::Context, session: Session) -> Self {
+        Self::with_backend(ctx, session, Backend::default())
+    }
+
+    /// The same with something else that computes the values.
+    #[must_use]
+    pub fn with_backend(ctx: &egui::Context, mut session: Session, backend: Backend) -> Self {
         ctx.set_fonts(fonts());
         session.mend();
-        let stages = session.panes.iter().map(|_| Stage::new(ctx)).collect();
+        let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
         let settings = Undo::new(without_places(&session));
         let rest = Rest::new(without_places(&session));
         Self {
@@ -57,6 +65,7 @@ impl Viewer {
             exporter: None,
             has_help: false,
             tip: 0,
+            backend,
         }
     }
 
@@ -174,7 +183,7 @@ impl Viewer {
             self.session.active = 0;
         } else {
             self.session.panes.push(self.session.panes[0].clone());
-            let mut stage = Stage::new(ctx);
+            let mut stage = Stage::new(ctx, self.backend);
             stage.opened.clone_from(&self.stages[0].opened);
             self.stages.push(stage);
         }

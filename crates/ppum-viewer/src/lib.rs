@@ -19,6 +19,8 @@ pub mod panels;
 pub mod session;
 pub mod shapes;
 pub mod stage;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod timing;
 pub mod undo;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod window;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
+use crate::frames::Backend;
 use crate::session::Session;
 
 /// How the window begins.
@@ -17,6 +18,8 @@ pub struct Start {
     pub datasets: Vec<(Option<PathBuf>, Arc<Dataset>)>,
     /// Width and height \[points\].
     pub size: Option<[f32; 2]>,
+    /// What computes the values.
+    pub backend: Backend,
 }
 
 /// A window that cannot be opened.
@@ -37,7 +40,7 @@ pub fn run(start: Start) -> Result<(), WindowError> {
         .with_min_inner_size([480.0, 320.0]);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
     let create = move |cc: &eframe::CreationContext<'_>| {
-        let mut viewer = Viewer::new(&cc.egui_ctx, start.session);
+        let mut viewer = Viewer::with_backend(&cc.egui_ctx, start.session, start.backend);
         for (path, dataset) in start.datasets {
             viewer.open(path, dataset);
         }

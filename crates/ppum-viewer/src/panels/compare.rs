@@ -22,8 +22,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     if pane.compare.is_some() {
         chosen(ui, pane);
         let other = stage.frames.newest().and_then(|frame| frame.other.as_ref());
-        if let Some(other) = other {
-            measured(ui, other);
+        match other {
+            _ if pane.scene.deformed.is_some() => {
+                ui.label(note(
+                    ui,
+                    "The deformed plate is not compared: grids are of the plate as it was",
+                ));
+            }
+            Some(other) => measured(ui, other),
+            None => {}
         }
     }
     failure(ui, stage, Fault::Compare);
@@ -91,7 +98,11 @@ fn percent(error: f64) -> String {
 }
 
 fn seconds(seconds: f64) -> String {
-    format!("{} ms", trimmed_to(1e3 * seconds, 2))
+    match 1e3 * seconds {
+        ms if ms < 10.0 => format!("{} ms", trimmed_to(ms, 2)),
+        ms if ms < 1000.0 => format!("{ms:.0} ms"),
+        ms => format!("{:.1} s", 1e-3 * ms),
+    }
 }
 
 /// Memory in the unit that has one to three digits before the point.

@@ -14,6 +14,8 @@ use ppum::replace::ReplaceError;
 use ppum::weight::WeightError;
 use ppum_scene::scene::ShownError;
 
+use super::wrong;
+
 /// A text that is written. What is right is the session's at once; what is wrong stays here until it is mended, and so does the picture.
 #[derive(Clone, Debug, Default)]
 pub struct Editor {
@@ -70,7 +72,7 @@ impl Editor {
         let is_changed = self.edit(ui, subject, mark);
         let mistake = self.check(subject.version, check);
         if let Some(mistake) = mistake {
-            ui.label(RichText::new(&mistake.message).color(ui.visuals().error_fg_color));
+            ui.label(RichText::new(&mistake.message).color(wrong(ui)));
             return None;
         }
         if !is_changed || self.draft == subject.current {
@@ -111,7 +113,7 @@ impl Editor {
             let at =
                 CCursor::new(CharIndex(before[..place.start.min(before.len())].chars().count()));
             let end = text.galley.pos_from_cursor(at).translate(text.galley_pos.to_vec2());
-            let stroke = Stroke::new(2.0, ui.visuals().error_fg_color);
+            let stroke = Stroke::new(2.0, wrong(ui));
             ui.painter().hline(end.left()..=end.left() + 8.0, end.bottom(), stroke);
         }
         text.response.response.clone().accessible_name(subject.name);
@@ -153,7 +155,7 @@ fn laid_out(ui: &Ui, text: &str, mark: Option<Range<usize>>, width: f32) -> Arc<
     let mut job = LayoutJob::default();
     job.wrap.max_width = width;
     let plain = TextFormat::simple(FontId::monospace(13.0), ui.visuals().text_color());
-    let wrong = ui.visuals().error_fg_color;
+    let wrong = wrong(ui);
     let marked = TextFormat { underline: Stroke::new(1.5, wrong), color: wrong, ..plain.clone() };
     let at = |byte: usize| text.floor_char_boundary(byte);
     let mark = mark.map_or(0..0, |mark| at(mark.start)..at(mark.end));
@@ -182,6 +184,19 @@ impl Mistake {
                 let mistake = Self::of_formula(error, text.trim());
                 let shifted = |place: Range<usize>| place.start + before..place.end + before;
                 Self { place: mistake.place.map(shifted), ..mistake }
+            }
+            // the names that there are stand in the list
+            ShownError::Quantity(error) => Self::of_name(error, text),
+            ShownError::Unknown { error, .. } => Self::of_name(error, text),
+            other => Self::of_all(other, text),
+        }
+    }
+
+    fn of_name(error: &QuantityError, text: &str) -> Self {
+        match error {
+            QuantityError::Unknown { name, hint, .. } => {
+                let message = format!("there is no quantity `{name}`{hint}");
+                Self { message, place: Some(0..text.len()) }
             }
             other => Self::of_all(other, text),
         }

@@ -14,7 +14,7 @@ pub mod parts;
 pub mod quantity;
 pub mod top;
 
-use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
+use egui::{CollapsingHeader, Color32, RichText, ScrollArea, Ui};
 
 use crate::desk::Desk;
 use crate::frames::Fault;
@@ -45,7 +45,15 @@ pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
 /// The reason why there is no picture of what is wanted, where it arose.
 fn failure(ui: &mut Ui, stage: &Stage, fault: Fault) {
     if let Some(failure) = stage.frames.failure().filter(|failure| failure.fault == fault) {
-        ui.label(RichText::new(&failure.message).color(ui.visuals().error_fg_color));
+        ui.label(RichText::new(&failure.message).color(wrong(ui)));
+    }
+}
+
+/// The colour of mistakes: red that is read on both grounds.
+pub(crate) fn wrong(ui: &Ui) -> Color32 {
+    match ui.visuals().dark_mode {
+        true => Color32::from_rgb(255, 120, 110),
+        false => Color32::from_rgb(185, 20, 20),
     }
 }
 

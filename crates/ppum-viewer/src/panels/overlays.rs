@@ -4,7 +4,7 @@ use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
 use ppum_figure::overlay::{Entry, Symbol};
 use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
-use super::{failure, note};
+use super::{failure, note, wrong};
 use crate::controls::Controls;
 use crate::desk::Desk;
 use crate::frames::Fault;
@@ -77,7 +77,7 @@ fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     });
     if let Some(mistake) = controls.levels.mistake.as_ref().filter(|_| overlays.isolines.is_some())
     {
-        ui.label(RichText::new(mistake).color(ui.visuals().error_fg_color));
+        ui.label(RichText::new(mistake).color(wrong(ui)));
     }
 }
 

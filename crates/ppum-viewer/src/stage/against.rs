@@ -31,7 +31,7 @@ const HOLD: f32 = 5.0;
 impl Against {
     /// Shows it, if it is asked for and there.
     pub fn show(&mut self, ui: &Ui, rect: Rect, pane: &mut Pane, frame: &Frame, view: &View) {
-        if pane.compare.is_none() {
+        if pane.compare.is_none() || pane.scene.deformed.is_some() {
             self.shown = None;
             return;
         }

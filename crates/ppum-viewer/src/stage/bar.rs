@@ -19,6 +19,7 @@ use ppum_scene::range::{Telling, value};
 
 use crate::frames::Frame;
 use crate::panels::colors::range::{parse, set};
+use crate::panels::wrong;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
 
@@ -65,6 +66,7 @@ struct Standing<'a> {
     bar: Bar,
     /// The bar's upper left corner.
     corner: Pos2,
+    right: f32,
 }
 
 /// Shows the bar of a picture on a plate. `hover` is the place of the pointer as an offset from the view's centre. Returns true while
@@ -97,7 +99,8 @@ pub fn show(
 /// Shows the bar of the difference to a resampled picture, where that is seen: beside the other one, and nothing drags it.
 pub fn of_difference(ui: &Ui, plate: Rect, pane: &Pane, frame: &Frame) {
     let length = (PART * plate.height()).min(MOST);
-    let Some(other) = frame.other.as_ref().filter(|_| pane.compare.is_some()) else { return };
+    let is_compared = pane.compare.is_some() && pane.scene.deformed.is_none();
+    let Some(other) = frame.other.as_ref().filter(|_| is_compared) else { return };
     if length < LEAST || plate.width() < 2.0 * LEAST || !pane.against.difference {
         return;
     }
@@ -130,10 +133,12 @@ impl<'a> Standing<'a> {
 
     /// In the middle of a plate's height, on the left of something.
     fn at(plate: Rect, frame: &'a Frame, bar: Bar, right: f32) -> Self {
-        let [min, max] = bar.bounds().map(|p| vec2(p.x as f32, p.y as f32));
+        let [min, mut max] = bar.bounds().map(|p| vec2(p.x as f32, p.y as f32));
+        // one that is dragged has other labels and stays where it is
+        max.x = max.x.max(bar.width as f32 + if plate.width() < NARROW { 48.0 } else { 66.0 });
         let top = plate.center().y - 0.5 * (max.y - min.y);
         let corner = pos2((right - ROOM - max.x).round(), (top - min.y).round());
-        Self { frame, bar, corner }
+        Self { frame, bar, corner, right }
     }
 
     fn norm(&self) -> &Normalization {
@@ -167,7 +172,8 @@ impl<'a> Standing<'a> {
     fn whole(&self) -> Rect {
         let [min, max] = self.bar.bounds().map(|p| self.corner + vec2(p.x as f32, p.y as f32));
         // on the left there are marks
-        Rect::from_min_max(min - vec2(MARK, 0.0), max).expand(ROOM)
+        let min = min - vec2(MARK, 0.0);
+        Rect::from_min_max(min, pos2(self.right - ROOM, max.y)).expand(ROOM)
     }
 
     fn paint(&self, ui: &Ui) {
@@ -370,7 +376,7 @@ fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
         edited.is_new = false;
     }
     if let Some(mistake) = &edited.mistake {
-        ui.colored_label(ui.visuals().error_fg_color, mistake);
+        ui.colored_label(wrong(ui), mistake);
     }
     let [enter, escape] = [Key::Enter, Key::Escape].map(|key| ui.input(|i| i.key_pressed(key)));
     match (edit.lost_focus(), enter, escape) {

@@ -5,11 +5,12 @@ pub mod bar;
 pub mod flight;
 pub mod locator;
 pub mod scale_bar;
+pub mod texture;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Color32, PointerButton, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
+use egui::{Color32, PointerButton, Rect, Sense, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
@@ -18,13 +19,14 @@ use ppum_render::view::View;
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
-use crate::frames::{Frame, Frames, Wanted};
+use crate::frames::{Backend, Frames, Wanted};
 use crate::session::{Pane, Place};
-use crate::shapes::{self, Placed};
+use crate::shapes;
 use crate::undo::{Rest, Undo};
 use against::Against;
 use flight::Flight;
 use locator::Locator;
+use texture::{Texture, placed};
 
 /// A dataset that is open.
 #[derive(Clone, Debug)]
@@ -51,7 +53,7 @@ pub struct Stage {
     pub controls: Controls,
     grip: bar::Grip,
     against: Against,
-    texture: Option<Texture>,
+    texture: Texture,
     flight: Option<Flight>,
     rest: Rest<Option<Place>>,
     /// The map of the plate, and the field that it was drawn of.
@@ -59,12 +61,6 @@ pub struct Stage {
     /// True if someone wants to go deeper than doubles do.
     is_at_the_end: bool,
     now: f64,
-}
-
-/// A picture on its way to the screen.
-struct Texture {
-    frame: Arc<Frame>,
-    handle: TextureHandle,
 }
 
 /// Part of the picture that the keys move it by.
@@ -76,18 +72,18 @@ const NARROWEST: f64 = 1e-12;
 impl Stage {
     /// A stage without a dataset.
     #[must_use]
-    pub fn new(ctx: &egui::Context) -> Self {
+    pub fn new(ctx: &egui::Context, backend: Backend) -> Self {
         let ctx = ctx.clone();
         Self {
             opened: None,
-            frames: Frames::new(move || ctx.request_repaint()),
+            frames: Frames::with_backend(backend, move || ctx.request_repaint()),
             trail: Undo::new(None),
             view: None,
             hover: None,
             controls: Controls::default(),
             grip: bar::Grip::default(),
             against: Against::default(),
-            texture: None,
+            texture: Texture::default(),
             flight: None,
             rest: Rest::new(None),
             locator: None,
@@ -116,12 +112,17 @@ impl Stage {
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
         self.pick(&response, pane, &opened.dataset);
-        self.frames.poll();
+        if self.frames.poll() {
+            // panels have been shown, from the picture before
+            ui.ctx().request_repaint();
+        }
         let step = pane.scene.subject.step_of(&opened.dataset);
         self.controls.facts.look_up(&opened.dataset, step);
         self.controls.advance(ui.ctx(), pane, &self.frames);
         let scene = self.controls.drawn(&pane.scene);
-        let Pane { compare, keeps_range, .. } = *pane;
+        let keeps_range = pane.keeps_range;
+        // grids are of the plate as it was
+        let compare = pane.compare.filter(|_| scene.deformed.is_none());
         let dataset = opened.dataset;
         self.frames.want(Wanted { dataset, scene, view, compare, keeps_range });
         self.paint(ui, rect, &view);
@@ -266,33 +267,12 @@ impl Stage {
         }
     }
 
-    /// Draws the newest picture where it belongs in the view, whatever view it was made for.
+    /// Draws the newest picture, and what lies over it.
     fn paint(&mut self, ui: &Ui, rect: Rect, view: &View) {
-        let Some(newest) = self.frames.newest() else { return };
-        if self.texture.as_ref().is_none_or(|texture| !Arc::ptr_eq(&texture.frame, newest)) {
-            let image = &newest.picture.image;
-            let size = image.size.map(|n| n as usize);
-            let image = egui::ColorImage::from_rgba_unmultiplied(size, &image.rgba);
-            let options = TextureOptions::NEAREST;
-            match &mut self.texture {
-                Some(texture) => {
-                    texture.handle.set(image, options);
-                    texture.frame = Arc::clone(newest);
-                }
-                None => {
-                    let handle = ui.ctx().load_texture("plate", image, options);
-                    self.texture = Some(Texture { frame: Arc::clone(newest), handle });
-                }
-            }
-        }
-        let Some(Texture { frame, handle }) = &self.texture else { return };
-        let placed = placed(&frame.wanted.view, view, rect);
-        let size = frame.picture.image.size.map(|n| n as f32 * placed.scale);
-        let target = Rect::from_min_size(placed.corner, vec2(size[0], size[1]));
+        let Some(frame) = self.frames.newest() else { return };
         let painter = ui.painter_at(rect);
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        painter.image(handle.id(), target, whole, Color32::WHITE);
-        shapes::draw(&painter, placed, &frame.layers.items);
+        self.texture.show(&painter, &frame.picture, view, rect);
+        shapes::draw(&painter, placed(&frame.layers_view, view, rect), &frame.layers.items);
     }
 }
 
@@ -349,17 +329,6 @@ fn end_of_doubles(ui: &Ui, rect: Rect) {
         egui::Align2::CENTER_TOP.anchor_size(rect.center_top() + vec2(0.0, 14.0), galley.size());
     painter.rect_filled(at.expand(6.0), 4.0, Color32::from_black_alpha(170));
     painter.galley(at.min, galley, Color32::WHITE);
-}
-
-/// Where a picture made for one view lies in a rectangle that shows another.
-fn placed(picture: &View, view: &View, rect: Rect) -> Placed {
-    let points = f64::from(rect.width()) / f64::from(view.pixels[0]);
-    let corner = picture.offset_at(Vec2::ZERO) + (picture.center - view.center);
-    let corner = view.pixel_of_offset(corner) * points;
-    Placed {
-        corner: rect.min + vec2(corner.x as f32, corner.y as f32),
-        scale: (picture.pixel_size() / view.pixel_size() * points) as f32,
-    }
 }
 
 /// The offset from the view's centre of a position in the window.

@@ -3,6 +3,7 @@
 mod renderer;
 mod solver;
 mod synthetic;
+mod window;
 
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -18,11 +19,11 @@ use solver::Run;
 ///
 /// Solves the centre crack at order 2 on covers of growing levels and tells the seconds and unknowns
 /// per second of each phase. Draws a centre crack on covers of 16 to 1,048,576 patches by splatting, by gathering
-/// and on the CPU, and tells the milliseconds per frame.
+/// and on the CPU, and tells the milliseconds per frame. `ppum bench window` tells those of panning in the window.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// What to measure [default: both]
+    /// What to measure [default: solver and renderer]
     #[arg(value_enum, value_name = "WHAT")]
     what: Option<What>,
     /// Last level of the solver; 7 has 212,560 unknowns and takes about 10 s and 2 GB
@@ -47,6 +48,7 @@ Examples:
   ppum bench
   ppum bench solver --level 5 --threads 1
   ppum bench renderer --frames 30
+  ppum bench window --frames 100
   ppum bench solver --json | jq '.solver[-1].seconds'";
 
 /// First level.
@@ -58,6 +60,8 @@ enum What {
     Solver,
     /// Milliseconds a frame
     Renderer,
+    /// Milliseconds a frame of panning in the window, without a display
+    Window,
 }
 
 #[derive(Debug, Serialize)]
@@ -65,6 +69,7 @@ struct Report {
     threads: usize,
     solver: Vec<Run>,
     renderer: Option<renderer::Report>,
+    window: Option<window::Report>,
 }
 
 impl Args {
@@ -80,21 +85,25 @@ impl Args {
             solver.push(run);
         }
         let measure = || renderer::Report::new(self.quick, self.frames);
-        let wanted = self.what != Some(What::Solver);
+        let wanted = !matches!(self.what, Some(What::Solver | What::Window));
         let renderer =
             wanted.then(|| threads::with(self.threads, measure)).transpose()?.transpose()?;
+        let window = (self.what == Some(What::Window))
+            .then(|| window::Report::new(self.quick, self.frames))
+            .transpose()?;
         if self.json {
-            json(out, &Report { threads, solver, renderer })?;
-        } else if let Some(renderer) = renderer {
-            renderer.print(threads, out)?;
+            return Ok(json(out, &Report { threads, solver, renderer, window })?);
         }
+        renderer.iter().try_for_each(|renderer| renderer.print(threads, out))?;
+        window.iter().try_for_each(|window| window.print(out))?;
         Ok(())
     }
 
     fn levels(&self) -> std::ops::Range<u32> {
         let first = FIRST as u32;
         let last = if self.quick { first } else { self.level };
-        let end = if self.what == Some(What::Renderer) { first } else { last + 1 };
+        let is_solver = matches!(self.what, None | Some(What::Solver));
+        let end = if is_solver { last + 1 } else { first };
         first..end
     }
 }

@@ -6,7 +6,7 @@ use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
 
 use crate::controls::whole::Whole;
-use crate::panels::note;
+use crate::panels::{note, wrong};
 use crate::session::Pane;
 use crate::stage::Stage;
 
@@ -96,7 +96,7 @@ fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) 
         stage.controls.refused = set(colors, ends, end).err();
     }
     if let Some(refused) = &stage.controls.refused {
-        ui.label(RichText::new(refused).color(ui.visuals().error_fg_color));
+        ui.label(RichText::new(refused).color(wrong(ui)));
     }
 }
 

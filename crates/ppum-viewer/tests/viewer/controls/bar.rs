@@ -1,6 +1,6 @@
 //! The colour bar as the control of the range.
 
-use egui::{Event, Key, Modifiers, MouseWheelUnit, Pos2, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use ppum_render::range::Range;
 
@@ -21,12 +21,10 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
 }
 
 fn double_click(window: &mut Window, at: Pos2) {
-    for _ in 0..2 {
-        window.hover_at(at);
-        window.drag_at(at);
-        window.step();
-        window.drop_at(at);
-        window.step();
+    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    window.hover_at(at);
+    for pressed in [true, false, true, false] {
+        window.event(Event::PointerButton { pos: at, button, pressed, modifiers });
     }
     settle(window);
 }

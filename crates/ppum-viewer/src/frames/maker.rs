@@ -1,0 +1,368 @@
+//! Makes pictures step by step, each step from what those before have kept.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use ppum::dataset::Dataset;
+use ppum::progress::{Progress, Verdict, Watcher};
+use ppum_render::picture::Style;
+use ppum_render::range::Span;
+use ppum_render::scale::Scale;
+use ppum_scene::drawing::{Drawn, Shown};
+use ppum_scene::layers::Layers;
+use ppum_scene::range;
+use web_time::Instant;
+
+use super::ease::Eased;
+use super::memo::{Memo, Same};
+use super::over::Over;
+use super::paint::Painted;
+use super::renderer::{Backend, Renderer};
+use super::resampled::{Other, Resampling};
+use super::stop::Stop;
+use super::subject::{Place, Subjects};
+use super::values::Values;
+use super::{Fault, Frame, Wanted};
+
+/// What is wanted, and when one who moves will be at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Wish {
+    pub(super) wanted: Wanted,
+    /// None if one does not move.
+    pub(super) rests_at: Option<Instant>,
+}
+
+impl Wish {
+    /// How long it takes until one is at rest; none if one is.
+    fn moves_for(&self, now: Instant) -> Option<Duration> {
+        let rest = self.rests_at?.checked_duration_since(now);
+        rest.filter(|rest| !rest.is_zero())
+    }
+}
+
+/// What a step has made, and when the next one is due.
+pub(super) struct Step {
+    pub(super) frame: Option<Arc<Frame>>,
+    pub(super) next: Next,
+}
+
+/// When the next step is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// Now.
+    More,
+    /// Later.
+    After(Duration),
+    /// Not before something else is wanted.
+    Rest,
+}
+
+/// Time between pictures whose range glides.
+const GLIDE: Duration = Duration::from_millis(16);
+
+/// What a range is found from.
+type Ranged = (Same<Drawn>, Scale, String, bool);
+/// What an eased range belongs to.
+type Quantity = (Same<Dataset>, Option<String>);
+
+/// Makes the pictures of one pane.
+pub(super) struct Maker {
+    pub(super) subjects: Subjects,
+    pub(super) values: Values,
+    pub(super) ranges: Memo<Ranged, Span>,
+    eased: Eased<Quantity>,
+    styles: Memo<(Same<Drawn>, ppum_scene::colors::Colors), Style>,
+    pub(super) painted: Memo<(Same<Drawn>, Style, Span), Arc<Painted>>,
+    pub(super) over: Over,
+    pub(super) resampling: Resampling,
+    newest: Option<Arc<Frame>>,
+    patience: Patience,
+    seconds: f64,
+}
+
+impl Maker {
+    pub(super) fn new(backend: Backend) -> Self {
+        Self {
+            subjects: Subjects::default(),
+            values: Values::new(Renderer::new(backend)),
+            ranges: Memo::default(),
+            eased: Eased::default(),
+            styles: Memo::default(),
+            painted: Memo::default(),
+            over: Over::default(),
+            resampling: Resampling::default(),
+            newest: None,
+            patience: Patience::default(),
+            seconds: 0.0,
+        }
+    }
+
+    /// Does the first thing that is left to do. `is_stale` says whether something else is wanted by now.
+    pub(super) fn step(
+        &mut self,
+        wish: &Wish,
+        now: Instant,
+        is_stale: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Step, Stop> {
+        let wanted = &wish.wanted;
+        let place = Place { subject: self.subjects.find(wanted)?, view: wanted.view };
+        let watcher = |_: Progress| Verdict::go_on_unless(is_stale());
+        let (drawn, is_whole) = self.drawn(wish, &place, is_stale)?;
+        let style = self.style(wanted, &place, &drawn)?;
+        let goal = self.goal(wanted, &place, (&drawn, is_whole), &style);
+        let (span, is_there) = self.span(wanted, &drawn, &style, goal.as_ref(), now);
+        let painted = self.paint(&drawn, &style, span)?;
+        if self
+            .newest
+            .as_ref()
+            .is_none_or(|f| !Arc::ptr_eq(&f.picture, &painted) || f.wanted != *wanted)
+        {
+            let next = if is_there { Next::More } else { Next::After(GLIDE) };
+            return Ok(self.show(wanted, &place, (drawn, painted), next));
+        }
+        if let Some(rest) = wish.moves_for(now) {
+            return Ok(Step { frame: None, next: Next::After(rest) });
+        }
+        if !is_whole {
+            self.draw_whole(&place, &watcher)?;
+        } else if goal.is_none() {
+            self.find_range(wanted, &place, (&drawn, &style), &watcher)?;
+        } else if is_there {
+            return self.finish(wanted, &place, (drawn, painted, &style), &watcher);
+        }
+        Ok(Step { frame: None, next: Next::More })
+    }
+
+    /// The values: the whole ones if they are there or soon done, else rough ones.
+    fn drawn(
+        &mut self,
+        wish: &Wish,
+        place: &Place,
+        is_stale: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(Arc<Drawn>, bool), Stop> {
+        if let Some(whole) = self.values.whole.get(place) {
+            return Ok((whole, true));
+        }
+        if let Some(rough) = self.values.rough.get(place) {
+            return Ok((rough, false));
+        }
+        let start = Instant::now();
+        let is_rough = self.values.needs_rough(place, wish.rests_at.is_some());
+        let drawn = match is_rough {
+            true => {
+                self.patience.with(is_stale, |watcher| self.values.draw_rough(place, watcher))?
+            }
+            false => {
+                self.patience.with(is_stale, |watcher| self.values.draw_whole(place, watcher))?
+            }
+        };
+        self.seconds = start.elapsed().as_secs_f64();
+        Ok((drawn, !is_rough))
+    }
+
+    fn draw_whole(&mut self, place: &Place, watcher: &dyn Watcher) -> Result<(), Stop> {
+        let start = Instant::now();
+        self.values.draw_whole(place, watcher)?;
+        self.seconds = start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// The way in which values become colours.
+    fn style(&mut self, wanted: &Wanted, place: &Place, drawn: &Arc<Drawn>) -> Result<Style, Stop> {
+        let (colors, shown): (_, &Shown) = (&wanted.scene.colors, &place.subject.shown.0);
+        self.styles.get_or((Same::of(drawn), colors.clone()), || {
+            let map = colors.built_in(shown.quantity()).map_err(Stop::at(Fault::Colors))?;
+            Ok(colors.style_of([(shown, &drawn.values)], map))
+        })
+    }
+
+    /// The range that belongs to the picture, if it is known: one that is found has to be looked for, at rest.
+    fn goal(
+        &self,
+        wanted: &Wanted,
+        place: &Place,
+        (drawn, is_whole): (&Arc<Drawn>, bool),
+        style: &Style,
+    ) -> Option<Span> {
+        if place.subject.shown.0.quantity().is_none() || !style.range.is_found() {
+            return Some(drawn.span(style, None));
+        }
+        let kept = self.eased.shown(&about(wanted, style)).filter(|_| wanted.keeps_range);
+        if let Some(kept) = kept {
+            return Some(kept.clone());
+        }
+        self.ranges.get(&ranged(drawn, style)).filter(|_| is_whole)
+    }
+
+    /// The range that is shown now; true if it is the one that belongs there, or stands for it.
+    fn span(
+        &mut self,
+        wanted: &Wanted,
+        drawn: &Drawn,
+        style: &Style,
+        goal: Option<&Span>,
+        now: Instant,
+    ) -> (Span, bool) {
+        let about = about(wanted, style);
+        match goal {
+            Some(goal) if style.range.is_found() => self.eased.toward(about, goal.clone(), now),
+            Some(goal) => {
+                self.eased.set(about, goal.clone());
+                (goal.clone(), true)
+            }
+            None => {
+                let span = self.eased.shown(&about).cloned();
+                let span = span.unwrap_or_else(|| drawn.span(style, None));
+                self.eased.set(about, span.clone());
+                (span, true)
+            }
+        }
+    }
+
+    fn find_range(
+        &mut self,
+        wanted: &Wanted,
+        place: &Place,
+        (drawn, style): (&Arc<Drawn>, &Style),
+        watcher: &dyn Watcher,
+    ) -> Result<(), Stop> {
+        let seen = self.values.seen(place, watcher)?;
+        let Some(quantity) = place.subject.shown.0.quantity() else { return Ok(()) };
+        let field = place.subject.field.0.field();
+        let found = || range::found(field, seen.seen(), quantity, drawn, style, watcher);
+        let found = found().map_err(Stop::at(Fault::Colors))?;
+        // a range that cannot be used is refused before anything glides there
+        found.normalization(wanted.scene.colors.scale).map_err(Stop::at(Fault::Colors))?;
+        self.ranges.set(ranged(drawn, style), found);
+        Ok(())
+    }
+
+    fn paint(
+        &mut self,
+        drawn: &Arc<Drawn>,
+        style: &Style,
+        span: Span,
+    ) -> Result<Arc<Painted>, Stop> {
+        let key = (Same::of(drawn), style.clone(), span.clone());
+        let paint = || Painted::of(drawn, style, span).map(Arc::new);
+        self.painted.get_or(key, || paint().map_err(Stop::at(Fault::Colors)))
+    }
+
+    /// What is left when the picture is there: layers, then the comparison.
+    fn finish(
+        &mut self,
+        wanted: &Wanted,
+        place: &Place,
+        (drawn, painted, style): (Arc<Drawn>, Arc<Painted>, &Style),
+        watcher: &dyn Watcher,
+    ) -> Result<Step, Stop> {
+        let Some(newest) = self.newest.clone() else {
+            return Ok(self.show(wanted, place, (drawn, painted), Next::More));
+        };
+        let mut frame = Frame::clone(&newest);
+        let seen = self.values.seen(place, watcher)?;
+        let below = (&*drawn, &painted, seen.seen());
+        frame.layers = self.over.draw(wanted, place, below, watcher)?;
+        frame.layers_view = wanted.view;
+        let has_news =
+            !Arc::ptr_eq(&frame.layers, &newest.layers) || newest.layers_view != wanted.view;
+        if let (Some(_), true) = (wanted.compare, has_news) {
+            return Ok(self.publish(frame, Next::More));
+        }
+        if let Some(compare) = wanted.compare {
+            let direct = (&drawn, &painted, style);
+            frame.other = Some(self.resampling.compare(compare, place, direct, watcher)?);
+        }
+        frame.is_final = true;
+        Ok(self.publish(frame, Next::Rest))
+    }
+
+    /// A frame of a picture, with what lay over the one before until that is drawn anew.
+    fn show(
+        &mut self,
+        wanted: &Wanted,
+        place: &Place,
+        (drawn, picture): (Arc<Drawn>, Arc<Painted>),
+        next: Next,
+    ) -> Step {
+        let (layers, layers_view, other) = self.carried(wanted, place);
+        let subject = &place.subject;
+        let frame = Frame {
+            wanted: wanted.clone(),
+            field: Arc::clone(&subject.field.0),
+            shown: Arc::clone(&subject.shown.0),
+            drawn,
+            picture,
+            layers,
+            layers_view,
+            factor: subject.factor,
+            other,
+            is_final: false,
+            note: self.values.renderer.note().map(str::to_owned),
+            seconds: self.seconds,
+        };
+        self.publish(frame, next)
+    }
+
+    /// What lies over the picture of before, and beside it, if that is of the same plate.
+    fn carried(
+        &self,
+        wanted: &Wanted,
+        place: &Place,
+    ) -> (Arc<Layers>, ppum_render::view::View, Option<Arc<Other>>) {
+        let subject = &place.subject;
+        let is_same = |frame: &&Arc<Frame>| {
+            Arc::ptr_eq(&frame.field, &subject.field.0) && frame.factor == subject.factor
+        };
+        let Some(newest) = self.newest.as_ref().filter(is_same) else {
+            return (Arc::default(), wanted.view, None);
+        };
+        let shows_same = Arc::ptr_eq(&newest.shown, &subject.shown.0) && wanted.compare.is_some();
+        let other = newest.other.clone().filter(|_| shows_same);
+        (Arc::clone(&newest.layers), newest.layers_view, other)
+    }
+
+    fn publish(&mut self, frame: Frame, next: Next) -> Step {
+        let frame = Arc::new(frame);
+        self.newest = Some(Arc::clone(&frame));
+        Step { frame: Some(frame), next }
+    }
+}
+
+fn about(wanted: &Wanted, style: &Style) -> (Quantity, Scale) {
+    ((Same::of(&wanted.dataset), wanted.scene.quantity.clone()), style.scale)
+}
+
+fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {
+    (Same::of(drawn), style.scale, style.range.to_string(), style.colormap.diverging)
+}
+
+/// How long a picture that is nearly there is made on, although something else is wanted: someone who moves all the time
+/// sees pictures all the same. It grows with each picture that was given up.
+#[derive(Debug)]
+struct Patience(Duration);
+
+const PATIENCE: Duration = Duration::from_millis(250);
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self(PATIENCE)
+    }
+}
+
+impl Patience {
+    fn with<T>(
+        &mut self,
+        is_stale: &(dyn Fn() -> bool + Sync),
+        work: impl FnOnce(&dyn Watcher) -> Result<T, Stop>,
+    ) -> Result<T, Stop> {
+        let (start, most) = (Instant::now(), self.0);
+        let is_over = || start.elapsed() > most && is_stale();
+        let done = work(&|_: Progress| Verdict::go_on_unless(is_over()));
+        self.0 = match &done {
+            Err(Stop::Cancelled) => most.saturating_mul(2),
+            _ => PATIENCE,
+        };
+        done
+    }
+}

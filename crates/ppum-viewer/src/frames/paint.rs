@@ -1,0 +1,51 @@
+//! Colours, as pixels of a picture and as those that the window shows.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use egui::{Color32, ColorImage};
+use ppum_render::image::Image;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::{RangeError, Span};
+use ppum_scene::drawing::Drawn;
+use rayon::prelude::*;
+
+/// A picture, and its pixels as the window takes them.
+#[derive(Debug)]
+pub struct Painted {
+    /// The picture.
+    pub picture: Picture,
+    /// Its pixels.
+    pub texture: Arc<ColorImage>,
+}
+
+impl Painted {
+    /// A picture with its texture.
+    #[must_use]
+    pub fn new(picture: Picture) -> Self {
+        let texture = Arc::new(texture(&picture.image));
+        Self { picture, texture }
+    }
+
+    /// Values in the colours of a range.
+    pub(super) fn of(drawn: &Drawn, style: &Style, span: Span) -> Result<Self, RangeError> {
+        drawn.picture(style, span).map(Self::new)
+    }
+}
+
+impl Deref for Painted {
+    type Target = Picture;
+
+    fn deref(&self) -> &Picture {
+        &self.picture
+    }
+}
+
+/// Pixels for which it is worth to ask another thread.
+const WORTH: usize = 1 << 14;
+
+fn texture(image: &Image) -> ColorImage {
+    let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
+    let pixels = image.rgba.as_chunks::<4>().0.par_iter().with_min_len(WORTH).map(color);
+    ColorImage::new(image.size.map(|n| n as usize), pixels.collect())
+}

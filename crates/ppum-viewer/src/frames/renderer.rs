@@ -1,0 +1,250 @@
+//! What computes the values: the processor or a graphics card, as `ppum render --backend` has it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
+use ppum_render::RenderError;
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use ppum_scene::drawing::{Drawn, PROCESSOR};
+use serde::{Deserialize, Serialize};
+
+use super::subject::Subject;
+
+/// What computes the values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// A graphics card if there is one and it can, else the processor. Software drivers are no cards.
+    #[default]
+    Auto,
+    /// The processor.
+    Cpu,
+    /// Any graphics device, a software one too: one pass that gathers.
+    Gpu,
+    /// The same by the three passes of Üffinger et al. 2011.
+    Splat,
+}
+
+impl Backend {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Auto, Self::Cpu, Self::Gpu, Self::Splat];
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+            Self::Splat => "splat",
+        })
+    }
+}
+
+impl FromStr for Backend {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let known = Self::ALL.into_iter().find(|backend| backend.to_string() == text);
+        known.ok_or("write auto, cpu, gpu or splat")
+    }
+}
+
+/// Draws values by a backend.
+pub(super) struct Renderer {
+    cards: cards::Cards,
+}
+
+impl Renderer {
+    pub(super) fn new(backend: Backend) -> Self {
+        Self { cards: cards::Cards::new(backend) }
+    }
+
+    /// True if a card draws, which needs no rough pictures.
+    pub(super) fn has_card(&self) -> bool {
+        self.cards.is_open()
+    }
+
+    /// The reason why no card draws, if one was to.
+    pub(super) fn note(&self) -> Option<&str> {
+        self.cards.note.as_deref()
+    }
+
+    /// Draws the values of a quantity; by the processor, in double precision, what no card can.
+    pub(super) fn draw(
+        &mut self,
+        subject: &Subject,
+        view: &View,
+        quantity: &Quantity,
+        watcher: &dyn Watcher,
+    ) -> Result<Drawn, RenderError> {
+        let field = subject.field.0.field();
+        if let Some((raster, by)) = self.cards.draw(subject, view, quantity) {
+            return Ok(Drawn::new(raster, field, view, &by));
+        }
+        Ok(Drawn::new(render::<f64>(field, view, quantity, watcher)?, field, view, PROCESSOR))
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+mod cards {
+    use std::sync::Arc;
+
+    use ppum::quantity::{Quantity, Source};
+    use ppum_gpu::{Choice, GpuError, Method, Program, RenderError, Renderer, Values};
+    use ppum_render::raster::Raster;
+    use ppum_render::view::View;
+    use self_cell::self_cell;
+
+    use super::super::subject::Subject;
+    use super::Backend;
+    use crate::field::OwnedField;
+
+    type Pictures<'f> = Program<'f, Values>;
+
+    self_cell!(
+        struct Compiled {
+            owner: Arc<OwnedField>,
+            #[not_covariant]
+            dependent: Pictures,
+        }
+    );
+
+    /// A graphics card, opened when it is needed first.
+    pub(super) struct Cards {
+        backend: Backend,
+        card: Card,
+        /// The last subject, compiled; none if it cannot be.
+        compiled: Option<(Subject, Option<Compiled>)>,
+        /// The reason why the processor draws in its place.
+        pub(super) note: Option<String>,
+    }
+
+    enum Card {
+        Unopened,
+        Open(Box<Renderer>),
+        None,
+    }
+
+    impl Cards {
+        pub(super) fn new(backend: Backend) -> Self {
+            let card = if backend == Backend::Cpu { Card::None } else { Card::Unopened };
+            Self { backend, card, compiled: None, note: None }
+        }
+
+        pub(super) fn is_open(&self) -> bool {
+            matches!(self.card, Card::Open(_)) && !matches!(self.compiled, Some((_, None)))
+        }
+
+        /// The values, and what drew them; nothing if the processor has to.
+        pub(super) fn draw(
+            &mut self,
+            subject: &Subject,
+            view: &View,
+            quantity: &Quantity,
+        ) -> Option<(Raster<f32>, String)> {
+            if quantity.source() == Source::Exact {
+                return None;
+            }
+            match self.try_draw(subject, view, quantity) {
+                Ok(drawn) => drawn,
+                Err(error) => {
+                    self.give_up(subject, &error);
+                    None
+                }
+            }
+        }
+
+        fn try_draw(
+            &mut self,
+            subject: &Subject,
+            view: &View,
+            quantity: &Quantity,
+        ) -> Result<Option<(Raster<f32>, String)>, RenderError> {
+            if matches!(self.card, Card::Unopened) {
+                self.card = Card::None;
+                let auto = self.backend == Backend::Auto;
+                let choice = if auto { Choice::Real } else { Choice::Any };
+                self.card = Card::Open(Box::new(Renderer::open(choice)?));
+            }
+            let Card::Open(renderer) = &mut self.card else { return Ok(None) };
+            let splats = self.backend == Backend::Splat;
+            let method = if splats { Method::Splat } else { Method::Gather };
+            if self.compiled.as_ref().is_none_or(|(known, _)| known != subject) {
+                self.compiled = None;
+                self.note = None;
+                let compiled = Compiled::try_new(Arc::clone(&subject.field.0), |field| {
+                    let scene = renderer.upload(field.field())?;
+                    renderer.compile(&scene, Values(quantity.clone()), method)
+                })?;
+                self.compiled = Some((subject.clone(), Some(compiled)));
+            }
+            let Some((_, Some(compiled))) = &mut self.compiled else { return Ok(None) };
+            let raster = compiled.with_dependent_mut(|_, program| {
+                renderer.draw(program, view).and_then(|drawn| drawn.read())
+            })?;
+            let way = if splats { "gpu splat f32" } else { "gpu f32" };
+            Ok(Some((raster, format!("{way}, {}", renderer.gpu().info().name))))
+        }
+
+        /// Leaves a subject to the processor, or everything if the device is of no use.
+        fn give_up(&mut self, subject: &Subject, error: &RenderError) {
+            let is_missing = matches!(error, RenderError::Gpu(GpuError::NoAdapter { .. }));
+            let is_normal = self.backend == Backend::Auto && is_missing;
+            if !is_normal && !matches!(error, RenderError::Quantity(_)) {
+                let lines: Vec<_> =
+                    error.to_string().lines().map(|line| line.trim().to_owned()).collect();
+                self.note = Some(format!("drawn by the processor: {}", lines.join(" ")));
+            }
+            if matches!(
+                error,
+                RenderError::Gpu(
+                    GpuError::Lost | GpuError::Device { .. } | GpuError::Memory { .. }
+                )
+            ) {
+                self.card = Card::None;
+            }
+            self.compiled = Some((subject.clone(), None));
+        }
+    }
+}
+
+/// Browsers open devices by promises, which nobody waits for here: the processor draws.
+#[cfg(target_arch = "wasm32")]
+mod cards {
+    use ppum::quantity::Quantity;
+    use ppum_render::raster::Raster;
+    use ppum_render::view::View;
+
+    use super::super::subject::Subject;
+    use super::Backend;
+
+    pub(super) struct Cards {
+        pub(super) note: Option<String>,
+    }
+
+    impl Cards {
+        pub(super) fn new(backend: Backend) -> Self {
+            let is_asked = matches!(backend, Backend::Gpu | Backend::Splat);
+            let note =
+                "drawn by the processor: the window draws on no graphics card in a browser yet";
+            Self { note: is_asked.then(|| note.to_owned()) }
+        }
+
+        pub(super) fn is_open(&self) -> bool {
+            false
+        }
+
+        pub(super) fn draw(
+            &mut self,
+            _: &Subject,
+            _: &View,
+            _: &Quantity,
+        ) -> Option<(Raster<f32>, String)> {
+            None
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Who makes the pictures: a thread; in browsers, which have none, the window itself, a step each time that it is shown.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use web_time::Instant;
+
+use super::maker::{Maker, Next, Step, Wish};
+use super::renderer::Backend;
+use super::stop::Stop;
+use super::{Failure, Fault, Outcome};
+
+#[cfg(any(target_arch = "wasm32", test))]
+pub(super) use inline::Inline;
+#[cfg(target_arch = "wasm32")]
+pub(super) use inline::Inline as Worker;
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) use threaded::Threaded as Worker;
+
+/// Calls whoever shows the pictures.
+pub(super) type Wake = Box<dyn Fn() + Send>;
+
+/// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and forgets everything.
+fn step(
+    maker: &mut Maker,
+    backend: Backend,
+    wish: &Wish,
+    is_stale: &(dyn Fn() -> bool + Sync),
+) -> (Option<Outcome>, Next) {
+    let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), is_stale)));
+    match made {
+        Ok(Ok(Step { frame, next })) => (frame.map(Ok), next),
+        Ok(Err(Stop::Cancelled)) => (None, Next::More),
+        Ok(Err(Stop::Failed(failure))) => (Some(Err(failure)), Next::Rest),
+        Err(_) => {
+            *maker = Maker::new(backend);
+            let message = PANIC.to_owned();
+            (Some(Err(Failure { fault: Fault::Program, message })), Next::Rest)
+        }
+    }
+}
+
+const PANIC: &str = "a mistake of the program keeps it from drawing this; choose something else, and please report it";
+
+/// Adds an outcome; of frames that nobody has taken the last one is enough.
+fn add(outcomes: &mut Vec<Outcome>, outcome: Option<Outcome>) {
+    let Some(outcome) = outcome else { return };
+    if outcome.is_ok() && outcomes.last().is_some_and(Result::is_ok) {
+        outcomes.pop();
+    }
+    outcomes.push(outcome);
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+mod threaded {
+    use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+    use std::thread;
+
+    use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
+
+    /// A thread that makes pictures.
+    pub(in super::super) struct Threaded(Arc<Shared>);
+
+    #[derive(Default)]
+    struct Shared {
+        state: Mutex<State>,
+        changed: Condvar,
+    }
+
+    #[derive(Default)]
+    struct State {
+        wish: Option<Wish>,
+        /// Wishes so far, and the last one that is fulfilled.
+        wishes: usize,
+        fulfilled: usize,
+        is_closed: bool,
+        outcomes: Vec<Outcome>,
+    }
+
+    impl Shared {
+        fn state(&self) -> MutexGuard<'_, State> {
+            self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        }
+
+        /// The wish to work for, with its number, when something is to be done for it; none if nobody wants anything any more.
+        fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
+            let is_waiting = |state: &mut State| state.wishes == number && !state.is_closed;
+            let mut state = self.state();
+            state = match next {
+                Next::More => state,
+                Next::After(time) => {
+                    let waited = self.changed.wait_timeout_while(state, time, is_waiting);
+                    waited.unwrap_or_else(PoisonError::into_inner).0
+                }
+                Next::Rest => {
+                    let waited = self.changed.wait_while(state, is_waiting);
+                    waited.unwrap_or_else(PoisonError::into_inner)
+                }
+            };
+            let wish = state.wish.clone().filter(|_| !state.is_closed)?;
+            Some((wish, state.wishes))
+        }
+
+        fn is_stale(&self, number: usize) -> bool {
+            let state = self.state();
+            state.wishes != number || state.is_closed
+        }
+    }
+
+    impl Threaded {
+        pub(in super::super) fn new(backend: Backend, wake: Wake) -> Self {
+            let shared = Arc::new(Shared::default());
+            let theirs = Arc::clone(&shared);
+            thread::spawn(move || serve(&theirs, backend, &wake));
+            Self(shared)
+        }
+
+        pub(in super::super) fn want(&self, wish: Wish) {
+            let mut state = self.0.state();
+            state.wish = Some(wish);
+            state.wishes += 1;
+            drop(state);
+            self.0.changed.notify_all();
+        }
+
+        pub(in super::super) fn take(&mut self) -> Vec<Outcome> {
+            std::mem::take(&mut self.0.state().outcomes)
+        }
+
+        pub(in super::super) fn is_working(&self) -> bool {
+            let state = self.0.state();
+            state.wishes != state.fulfilled || !state.outcomes.is_empty()
+        }
+    }
+
+    impl Drop for Threaded {
+        fn drop(&mut self) {
+            self.0.state().is_closed = true;
+            self.0.changed.notify_all();
+        }
+    }
+
+    /// Makes pictures until nobody wants any.
+    fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
+        let mut maker = Maker::new(backend);
+        let (mut number, mut next) = (0, Next::Rest);
+        while let Some((wish, newest)) = shared.next(number, next) {
+            number = newest;
+            let outcome;
+            (outcome, next) = step(&mut maker, backend, &wish, &|| shared.is_stale(number));
+            let has_news = outcome.is_some();
+            let mut state = shared.state();
+            add(&mut state.outcomes, outcome);
+            if next == Next::Rest {
+                state.fulfilled = number;
+            }
+            drop(state);
+            if has_news || next == Next::Rest {
+                wake();
+            }
+        }
+    }
+}
+
+#[cfg(any(target_arch = "wasm32", test))]
+mod inline {
+    use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
+
+    /// Makes pictures while the window is shown.
+    pub(in super::super) struct Inline {
+        backend: Backend,
+        maker: Maker,
+        wish: Option<Wish>,
+        next: Next,
+        wake: Wake,
+    }
+
+    impl Inline {
+        pub(in super::super) fn new(backend: Backend, wake: Wake) -> Self {
+            Self { backend, maker: Maker::new(backend), wish: None, next: Next::Rest, wake }
+        }
+
+        pub(in super::super) fn want(&mut self, wish: Wish) {
+            self.wish = Some(wish);
+            self.next = Next::More;
+        }
+
+        /// Makes a step.
+        pub(in super::super) fn take(&mut self) -> Vec<Outcome> {
+            let mut outcomes = Vec::new();
+            if let Some(wish) = self.wish.as_ref().filter(|_| self.next != Next::Rest) {
+                let outcome;
+                (outcome, self.next) = step(&mut self.maker, self.backend, wish, &|| false);
+                add(&mut outcomes, outcome);
+                (self.wake)();
+            }
+            outcomes
+        }
+
+        pub(in super::super) fn is_working(&self) -> bool {
+            self.next != Next::Rest
+        }
+    }
+}

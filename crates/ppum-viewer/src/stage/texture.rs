@@ -1,0 +1,55 @@
+//! Pictures on the screen: each where it belongs in the view, whatever view it was made for.
+
+use std::sync::Arc;
+
+use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, pos2, vec2};
+use ppum::vec2::Vec2;
+use ppum_render::view::View;
+
+use crate::frames::Painted;
+use crate::shapes::Placed;
+
+/// A picture on its way to the screen; it is sent there once.
+#[derive(Default)]
+pub struct Texture {
+    sent: Option<(Arc<ColorImage>, TextureHandle)>,
+}
+
+impl Texture {
+    /// Draws a picture in a rectangle that shows a view.
+    pub fn show(&mut self, painter: &Painter, painted: &Painted, view: &View, rect: Rect) {
+        let placed = placed(&painted.view, view, rect);
+        let size = painted.image.size.map(|n| n as f32 * placed.scale);
+        let target = Rect::from_min_size(placed.corner, vec2(size[0], size[1]));
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let handle = self.send(painter, painted, view);
+        painter.image(handle.id(), target, whole, Color32::WHITE);
+    }
+
+    fn send(&mut self, painter: &Painter, painted: &Painted, view: &View) -> &TextureHandle {
+        let image = &painted.texture;
+        // a coarse picture looks better smooth; of a fine one pixels are pixels
+        let is_coarse = painted.view.pixels[0] < view.pixels[0] / 2;
+        let options = if is_coarse { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
+        let (sent, handle) = self.sent.get_or_insert_with(|| {
+            (Arc::clone(image), painter.ctx().load_texture("plate", Arc::clone(image), options))
+        });
+        if !Arc::ptr_eq(sent, image) {
+            handle.set(Arc::clone(image), options);
+            *sent = Arc::clone(image);
+        }
+        handle
+    }
+}
+
+/// Where a picture made for one view lies in a rectangle that shows another.
+#[must_use]
+pub fn placed(picture: &View, view: &View, rect: Rect) -> Placed {
+    let points = f64::from(rect.width()) / f64::from(view.pixels[0]);
+    let corner = picture.offset_at(Vec2::ZERO) + (picture.center - view.center);
+    let corner = view.pixel_of_offset(corner) * points;
+    Placed {
+        corner: rect.min + vec2(corner.x as f32, corner.y as f32),
+        scale: (picture.pixel_size() / view.pixel_size() * points) as f32,
+    }
+}
