@@ -4,6 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::panels::export::What;
 use crate::session::Page;
+use crate::stage::tools::Tool;
 
 /// Something a person can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +47,14 @@ pub enum Action {
     Swing,
     /// Direct against resampled.
     Compare,
+    /// Pin a probe at the pointer.
+    Probe,
+    /// A circle around the nearest tip, for K.
+    CircleForK,
+    /// Draw a curve by the mouse.
+    Draw(Tool),
+    /// Marks at the extrema of the view, on and off.
+    Extrema,
     /// A page of the drawer, opened or closed.
     Drawer(Page),
     /// Save a picture of what is seen.
@@ -141,6 +150,13 @@ pub const ALL: &[Entry] = &[
     entry(Action::Deform, "Deformed plate", key(Key::D), "Over the picture"),
     entry(Action::Swing, "Play the deformation", shift(Key::D), "Over the picture"),
     entry(Action::Compare, "Direct against resampled", key(Key::C), "Over the picture"),
+    entry(Action::Probe, "Pin a probe at the pointer", key(Key::P), "Reading"),
+    entry(Action::CircleForK, "Circle around the nearest tip, for K", key(Key::K), "Reading"),
+    entry(Action::Draw(Tool::Line), "Draw a line (or drag with Shift)", None, "Reading"),
+    entry(Action::Draw(Tool::Circle), "Draw a circle (or drag with Ctrl)", None, "Reading"),
+    entry(Action::Draw(Tool::Ray), "Draw a ray from a tip", None, "Reading"),
+    entry(Action::Draw(Tool::Crack), "Choose a crack by a click", None, "Reading"),
+    entry(Action::Extrema, "Mark the extrema of the view", None, "Reading"),
     entry(Action::Drawer(Page::Plot), "Plot along a curve", key(Key::X), "Reading"),
     entry(Action::Drawer(Page::Tips), "Table of the tips", key(Key::T), "Reading"),
     entry(Action::Drawer(Page::Series), "Values over the steps", None, "Reading"),

@@ -85,6 +85,11 @@ impl Viewer {
         if desk.session.panels {
             Panel::right("side").default_size(300.0).show(ui, |ui| panels::side(ui, &mut desk));
         }
+        if desk.session.drawer.is_some() {
+            let height =
+                Panel::bottom("drawer").resizable(true).default_size(240.0).min_size(120.0);
+            height.show(ui, |ui| panels::drawer::show(ui, &mut desk));
+        }
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
         help::show(ui, &mut self.has_help);
         if let Some(palette) = &mut self.palette {
@@ -100,6 +105,7 @@ impl Viewer {
         {
             self.exporter = None;
         }
+        self.copy(ui.ctx());
         for action in actions {
             self.act(ui.ctx(), action);
         }
@@ -115,6 +121,17 @@ impl Viewer {
             // what is written is one step, however long it takes
             None if ui.ctx().egui_wants_keyboard_input() => {}
             None => self.settings.note(&settings),
+        }
+    }
+
+    /// Copies what is read when the system's key for it is pressed, unless someone writes.
+    fn copy(&mut self, ctx: &egui::Context) {
+        let is_asked = ctx.input(|input| input.events.contains(&egui::Event::Copy));
+        if is_asked && !ctx.egui_wants_keyboard_input() {
+            let text = self.stages[self.session.active].copied();
+            if let Some(text) = text {
+                ctx.copy_text(text);
+            }
         }
     }
 
@@ -162,9 +179,25 @@ impl Viewer {
                 pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
             }
             Action::Compare => toggle_comparison(pane),
-            Action::Drawer(page) => toggle(&mut self.session.drawer, page),
             Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
             Action::CopyCommand => copy_command(ctx, pane, stage),
+            Action::Probe => {
+                if let Some(spot) = stage.spot() {
+                    stage.pin(pane, spot);
+                }
+            }
+            Action::CircleForK => {
+                stage.circle_nearest_tip(pane);
+                self.session.drawer = Some(Page::Plot);
+            }
+            Action::Draw(tool) => stage.reading.tool = Some(tool),
+            Action::Extrema => pane.extrema = !pane.extrema,
+            Action::Drawer(page) => {
+                if page == Page::Plot {
+                    stage.choose_curve(pane);
+                }
+                toggle(&mut self.session.drawer, page);
+            }
             Action::Split => self.split(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),

@@ -16,6 +16,7 @@ pub mod fonts;
 pub mod frames;
 pub mod job;
 pub mod panels;
+pub mod reading;
 pub mod session;
 pub mod shapes;
 pub mod stage;

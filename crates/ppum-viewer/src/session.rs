@@ -5,8 +5,11 @@ use std::path::PathBuf;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
 use ppum_scene::compare::Compare;
+use ppum_scene::profile::{Along, COUNT};
 use ppum_scene::scene::Scene;
 use serde::{Deserialize, Serialize};
+
+use crate::reading::spot::Spot;
 
 /// The state of the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,6 +45,14 @@ pub struct Pane {
     pub against: Against,
     /// True if a range that was found stays as it is while one moves on.
     pub keeps_range: bool,
+    /// Points whose values are kept in sight.
+    pub probes: Vec<Spot>,
+    /// The curve that values are plotted along.
+    pub curve: Option<Along>,
+    /// How they are plotted.
+    pub plot: Plotting,
+    /// True if the extrema of the view are marked.
+    pub extrema: bool,
 }
 
 /// How the direct picture is seen beside what resampling gives of it: that on the right of a divider.
@@ -57,6 +68,24 @@ pub struct Against {
 impl Default for Against {
     fn default() -> Self {
         Self { divider: 0.5, difference: false }
+    }
+}
+
+/// What is plotted along a curve, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Plotting {
+    /// Quantities or formulas in a list; those that suit if nothing is said.
+    pub quantities: Option<String>,
+    /// True for a logarithmic axis: the horizontal one, the vertical one.
+    pub log: [bool; 2],
+    /// Number of points.
+    pub count: usize,
+}
+
+impl Default for Plotting {
+    fn default() -> Self {
+        Self { quantities: None, log: [false; 2], count: COUNT }
     }
 }
 

@@ -4,13 +4,16 @@ pub mod chooser;
 pub mod colors;
 pub mod compare;
 pub mod deformation;
+pub mod drawer;
 pub mod editor;
+pub mod entry;
 pub mod export;
 pub mod functions;
 pub mod help;
 pub mod overlays;
 pub mod palette;
 pub mod parts;
+pub mod probes;
 pub mod quantity;
 pub mod top;
 
@@ -23,10 +26,11 @@ use crate::stage::Stage;
 /// The panels on the right, one below the other, each of which folds.
 pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
     type Show = fn(&mut Ui, &mut Desk<'_>);
-    const ALL: [(&str, Show, bool); 7] = [
+    const ALL: [(&str, Show, bool); 8] = [
         ("Quantity", quantity::show, true),
         ("Colours", colors::show, true),
         ("Overlays", overlays::show, true),
+        ("Probes", probes::show, false),
         ("Parts", parts::show, false),
         ("Deformation", deformation::show, false),
         ("Compare", compare::show, false),

@@ -4,8 +4,11 @@ pub mod against;
 pub mod bar;
 pub mod flight;
 pub mod locator;
+pub mod readout;
 pub mod scale_bar;
+pub mod sight;
 pub mod texture;
+pub mod tools;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,12 +23,14 @@ use ppum_render::view::View;
 use crate::controls::Controls;
 use crate::field::OwnedField;
 use crate::frames::{Backend, Frames, Wanted};
+use crate::reading::Reading;
 use crate::session::{Pane, Place};
 use crate::shapes;
 use crate::undo::{Rest, Undo};
 use against::Against;
 use flight::Flight;
 use locator::Locator;
+use sight::Sight;
 use texture::{Texture, placed};
 
 /// A dataset that is open.
@@ -53,6 +58,8 @@ pub struct Stage {
     pub controls: Controls,
     grip: bar::Grip,
     against: Against,
+    /// What is read of it.
+    pub reading: Reading,
     texture: Texture,
     flight: Option<Flight>,
     rest: Rest<Option<Place>>,
@@ -84,6 +91,7 @@ impl Stage {
             grip: bar::Grip::default(),
             against: Against::default(),
             texture: Texture::default(),
+            reading: Reading::default(),
             flight: None,
             rest: Rest::new(None),
             locator: None,
@@ -94,7 +102,9 @@ impl Stage {
 
     /// Shows the pane in all the room there is.
     pub fn show(&mut self, ui: &mut Ui, pane: &mut Pane) {
-        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        let room = (ui.available_size() - vec2(0.0, readout::HEIGHT)).max(vec2(1.0, 1.0));
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let (rect, response) = ui.allocate_exact_size(room, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plate"));
         let scale = ui.pixels_per_point();
         let pixels = [rect.width(), rect.height()].map(|n| ((n * scale).round() as u32).max(1));
@@ -103,7 +113,10 @@ impl Stage {
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
         let Some(view) = view(pane, &opened.dataset, pixels) else { return };
-        self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
+        let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
+        if !self.draw_by_mouse(ui, &response, &sight, pane) {
+            self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
+        }
         let view = crate::stage::view(pane, &opened.dataset, pixels).unwrap_or(view);
         self.view = Some(view);
         self.hover = response.hover_pos().map(|at| offset(&view, rect, at));
@@ -133,6 +146,10 @@ impl Stage {
             bar::of_difference(ui, rect, pane, frame);
         }
         self.furnish(ui, rect, pane, &view);
+        let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
+        self.read(ui, &response, &sight, pane);
+        self.marks(ui, &sight, pane);
+        self.line(ui, pane);
     }
 
     /// Chooses the patch that is clicked on, if one is to be chosen.

@@ -5,8 +5,10 @@ use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
+use ppum::vec2::Vec2;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
@@ -31,7 +33,9 @@ pub(crate) fn window(dataset: Dataset, size: [f32; 2]) -> Harness<'static, Viewe
 pub(crate) fn settle(harness: &mut Harness<'static, Viewer>) {
     for _ in 0..2000 {
         harness.step();
-        let is_working = |stage: &ppum_viewer::stage::Stage| stage.frames.is_working();
+        let is_working = |stage: &ppum_viewer::stage::Stage| {
+            stage.frames.is_working() || stage.reading.is_working()
+        };
         if !harness.state().stages.iter().any(is_working) {
             harness.step();
             return;
@@ -57,4 +61,19 @@ pub(crate) fn shot(harness: &mut Harness<'static, Viewer>, name: &str) {
     let Ok(folder) = std::env::var("PPUM_SHOTS") else { return };
     let image = harness.render().expect("it can be drawn");
     image.save(Path::new(&folder).join(name).with_extension("png")).expect("it can be written");
+}
+
+/// The position of a point of the plate in the window.
+pub(crate) fn at(harness: &Harness<'static, Viewer>, point: Vec2) -> egui::Pos2 {
+    let rect = harness.get_by_label("Plate").rect();
+    let view = harness.state().stages[0].view.expect("a plate is shown");
+    let pixel = view.pixel(point) * (f64::from(rect.width()) / f64::from(view.pixels[0]));
+    rect.min + egui::vec2(pixel.x as f32, pixel.y as f32)
+}
+
+/// Moves the pointer to a point of the plate.
+pub(crate) fn hover(harness: &mut Harness<'static, Viewer>, point: Vec2) {
+    let place = at(harness, point);
+    harness.hover_at(place);
+    settle(harness);
 }

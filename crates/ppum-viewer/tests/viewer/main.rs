@@ -3,3 +3,5 @@
 mod controls;
 mod kit;
 mod moving;
+mod plotting;
+mod reading;

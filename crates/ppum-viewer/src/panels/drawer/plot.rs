@@ -1,0 +1,293 @@
+//! Values along a curve: which one, of what, and the plot, whose points are found on the plate.
+
+#[cfg(feature = "solve")]
+use std::path::Path;
+
+use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Sense, Stroke, Ui, vec2};
+use ppum::crack::{Crack, tips};
+use ppum_figure::canvas::{Canvas, Item};
+use ppum_figure::plot::{Area, LEAST, Plot, plot};
+use ppum_scene::profile::Along;
+
+use crate::desk::Desk;
+use crate::panels::entry::entry;
+use crate::reading::plotted::{Asked, Values};
+use crate::session::Pane;
+use crate::shapes::{self, Placed};
+use crate::stage::Stage;
+use crate::stage::tools::Tool;
+
+/// Shows the page.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    ui.horizontal_wrapped(|ui| chooser(ui, pane, stage));
+    ui.horizontal_wrapped(|ui| settings(ui, pane));
+    stage.reading.marked = None;
+    let Some(frame) = stage.frames.newest().cloned() else { return };
+    let Some(asked) = Asked::of(pane, &frame.field) else {
+        ui.label("Draw a line or a circle over the plate, or choose a crack or a tip.");
+        return;
+    };
+    let theirs = asked.clone();
+    stage.reading.plot.ask(&asked, false, ui.ctx(), move |watcher| theirs.find(watcher));
+    let newest = stage.reading.plot.newest().cloned();
+    let Some((known, found)) = newest else {
+        ui.spinner();
+        return;
+    };
+    if known != asked {
+        // asked for again when what runs is done
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(15));
+    }
+    match &*found {
+        Err(reason) => {
+            ui.colored_label(ui.visuals().error_fg_color, reason);
+        }
+        Ok(values) => found_values(ui, pane, stage, values),
+    }
+}
+
+fn found_values(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values) {
+    let drawn = values.plot(pane.plot.log);
+    let page = || plot(&drawn, PAGE);
+    let files: [(&str, &dyn Fn() -> Vec<u8>); 4] = [
+        ("csv", &|| values.table.csv().into_bytes()),
+        ("svg", &|| page().svg(96.0, &[]).into_bytes()),
+        ("pdf", &|| page().pdf(96.0, &[])),
+        ("png", &|| ppum_render::png::encode_at(&page().image(), None, &[]).unwrap_or_default()),
+    ];
+    outputs(ui, stage, &files, &|| values.table.csv());
+    graph(ui, pane, stage, values, &drawn);
+}
+
+/// Size of the page of a plot that is written to a file, as `ppum plot` has it.
+const PAGE: [u32; 2] = [900, 600];
+
+/// Which curve.
+fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
+    let cracks = stage.cracks(pane).unwrap_or_default();
+    let chosen = pane.curve.as_ref().map_or("no curve".into(), |along| name(along));
+    let list = ComboBox::from_id_salt("curve").selected_text(chosen).width(150.0);
+    let list = list.show_ui(ui, |ui| {
+        let before = pane.curve;
+        for (along, name) in choices(&cracks, stage) {
+            ui.selectable_value(&mut pane.curve, along, name);
+        }
+        if pane.curve != before {
+            let is_ray = matches!(pane.curve, Some(Along::Ray { .. }));
+            pane.plot.log = [is_ray; 2];
+        }
+    });
+    list.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Curve"));
+    for (tool, name) in [
+        (Tool::Line, "Draw a line"),
+        (Tool::Circle, "Draw a circle"),
+        (Tool::Ray, "Draw a ray"),
+        (Tool::Crack, "Click a crack"),
+    ] {
+        let is_on = stage.reading.tool == Some(tool);
+        if ui.selectable_label(is_on, name).on_hover_text(tool.hint()).clicked() {
+            stage.reading.tool = (!is_on).then_some(tool);
+            if tool == Tool::Ray {
+                pane.plot.log = [true; 2];
+            }
+        }
+    }
+    numbers(ui, pane);
+}
+
+/// The curves of a step that need no drawing.
+fn choices(cracks: &[Crack], stage: &Stage) -> Vec<(Option<Along>, String)> {
+    const MOST: usize = 100;
+    let mut all = vec![None];
+    all.push(stage.middle());
+    all.extend((0..cracks.len().min(MOST)).map(|index| Some(Along::Crack { index })));
+    for tip in 0..tips(cracks).count().min(MOST) {
+        all.push(Some(Along::Around { tip, radius: None }));
+        all.push(Some(Along::Ray { tip, angle: 0.0, far: None }));
+    }
+    let named = |along: Option<Along>| {
+        let name = along.as_ref().map_or("no curve".into(), name);
+        (along, name)
+    };
+    all.into_iter().map(named).collect()
+}
+
+fn name(along: &Along) -> String {
+    match along {
+        Along::Line { .. } => "line".into(),
+        Along::Circle { .. } => "circle".into(),
+        Along::Crack { index } => format!("crack {index}"),
+        Along::Around { tip, .. } => format!("around tip {tip}"),
+        Along::Ray { tip, .. } => format!("ray from tip {tip}"),
+    }
+}
+
+/// The numbers of the curve, to be edited.
+fn numbers(ui: &mut Ui, pane: &mut Pane) {
+    let Some(along) = pane.curve else { return };
+    let (hint, values): (&str, Vec<f64>) = match along {
+        Along::Line { from, to, .. } => ("x, y to x, y", [from, to].concat()),
+        Along::Circle { center, radius } => ("centre, radius", vec![center[0], center[1], radius]),
+        Along::Around { radius, .. } => ("radius", radius.into_iter().collect()),
+        Along::Ray { angle, far, .. } => {
+            ("angle, length", [angle].into_iter().chain(far).collect())
+        }
+        Along::Crack { .. } => return,
+    };
+    let texts: Vec<String> = values.iter().map(|v| ppum::text::exact(*v)).collect();
+    if let Along::Line { anchor, .. } = along
+        && anchor != [0.0; 2]
+    {
+        ui.label(format!("({}, {}) +", ppum::text::exact(anchor[0]), ppum::text::exact(anchor[1])));
+    }
+    if let Some(text) = entry(ui, "Numbers of the curve", &texts.join(", "), hint, 190.0)
+        && let Some(changed) = with_numbers(along, &text)
+    {
+        pane.curve = Some(changed);
+    }
+}
+
+/// A curve with the numbers of a text; none if these are not the ones that it needs.
+fn with_numbers(along: Along, text: &str) -> Option<Along> {
+    let parsed: Result<Vec<f64>, _> =
+        text.split(',').map(|part| part.trim().replace('−', "-").parse()).collect();
+    let numbers = parsed.ok().filter(|all| all.iter().all(|v: &f64| v.is_finite()))?;
+    match (along, &numbers[..]) {
+        (Along::Line { anchor, .. }, &[x0, y0, x1, y1]) => {
+            Some(Along::Line { anchor, from: [x0, y0], to: [x1, y1] })
+        }
+        (Along::Circle { .. }, &[x, y, radius]) => Some(Along::Circle { center: [x, y], radius }),
+        (Along::Around { tip, .. }, &[radius]) => Some(Along::Around { tip, radius: Some(radius) }),
+        (Along::Ray { tip, far, .. }, &[angle]) => Some(Along::Ray { tip, angle, far }),
+        (Along::Ray { tip, .. }, &[angle, far]) => Some(Along::Ray { tip, angle, far: Some(far) }),
+        _ => None,
+    }
+}
+
+/// Quantities, axes and points.
+fn settings(ui: &mut Ui, pane: &mut Pane) {
+    let text = pane.plot.quantities.clone().unwrap_or_default();
+    if let Some(text) = entry(ui, "Quantities of the plot", &text, "as on the plate", 190.0) {
+        pane.plot.quantities = (!text.trim().is_empty()).then_some(text);
+    }
+    let [x, y] = &mut pane.plot.log;
+    ui.checkbox(x, "log x");
+    ui.checkbox(y, "log y");
+    let points = DragValue::new(&mut pane.plot.count).range(2..=100_000).suffix(" points");
+    ui.add(points).widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::SpinButton, true, "Number of points")
+    });
+}
+
+/// Buttons that copy and write files, with what became of the last one.
+pub(crate) fn outputs(
+    ui: &mut Ui,
+    stage: &mut Stage,
+    files: &[(&str, &dyn Fn() -> Vec<u8>)],
+    text: &dyn Fn() -> String,
+) {
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Copy CSV").clicked() {
+            ui.ctx().copy_text(text());
+        }
+        #[cfg(feature = "solve")]
+        write(ui, stage, files);
+        #[cfg(not(feature = "solve"))]
+        let _ = (stage, files);
+    });
+}
+
+#[cfg(feature = "solve")]
+fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)]) {
+    let input = stage.opened.as_ref().and_then(|opened| opened.path.clone());
+    let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
+    let output = &mut stage.reading.output;
+    let label = ui.label("File");
+    let field = egui::TextEdit::singleline(&mut output.path).hint_text("name").desired_width(150.0);
+    ui.add(field).labelled_by(label.id);
+    for (end, bytes) in files {
+        if ui.button(format!("Save {}", end.to_uppercase())).clicked() {
+            output.save(end, &bytes(), &inputs);
+        }
+    }
+    match &output.told {
+        Some(Ok(path)) => {
+            ui.label(format!("wrote {path}"));
+        }
+        Some(Err(reason)) => {
+            ui.colored_label(ui.visuals().error_fg_color, reason);
+        }
+        None => {}
+    }
+}
+
+/// The plot; the pointer in it marks the point on the plate and reads the values there.
+fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values, drawn: &Plot) {
+    let room = ui.available_size().max(vec2(LEAST[0] as f32, LEAST[1] as f32) * SMALLER);
+    let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plotted curves"));
+    let size = [rect.width(), rect.height()].map(|points| ((points / SMALLER) as u32).max(1));
+    let placed = Placed { corner: rect.min, scale: SMALLER };
+    let painter = ui.painter_at(rect);
+    let mut page = plot(drawn, size);
+    if ui.visuals().dark_mode {
+        page = darkened(page);
+    }
+    painter.rect_filled(rect, 0.0, shapes::color(page.paper));
+    shapes::draw(&painter, placed, &page.items);
+    let area = Area::new(drawn, size);
+    let Some(at) = response.hover_pos() else { return };
+    let column = f64::from((at.x - rect.min.x) / SMALLER);
+    let Some((row, spot)) = values.nearest(area.across(column), pane.plot.log[0]) else { return };
+    let ink = ui.visuals().strong_text_color();
+    for point in values.points(row) {
+        if let Some(position) = area.position(point) {
+            let at = placed.at(position);
+            painter.vline(at.x, rect.y_range(), Stroke::new(0.5, ink));
+            painter.circle(at, 3.5, ink, Stroke::NONE);
+        }
+    }
+    stage.reading.marked = Some(spot);
+    lettered(ui, &painter, rect, &values.words(row));
+}
+
+/// Points of the window per pixel of the plot: plots are made for pages, which are larger.
+const SMALLER: f32 = 0.75;
+
+fn lettered(ui: &Ui, painter: &egui::Painter, rect: Rect, text: &str) {
+    let font = FontId::proportional(13.0);
+    let galley = painter.layout_no_wrap(text.to_owned(), font, ui.visuals().strong_text_color());
+    let at = rect.right_top() + vec2(-14.0, 4.0);
+    let place = Align2::RIGHT_TOP.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand(3.0), 3.0, ui.visuals().extreme_bg_color);
+    painter.galley(place.min, galley, Color32::WHITE);
+}
+
+/// A page with its greys turned round, for dark windows; colours are the same.
+fn darkened(page: Canvas) -> Canvas {
+    let items = page.items.into_iter().map(|item| match item {
+        Item::Line { path, mut pen } => {
+            pen.color = turned(pen.color);
+            if let Some(halo) = &mut pen.halo {
+                halo.color = turned(halo.color);
+            }
+            Item::Line { path, pen }
+        }
+        Item::Fill { outline, color } => Item::Fill { outline, color: turned(color) },
+        Item::Text(mut line) => {
+            line.color = turned(line.color);
+            Item::Text(line)
+        }
+        Item::Inset { corner, canvas } => Item::Inset { corner, canvas: darkened(canvas) },
+        other => other,
+    });
+    Canvas { size: page.size, paper: turned(page.paper), items: items.collect() }
+}
+
+fn turned(color: [u8; 4]) -> [u8; 4] {
+    let [r, g, b, a] = color;
+    let (low, high) = (r.min(g).min(b), r.max(g).max(b));
+    let grey = |v: u8| 20 + (u16::from(255 - v) * 225 / 255) as u8;
+    if high - low < 12 { [grey(r), grey(g), grey(b), a] } else { color }
+}

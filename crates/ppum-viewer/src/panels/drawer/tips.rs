@@ -1,0 +1,66 @@
+//! The table of the crack tips of the step: one line per tip, as `ppum sif` prints it.
+
+use egui::{Grid, RichText, ScrollArea, Ui};
+use ppum_scene::range::places;
+use ppum_scene::table::{Column, Table};
+use ppum_scene::tips::{Tip, stored, words};
+
+use crate::actions::Action;
+use crate::desk::Desk;
+use crate::panels::top::button;
+use crate::reading::words::number;
+
+/// Shows the table; a click on a line flies to its tip.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let Some(opened) = stage.opened.clone() else { return };
+    let Some(step) = opened.dataset.steps.get(pane.scene.subject.step_of(&opened.dataset)) else {
+        return;
+    };
+    let tips = stored(step);
+    if tips.is_empty() {
+        ui.label("This step has no crack tips.");
+        return;
+    }
+    let table = table(&tips);
+    super::plot::outputs(ui, stage, &[("csv", &|| table.csv().into_bytes())], &|| table.csv());
+    let places = places(&opened.dataset);
+    ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
+        Grid::new("tips").striped(true).min_col_width(40.0).show(ui, |ui| {
+            for head in ["tip", "crack", "position", "direction", "K_I", "K_II", "spread"] {
+                ui.strong(head);
+            }
+            ui.end_row();
+            for (number, tip) in tips.iter().enumerate() {
+                let name = format!("Fly to tip {number}");
+                if button(ui, &number.to_string(), &name).clicked() {
+                    desk.actions.push(Action::Tip(number));
+                }
+                row(ui, tip, &places.show(tip.at));
+            }
+        });
+    });
+}
+
+fn row(ui: &mut Ui, tip: &Tip, at: &str) {
+    let [k1, k2, spread] = words(tip.k1, tip.k2, tip.spread);
+    let angle = number(tip.angle.to_degrees(), 4);
+    let cells = [tip.id.crack.to_string(), at.to_owned(), format!("{angle}°"), k1, k2, spread];
+    for text in cells {
+        ui.label(RichText::new(text.replace('-', "−")).monospace());
+    }
+    ui.end_row();
+}
+
+/// The tips with all digits.
+#[must_use]
+pub fn table(tips: &[Tip]) -> Table {
+    let names = ["tip", "crack", "x", "y", "angle", "k1", "k2", "spread"];
+    let units = |name: &str| if name == "angle" { "rad" } else { "" };
+    let columns = names.map(|name| Column::new(name, units(name))).to_vec();
+    let row = |(number, tip): (usize, &Tip)| {
+        let crack = f64::from(tip.id.crack);
+        [number as f64, crack, tip.at.x, tip.at.y, tip.angle, tip.k1, tip.k2, tip.spread]
+    };
+    Table::new(columns, tips.iter().enumerate().flat_map(row).collect())
+}

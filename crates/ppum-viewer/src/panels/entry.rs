@@ -1,0 +1,25 @@
+//! A line of text that counts once it is finished.
+
+use egui::{TextEdit, Ui};
+
+/// Shows a text that can be edited, under a name; the new one once Enter or leaving the field finishes it.
+pub fn entry(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32) -> Option<String> {
+    let id = ui.scope_id().with(name);
+    let unfinished = ui.data(|data| data.get_temp::<String>(id));
+    let mut edited = unfinished.unwrap_or_else(|| text.to_owned());
+    let field = TextEdit::singleline(&mut edited).id(id.with("field")).hint_text(hint.to_owned());
+    let response = ui.add(field.desired_width(width));
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::text_edit(true, text, &edited, hint);
+        info.label = Some(name.to_owned());
+        info
+    });
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return (edited != text).then_some(edited);
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, edited));
+    }
+    None
+}

@@ -1,0 +1,112 @@
+//! Probes: points whose values are kept in sight, and follow quantity and step.
+
+use egui::{RichText, Ui};
+use ppum_scene::table::{Column, Table};
+
+use crate::actions::Action;
+use crate::desk::Desk;
+use crate::panels::drawer::plot::outputs;
+use crate::panels::entry::entry;
+use crate::panels::top::button;
+use crate::reading::probe::Probed;
+use crate::reading::words;
+use crate::session::Place;
+use crate::stage::Stage;
+
+/// The list, what is read at each, and what can be done with it.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let mut extrema = desk.session.pane().extrema;
+    if ui.checkbox(&mut extrema, "Mark the extrema of the view").changed() {
+        desk.actions.push(Action::Extrema);
+    }
+    let (pane, stage) = desk.active();
+    if pane.probes.is_empty() {
+        ui.weak("Click the plate to pin a probe, or press p at the pointer.");
+        return;
+    }
+    let Some(names) = names(stage) else { return };
+    let mut removed = None;
+    for k in 0..pane.probes.len() {
+        ui.push_id(k, |ui| {
+            ui.horizontal(|ui| {
+                let is_selected = stage.reading.selected == Some(k);
+                let chosen = ui.selectable_label(is_selected, format!("{}", k + 1));
+                if chosen.on_hover_text("Select this probe").clicked() {
+                    stage.reading.selected = Some(k);
+                }
+                let texts = pane.probes[k].texts();
+                for (axis, name) in ["x", "y"].into_iter().enumerate() {
+                    let name = format!("{name} of probe {}", k + 1);
+                    let text = entry(ui, &name, &texts[axis], name.as_str(), 84.0);
+                    let changed = text.and_then(|text| pane.probes[k].with_text(axis, &text));
+                    pane.probes[k] = changed.unwrap_or(pane.probes[k]);
+                }
+                if button(ui, "→", &format!("Fly to probe {}", k + 1)).clicked() {
+                    let width = stage.view.map_or(1.0, |view| view.width);
+                    let center = pane.probes[k].point().into();
+                    stage.fly_to(pane, Some(Place { center, width }));
+                }
+                if button(ui, "×", &format!("Remove probe {}", k + 1)).clicked() {
+                    removed = Some(k);
+                }
+            });
+            if let Some(probed) = stage.reading.probes.get(k) {
+                told(ui, probed, &names);
+            }
+        });
+    }
+    if let Some(k) = removed {
+        pane.probes.remove(k);
+        stage.reading.selected = None;
+    }
+    if ui.button("Remove all probes").clicked() {
+        pane.probes.clear();
+    }
+    let table = table(&stage.reading.probes, &names);
+    let all = stage.reading.probes.clone();
+    if ui.button("Copy probes").on_hover_text("As text, with all digits").clicked() {
+        let texts = all.iter().map(|probed| words::all(probed, &names[0], &names[1]));
+        ui.ctx().copy_text(texts.collect());
+    }
+    outputs(ui, stage, &[("csv", &|| table.csv().into_bytes())], &|| table.csv());
+}
+
+/// The quantity's name and unit.
+fn names(stage: &mut Stage) -> Option<[String; 2]> {
+    let frame = stage.frames.newest().cloned()?;
+    let reader = stage.reading.reader(&frame);
+    Some([reader.name.clone(), reader.unit.clone()])
+}
+
+fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
+    let mut lines = vec![words::values(probed, name, unit)];
+    lines.extend(words::gradients(probed));
+    let cell = [words::cell(probed), words::patches(probed)];
+    lines.push(cell.into_iter().flatten().collect::<Vec<_>>().join("; "));
+    for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
+        let text = RichText::new(line).small();
+        ui.add(egui::Label::new(if k == 0 { text.strong() } else { text }).wrap());
+    }
+}
+
+/// The probes with all digits: places as anchor and offset, a row for each side of a crack.
+#[must_use]
+pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
+    let plain = ["probe", "x", "y", "dx", "dy", "side"].map(|name| Column::new(name, ""));
+    let slopes = ["dx", "dy"].map(|by| Column::new(&format!("d({name})/{by}"), ""));
+    let columns = plain.into_iter().chain([Column::new(name, unit)]).chain(slopes).collect();
+    let mut rows = Vec::new();
+    for (k, probed) in probes.iter().enumerate() {
+        let ([x, y], [dx, dy]) = (probed.spot.anchor, probed.spot.offset);
+        for sided in &probed.sides {
+            let side = match sided.side {
+                None => 0.0,
+                Some(ppum::crack::Side::Above) => 1.0,
+                Some(ppum::crack::Side::Below) => -1.0,
+            };
+            let g = sided.gradient;
+            rows.extend([(k + 1) as f64, x, y, dx, dy, side, sided.value, g.x, g.y]);
+        }
+    }
+    Table::new(columns, rows)
+}

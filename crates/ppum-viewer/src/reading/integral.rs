@@ -1,0 +1,144 @@
+//! Stress intensity factors on the circle that a pane shows.
+
+use std::sync::Arc;
+
+use ppum::crack::{TipId, tips};
+use ppum::dataset::{Dataset, TipIntensity};
+use ppum::progress::Watcher;
+use ppum::vec2::Vec2;
+use ppum_scene::profile::Along;
+use ppum_scene::tips::words;
+use ppum_solve::intensity::{CircleError, clearance, on_circle};
+use ppum_solve::problem::Problem;
+
+use super::job::Job;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    dataset: Arc<Dataset>,
+    step: usize,
+    tip: TipId,
+    radius: f64,
+}
+
+impl PartialEq for Asked {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.dataset, &other.dataset)
+            && (self.step, self.tip, self.radius) == (other.step, other.tip, other.radius)
+    }
+}
+
+/// The factors on a circle, found in the background.
+#[derive(Default)]
+pub struct Integral {
+    job: Job<Asked, Result<TipIntensity, String>>,
+    asked: Option<Result<Asked, String>>,
+}
+
+impl Integral {
+    /// Asks for the factors on a circle of a step; of another curve there are none.
+    pub fn ask(
+        &mut self,
+        along: Option<Along>,
+        dataset: &Arc<Dataset>,
+        step: usize,
+        wake: &egui::Context,
+    ) {
+        self.asked = along.and_then(|along| asked(along, dataset, step));
+        if let Some(Ok(asked)) = &self.asked {
+            let theirs = asked.clone();
+            self.job.ask(asked, true, wake, move |watcher| theirs.find(watcher));
+        }
+    }
+
+    /// What was found on the circle that is shown, or the reason why there is nothing; none while it is on its way.
+    pub fn found(&mut self) -> Option<Result<Arc<TipIntensity>, String>> {
+        let asked = match self.asked.as_ref()? {
+            Err(reason) => return Some(Err(reason.clone())),
+            Ok(asked) => asked.clone(),
+        };
+        let (key, answer) = self.job.newest()?;
+        (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
+    }
+
+    /// True while it is on its way.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        self.job.is_working()
+    }
+
+    /// True if the curve that is shown is a circle.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.asked.is_some()
+    }
+}
+
+impl Asked {
+    fn find(&self, watcher: &dyn Watcher) -> Option<Result<TipIntensity, String>> {
+        // without the loads near the tip the factors would be others
+        let known = Problem::of_dataset(&self.dataset);
+        let cracks = &self.dataset.steps.get(self.step)?.cracks;
+        let problem = match known {
+            Ok(Some(problem)) if problem.cracks != *cracks => return Some(Err(UNKNOWN.into())),
+            Err(_) => return Some(Err(UNKNOWN.into())),
+            Ok(problem) => problem,
+        };
+        match on_circle(&self.dataset, self.step, self.tip, self.radius, problem.as_ref(), watcher)
+        {
+            Err(CircleError::Cancelled(_)) => None,
+            Err(error) => Some(Err(error.to_string())),
+            Ok(factors) => Some(Ok(factors)),
+        }
+    }
+}
+
+const UNKNOWN: &str =
+    "the stored problem cannot be read, so the loads near the tip are not known; solve it again";
+
+/// What a curve asks for; none unless it is a circle. The reason if it is not one around a tip.
+fn asked(along: Along, dataset: &Arc<Dataset>, step: usize) -> Option<Result<Asked, String>> {
+    dataset.equation.elastic()?;
+    let cracks = &dataset.steps.get(step)?.cracks;
+    match along {
+        Along::Around { tip: number, radius } => {
+            let Some(tip) = tips(cracks).nth(number) else {
+                return Some(Err(format!("the step has no tip {number}")));
+            };
+            let usual = 0.01 * cracks[tip.crack as usize].length();
+            let radius = radius.unwrap_or(usual);
+            Some(Ok(Asked { dataset: Arc::clone(dataset), step, tip, radius }))
+        }
+        Along::Circle { center, radius } => {
+            let from = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
+            let is_inside = |tip: &TipId| (from(*tip) - Vec2::from(center)).length() < radius;
+            let inside: Vec<_> = tips(cracks).enumerate().filter(|(_, t)| is_inside(t)).collect();
+            Some(Err(match inside[..] {
+                [] => "the circle holds no tip, so there is no K on it".into(),
+                [(number, _)] => format!(
+                    "K is found on circles around a tip: drag the circle's centre to tip {number}"
+                ),
+                _ => format!("the circle holds {} tips; K belongs to one", inside.len()),
+            }))
+        }
+        _ => None,
+    }
+}
+
+/// The radius of the circle around a tip on which the solver finds factors, if nothing disturbs the tip's field there.
+#[must_use]
+pub fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option<f64> {
+    let clear = clearance(dataset, step, tip)?.radius;
+    (clear > 0.0).then_some(PREFERRED * clear)
+}
+
+/// Part of a tip's clearance that the solver's preferred ring has.
+const PREFERRED: f64 = 0.9;
+
+/// `K_I = 1.23, K_II = 0`, with the spread.
+#[must_use]
+pub fn told(factors: &TipIntensity) -> String {
+    let [k1, k2, spread] = words(factors.k1, factors.k2, factors.spread());
+    format!("K_I = {k1}, K_II = {k2} (spread {spread})").replace('-', "−")
+}

@@ -1,0 +1,245 @@
+//! Exact values at a point: of the quantity and its gradient, on both sides of a crack, with cell and patches.
+
+use std::sync::Arc;
+
+use ppum::crack::{SegmentId, Side, TipId, tips};
+use ppum::quantity::QuantityGradient;
+use ppum::sides::Segments;
+use ppum::vec2::{Vec2, vec2};
+use ppum_scene::drawing::Shown;
+use ppum_scene::scene::default_quantity;
+
+use super::spot::Spot;
+use crate::field::OwnedField;
+use crate::frames::Frame;
+
+/// What is read at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probed {
+    /// The point.
+    pub spot: Spot,
+    /// The number of the tip that it is, if it is one.
+    pub tip: Option<usize>,
+    /// The crack that it lies on, if it lies on one.
+    pub crack: Option<u32>,
+    /// The values: one, or above and below a crack.
+    pub sides: Vec<Sided>,
+    /// The patch of the cell that it lies in, and its level; none outside the plate.
+    pub cell: Option<(u32, u8)>,
+    /// The patches that cover it, with their φ.
+    pub patches: Vec<(u32, f64)>,
+}
+
+/// Value and gradient, on one side of a crack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sided {
+    /// The side of the crack, if the point lies on one.
+    pub side: Option<Side>,
+    /// The value; NaN where there is none.
+    pub value: f64,
+    /// Its gradient; NaN where there is none.
+    pub gradient: Vec2,
+}
+
+impl Probed {
+    /// True outside the plate.
+    #[must_use]
+    pub fn is_outside(&self) -> bool {
+        self.cell.is_none()
+    }
+
+    /// The value above a crack minus that below.
+    #[must_use]
+    pub fn jump(&self) -> Option<f64> {
+        match self.sides[..] {
+            [above, below] => Some(above.value - below.value),
+            _ => None,
+        }
+    }
+}
+
+/// What reads a quantity of a field.
+pub struct Reader {
+    field: Arc<OwnedField>,
+    shown: Shown,
+    gradient: Option<QuantityGradient>,
+    /// The quantity's name.
+    pub name: String,
+    /// Its unit; may be empty.
+    pub unit: String,
+}
+
+/// Most segments of cracks that are looked through for one that a point lies on.
+const MOST_SEGMENTS: usize = 10_000;
+
+impl Reader {
+    /// What reads the values that a picture shows.
+    #[must_use]
+    pub fn new(frame: &Frame) -> Self {
+        let field = frame.field.field();
+        let quantity = frame.shown.quantity();
+        Self {
+            field: Arc::clone(&frame.field),
+            shown: Shown::clone(&frame.shown),
+            gradient: quantity.and_then(|quantity| QuantityGradient::new(quantity, field).ok()),
+            name: name(frame).to_owned(),
+            unit: quantity.map_or("", |quantity| quantity.unit(field)).to_owned(),
+        }
+    }
+
+    /// True if it reads what a picture shows.
+    #[must_use]
+    pub fn is_of(&self, frame: &Frame) -> bool {
+        Arc::ptr_eq(&self.field, &frame.field) && self.name == name(frame)
+    }
+
+    /// The values at a point.
+    #[must_use]
+    pub fn read(&self, spot: &Spot) -> Probed {
+        let field = self.field.field();
+        let tip = self.tip_at(spot);
+        let on = if tip.is_some() { None } else { self.segment_of(spot) };
+        let mut local = match on {
+            Some(segment) => field.on(segment, spot.anchor()),
+            None => field.at(spot.anchor()),
+        };
+        let mut patches = Vec::new();
+        if local.contains(spot.offset()) {
+            field.tree.query_point(spot.point(), &mut patches);
+            patches.sort_unstable();
+        }
+        let cell = self.cell_of(spot.point(), &patches);
+        let values: &[Option<Side>] = match on {
+            Some(_) => &[Some(Side::Above), Some(Side::Below)],
+            None => &[None],
+        };
+        let sides = values.iter().map(|&side| {
+            let on = side.unwrap_or_default();
+            let (value, gradient) = match (&self.shown, &self.gradient) {
+                (Shown::Quantity(_), Some(both)) => {
+                    let slope = both.at(&mut local, spot.offset(), on);
+                    (slope.value, slope.gradient)
+                }
+                (Shown::Quantity(quantity), None) => {
+                    (quantity.at(&mut local, spot.offset(), on), NOWHERE)
+                }
+                (Shown::Cells(_, values), _) => {
+                    let of_cell = cell.and_then(|(patch, _)| values.get(patch as usize));
+                    (of_cell.copied().unwrap_or(f64::NAN), NOWHERE)
+                }
+            };
+            Sided { side, value, gradient }
+        });
+        let sides = sides.collect();
+        let phi = |patch: &u32| {
+            let phi = local.partition_function::<0>(*patch as usize, spot.offset());
+            (*patch, phi.map_or(f64::NAN, |jet| jet.v))
+        };
+        let patches = patches.iter().map(phi).collect();
+        Probed { spot: *spot, tip, crack: on.map(|segment| segment.crack), sides, cell, patches }
+    }
+
+    /// The spot itself, or the tip or the point of a crack that lies within reach of it.
+    #[must_use]
+    pub fn snapped(&self, spot: Spot, reach: f64) -> Spot {
+        if let Some((_, tip)) = self.nearest_tip(&spot).filter(|(distance, _)| *distance <= reach) {
+            let cracks = &self.field.field().step.cracks;
+            return Spot::new(cracks[tip.crack as usize].end_point(tip.end), Vec2::ZERO);
+        }
+        match self.nearest_on_crack(&spot) {
+            Some((distance, on)) if distance <= reach => on,
+            _ => spot,
+        }
+    }
+
+    /// The tip nearest to a point, with its distance.
+    #[must_use]
+    pub fn nearest_tip(&self, spot: &Spot) -> Option<(f64, TipId)> {
+        let cracks = &self.field.field().step.cracks;
+        let distance = |tip: TipId| spot.from(cracks[tip.crack as usize].end_point(tip.end));
+        let all = tips(cracks).map(|tip| (distance(tip).length(), tip));
+        all.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The point of a crack nearest to a point, seen from the nearer end of its segment, with its distance.
+    #[must_use]
+    pub fn nearest_on_crack(&self, spot: &Spot) -> Option<(f64, Spot)> {
+        let mut nearest: Option<(f64, Spot)> = None;
+        for (crack, c) in (0..).zip(&self.field.field().step.cracks) {
+            for (segment, ends) in (0..).zip(c.points.windows(2)) {
+                let (distance, anchor, offset) = projected([ends[0], ends[1]], spot);
+                if nearest.is_none_or(|(least, _)| distance < least) {
+                    let on = SegmentId { crack, segment };
+                    nearest = Some((distance, Spot::new(anchor, offset).on(on)));
+                }
+            }
+        }
+        nearest
+    }
+
+    /// The number of the tip that a point is exactly.
+    fn tip_at(&self, spot: &Spot) -> Option<usize> {
+        let cracks = &self.field.field().step.cracks;
+        let is_here =
+            |tip: TipId| spot.from(cracks[tip.crack as usize].end_point(tip.end)) == Vec2::ZERO;
+        tips(cracks).position(is_here)
+    }
+
+    /// The segment that a point lies on: the one that it was put on if the step still has it, or one that it lies on but
+    /// for rounding.
+    fn segment_of(&self, spot: &Spot) -> Option<SegmentId> {
+        let cracks = &self.field.field().step.cracks;
+        if let Some([crack, segment]) = spot.on {
+            let points = cracks.get(crack as usize).map(|c| &c.points[..]).unwrap_or_default();
+            let ends = points.get(segment as usize..segment as usize + 2).unwrap_or_default();
+            if let [a, b] = *ends {
+                let (distance, _, _) = projected([a, b], spot);
+                let is_on = distance <= 1e-14 * (b - a).length().max(a.length());
+                return is_on.then_some(SegmentId { crack, segment });
+            }
+            return None;
+        }
+        let segments: usize = cracks.iter().map(|crack| crack.points.len()).sum();
+        if segments > MOST_SEGMENTS {
+            return None;
+        }
+        Segments::new(cracks).at(spot.anchor(), spot.offset())
+    }
+
+    /// The patch whose cell a point lies in, of those that cover it, with its level: borders belong to the cell on their
+    /// right and above.
+    fn cell_of(&self, point: Vec2, patches: &[u32]) -> Option<(u32, u8)> {
+        let partition = &self.field.field().step.partition;
+        let cell = |patch: &u32| partition.cell[*patch as usize];
+        let own = patches.iter().filter(|patch| cell(patch).contains(point));
+        let last = own.max_by(|a, b| {
+            let [a, b] = [cell(a).min, cell(b).min];
+            a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+        });
+        // in a sliver beside a hole whose own cell is gone, the patch that lies nearest
+        let nearest = || {
+            let distance = |patch: &&u32| cell(patch).distance(point);
+            patches.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        };
+        let patch = *last.or_else(nearest)?;
+        Some((patch, partition.level[patch as usize]))
+    }
+}
+
+const NOWHERE: Vec2 = vec2(f64::NAN, f64::NAN);
+
+fn name(frame: &Frame) -> &str {
+    let given = frame.wanted.scene.quantity.as_deref().map(str::trim);
+    given.unwrap_or_else(|| default_quantity(frame.field.field()))
+}
+
+/// The point of a segment nearest to a spot: its distance, the nearer end and the way from there.
+fn projected([a, b]: [Vec2; 2], spot: &Spot) -> (f64, Vec2, Vec2) {
+    let [from_a, from_b] = [spot.from(a), spot.from(b)];
+    let (end, way, sign) =
+        if from_a.length() < from_b.length() { (a, from_a, 1.0) } else { (b, from_b, -1.0) };
+    let (tangent, length) = ((b - a).unit(), (b - a).length());
+    let inner = (sign * tangent.dot(way)).clamp(0.0, length);
+    let offset = tangent * (sign * inner);
+    ((way - offset).length(), end, offset)
+}

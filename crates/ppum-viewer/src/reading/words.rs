@@ -1,0 +1,179 @@
+//! What is read, in words.
+
+use ppum::crack::{Crack, TipId, tips};
+use ppum::text::trimmed_to;
+use ppum::vec2::Vec2;
+use ppum_render::view::View;
+
+use super::probe::{Probed, Sided};
+use super::spot::Spot;
+
+/// Views narrower than this part of the plate have their places told from a point near by.
+const DEEP: f64 = 1e-3;
+
+/// Digits of values.
+const DIGITS: usize = 7;
+
+/// How places of a view are told.
+pub struct Places<'a> {
+    /// The view.
+    pub view: &'a View,
+    /// Size of the plate.
+    pub size: f64,
+    /// The cracks of the step.
+    pub cracks: &'a [Crack],
+}
+
+impl Places<'_> {
+    /// True if places are told from a point near by.
+    #[must_use]
+    pub fn is_deep(&self) -> bool {
+        self.view.width < DEEP * self.size
+    }
+
+    /// A number with the digits that tell neighbouring pixels apart.
+    #[must_use]
+    pub fn rounded(&self, v: f64) -> f64 {
+        let step = self.view.pixel_size().log10().floor();
+        let power = 10f64.powi(-step as i32);
+        let rounded = (v * power).round() / power;
+        if rounded.is_finite() { rounded } else { v }
+    }
+
+    /// Where places near the middle of the view are counted from, with its name: a tip that is seen, or the middle.
+    #[must_use]
+    pub fn origin(&self) -> (Vec2, String) {
+        let at = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
+        let all = tips(self.cracks).map(at).enumerate();
+        let distance = |p: Vec2| (p - self.view.center).length();
+        let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        match nearest.filter(|(_, tip)| distance(*tip) < 2.0 * self.view.width) {
+            Some((number, tip)) => (tip, format!("tip {number}")),
+            None => {
+                let center = self.view.center;
+                (center, format!("({}, {})", number(center.x, 15), number(center.y, 15)))
+            }
+        }
+    }
+
+    /// A place: `(0.512, -0.3)`, deep inside `tip 1 + (2.5e-11, 1e-12)`.
+    #[must_use]
+    pub fn show(&self, spot: &Spot) -> String {
+        let pair = |p: Vec2| {
+            let [x, y] = [p.x, p.y].map(|v| number(self.rounded(v), 15));
+            format!("({x}, {y})")
+        };
+        if !self.is_deep() {
+            return pair(spot.point());
+        }
+        let (origin, name) = self.origin();
+        match spot.from(origin) {
+            Vec2::ZERO => name,
+            offset => format!("{name} + {}", pair(offset)),
+        }
+    }
+}
+
+/// A number with at most so many digits: `∞`, `not defined`.
+#[must_use]
+pub fn number(value: f64, digits: usize) -> String {
+    match value {
+        f64::INFINITY => "∞".into(),
+        f64::NEG_INFINITY => "−∞".into(),
+        value if value.is_nan() => "not defined".into(),
+        value => trimmed_to(value, digits).replace('-', "−"),
+    }
+}
+
+/// A value with its unit.
+#[must_use]
+pub fn value(value: f64, unit: &str) -> String {
+    let number = number(value, DIGITS);
+    if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
+}
+
+/// What is read of a quantity: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`, `syy = ∞ at tip 1`.
+#[must_use]
+pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
+    if probed.is_outside() {
+        return "outside the plate".into();
+    }
+    let of = |sided: &Sided| value(sided.value, unit);
+    match &probed.sides[..] {
+        [above, below] => {
+            let jump = value(above.value - below.value, unit);
+            let jump = if jump == "not defined" { "none".into() } else { jump };
+            format!("{name} = {} above, {} below, jump {jump}", of(above), of(below))
+        }
+        [only] => match probed.tip {
+            Some(tip) => format!("{name} = {} at tip {tip}", of(only)),
+            None => format!("{name} = {}", of(only)),
+        },
+        _ => String::new(),
+    }
+}
+
+/// The gradient by its size and direction: `gradient 3.2 at 45°`; of both sides one after the other. None where
+/// there is none.
+#[must_use]
+pub fn gradients(probed: &Probed) -> Option<String> {
+    let words = |sided: &Sided| {
+        let (size, g) = (sided.gradient.length(), sided.gradient);
+        match size {
+            0.0 => "0".into(),
+            _ if size.is_finite() => {
+                let angle = number(g.y.atan2(g.x).to_degrees().round(), 3);
+                format!("{} at {angle}°", number(size, 5))
+            }
+            _ => "∞".into(),
+        }
+    };
+    let is_known = probed.sides.iter().any(|sided| !sided.gradient.x.is_nan());
+    let all: Vec<String> = probed.sides.iter().map(words).collect();
+    (is_known && !probed.is_outside()).then(|| format!("gradient {}", all.join(", ")))
+}
+
+/// The cell: `cell 312, level 6`.
+#[must_use]
+pub fn cell(probed: &Probed) -> Option<String> {
+    probed.cell.map(|(patch, level)| format!("cell {patch}, level {level}"))
+}
+
+/// The patches with their φ, the largest first: `φ 0.61 of 12, 0.39 of 13`.
+#[must_use]
+pub fn patches(probed: &Probed) -> Option<String> {
+    let mut all = probed.patches.clone();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let words = |(patch, phi): &(u32, f64)| format!("{} of {patch}", number(*phi, 3));
+    let all: Vec<_> = all.iter().map(words).collect();
+    (!all.is_empty()).then(|| format!("φ {}", all.join(", ")))
+}
+
+/// All that is read at a point, as a text to be copied: the place and the values with all their digits.
+#[must_use]
+pub fn all(probed: &Probed, name: &str, unit: &str) -> String {
+    let [x, y] = probed.spot.texts();
+    let mut lines = vec![format!("({x}, {y})")];
+    if let Some(tip) = probed.tip {
+        lines[0] += &format!(", tip {tip}");
+    }
+    if probed.is_outside() {
+        lines[0] += ", outside the plate";
+        return lines.join("\n") + "\n";
+    }
+    for sided in &probed.sides {
+        let side = sided.side.map_or(String::new(), |side| format!(" {} the crack", side.name()));
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        lines.push(format!("  {name} = {:?}{unit}{side}", sided.value));
+        let g = sided.gradient;
+        if !g.x.is_nan() {
+            lines.push(format!("  gradient = ({:?}, {:?}){side}", g.x, g.y));
+        }
+    }
+    if let Some(jump) = probed.jump() {
+        lines.push(format!("  jump = {jump:?}"));
+    }
+    lines.extend(cell(probed).map(|text| format!("  {text}")));
+    lines.extend(patches(probed).map(|text| format!("  {text}")));
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,353 @@
+//! Curves drawn over the plate by the mouse, and their handles.
+
+use egui::{Key, Modifiers, PointerButton, Response, Ui};
+use ppum::crack::{Crack, TipId, tips};
+use ppum::vec2::Vec2;
+use ppum_scene::profile::Along;
+
+use super::Stage;
+use super::sight::Sight;
+use crate::reading::spot::Spot;
+use crate::reading::words::Places;
+use crate::session::Pane;
+
+/// What a drag over the plate draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tool {
+    /// A line, from its start.
+    Line,
+    /// A circle, from its centre; around a tip if it begins at one.
+    Circle,
+    /// A ray from the nearest tip.
+    Ray,
+    /// The crack that is clicked.
+    Crack,
+}
+
+impl Tool {
+    /// What to do with it.
+    #[must_use]
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Line => "drag a line over the plate",
+            Self::Circle => "drag a circle from its centre; begin at a tip for K",
+            Self::Ray => "drag away from a tip",
+            Self::Crack => "click a crack",
+        }
+    }
+}
+
+/// A handle of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Grip {
+    From,
+    To,
+    Center,
+    Radius,
+}
+
+/// Part of the view that the radius of a circle around a tip has.
+const SEEN: f64 = 0.3;
+/// Distances in points of the window: to a handle that is gripped, to a tip that a curve begins at.
+const GRIP: f64 = 9.0;
+const TIP: f64 = 10.0;
+/// Angles of rays nearer to a face than this are those of the face \[degrees\].
+const FACE: f64 = 2.0;
+
+impl Stage {
+    /// Draws curves and moves their handles; true if the mouse is taken for that.
+    pub(super) fn draw_by_mouse(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        sight: &Sight,
+        pane: &mut Pane,
+    ) -> bool {
+        if ui.input_mut(|input| {
+            self.reading.tool.is_some() && input.consume_key(Modifiers::NONE, Key::Escape)
+        }) {
+            self.reading.tool = None;
+        }
+        let Some(cracks) = self.cracks(pane) else { return false };
+        let size = self.plate_size();
+        let places = Places { view: &sight.view, size, cracks: &cracks };
+        let pen = Pen { sight, places };
+        if self.reading.tool == Some(Tool::Crack) && response.clicked() {
+            let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
+            if let Some(index) = at.and_then(|spot| nearest_crack(&cracks, &spot)) {
+                pane.curve = Some(Along::Crack { index });
+            }
+            self.reading.tool = None;
+            return true;
+        }
+        if response.drag_started_by(PointerButton::Primary) {
+            let origin = ui.input(|input| input.pointer.press_origin());
+            let modifiers = ui.input(|input| input.modifiers);
+            let tool = self.reading.tool.or(match () {
+                () if modifiers.shift => Some(Tool::Line),
+                () if modifiers.command => Some(Tool::Circle),
+                () => None,
+            });
+            self.reading.grip = origin.and_then(|at| {
+                pen.gripped(pane.curve, at).or_else(|| {
+                    let (along, grip) = pen.begun(tool?, &sight.spot(at)?)?;
+                    pane.curve = Some(along);
+                    Some(grip)
+                })
+            });
+        }
+        let Some(grip) = self.reading.grip else { return false };
+        let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
+        if let (Some(spot), Some(along)) = (at, pane.curve) {
+            pane.curve = Some(pen.moved(along, grip, &spot));
+        }
+        if response.drag_stopped() || !response.dragged() {
+            (self.reading.grip, self.reading.tool) = (None, None);
+        }
+        true
+    }
+
+    /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one that is.
+    pub fn circle_nearest_tip(&mut self, pane: &mut Pane) {
+        let (Some(cracks), Some(spot), Some(view)) = (self.cracks(pane), self.spot(), self.view)
+        else {
+            return;
+        };
+        let end = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
+        let distance = |tip: TipId| spot.from(end(tip)).length();
+        let all = tips(&cracks).enumerate();
+        let Some((tip, id)) = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) else {
+            return;
+        };
+        let places = Places { view: &view, size: self.plate_size(), cracks: &cracks };
+        let seen = places.rounded(SEEN * view.width.min(view.height()));
+        let radius = self.usual_radius(pane, id).map_or(seen, |usual| usual.min(seen));
+        pane.curve = Some(Along::Around { tip, radius: Some(radius) });
+        pane.plot.log = [false; 2];
+    }
+
+    #[cfg(feature = "solve")]
+    fn usual_radius(&self, pane: &Pane, tip: TipId) -> Option<f64> {
+        let dataset = &self.opened.as_ref()?.dataset;
+        let step = pane.scene.subject.step_of(dataset);
+        crate::reading::integral::usual_radius(dataset, step, tip)
+    }
+
+    /// Without the solver nobody knows.
+    #[cfg(not(feature = "solve"))]
+    fn usual_radius(&self, _: &Pane, _: TipId) -> Option<f64> {
+        None
+    }
+
+    /// A curve to begin with, if there is none: the crack nearest to the pointer, or the middle line of the plate.
+    pub fn choose_curve(&mut self, pane: &mut Pane) {
+        let (Some(cracks), Some(spot)) = (self.cracks(pane), self.spot()) else { return };
+        if pane.curve.is_none() {
+            let crack = nearest_crack(&cracks, &spot).map(|index| Along::Crack { index });
+            pane.curve = crack.or_else(|| self.middle());
+        }
+    }
+
+    /// The line through the middle of the plate, from border to border.
+    #[must_use]
+    pub fn middle(&self) -> Option<Along> {
+        let bounds = self.opened.as_ref()?.dataset.domain.bounds;
+        let y = bounds.center().y;
+        Some(Along::Line { anchor: [0.0; 2], from: [bounds.min.x, y], to: [bounds.max.x, y] })
+    }
+
+    /// The cracks of the step that is shown.
+    pub(crate) fn cracks(&self, pane: &Pane) -> Option<Vec<Crack>> {
+        let dataset = &self.opened.as_ref()?.dataset;
+        let step = dataset.steps.get(pane.scene.subject.step_of(dataset))?;
+        Some(step.cracks.clone())
+    }
+
+    /// The larger side of the plate's box.
+    pub(crate) fn plate_size(&self) -> f64 {
+        let size = self.opened.as_ref().map(|opened| opened.dataset.domain.bounds.size());
+        size.map_or(1.0, |size| size.x.max(size.y))
+    }
+}
+
+/// What draws curves: numbers rounded to what the view can tell apart.
+struct Pen<'a> {
+    sight: &'a Sight,
+    places: Places<'a>,
+}
+
+impl Pen<'_> {
+    fn end(&self, tip: TipId) -> Vec2 {
+        self.places.cracks[tip.crack as usize].end_point(tip.end)
+    }
+
+    /// The number and the place of the nearest tip within reach.
+    fn tip_near(&self, spot: &Spot, reach: f64) -> Option<(usize, Vec2)> {
+        let all = tips(self.places.cracks).map(|tip| self.end(tip)).enumerate();
+        let near = all.filter(|(_, tip)| spot.from(*tip).length() <= reach);
+        near.min_by(|a, b| spot.from(a.1).length().total_cmp(&spot.from(b.1).length()))
+    }
+
+    /// The offset of a spot from an anchor, rounded; a tip beside it exactly.
+    fn rounded(&self, spot: &Spot, anchor: Vec2) -> Vec2 {
+        match self.tip_near(spot, self.sight.reach(TIP)) {
+            Some((_, tip)) => tip - anchor,
+            None => {
+                let Vec2 { x, y } = spot.from(anchor);
+                Vec2 { x: self.places.rounded(x), y: self.places.rounded(y) }
+            }
+        }
+    }
+
+    fn radius(&self, spot: &Spot, center: Vec2) -> f64 {
+        let least = self.sight.view.pixel_size();
+        self.places.rounded(spot.from(center).length()).max(least)
+    }
+
+    /// A curve that begins at a spot, with the handle that is dragged then.
+    fn begun(&self, tool: Tool, spot: &Spot) -> Option<(Along, Grip)> {
+        match tool {
+            Tool::Line => {
+                let anchor = match self.places.is_deep() {
+                    true => self.places.origin().0,
+                    false => Vec2::ZERO,
+                };
+                let start = self.rounded(spot, anchor).into();
+                Some((Along::Line { anchor: anchor.into(), from: start, to: start }, Grip::To))
+            }
+            Tool::Circle => Some((self.circle(spot, self.sight.reach(1.0)), Grip::Radius)),
+            Tool::Ray => {
+                let (tip, _) = self.tip_near(spot, f64::INFINITY)?;
+                Some((Along::Ray { tip, angle: 0.0, far: None }, Grip::To))
+            }
+            Tool::Crack => None,
+        }
+    }
+
+    /// The circle about a spot; around the tip beside it.
+    fn circle(&self, spot: &Spot, radius: f64) -> Along {
+        match self.tip_near(spot, self.sight.reach(TIP)) {
+            Some((tip, _)) => Along::Around { tip, radius: Some(radius) },
+            None => {
+                let center = self.rounded(spot, Vec2::ZERO).into();
+                Along::Circle { center, radius }
+            }
+        }
+    }
+
+    /// The curve with a handle at another place.
+    fn moved(&self, along: Along, grip: Grip, spot: &Spot) -> Along {
+        let numbered = |number: usize| tips(self.places.cracks).nth(number);
+        match along {
+            Along::Line { anchor, from, to } => {
+                let end = self.rounded(spot, anchor.into()).into();
+                match grip {
+                    Grip::From => Along::Line { anchor, from: end, to },
+                    _ => Along::Line { anchor, from, to: end },
+                }
+            }
+            Along::Circle { radius, .. } if grip == Grip::Center => self.circle(spot, radius),
+            Along::Circle { center, .. } => {
+                Along::Circle { center, radius: self.radius(spot, center.into()) }
+            }
+            Along::Around { tip, .. } if grip == Grip::Radius => match numbered(tip) {
+                Some(id) => Along::Around { tip, radius: Some(self.radius(spot, self.end(id))) },
+                None => along,
+            },
+            Along::Ray { tip, .. } => match numbered(tip) {
+                Some(id) => {
+                    let axis = self.places.cracks[id.crack as usize].growth_direction(id.end);
+                    let way = spot.from(self.end(id));
+                    let angle = axis.cross(way).atan2(axis.dot(way)).to_degrees().round();
+                    let is_face = angle.abs() > 180.0 - FACE;
+                    let angle = if is_face { 180f64.copysign(angle) } else { angle };
+                    Along::Ray { tip, angle, far: Some(self.radius(spot, self.end(id))) }
+                }
+                None => along,
+            },
+            other => other,
+        }
+    }
+
+    /// The handle of a curve at a position.
+    fn gripped(&self, along: Option<Along>, at: egui::Pos2) -> Option<Grip> {
+        let handles = handles(&along?, self.places.cracks);
+        let distance = |spot: &Spot| self.sight.position(spot).map(|p| f64::from(p.distance(at)));
+        let near = handles.into_iter().filter_map(|(grip, spot)| Some((distance(&spot)?, grip)));
+        let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.filter(|(distance, _)| *distance <= GRIP).map(|(_, grip)| grip)
+    }
+}
+
+/// The crack nearest to a point.
+fn nearest_crack(cracks: &[Crack], spot: &Spot) -> Option<usize> {
+    let distance = |crack: &Crack| ppum::segment::polyline_distance(&crack.points, spot.point());
+    let all = cracks.iter().map(distance).enumerate();
+    all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+}
+
+/// The handles of a curve, with their places.
+pub(crate) fn handles(along: &Along, cracks: &[Crack]) -> Vec<(Grip, Spot)> {
+    let spot = |anchor: [f64; 2], offset: [f64; 2]| Spot::new(anchor.into(), offset.into());
+    match *along {
+        Along::Line { anchor, from, to } => {
+            vec![(Grip::To, spot(anchor, to)), (Grip::From, spot(anchor, from))]
+        }
+        Along::Circle { center, radius } => {
+            vec![
+                (Grip::Radius, spot(center, [radius, 0.0])),
+                (Grip::Center, spot(center, [0.0; 2])),
+            ]
+        }
+        Along::Around { .. } => match outline(along, cracks).first() {
+            Some(first) => vec![(Grip::Radius, *first)],
+            None => Vec::new(),
+        },
+        Along::Ray { .. } => match outline(along, cracks).last() {
+            Some(last) => vec![(Grip::To, *last)],
+            None => Vec::new(),
+        },
+        Along::Crack { .. } => Vec::new(),
+    }
+}
+
+/// Chords of a circle that is drawn.
+const CHORDS: usize = 180;
+
+/// A curve as points joined by lines; those around tips begin ahead of the tip.
+pub(crate) fn outline(along: &Along, cracks: &[Crack]) -> Vec<Spot> {
+    let round = |center: Vec2, axis: Vec2, radius: f64| {
+        let at = |k: usize| {
+            let (sin, cos) = (k as f64 / CHORDS as f64 * std::f64::consts::TAU).sin_cos();
+            Spot::new(center, (axis * cos + axis.left() * sin) * radius)
+        };
+        (0..=CHORDS).map(at).collect()
+    };
+    let numbered = |number: usize| {
+        let tip = tips(cracks).nth(number)?;
+        let crack = &cracks[tip.crack as usize];
+        Some((crack.end_point(tip.end), crack.growth_direction(tip.end), crack.length()))
+    };
+    match *along {
+        Along::Line { anchor, from, to } => {
+            [from, to].map(|end| Spot::new(anchor.into(), end.into())).to_vec()
+        }
+        Along::Circle { center, radius } => round(center.into(), Vec2 { x: 1.0, y: 0.0 }, radius),
+        Along::Crack { index } => {
+            let points = cracks.get(index).map(|crack| &crack.points[..]).unwrap_or_default();
+            points.iter().map(|&p| Spot::new(p, Vec2::ZERO)).collect()
+        }
+        Along::Around { tip, radius } => match numbered(tip) {
+            Some((at, axis, length)) => round(at, axis, radius.unwrap_or(0.01 * length)),
+            None => Vec::new(),
+        },
+        Along::Ray { tip, angle, far } => match numbered(tip) {
+            Some((at, axis, length)) => {
+                let (sin, cos) = angle.to_radians().sin_cos();
+                let way = (axis * cos + axis.left() * sin) * far.unwrap_or(0.1 * length);
+                vec![Spot::new(at, Vec2::ZERO), Spot::new(at, way)]
+            }
+            None => Vec::new(),
+        },
+    }
+}

@@ -1,0 +1,256 @@
+//! Reading values at points: all that is shown is held against the field, evaluated here by itself.
+
+use egui::{Event, Key, Modifiers, Pos2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use ppum::crack::{SegmentId, Side};
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityGradient};
+use ppum::vec2::{Vec2, vec2 as v};
+use ppum_viewer::Viewer;
+use ppum_viewer::reading::probe::Probed;
+use ppum_viewer::reading::spot::Spot;
+use ppum_viewer::session::Place;
+
+use crate::kit::{at, hover, plate, settle, window};
+
+type Window = Harness<'static, Viewer>;
+
+const SIZE: [f32; 2] = [1000.0, 700.0];
+
+fn hovered(window: &Window) -> Probed {
+    window.state().stages[0].reading.hover.clone().expect("the pointer is over the plate")
+}
+
+fn show(window: &mut Window, quantity: &str, place: Option<Place>) {
+    let pane = &mut window.state_mut().session.panes[0];
+    pane.scene.quantity = Some(quantity.to_owned());
+    pane.place = place;
+    settle(window);
+}
+
+/// The texts of all labels that begin so.
+fn has_label(window: &Window, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+#[test]
+fn the_pointer_reads_what_the_field_has_there() {
+    let dataset = plate();
+    let mut window = window(dataset.clone(), SIZE);
+    show(&mut window, "syy", None);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let quantity = Quantity::parse("syy", &field).expect("a quantity");
+    for point in [v(0.31, 0.42), v(-0.7, -0.9), v(0.02, 0.8)] {
+        hover(&mut window, point);
+        let read = hovered(&window);
+        // the pointer stands on a position in f32 points, half a thousandth of the plate wide
+        assert!((read.spot.point() - point).length() < 1e-3, "{:?}", read.spot);
+        let (anchor, offset) = (read.spot.anchor(), read.spot.offset());
+        let value = quantity.at(&mut field.at(anchor), offset, Side::Above);
+        assert_eq!(read.sides.len(), 1);
+        assert!((read.sides[0].value - value).abs() <= 1e-12 * value.abs());
+        // the gradient against differences, whose own error is h² and rounding by h
+        let h = 1e-5;
+        let mut local = field.at(anchor);
+        let mut difference = |d: Vec2| {
+            let [a, b] =
+                [offset + d * h, offset - d * h].map(|o| quantity.at(&mut local, o, Side::Above));
+            (a - b) / (2.0 * h)
+        };
+        let expected = v(difference(v(1.0, 0.0)), difference(v(0.0, 1.0)));
+        let miss = (read.sides[0].gradient - expected).length();
+        assert!(miss < 1e-5 * (1.0 + expected.length()), "{miss} {expected:?}");
+        assert!((read.patches.iter().map(|(_, phi)| phi).sum::<f64>() - 1.0).abs() < 1e-13);
+        let (cell, level) = read.cell.expect("inside");
+        let partition = &field.step.partition;
+        assert!(partition.cell[cell as usize].contains(read.spot.point()));
+        assert_eq!(level, partition.level[cell as usize]);
+        assert!(has_label(&window, "syy = "));
+    }
+}
+
+#[test]
+fn on_a_crack_both_sides_are_read() {
+    let dataset = plate();
+    let mut window = window(dataset.clone(), SIZE);
+    show(&mut window, "uy", None);
+    let field = Field::new(&dataset, 0).expect("a field");
+    let uy = Quantity::parse("uy", &field).expect("a quantity");
+    let crack = &field.step.cracks[0];
+    let point = crack.points[0] + (crack.points[1] - crack.points[0]) * 0.4;
+    // two points beside it, the crack is meant
+    let beside = at(&window, point) + vec2(0.0, 2.0);
+    window.hover_at(beside);
+    settle(&mut window);
+    let read = hovered(&window);
+    let mut local = field.on(SegmentId { crack: 0, segment: 0 }, read.spot.anchor());
+    let [above, below] =
+        [Side::Above, Side::Below].map(|side| uy.at(&mut local, read.spot.offset(), side));
+    assert_eq!(read.sides.iter().map(|s| s.value).collect::<Vec<_>>(), [above, below]);
+    assert_eq!(read.jump(), Some(above - below));
+    assert!(above > below, "the crack is open");
+    assert!(has_label(&window, "jump"));
+    // far from it, and close to it with Shift, there is one value
+    window.hover_at(beside + vec2(0.0, 30.0));
+    settle(&mut window);
+    assert_eq!(hovered(&window).sides.len(), 1);
+}
+
+#[test]
+fn a_tip_has_an_infinite_stress_and_a_finite_displacement() {
+    let dataset = plate();
+    let tip = dataset.steps[0].cracks[0].points[1];
+    let mut window = window(dataset, SIZE);
+    show(&mut window, "syy", None);
+    hover(&mut window, tip);
+    assert_eq!(hovered(&window).tip, Some(1));
+    assert_eq!(hovered(&window).sides[0].value, f64::INFINITY);
+    assert!(has_label(&window, "syy = ∞ at tip 1"));
+    show(&mut window, "uy", None);
+    assert!(hovered(&window).sides[0].value.is_finite());
+}
+
+/// In a view 10⁻¹² of the plate wide, around an anchor that is a tip, the value is that of `tip + offset`.
+#[test]
+fn deep_inside_no_digit_is_lost() {
+    let dataset = plate();
+    let tip = dataset.steps[0].cracks[0].points[1];
+    let mut window = window(dataset.clone(), SIZE);
+    show(&mut window, "syy", Some(Place { center: tip.into(), width: 2e-12 }));
+    let field = Field::new(&dataset, 0).expect("a field");
+    let syy = Quantity::parse("syy", &field).expect("a quantity");
+    let rect = window.get_by_label("Plate").rect();
+    window.hover_at(rect.center() + vec2(200.0, -100.0));
+    settle(&mut window);
+    let read = hovered(&window);
+    let offset = read.spot.from(tip);
+    let pixel = 2e-12 / f64::from(rect.width());
+    assert!((offset - v(200.0, 100.0) * pixel).length() < 1.5 * pixel, "{offset:?}");
+    let expected = syy.at(&mut field.at(tip), offset, Side::Above);
+    assert!((read.sides[0].value / expected - 1.0).abs() < 1e-12);
+    assert!(expected > 1e4, "σ grows as 1/√r: {expected}");
+    assert!(has_label(&window, "tip 1 + ("));
+    // pinned, written as text and read back it is the same point
+    window.key_press(Key::P);
+    settle(&mut window);
+    let spot = window.state().session.panes[0].probes[0];
+    let texts = spot.texts();
+    let again = Spot::default().with_text(0, &texts[0]).and_then(|s| s.with_text(1, &texts[1]));
+    assert_eq!(again.map(|s| s.from(tip)), Some(spot.from(tip)));
+}
+
+#[test]
+fn a_click_pins_a_probe_and_a_double_click_does_not() {
+    let mut window = window(plate(), SIZE);
+    show(&mut window, "uy", None);
+    let place = at(&window, v(0.4, 0.5));
+    click(&mut window, place);
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+    assert_eq!(window.state().stages[0].reading.selected, Some(0));
+    // a click on its mark selects it and pins no other
+    window.state_mut().stages[0].reading.selected = None;
+    settle(&mut window);
+    click(&mut window, place + vec2(3.0, 0.0));
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+    assert_eq!(window.state().stages[0].reading.selected, Some(0));
+}
+
+/// Probes follow the quantity, and their place can be written.
+#[test]
+fn probes_follow_the_quantity() {
+    let dataset = plate();
+    let mut window = window(dataset.clone(), SIZE);
+    let field = Field::new(&dataset, 0).expect("a field");
+    window.state_mut().session.panes[0].probes =
+        vec![Spot::new(v(0.25, 0.75), Vec2::ZERO), Spot::new(v(0.0, 0.0), Vec2::ZERO)];
+    for name in ["ux", "von-mises", "sqrt(ux^2 + uy^2)"] {
+        show(&mut window, name, None);
+        let probes = window.state().stages[0].reading.probes.clone();
+        let quantity = Quantity::parse(name, &field).expect("a quantity");
+        let expected = quantity.at(&mut field.at(v(0.25, 0.75)), Vec2::ZERO, Side::Above);
+        assert_eq!(probes[0].sides[0].value, expected, "{name}");
+        assert_eq!(probes[1].sides.len(), 2, "the middle of the plate lies on the crack");
+        let slope = QuantityGradient::new(&quantity, &field).expect("a gradient");
+        let slope = slope.at(&mut field.at(v(0.25, 0.75)), Vec2::ZERO, Side::Above);
+        assert_eq!(probes[0].sides[0].gradient, slope.gradient);
+    }
+    window.get_by_label("Probes").click();
+    settle(&mut window);
+    settle(&mut window);
+    assert!(has_label(&window, "above"));
+    window.get_by_label("Remove probe 2").click();
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+    let field = window.get_by_label("x of probe 1");
+    field.focus();
+    field.type_text("1");
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    // typed behind what was there
+    assert_eq!(window.state().session.panes[0].probes[0].anchor[0], 0.251);
+}
+
+#[test]
+fn what_is_read_is_copied_with_all_digits() {
+    let mut window = window(plate(), SIZE);
+    show(&mut window, "uy", None);
+    hover(&mut window, v(0.3, 0.3));
+    let value = hovered(&window).sides[0].value;
+    window.event(Event::Copy);
+    window.step();
+    let copied =
+        window.output().platform_output.commands.iter().find_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        });
+    let text = copied.expect("something is copied");
+    assert!(text.contains(&format!("uy = {value:?}")), "{text}");
+}
+
+/// Wherever the pointer goes, in holes, outside, at tips, on deformed plates: a reading or none, never a panic.
+#[test]
+fn the_pointer_may_go_anywhere() {
+    let mut window = window(plate(), [700.0, 500.0]);
+    let rect = window.get_by_label("Plate").rect();
+    let number = |k: u32| (f64::from(k) * 12.9898).sin() * 43758.5453 % 1.0;
+    let quantities = ["von-mises", "uy", "phi:3", "overlap", "1/x", "level", "direction", "error"];
+    for k in 0..60u32 {
+        if k % 6 == 0 {
+            let pane = &mut window.state_mut().session.panes[0];
+            pane.scene.quantity = Some(quantities[(k / 6) as usize % quantities.len()].into());
+            pane.scene.deformed = (k % 12 == 0).then_some(ppum_scene::deformed::Factor::Auto);
+            let width = 10f64.powf(1.0 - 13.0 * number(k + 1000).abs());
+            pane.place = (k > 6).then_some(Place { center: [0.5, 0.0], width });
+            settle(&mut window);
+        }
+        let within = |size: f32, n: u32| (0.5 + 0.55 * number(n) as f32) * size;
+        let to = rect.min + vec2(within(rect.width(), 2 * k), within(rect.height(), 2 * k + 1));
+        window.hover_at(to);
+        window.step();
+        if let Some(read) = &window.state().stages[0].reading.hover
+            && !read.is_outside()
+        {
+            let sum: f64 = read.patches.iter().map(|(_, phi)| phi).sum();
+            assert!((sum - 1.0).abs() < 1e-12, "{sum} {read:?}");
+            assert!((1..=2).contains(&read.sides.len()));
+        }
+    }
+}
+
+fn click(window: &mut Window, place: Pos2) {
+    window.hover_at(place);
+    window.step();
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: place,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    assert!(pos2(0.0, 0.0).x < place.x);
+}
