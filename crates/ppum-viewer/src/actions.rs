@@ -61,6 +61,32 @@ pub enum Action {
     Save(What),
     /// Copy the command that draws it.
     CopyCommand,
+    /// Steps of a series on or back.
+    Step(i8),
+    /// Play the steps of a series, or stop.
+    Play,
+    /// Choose a file and open it.
+    Open,
+    /// The same, in a second view on the right.
+    OpenBeside,
+    /// Close the dataset.
+    Close,
+    /// Write the dataset to a file that is chosen.
+    SaveDataset,
+    /// Write the session to its file; to one that is chosen if it has none.
+    SaveSession,
+    /// Write the session to a file that is chosen.
+    SaveSessionAs,
+    /// Solve the problem of the text.
+    Solve,
+    /// Stop solving.
+    CancelSolving,
+    /// Write the problem's text to its file.
+    SaveProblem,
+    /// Write the problem's text to a file that is chosen.
+    SaveProblemAs,
+    /// Close the problem's text.
+    CloseProblem,
     /// One view, or two side by side.
     Split,
     /// Take back the last change of settings.
@@ -116,7 +142,8 @@ const fn control_shift(key: Key) -> Option<KeyboardShortcut> {
 }
 
 /// Headings of the help sheet, in their order.
-pub const GROUPS: [&str; 5] = ["Moving", "Colours", "Over the picture", "Reading", "Window"];
+pub const GROUPS: [&str; 6] =
+    ["Moving", "Colours", "Over the picture", "Reading", "Files and problems", "Window"];
 
 /// All actions, in the order of the help sheet.
 pub const ALL: &[Entry] = &[
@@ -172,6 +199,30 @@ pub const ALL: &[Entry] = &[
         control_shift(Key::C),
         "Reading",
     ),
+    entry(Action::Step(-1), "Step before", key(Key::OpenBracket), "Reading"),
+    entry(Action::Step(1), "Step after", key(Key::CloseBracket), "Reading"),
+    entry(Action::Play, "Play the steps, or stop", key(Key::Space), "Reading"),
+    entry(Action::Open, "Open a file", control(Key::O), "Files and problems"),
+    entry(Action::OpenBeside, "Open a file beside", control_shift(Key::O), "Files and problems"),
+    entry(Action::Close, "Close the dataset", control(Key::W), "Files and problems"),
+    entry(Action::SaveSession, "Save the session", control(Key::S), "Files and problems"),
+    entry(
+        Action::SaveSessionAs,
+        "Save the session as another file",
+        control_shift(Key::S),
+        "Files and problems",
+    ),
+    entry(Action::SaveDataset, "Save the dataset", None, "Files and problems"),
+    entry(Action::Solve, "Solve the problem", control(Key::Enter), "Files and problems"),
+    entry(Action::CancelSolving, "Cancel the solution", None, "Files and problems"),
+    entry(Action::SaveProblem, "Save the problem's text", None, "Files and problems"),
+    entry(
+        Action::SaveProblemAs,
+        "Save the problem's text as another file",
+        None,
+        "Files and problems",
+    ),
+    entry(Action::CloseProblem, "Close the problem's text", None, "Files and problems"),
     entry(Action::Split, "Two views side by side", key(Key::V), "Window"),
     entry(Action::Undo, "Undo", control(Key::Z), "Window"),
     entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),

@@ -22,6 +22,7 @@ use crate::frames::Backend;
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
+use crate::player::{self, Player};
 use crate::session::{Page, Pane, Place, Session, Theme};
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
@@ -32,13 +33,21 @@ pub struct Viewer {
     pub session: Session,
     /// What is shown of it.
     pub stages: Vec<Stage>,
-    settings: Undo<Session>,
     rest: Rest<Session>,
+    pub(crate) settings: Undo<Session>,
+    /// What plays the steps of a series.
+    pub player: Player,
+    /// Files that are open, read and written.
+    #[cfg(feature = "solve")]
+    pub files: crate::files::Files,
+    /// The problem that is written and solved.
+    #[cfg(feature = "solve")]
+    pub solving: crate::solving::Solving,
     palette: Option<Palette>,
     exporter: Option<Exporter>,
     has_help: bool,
     tip: usize,
-    backend: Backend,
+    pub(crate) backend: Backend,
 }
 
 impl Viewer {
@@ -54,13 +63,16 @@ impl Viewer {
         ctx.set_fonts(fonts());
         session.mend();
         let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
-        let settings = Undo::new(without_places(&session));
-        let rest = Rest::new(without_places(&session));
         Self {
+            settings: Undo::new(session.settings()),
+            rest: Rest::new(session.settings()),
             session,
             stages,
-            settings,
-            rest,
+            player: Player::default(),
+            #[cfg(feature = "solve")]
+            files: crate::files::Files::new(ctx, None),
+            #[cfg(feature = "solve")]
+            solving: crate::solving::Solving::new(ctx),
             palette: None,
             exporter: None,
             has_help: false,
@@ -78,18 +90,27 @@ impl Viewer {
 
     /// Shows the window once.
     pub fn show(&mut self, ui: &mut Ui) {
+        #[cfg(feature = "solve")]
+        self.work(ui);
         let mut actions = actions::pressed(ui.ctx());
-        let Self { session, stages, .. } = self;
-        let mut desk = Desk { session, stages, actions: &mut actions };
+        let active = self.session.active;
+        self.player.advance(ui.ctx(), &mut self.session.panes[active], &self.stages[active]);
+        let mut desk = Desk {
+            session: &mut self.session,
+            stages: &mut self.stages,
+            player: &mut self.player,
+            #[cfg(feature = "solve")]
+            files: &mut self.files,
+            #[cfg(feature = "solve")]
+            solving: &mut self.solving,
+            actions: &mut actions,
+        };
         Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
-        if desk.session.panels {
+        let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
+        if desk.session.panels && has_plate {
             Panel::right("side").default_size(300.0).show(ui, |ui| panels::side(ui, &mut desk));
         }
-        if desk.session.drawer.is_some() {
-            let height =
-                Panel::bottom("drawer").resizable(true).default_size(240.0).min_size(120.0);
-            height.show(ui, |ui| panels::drawer::show(ui, &mut desk));
-        }
+        panels::drawer::show(ui, &mut desk);
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
         help::show(ui, &mut self.has_help);
         if let Some(palette) = &mut self.palette {
@@ -114,10 +135,11 @@ impl Viewer {
 
     /// Notes the settings once nothing changes and nothing is dragged.
     fn note(&mut self, ui: &Ui) {
-        let settings = without_places(&self.session);
+        let settings = self.session.settings();
         match self.rest.until(&settings, ui.input(|input| input.time)) {
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
-            None if ui.input(|input| input.pointer.any_down()) => {}
+            // a drag is one step, and so is a series that is played
+            None if ui.input(|input| input.pointer.any_down()) || self.player.is_playing => {}
             // what is written is one step, however long it takes
             None if ui.ctx().egui_wants_keyboard_input() => {}
             None => self.settings.note(&settings),
@@ -198,6 +220,16 @@ impl Viewer {
                 }
                 toggle(&mut self.session.drawer, page);
             }
+            Action::Step(by) => {
+                if let Some(opened) = &stage.opened {
+                    player::go(pane, &opened.dataset, by.into());
+                }
+            }
+            Action::Play => {
+                if let Some(opened) = &stage.opened {
+                    self.player.toggle(pane, &opened.dataset);
+                }
+            }
             Action::Split => self.split(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),
@@ -205,11 +237,15 @@ impl Viewer {
             Action::Theme => self.turn_theme(ctx),
             Action::Help => self.has_help = !self.has_help,
             Action::Palette => self.palette = Some(Palette::default()),
+            #[cfg(feature = "solve")]
+            other => self.act_on_files(ctx, other),
+            #[cfg(not(feature = "solve"))]
+            _ => {}
         }
     }
 
     /// One view, or two side by side.
-    fn split(&mut self, ctx: &egui::Context) {
+    pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
             self.session.panes.truncate(1);
             self.stages.truncate(1);
@@ -225,17 +261,16 @@ impl Viewer {
     /// Goes a step back or forward in the settings; places stay where they are.
     fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
-        self.settings.note(&without_places(&self.session));
+        self.settings.note(&self.session.settings());
         let state = if back { self.settings.back() } else { self.settings.forward() };
         let Some(mut state) = state.cloned() else { return };
+        state.take_places(&self.session);
         if state.panes.len() != self.session.panes.len() {
             self.split(ctx);
         }
-        for (old, new) in self.session.panes.iter().zip(&mut state.panes) {
-            new.place = old.place;
-        }
-        self.rest = Rest::new(without_places(&state));
+        self.rest = Rest::new(state.settings());
         self.session = state;
+        self.show_theme(ctx);
     }
 
     fn turn_theme(&mut self, ctx: &egui::Context) {
@@ -243,6 +278,11 @@ impl Viewer {
             Theme::Dark => Theme::Light,
             _ => Theme::Dark,
         };
+        self.show_theme(ctx);
+    }
+
+    /// Gives the window the session's theme.
+    pub(crate) fn show_theme(&self, ctx: &egui::Context) {
         ctx.set_theme(match self.session.theme {
             Theme::System => egui::ThemePreference::System,
             Theme::Light => egui::ThemePreference::Light,
@@ -265,13 +305,6 @@ fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
     if let Ok(command) = order.command(Path::new("picture.png")) {
         ctx.copy_text(command);
     }
-}
-
-/// Without the places, which have a history of their own.
-fn without_places(session: &Session) -> Session {
-    let mut settings = session.clone();
-    settings.panes.iter_mut().for_each(|pane| pane.place = None);
-    settings
 }
 
 fn toggle<T: PartialEq>(setting: &mut Option<T>, on: T) {
@@ -326,6 +359,11 @@ fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
                 desk.session.active = number;
             }
             ui.push_id(number, |ui| {
+                #[cfg(feature = "solve")]
+                if desk.stages[number].opened.is_none() {
+                    panels::start::show(ui, desk);
+                    return;
+                }
                 desk.stages[number].show(ui, &mut desk.session.panes[number]);
             });
             if count > 1 && desk.session.active == number {
@@ -352,6 +390,11 @@ fn link(session: &mut Session, before: &[Option<Place>]) {
 impl eframe::App for Viewer {
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
         self.show(ui);
+    }
+
+    #[cfg(feature = "solve")]
+    fn on_exit(&mut self) {
+        self.leave();
     }
 }
 

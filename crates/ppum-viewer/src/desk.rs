@@ -1,6 +1,7 @@
 //! What panels work on.
 
 use crate::actions::Action;
+use crate::player::Player;
 use crate::session::{Pane, Session};
 use crate::stage::Stage;
 
@@ -10,6 +11,14 @@ pub struct Desk<'a> {
     pub session: &'a mut Session,
     /// The stages, one for each pane.
     pub stages: &'a mut [Stage],
+    /// What plays the steps of a series.
+    pub player: &'a mut Player,
+    /// Files that are open, read and written.
+    #[cfg(feature = "solve")]
+    pub files: &'a mut crate::files::Files,
+    /// The problem that is written and solved.
+    #[cfg(feature = "solve")]
+    pub solving: &'a mut crate::solving::Solving,
     /// What is to be done when all panels were shown.
     pub actions: &'a mut Vec<Action>,
 }

@@ -12,18 +12,27 @@ pub mod controls;
 pub mod desk;
 pub mod export;
 pub mod field;
+#[cfg(feature = "solve")]
+pub mod files;
 pub mod fonts;
 pub mod frames;
 pub mod job;
+#[cfg(feature = "solve")]
+pub mod offscreen;
 pub mod panels;
+pub mod player;
 pub mod reading;
 pub mod session;
 pub mod shapes;
+#[cfg(feature = "solve")]
+pub mod solving;
 pub mod stage;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod timing;
 pub mod undo;
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(feature = "solve")]
 pub mod window;
+#[cfg(feature = "solve")]
+mod work;
 
 pub use app::Viewer;

@@ -27,6 +27,20 @@ pub struct Session {
     pub drawer: Option<Page>,
     /// Colours of the window.
     pub theme: Theme,
+    /// The problem whose text is open.
+    pub draft: Option<Draft>,
+}
+
+/// The text of a problem while it is written.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Draft {
+    /// Its file, if it came from one or was saved.
+    pub path: Option<PathBuf>,
+    /// The folder of the files that it names, if that is not its own.
+    pub folder: Option<PathBuf>,
+    /// The text.
+    pub text: String,
 }
 
 /// One view.
@@ -136,6 +150,7 @@ impl Default for Session {
             panels: true,
             drawer: None,
             theme: Theme::default(),
+            draft: None,
         }
     }
 }
@@ -150,6 +165,32 @@ impl Session {
     /// The same, to be changed.
     pub fn pane_mut(&mut self) -> &mut Pane {
         &mut self.panes[self.active]
+    }
+
+    /// Takes what has a history of its own, or is no setting, from another state: places, files and the problem's text.
+    pub fn take_places(&mut self, from: &Self) {
+        self.draft.clone_from(&from.draft);
+        for (pane, from) in self.panes.iter_mut().zip(&from.panes) {
+            pane.place = from.place;
+            pane.file.clone_from(&from.file);
+        }
+    }
+
+    /// Without places, files and the problem's text.
+    #[must_use]
+    pub fn settings(&self) -> Self {
+        let draft = None;
+        let mut settings = Self { draft, ..self.clone() };
+        for pane in &mut settings.panes {
+            (pane.place, pane.file) = (None, None);
+        }
+        settings
+    }
+
+    /// A session of the same looks in which nothing is open.
+    #[must_use]
+    pub fn look(&self) -> Self {
+        Self { panels: self.panels, linked: self.linked, theme: self.theme, ..Self::default() }
     }
 
     /// Mends what a file may say and the window cannot show: no pane, more than two, one active that is not there.

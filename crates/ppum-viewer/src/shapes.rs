@@ -92,6 +92,10 @@ fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
     let stroke = Stroke::new(placed.length(pen.width), color(pen.color));
     for piece in pieces() {
         match pen.dashes {
+            // ends of lines are round: a single point is a dot
+            _ if piece.len() == 1 => {
+                painter.circle_filled(piece[0], 0.5 * stroke.width, stroke.color);
+            }
             Some([dash, gap]) => {
                 let [dash, gap] = [dash, gap].map(|length| placed.length(length).max(0.5));
                 painter.extend(Shape::dashed_line(&piece, stroke, dash, gap));

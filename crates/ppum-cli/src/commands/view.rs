@@ -4,37 +4,98 @@ use std::path::PathBuf;
 
 use crate::output::Output;
 
-/// Explore a dataset in a window, exactly, down to the tip
+/// Explore datasets in a window, exactly, down to the tip
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Dataset
-    #[arg(value_name = "FILE.h5")]
-    file: Option<PathBuf>,
+    /// Datasets, problem files or a session: one, or two side by side [default: what was open the last time]
+    #[arg(value_name = "FILE", num_args = 0..=2)]
+    files: Vec<PathBuf>,
+    /// Session to begin with, as the window saves it
+    #[arg(long, value_name = "FILE.ppum-session", conflicts_with = "files")]
+    session: Option<PathBuf>,
+    /// Width and height of the window in points [default: those of the last time]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Draw the window into a picture once it is complete, and end; no display is needed
+    #[arg(long, value_name = "OUT.png")]
+    screenshot: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  ppum view plate.h5";
+  ppum view                                  what was open the last time
+  ppum view plate.h5
+  ppum view coarse.h5 fine.h5                two side by side
+  ppum view plate.toml                       a problem, to be changed and solved
+  ppum view --session tip.ppum-session --size 1600x900 --screenshot tip.png";
+
+/// Points of a window on each side.
+const SIZES: std::ops::RangeInclusive<u32> = 200..=16_384;
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let size = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    let size = size.filter(|size: &[u32; 2]| size.iter().all(|n| SIZES.contains(n)));
+    size.ok_or_else(|| {
+        let (least, most) = (SIZES.start(), SIZES.end());
+        format!("a size is WIDTHxHEIGHT, two whole numbers from {least} to {most}, like 1280x800")
+    })
+}
 
 impl Args {
     /// Opens the window, and ends when it is closed.
     #[cfg(feature = "window")]
-    pub(crate) fn run(&self, _: &mut Output) -> anyhow::Result<()> {
-        use std::sync::Arc;
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        match &self.screenshot {
+            None => Ok(ppum_viewer::window::run(self.start()?)?),
+            Some(target) => self.draw(out, target),
+        }
+    }
 
-        use ppum_viewer::window::{Start, run};
+    /// Files that are not there are told before a window opens.
+    #[cfg(feature = "window")]
+    fn start(&self) -> anyhow::Result<ppum_viewer::window::Start> {
+        use anyhow::Context as _;
 
-        let open = |path: &PathBuf| {
-            anyhow::Ok((Some(path.clone()), Arc::new(crate::dataset::open(path)?)))
-        };
-        let datasets = self.file.iter().map(open).collect::<anyhow::Result<_>>()?;
-        Ok(run(Start { datasets, ..Start::default() })?)
+        let files: Vec<PathBuf> = self.session.iter().chain(&self.files).cloned().collect();
+        for file in &files {
+            std::fs::metadata(file).with_context(|| format!("cannot read {}", file.display()))?;
+        }
+        Ok(ppum_viewer::window::Start {
+            files,
+            size: self.size.map(|size| size.map(|n| n as f32)),
+            folder: ppum_viewer::files::kept::folder(),
+            memory: Some(crate::memory::free),
+            ..Default::default()
+        })
+    }
+
+    #[cfg(feature = "window")]
+    fn draw(&self, out: &mut Output, target: &std::path::Path) -> anyhow::Result<()> {
+        use std::io::Write as _;
+
+        let inputs = self.session.iter().chain(&self.files).map(PathBuf::as_path);
+        let is_png = target.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+        anyhow::ensure!(
+            is_png || crate::standard::is_standard(target),
+            "--screenshot {}: the picture of a window is a PNG file; end the name in .png",
+            target.display()
+        );
+        crate::target::check(target, crate::target::Kind::Picture, inputs)?;
+        let image = ppum_viewer::offscreen::screenshot(self.start()?)?;
+        let png = ppum_render::png::encode(&image, &[])?;
+        if crate::standard::is_standard(target) {
+            return Ok(out.exact().write_all(&png)?);
+        }
+        crate::target::save(target, |file| file.write_all(&png))?;
+        writeln!(out, "wrote {}", target.display())?;
+        Ok(())
     }
 
     /// Says how to get the window.
     #[cfg(not(feature = "window"))]
     pub(crate) fn run(&self, _: &mut Output) -> anyhow::Result<()> {
+        let Self { files: _, session: _, size: _, screenshot: _ } = self;
         anyhow::bail!(
             "this program was built without the window; build it with \
              `cargo install --locked --path crates/ppum-cli --features window`"

@@ -168,8 +168,16 @@ impl Problem {
     /// # Errors
     /// Everything that is wrong in the text.
     pub fn of_dataset(dataset: &Dataset) -> Result<Option<Self>, ProblemError> {
-        let read = |text: &String| read::read(text, "problem", read::Files::Stored(dataset));
+        let read = |text: &String| Self::parse_with(text, dataset);
         dataset.problem.as_ref().map(read).transpose()
+    }
+
+    /// The problem of another text, with the tables and points of a dataset in place of the files that the text names.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the text.
+    pub fn parse_with(text: &str, dataset: &Dataset) -> Result<Self, ProblemError> {
+        read::read(text, "problem", read::Files::Stored(dataset))
     }
 
     /// A problem of elasticity on a box, as yet without cracks, loads and restraints.

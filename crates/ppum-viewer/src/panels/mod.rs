@@ -1,5 +1,6 @@
 //! What stands around the plate. Panels change the session and nothing else.
 
+pub mod chart;
 pub mod chooser;
 pub mod colors;
 pub mod compare;
@@ -8,13 +9,18 @@ pub mod drawer;
 pub mod editor;
 pub mod entry;
 pub mod export;
+#[cfg(feature = "solve")]
+pub mod files;
 pub mod functions;
 pub mod help;
 pub mod overlays;
 pub mod palette;
 pub mod parts;
+pub mod player;
 pub mod probes;
 pub mod quantity;
+#[cfg(feature = "solve")]
+pub mod start;
 pub mod top;
 
 use egui::{CollapsingHeader, Color32, RichText, ScrollArea, Ui};

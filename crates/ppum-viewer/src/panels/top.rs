@@ -2,12 +2,15 @@
 
 use egui::Ui;
 
+use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
 
 /// Title, and what one does all the time.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        #[cfg(feature = "solve")]
+        super::files::menu(ui, desk);
         let (_, stage) = desk.active();
         let title = stage.opened.as_ref().map_or("ppum", |opened| &opened.dataset.title);
         ui.strong(title);
@@ -24,7 +27,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
                 desk.actions.push(action);
             }
         }
+        player::show(ui, desk);
     });
+    #[cfg(feature = "solve")]
+    if super::files::has_notes(desk) {
+        ui.horizontal_wrapped(|ui| super::files::notes(ui, desk));
+    }
 }
 
 /// A button with a sign, which has a name too.

@@ -1,7 +1,12 @@
 //! The window, driven by its labels, keys and the mouse.
 
 mod controls;
+mod files;
 mod kit;
+mod lab;
 mod moving;
 mod plotting;
 mod reading;
+mod series;
+mod sessions;
+mod solving;

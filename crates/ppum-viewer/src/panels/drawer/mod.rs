@@ -1,37 +1,58 @@
-//! The drawer below the plate, page by page.
+//! The drawer below the plate: one page at a time.
 
 pub mod plot;
+#[cfg(feature = "solve")]
+pub mod problem;
+pub mod series;
+pub mod solver;
 pub mod tips;
 
-use egui::Ui;
+use egui::{Panel, Ui};
 
+use super::top::button;
 use crate::app::PAGES;
 use crate::desk::Desk;
 use crate::session::Page;
 
-/// The tabs and the page that is open.
+/// Shows the open page with the names of all others above it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let Some(open) = desk.session.drawer else { return };
-    ui.horizontal(|ui| {
-        for page in PAGES {
-            if ui.selectable_label(page == open, name(page)).clicked() {
-                desk.session.drawer = Some(page);
+    let Some(page) = desk.session.drawer else { return };
+    let most = (0.7 * ui.available_height()).max(120.0);
+    let panel =
+        Panel::bottom("drawer").resizable(true).default_size(280.0).size_range(120.0..=most);
+    panel.show(ui, |ui| {
+        ui.horizontal(|ui| {
+            for other in PAGES {
+                if ui.selectable_label(other == page, name(other)).clicked() {
+                    desk.session.drawer = Some(other);
+                }
             }
-        }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if super::top::button(ui, "×", "Close the drawer").clicked() {
+            if button(ui, "✗", "Close the drawer").clicked() {
                 desk.session.drawer = None;
             }
         });
+        ui.separator();
+        // all the room there is, whatever the page needs: else the drawer would shrink to that
+        let room = ui.available_size();
+        ui.allocate_ui(room, |ui| {
+            ui.set_min_size(room);
+            match page {
+                Page::Plot => plot::show(ui, desk),
+                Page::Tips => tips::show(ui, desk),
+                Page::Series => series::show(ui, desk),
+                Page::Solver => solver::show(ui, desk),
+                #[cfg(feature = "solve")]
+                Page::Problem => problem::show(ui, desk),
+                #[cfg(not(feature = "solve"))]
+                Page::Problem => {}
+            }
+        });
     });
-    match open {
-        Page::Plot => plot::show(ui, desk),
-        Page::Tips => tips::show(ui, desk),
-        Page::Series | Page::Solver | Page::Problem => {}
-    }
 }
 
-fn name(page: Page) -> &'static str {
+/// The name of a page.
+#[must_use]
+pub fn name(page: Page) -> &'static str {
     match page {
         Page::Plot => "Plot",
         Page::Tips => "Tips",

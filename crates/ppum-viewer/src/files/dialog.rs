@@ -1,0 +1,312 @@
+//! A field for the name of a file, with what is in its folder; and the dialog of the system, where there is one.
+
+use std::env;
+use std::fs;
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{Align2, Key, Modifiers, ScrollArea, TextEdit, Ui, Window};
+
+use super::read::has_extension;
+use super::session_file;
+use crate::job::Job;
+
+/// What a file is chosen for.
+#[derive(Clone, Debug)]
+pub enum Purpose {
+    /// To open it in a pane.
+    Open(usize),
+    /// To write the session.
+    SaveSession,
+    /// To write the dataset of a pane.
+    SaveDataset(usize),
+    /// To write the problem's text.
+    SaveProblem,
+    /// To write what was made: its name in words, the ends that names of such files have, its bytes.
+    Export(&'static str, &'static [&'static str], Arc<[u8]>),
+}
+
+impl Purpose {
+    /// The heading.
+    #[must_use]
+    pub fn title(&self) -> String {
+        match self {
+            Self::Open(0) => "Open a file".into(),
+            Self::Open(_) => "Open a file on the right".into(),
+            Self::SaveSession => "Save the session".into(),
+            Self::SaveDataset(_) => "Save the dataset".into(),
+            Self::SaveProblem => "Save the problem".into(),
+            Self::Export(what, ..) => format!("Save {what}"),
+        }
+    }
+
+    /// The ends of the names of files that fit, the usual one first.
+    #[must_use]
+    pub fn extensions(&self) -> &'static [&'static str] {
+        match self {
+            Self::Open(_) => &["h5", "toml", session_file::EXTENSION, "hdf5"],
+            Self::SaveSession => &[session_file::EXTENSION],
+            Self::SaveDataset(_) => &["h5"],
+            Self::SaveProblem => &["toml"],
+            Self::Export(_, extensions, _) => extensions,
+        }
+    }
+
+    fn is_open(&self) -> bool {
+        matches!(self, Self::Open(_))
+    }
+}
+
+/// The field while it is open.
+#[derive(Debug)]
+pub struct Dialog {
+    purpose: Purpose,
+    text: String,
+    chosen: Option<usize>,
+    listed: Option<(PathBuf, Vec<Entry>)>,
+    listing: Option<(PathBuf, Job<Vec<Entry>>)>,
+    system: Option<Job<Option<PathBuf>>>,
+    error: Option<String>,
+    /// The file that is there already, and is replaced if it is confirmed.
+    replaced: Option<PathBuf>,
+}
+
+/// Something in a folder: its name, and whether it is a folder too.
+type Entry = (String, bool);
+
+/// Entries that are shown; who looks for others writes more of the name.
+const MOST: usize = 200;
+
+impl Dialog {
+    /// A field that begins in a folder, or with a name.
+    #[must_use]
+    pub fn new(purpose: Purpose, start: &Path) -> Self {
+        let mut text = start.display().to_string();
+        if start.is_dir() && !text.ends_with(MAIN_SEPARATOR) {
+            text.push(MAIN_SEPARATOR);
+        }
+        let (listed, listing, system, error, replaced) = (None, None, None, None, None);
+        Self { purpose, text, chosen: None, listed, listing, system, error, replaced }
+    }
+
+    /// What the file is chosen for.
+    #[must_use]
+    pub fn purpose(&self) -> &Purpose {
+        &self.purpose
+    }
+
+    /// Shows it: `Some(None)` once it is closed, with a file if one was chosen.
+    pub fn show(&mut self, ui: &Ui) -> Option<Option<PathBuf>> {
+        self.poll(ui);
+        let mut is_open = true;
+        let mut done = None;
+        let window = Window::new(self.purpose.title()).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
+        let window = window.open(&mut is_open).collapsible(false).resizable(false);
+        window.show(ui.ctx(), |ui| done = self.fields(ui));
+        let escape = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        if done.is_none() && (escape || !is_open) {
+            return Some(None);
+        }
+        done.map(Some)
+    }
+
+    fn fields(&mut self, ui: &mut Ui) -> Option<PathBuf> {
+        let keys = [Key::Tab, Key::ArrowDown, Key::ArrowUp];
+        let [tab, down, up] = ui.input_mut(|i| keys.map(|key| i.consume_key(Modifiers::NONE, key)));
+        let enter = ui.input(|i| i.key_pressed(Key::Enter));
+        let fitting = self.fitting();
+        self.walk(fitting.len(), down, up);
+        let label = ui.label("Name of the file, with its folder");
+        let width = ui.available_width().clamp(200.0, 460.0);
+        let edit = ui.add(TextEdit::singleline(&mut self.text).desired_width(width).code_editor());
+        let edit = edit.labelled_by(label.id);
+        edit.request_focus();
+        if edit.changed() {
+            (self.chosen, self.error, self.replaced) = (None, None, None);
+        }
+        let mut taken = self.list(ui, &fitting);
+        if tab || (enter && self.chosen.is_some()) {
+            taken = taken.or_else(|| fitting.get(self.chosen.unwrap_or(0)).cloned());
+        }
+        let is_named = enter && self.chosen.is_none();
+        let mut done = taken.and_then(|entry| self.take(ui, entry, !tab));
+        if let Some(error) = &self.error {
+            ui.colored_label(ui.visuals().error_fg_color, error);
+        }
+        if (self.buttons(ui) || is_named) && done.is_none() {
+            done = self.confirm(&self.path());
+        }
+        done
+    }
+
+    /// The way of the marked entry.
+    fn walk(&mut self, count: usize, down: bool, up: bool) {
+        self.chosen = match self.chosen {
+            None if down && count > 0 => Some(0),
+            Some(k) if down => Some((k + 1).min(count.saturating_sub(1))),
+            Some(k) if up => k.checked_sub(1),
+            chosen => chosen.filter(|k| *k < count),
+        };
+    }
+
+    fn list(&self, ui: &mut Ui, fitting: &[Entry]) -> Option<Entry> {
+        let mut taken = None;
+        ScrollArea::vertical().max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
+            for (k, entry) in fitting.iter().enumerate() {
+                let is_chosen = self.chosen == Some(k);
+                let name =
+                    if entry.1 { format!("{}{MAIN_SEPARATOR}", entry.0) } else { entry.0.clone() };
+                let button = ui.selectable_label(is_chosen, name);
+                if is_chosen {
+                    button.scroll_to_me(None);
+                }
+                if button.clicked() {
+                    taken = Some(entry.clone());
+                }
+            }
+        });
+        taken
+    }
+
+    /// True if the button is pressed.
+    fn buttons(&mut self, ui: &mut Ui) -> bool {
+        ui.horizontal(|ui| {
+            if ui.button("Browse…").on_hover_text("The dialog of the system").clicked() {
+                self.browse(ui);
+            }
+            let word = match (&self.replaced, self.purpose.is_open()) {
+                (Some(_), _) => "Replace it",
+                (None, true) => "Open",
+                (None, false) => "Save",
+            };
+            ui.button(word).clicked()
+        })
+        .inner
+    }
+
+    /// Goes into a folder, or completes a name; a file that was meant is done with.
+    fn take(&mut self, ui: &Ui, (name, is_folder): Entry, is_meant: bool) -> Option<PathBuf> {
+        let path = folder(&self.text).join(&name);
+        self.text = path.display().to_string();
+        self.chosen = None;
+        if is_folder {
+            self.text.push(MAIN_SEPARATOR);
+        }
+        ui.ctx().request_repaint();
+        (is_meant && !is_folder).then(|| self.confirm(&path)).flatten()
+    }
+
+    fn path(&self) -> PathBuf {
+        let path = home(self.text.trim());
+        let has_end = path.extension().is_some() || self.purpose.is_open();
+        match self.purpose.extensions().first() {
+            Some(end) if !has_end => path.with_extension(end),
+            _ => path,
+        }
+    }
+
+    /// The file, if it fits; else the reason why not stands below the field.
+    fn confirm(&mut self, path: &Path) -> Option<PathBuf> {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let [is_dir, is_there] = [path.is_dir(), path.exists()];
+        let ends = self.purpose.extensions();
+        let error = match self.purpose.is_open() {
+            _ if is_dir => Some("this is a folder: choose a file in it".to_owned()),
+            true => (!is_there).then(|| "there is no such file".to_owned()),
+            false if !has_extension(&path, ends) => {
+                Some(format!("the name of this file ends with .{}", ends.join(" or .")))
+            }
+            false if is_there && self.replaced.as_ref() != Some(&path) => {
+                self.replaced = Some(path.clone());
+                Some("this file is there already: once more replaces it".to_owned())
+            }
+            false => ppum_file::check(&path).err().map(|e| format!("it cannot be written: {e}")),
+        };
+        self.error = error;
+        self.error.is_none().then_some(path)
+    }
+
+    /// What is in the folder and goes on as the text does; files only if they fit.
+    fn fitting(&self) -> Vec<Entry> {
+        let name =
+            Path::new(&self.text).file_name().filter(|_| !self.text.ends_with(MAIN_SEPARATOR));
+        let name = name.and_then(|name| name.to_str()).unwrap_or_default().to_lowercase();
+        let here = folder(&self.text);
+        let Some((_, entries)) = self.listed.as_ref().filter(|(listed, _)| *listed == here) else {
+            return Vec::new();
+        };
+        let is_fit = |(entry, is_folder): &&Entry| {
+            let fits = *is_folder || has_extension(Path::new(entry), self.purpose.extensions());
+            let is_shown = !entry.starts_with('.') || name.starts_with('.');
+            fits && is_shown && entry.to_lowercase().starts_with(&name)
+        };
+        entries.iter().filter(is_fit).take(MOST).cloned().collect()
+    }
+
+    /// Takes what was listed and chosen, and lists the folder of the text.
+    fn poll(&mut self, ui: &Ui) {
+        if let Some((folder, job)) = &self.listing
+            && let Some(entries) = job.poll()
+        {
+            self.listed = Some((folder.clone(), entries.unwrap_or_default()));
+            self.listing = None;
+        }
+        let here = folder(&self.text);
+        if self.listing.is_none() && self.listed.as_ref().is_none_or(|(listed, _)| *listed != here)
+        {
+            let folder = here.clone();
+            self.listing = Some((here, Job::start(ui.ctx(), move |_| entries(&folder))));
+        }
+        if let Some(outcome) = self.system.as_ref().and_then(Job::poll) {
+            self.system = None;
+            match outcome {
+                Ok(Some(path)) => self.text = path.display().to_string(),
+                _ => self.error = Some("nothing was chosen; a name can be written here".into()),
+            }
+        }
+    }
+
+    /// Opens the dialog of the system, which the window does not wait for.
+    fn browse(&mut self, ui: &Ui) {
+        if self.system.is_some() {
+            return;
+        }
+        let (title, is_open) = (self.purpose.title(), self.purpose.is_open());
+        let (ends, folder) = (self.purpose.extensions(), folder(&self.text));
+        self.system = Some(Job::start(ui.ctx(), move |_| {
+            let dialog = rfd::FileDialog::new().set_title(title).set_directory(folder);
+            let dialog = dialog.add_filter(ends.join(", "), ends);
+            if is_open { dialog.pick_file() } else { dialog.save_file() }
+        }));
+    }
+}
+
+/// The folder that a text leads to.
+fn folder(text: &str) -> PathBuf {
+    let path = home(text);
+    let folder = match text.ends_with(['/', MAIN_SEPARATOR]) {
+        true => path,
+        false => path.parent().map(Path::to_owned).unwrap_or_default(),
+    };
+    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
+}
+
+/// `~` is the folder of the person, as shells have it.
+fn home(text: &str) -> PathBuf {
+    match (text.strip_prefix("~/"), env::home_dir()) {
+        (Some(rest), Some(home)) => home.join(rest),
+        _ => PathBuf::from(text),
+    }
+}
+
+/// What is in a folder, folders first.
+fn entries(folder: &Path) -> Vec<Entry> {
+    let entry = |entry: fs::DirEntry| {
+        let name = entry.file_name().into_string().ok()?;
+        Some((name, entry.path().is_dir()))
+    };
+    let read = fs::read_dir(folder).into_iter().flatten();
+    let mut entries: Vec<Entry> = read.filter_map(|e| entry(e.ok()?)).collect();
+    entries.sort_by_key(|(name, is_folder)| (!is_folder, name.to_lowercase()));
+    entries
+}

@@ -1,0 +1,243 @@
+//! The problem: its text with the mistakes in it, and its solution.
+
+use std::ops::Range;
+
+use egui::text::{CCursor, CCursorRange};
+use egui::{FontId, ProgressBar, ScrollArea, TextEdit, TextStyle, Ui, vec2};
+use ppum::text::trimmed;
+
+use super::super::top::button;
+use crate::actions::Action;
+use crate::desk::Desk;
+use crate::session::Draft;
+use crate::solving::marks::Look;
+use crate::solving::{Mark, Outcome, PHASES, Running, Solving};
+
+/// Longest text that is written in a window: every picture lays all of it out.
+pub const MAX_LENGTH: usize = 200_000;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    take_from_dataset(desk);
+    let Some(draft) = desk.session.draft.take() else {
+        ui.label("This dataset holds no problem.");
+        ui.horizontal(|ui| {
+            if ui.button("Open a problem file…").clicked() {
+                desk.actions.push(Action::Open);
+            }
+        });
+        return;
+    };
+    let mut draft = draft;
+    desk.solving.check(&draft);
+    let room = ui.available_size();
+    let is_wide = room.x > 640.0;
+    let beside = if is_wide { (0.36 * room.x).clamp(230.0, 460.0) } else { room.x };
+    let width = if is_wide { room.x - beside - 12.0 } else { room.x };
+    let height = if is_wide { room.y } else { (0.5 * room.y).max(60.0) };
+    let both = |ui: &mut Ui| {
+        ui.allocate_ui(vec2(width, height), |ui| editor(ui, &mut draft, desk.solving));
+        ui.vertical(|ui| {
+            ui.set_width(beside);
+            ScrollArea::vertical().id_salt("told").show(ui, |ui| told(ui, &mut draft, desk));
+        });
+    };
+    if is_wide {
+        ui.horizontal_top(both);
+    } else {
+        ui.vertical(both);
+    }
+    desk.session.draft = Some(draft);
+}
+
+/// Without a text the dataset's own is shown.
+fn take_from_dataset(desk: &mut Desk<'_>) {
+    let (_, stage) = desk.active();
+    let Some(dataset) = stage.opened.as_ref().map(|opened| opened.dataset.clone()) else { return };
+    if desk.session.draft.is_none()
+        && let Some(text) = dataset.problem.clone()
+    {
+        desk.solving.begin(Some(text.clone()), Some(dataset));
+        desk.session.draft = Some(Draft { text, ..Draft::default() });
+    }
+}
+
+/// The text with the numbers of its lines.
+fn editor(ui: &mut Ui, draft: &mut Draft, solving: &mut Solving) {
+    if draft.text.len() > MAX_LENGTH {
+        ui.label("This text is too long to be written here. Its file is watched: save it elsewhere, and it is read again.");
+        return;
+    }
+    let font = TextStyle::Monospace.resolve(ui.style());
+    let look = Look::new(ui.visuals(), font.clone());
+    let checked = solving.checked().cloned();
+    // marks of another text would stand in wrong places, unless their lines are still the same
+    let marks: Vec<Mark> = match &checked {
+        Some(checked) => still_there(&checked.text, &draft.text, &checked.marks),
+        None => Vec::new(),
+    };
+    let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
+        ui.fonts_mut(|fonts| fonts.layout_job(look.layout(text.as_str(), &marks)))
+    };
+    let digits = draft.text.lines().count().max(9).to_string().len() as f32;
+    let gutter = (digits + 2.0) * 0.62 * font.size;
+    let area = ScrollArea::both().id_salt("text").auto_shrink([false; 2]);
+    area.show(ui, |ui| {
+        let margin = egui::Margin { left: gutter as i8, right: 8, top: 4, bottom: 4 };
+        let edit = TextEdit::multiline(&mut draft.text).id(editor_id()).code_editor();
+        let edit = edit.layouter(&mut layouter).margin(margin).desired_width(f32::INFINITY);
+        let rows = (ui.available_height() / (1.2 * font.size)).max(2.0) as usize;
+        let mut shown = edit.desired_rows(rows).show(ui);
+        shown.response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, "Text of the problem")
+        });
+        numbers(ui, &shown, &font, gutter);
+        if let Some(place) = solving.wanted.take() {
+            go(ui, &mut shown, &draft.text, place);
+        }
+    });
+}
+
+/// The name of the editor among all widgets.
+#[must_use]
+pub fn editor_id() -> egui::Id {
+    egui::Id::unique("text of the problem")
+}
+
+/// The numbers of the rows that are seen.
+fn numbers(ui: &Ui, shown: &egui::text_edit::TextEditOutput, font: &FontId, gutter: f32) {
+    let clip = ui.clip_rect();
+    for (number, row) in shown.galley.rows.iter().enumerate() {
+        let top = shown.galley_pos.y + row.pos.y;
+        if top > clip.bottom() || top + row.height() < clip.top() {
+            continue;
+        }
+        let at = egui::pos2(shown.galley_pos.x - 0.25 * gutter, top);
+        let text = (number + 1).to_string();
+        let color = ui.visuals().weak_text_color();
+        ui.painter().text(at, egui::Align2::RIGHT_TOP, text, font.clone(), color);
+    }
+}
+
+/// Puts the cursor to a place of the text.
+fn go(
+    ui: &Ui,
+    shown: &mut egui::text_edit::TextEditOutput,
+    text: &str,
+    [line, column]: [usize; 2],
+) {
+    let before: usize = text.split_inclusive('\n').take(line - 1).map(|l| l.chars().count()).sum();
+    let range = CCursorRange::one(CCursor::new(before + column - 1));
+    shown.state.cursor.set_char_range(Some(range));
+    shown.state.clone().store(ui.ctx(), shown.response.id);
+    shown.response.request_focus();
+    let top = shown.galley_pos
+        + shown.galley.rows.get(line - 1).map_or(vec2(0.0, 0.0), |row| row.pos.to_vec2());
+    ui.scroll_to_rect(egui::Rect::from_min_size(top, vec2(10.0, 40.0)), Some(egui::Align::Center));
+}
+
+/// The marks of lines that are the same in both texts.
+fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
+    if before == now {
+        return marks.to_vec();
+    }
+    let line = |text: &str, number: usize| text.lines().nth(number - 1).map(str::to_owned);
+    let is_same = |mark: &&Mark| mark.at.is_some_and(|[n, _]| line(before, n) == line(now, n));
+    marks.iter().filter(is_same).cloned().collect()
+}
+
+/// What can be done with the text, and what is known of it and its solution.
+fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
+    buttons(ui, draft, desk);
+    if desk.solving.before.is_some() && ui.button("Back to the text before").clicked() {
+        let before = desk.solving.before.take();
+        *draft = before.unwrap_or_default();
+        desk.solving.begin(None, None);
+    }
+    if let Some(running) = desk.solving.running() {
+        progress(ui, running);
+    }
+    if let Some(checked) = desk.solving.checked().cloned() {
+        mistakes(ui, &checked.marks, desk.solving);
+    }
+    match &desk.solving.outcome {
+        None => {}
+        Some(Outcome::Cancelled) => {
+            ui.label("Cancelled. What was there before is still shown.");
+        }
+        Some(Outcome::Failed(error)) => {
+            ui.colored_label(ui.visuals().error_fg_color, error);
+        }
+        Some(Outcome::Solved(seconds, warnings)) => {
+            ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
+            for warning in warnings {
+                ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
+            }
+        }
+    }
+}
+
+fn buttons(ui: &mut Ui, draft: &Draft, desk: &mut Desk<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        if desk.solving.running().is_some() {
+            if ui.button("Cancel").clicked() {
+                desk.solving.cancel();
+            }
+        } else if ui.button("Solve").on_hover_text("Ctrl+Enter").clicked() {
+            desk.actions.push(Action::Solve);
+        }
+        let is_changed = desk.solving.is_changed(draft);
+        let can_save = draft.path.is_some() && is_changed;
+        if ui
+            .add_enabled(can_save, egui::Button::new("Save"))
+            .on_hover_text("The text into its file")
+            .clicked()
+        {
+            desk.actions.push(Action::SaveProblem);
+        }
+        if ui.button("Save as…").clicked() {
+            desk.actions.push(Action::SaveProblemAs);
+        }
+        let name = draft.path.as_deref().map_or("no file yet".to_owned(), crate::files::name);
+        ui.weak(if is_changed { format!("{name} *") } else { name });
+        if button(ui, "✗", "Close the problem").clicked() {
+            desk.actions.push(Action::CloseProblem);
+        }
+    });
+}
+
+/// How far the solution has come.
+fn progress(ui: &mut Ui, running: &Running) {
+    let told = running.told();
+    if let Some(estimate) = &told.estimate {
+        ui.weak(estimate);
+    }
+    let phase = told.progress.map(|progress| progress.phase);
+    let at = phase.and_then(|phase| PHASES.iter().position(|known| *known == phase)).unwrap_or(0);
+    let name = phase.map_or("beginning", ppum::progress::Phase::name);
+    let name = if running.is_cancelled() { "stopping" } else { name };
+    let text = format!("{} of {}: {name}, {:.0} s", at + 1, PHASES.len(), running.seconds());
+    let bar = ui.add(ProgressBar::new(told.part()).text(text.clone()));
+    bar.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &text));
+    ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
+}
+
+/// Mistakes that are listed: nobody reads more of them at a time.
+const SHOWN: Range<usize> = 0..50;
+
+fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut Solving) {
+    for mark in &marks[SHOWN.start..SHOWN.end.min(marks.len())] {
+        let text = match mark.at {
+            Some([line, column]) => format!("{line}:{column}  {}", mark.message),
+            None => mark.message.clone(),
+        };
+        let text = egui::RichText::new(text).color(ui.visuals().error_fg_color);
+        let label = ui.add(egui::Button::new(text).wrap().frame(false));
+        if label.on_hover_text("Go there").clicked() {
+            solving.wanted = mark.at;
+        }
+    }
+    if marks.len() > SHOWN.end {
+        ui.weak(format!("and {} more", marks.len() - SHOWN.end));
+    }
+}

@@ -1,0 +1,107 @@
+//! Stress intensity factors and lengths of cracks against the steps of a series.
+
+use egui::{Color32, ScrollArea, Stroke, Ui, vec2};
+use ppum::crack::tips;
+use ppum::dataset::{Dataset, Step, TipIntensity};
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+
+use crate::desk::Desk;
+use crate::panels::chart::chart;
+
+/// Values of each step, as a curve.
+type Values = Vec<(String, Vec<[f64; 2]>)>;
+
+/// Shows it; a click goes to the step.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let Some(dataset) = stage.opened.as_ref().map(|opened| &opened.dataset) else { return };
+    if dataset.steps.len() < 2 {
+        ui.label("This dataset has one step. A series shows its course here.");
+        return;
+    }
+    let plots = plots(dataset);
+    let step = pane.scene.subject.step_of(dataset);
+    let range = [-0.5, dataset.steps.len() as f64 - 0.5];
+    let room = ui.available_size() - vec2(0.0, 14.0);
+    let gap = ui.spacing().item_spacing.x;
+    let width = (room.x / plots.len() as f32 - gap).max(LEAST);
+    ScrollArea::horizontal().show(ui, |ui| {
+        ui.horizontal(|ui| {
+            for (name, mut plot) in plots {
+                plot.x.range = Some(range);
+                let chart = chart(ui, name, &plot, vec2(width, room.y.max(120.0)));
+                let x = chart.position(step as f64, range);
+                let line = Stroke::new(1.0, Color32::from_rgb(200, 60, 60));
+                ui.painter().vline(x, chart.frame.y_range(), line);
+                if let Some(at) = chart.response.interact_pointer_pos() {
+                    let chosen = chart.value_at(at.x, range).round().max(0.0) as usize;
+                    pane.scene.subject.step = Some(chosen.min(dataset.steps.len() - 1));
+                }
+            }
+        });
+    });
+}
+
+/// The least width of a plot that can be read \[points\].
+const LEAST: f32 = 260.0;
+
+/// The plots that there is something for, with their names.
+#[must_use]
+pub fn plots(dataset: &Dataset) -> Vec<(&'static str, Plot)> {
+    let factors = |value: fn(&TipIntensity) -> f64| {
+        by_tip(dataset, |step, number| {
+            let tip = tips(&step.cracks).nth(number)?;
+            step.intensities.iter().find(|found| found.tip == tip).map(value)
+        })
+    };
+    let lengths = by_crack(dataset);
+    let all = [
+        ("K_I against the steps", "K_{I}", factors(|tip| tip.k1)),
+        ("K_II against the steps", "K_{II}", factors(|tip| tip.k2)),
+        ("Crack length against the steps", "crack length", lengths),
+        (
+            "Load against the steps",
+            "load",
+            vec![("load".into(), course(dataset, |step| step.load))],
+        ),
+    ];
+    let some = all.into_iter().filter(|(.., values)| values.iter().any(|(_, v)| !v.is_empty()));
+    some.map(|(name, label, values)| (name, plot(label, values))).collect()
+}
+
+fn plot(label: &str, values: Values) -> Plot {
+    let is_one = values.len() == 1;
+    let curve = |(name, points): (String, Vec<[f64; 2]>)| {
+        let name = if is_one { String::new() } else { name };
+        Curve::new(name, points).with_look(Look::Dotted)
+    };
+    let curves = values.into_iter().map(curve).collect();
+    let (x, y) = (PlotAxis::new("step", ""), PlotAxis::new(label, ""));
+    Plot { title: String::new(), x, y, curves }
+}
+
+/// A value of each step against its number.
+fn course(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
+    dataset.steps.iter().enumerate().map(|(k, step)| [k as f64, value(step)]).collect()
+}
+
+/// A value of each tip in the steps that have it; broken where it is missing.
+fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Values {
+    let count = dataset.steps.iter().map(|step| tips(&step.cracks).count()).max().unwrap_or(0);
+    let curve = |number: usize| {
+        let points = course(dataset, |step| value(step, number).unwrap_or(f64::NAN));
+        let is_known = points.iter().any(|[_, v]| v.is_finite());
+        is_known.then(|| (format!("tip {number}"), points))
+    };
+    (0..count).filter_map(curve).collect()
+}
+
+/// The length of each crack in the steps that have it.
+fn by_crack(dataset: &Dataset) -> Values {
+    let count = dataset.steps.iter().map(|step| step.cracks.len()).max().unwrap_or(0);
+    let curve = |number: usize| {
+        let length = |step: &Step| step.cracks.get(number).map_or(f64::NAN, |c| c.length());
+        (format!("crack {number}"), course(dataset, length))
+    };
+    (0..count).map(curve).collect()
+}

@@ -1,0 +1,141 @@
+//! What the solver has told of a step: its numbers, the seconds of its phases, its warnings; and values of patches as colours.
+
+use egui::{Grid, ScrollArea, Ui, vec2};
+use ppum::dataset::{Dataset, Record, Step, Warning};
+use ppum::quantity::Quantity;
+use ppum::text::trimmed;
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_render::cells;
+use ppum_scene::scene::OF_PATCHES;
+
+use crate::desk::Desk;
+use crate::panels::chart::chart;
+use crate::session::Place;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let Some(dataset) = stage.opened.as_ref().map(|o| std::sync::Arc::clone(&o.dataset)) else {
+        return;
+    };
+    let Some(step) = dataset.steps.get(pane.scene.subject.step_of(&dataset)) else { return };
+    patches(ui, desk);
+    ui.separator();
+    let room = ui.available_height();
+    ScrollArea::horizontal().id_salt("solver").show(ui, |ui| {
+        ui.horizontal_top(|ui| {
+            numbers(ui, step, room);
+            for (name, plot) in plots(&dataset, step) {
+                chart(ui, name, &plot, vec2(440.0, (room - 14.0).max(120.0)));
+            }
+            warnings(ui, desk, &dataset, step, room);
+        });
+    });
+}
+
+/// Buttons that colour the patches by one of their values.
+fn patches(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let Some(frame) = stage.frames.newest() else { return };
+    let field = frame.field.field();
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Colour the patches by");
+        for name in cells::names(field) {
+            // a quantity of this name goes before, unless it is said that patches are meant
+            let has_quantity = Quantity::parse(&name, field).is_ok();
+            let text = if has_quantity { format!("{OF_PATCHES}{name}") } else { name.clone() };
+            let is_shown = pane.scene.quantity.as_ref() == Some(&text);
+            if ui.selectable_label(is_shown, &name).clicked() {
+                pane.scene.quantity = (!is_shown).then_some(text);
+            }
+        }
+    });
+}
+
+/// The records of the solver that are no times.
+fn numbers(ui: &mut Ui, step: &Step, height: f32) {
+    let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
+    ScrollArea::vertical().id_salt("numbers").max_height(height).show(ui, |ui| {
+        Grid::new("history").num_columns(2).striped(true).show(ui, |ui| {
+            let mut row = |name: &str, value: String| {
+                ui.label(name);
+                ui.monospace(value);
+                ui.end_row();
+            };
+            row("patches", step.partition.len().to_string());
+            for Record { name, value, unit } in numbers {
+                row(name, format!("{} {unit}", trimmed(*value)).trim_end().to_owned());
+            }
+            for Record { name, value, .. } in &times {
+                row(name, format!("{value:.3} s"));
+            }
+            if !times.is_empty() {
+                row("all phases", format!("{:.3} s", times.iter().map(|r| r.value).sum::<f64>()));
+            }
+        });
+    });
+}
+
+/// Seconds of the phases; of a series residuals and unknowns.
+#[must_use]
+pub fn plots(dataset: &Dataset, step: &Step) -> Vec<(&'static str, Plot)> {
+    let times: Vec<&Record> = step.history.iter().filter(|r| r.unit == "s").collect();
+    let mut plots = Vec::new();
+    if !times.is_empty() {
+        let names = times.iter().map(|record| record.name.clone()).collect();
+        let bars = times.iter().enumerate().map(|(k, record)| [k as f64, record.value]).collect();
+        let x = PlotAxis { names, ..PlotAxis::new("phase", "") };
+        let curves = vec![Curve::new("", bars).with_look(Look::Bars)];
+        let y = PlotAxis::new("time", "s");
+        plots.push(("Seconds of the phases", Plot { title: String::new(), x, y, curves }));
+    }
+    for (title, name) in
+        [("Residual against the steps", "residual"), ("Unknowns against the steps", "unknowns")]
+    {
+        let points: Vec<[f64; 2]> = course(dataset, name);
+        if points.len() > 1 {
+            let y = PlotAxis::new(name, "");
+            let y = if name == "residual" { y.logarithmic() } else { y };
+            let curves = vec![Curve::new("", points).with_look(Look::Dotted)];
+            plots.push((
+                title,
+                Plot { title: String::new(), x: PlotAxis::new("step", ""), y, curves },
+            ));
+        }
+    }
+    plots
+}
+
+/// A number of the solver in all steps that have it.
+fn course(dataset: &Dataset, name: &str) -> Vec<[f64; 2]> {
+    let value =
+        |step: &Step| step.history.iter().find(|record| record.name == name).map(|r| r.value);
+    let steps = dataset.steps.iter().enumerate();
+    steps.filter_map(|(k, step)| Some([k as f64, value(step)?])).collect()
+}
+
+/// What the diagnostics warn of; a click flies there.
+fn warnings(ui: &mut Ui, desk: &mut Desk<'_>, dataset: &Dataset, step: &Step, height: f32) {
+    ScrollArea::vertical().id_salt("warnings").max_height(height).show(ui, |ui| {
+        ui.vertical(|ui| {
+            ui.set_width(360.0);
+            if step.warnings.is_empty() {
+                ui.weak("No warnings.");
+            }
+            for warning in &step.warnings {
+                let text = format!("⚠ {}", warning.message);
+                let label = ui.add(egui::Button::new(text).wrap().frame(false));
+                if label.on_hover_text("Fly there").clicked() {
+                    fly(desk, dataset, warning);
+                }
+            }
+        });
+    });
+}
+
+fn fly(desk: &mut Desk<'_>, dataset: &Dataset, warning: &Warning) {
+    let Some(at) = warning.at else { return };
+    let size = dataset.domain.bounds.size();
+    let (pane, stage) = desk.active();
+    stage.fly_to(pane, Some(Place { center: at.into(), width: 0.2 * size.x.max(size.y) }));
+}

@@ -1,0 +1,116 @@
+//! The menu of files, and what is told of them.
+
+use std::path::PathBuf;
+
+use egui::{ProgressBar, Spinner, Ui};
+
+use super::top::button;
+use crate::actions::Action;
+use crate::desk::Desk;
+use crate::files::examples::{self, Example};
+use crate::files::name;
+use crate::files::read::Why;
+use crate::session::{Draft, Page};
+
+/// The menu.
+pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
+    ui.menu_button("File", |ui| {
+        let has_dataset = desk.active().1.opened.is_some();
+        for (name, action, is_possible) in [
+            ("Open…", Action::Open, true),
+            ("Open beside…", Action::OpenBeside, has_dataset),
+            ("Save the dataset…", Action::SaveDataset, has_dataset),
+            ("Save the session", Action::SaveSession, true),
+            ("Save the session as…", Action::SaveSessionAs, true),
+            ("Close", Action::Close, has_dataset),
+        ] {
+            if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {
+                desk.actions.push(action);
+            }
+        }
+        ui.separator();
+        ui.menu_button("Recent files", |ui| recent(ui, desk));
+        ui.menu_button("Examples", |ui| {
+            for example in &examples::ALL {
+                if ui.button(example.title()).clicked() {
+                    open_example(desk, example);
+                }
+            }
+        });
+    });
+}
+
+/// Files that were opened, the newest first.
+pub fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let recent: Vec<PathBuf> = desk.files.kept.recent.clone();
+    if recent.is_empty() {
+        ui.weak("None yet.");
+    }
+    for path in recent {
+        let button = ui.button(name(&path)).on_hover_text(path.display().to_string());
+        if button.clicked() {
+            desk.files.open(&path, desk.session.active, Why::Opened);
+        }
+    }
+}
+
+/// Opens an example's problem and solves it.
+pub fn open_example(desk: &mut Desk<'_>, example: &Example) {
+    let own = desk.files.folder().map_or_else(std::env::temp_dir, std::path::Path::to_owned);
+    let folder = match example.folder(&own) {
+        Ok(folder) => folder,
+        Err(error) => {
+            desk.files.tell(&own, format!("the example cannot be put there: {error}"), true);
+            return;
+        }
+    };
+    let draft = Draft { path: None, folder, text: example.text.to_owned() };
+    desk.solving.begin(Some(draft.text.clone()), None);
+    desk.solving.solve(&draft, desk.session.active);
+    desk.session.draft = Some(draft);
+    desk.session.drawer = Some(Page::Problem);
+}
+
+/// What is being read, and what is told of files.
+pub fn notes(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let mut cancelled = None;
+    for reading in desk.files.readings() {
+        ui.add(Spinner::new().size(14.0));
+        match reading.part().filter(|part| *part < 1.0) {
+            Some(part) => {
+                ui.add(ProgressBar::new(part).desired_width(80.0));
+                ui.weak(format!("reading {}", name(&reading.path)));
+            }
+            None => {
+                ui.weak(format!("checking {}", name(&reading.path)));
+            }
+        }
+        if button(ui, "✗", "Stop reading").clicked() {
+            cancelled = Some(reading.path.clone());
+        }
+    }
+    if let Some(path) = cancelled {
+        desk.files.cancel(&path);
+    }
+    let mut closed = None;
+    for note in &desk.files.notes {
+        ui.horizontal_wrapped(|ui| {
+            if button(ui, "✗", "Close the note").clicked() {
+                closed = Some(note.path.clone());
+            }
+            match note.is_error {
+                true => ui.colored_label(ui.visuals().error_fg_color, &note.text),
+                false => ui.weak(&note.text),
+            };
+        });
+    }
+    if let Some(path) = closed {
+        desk.files.settle(&path);
+    }
+}
+
+/// True if there is something to tell.
+#[must_use]
+pub fn has_notes(desk: &Desk<'_>) -> bool {
+    !desk.files.notes.is_empty() || !desk.files.readings().is_empty()
+}

@@ -1,0 +1,57 @@
+//! The steps of a series in the bar above the plate.
+
+use egui::{DragValue, Slider, Ui};
+use ppum::text::trimmed;
+
+use super::top::button;
+use crate::actions::Action;
+use crate::desk::Desk;
+use crate::player::SPEEDS;
+
+/// Shows it, of a series.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let active = desk.session.active;
+    let Some(opened) = &desk.stages[active].opened else { return };
+    let steps = &opened.dataset.steps;
+    if steps.len() < 2 {
+        return;
+    }
+    let subject = &mut desk.session.panes[active].scene.subject;
+    let last = steps.len() - 1;
+    let mut step = subject.step_of(&opened.dataset).min(last);
+    ui.separator();
+    if button(ui, "◀", "Step before").clicked() {
+        desk.actions.push(Action::Step(-1));
+    }
+    ui.spacing_mut().slider_width = (ui.available_size_before_wrap().x - REST).clamp(80.0, 300.0);
+    let slider = ui.add(Slider::new(&mut step, 0..=last).show_value(false));
+    slider.widget_info(|| {
+        let text = format!("Step {step} of {last}");
+        egui::WidgetInfo::slider(true, step as f64, text)
+    });
+    if slider.changed() {
+        subject.step = Some(step);
+    }
+    if button(ui, "▶", "Step after").clicked() {
+        desk.actions.push(Action::Step(1));
+    }
+    let load = trimmed(steps[step].load);
+    ui.label(format!("step {step} of {last}, load {load}"));
+    let (sign, name) =
+        if desk.player.is_playing { ("■", "Stop") } else { ("▷", "Play the steps") };
+    if button(ui, sign, name).clicked() {
+        desk.actions.push(Action::Play);
+    }
+    let speed = DragValue::new(&mut desk.player.speed).range(SPEEDS).speed(0.1).suffix(" /s");
+    ui.add(speed.max_decimals(1)).on_hover_text("Speed: steps in a second");
+    let looping = ui.selectable_label(desk.player.is_looping, "↻").on_hover_text("Again and again");
+    looping.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::Button, true, desk.player.is_looping, "Loop")
+    });
+    if looping.clicked() {
+        desk.player.is_looping = !desk.player.is_looping;
+    }
+}
+
+/// The room of all but the slider \[points\].
+const REST: f32 = 330.0;

@@ -1,0 +1,340 @@
+//! Problems while they are written, and their solutions: both in the background.
+
+pub mod marks;
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use ppum::dataset::Dataset;
+use ppum::progress::{Phase, Progress, Verdict, Watcher};
+use ppum_solve::problem::{Location, Problem, ProblemError};
+use ppum_solve::solve::{Plan, SolveError};
+
+use crate::job::{Job, Stop};
+use crate::session::Draft;
+
+/// A mistake in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// Line and column, from 1; none of a mistake that has no place in the text.
+    pub at: Option<[usize; 2]>,
+    /// The mistake and its remedy.
+    pub message: String,
+}
+
+/// Where the files that a text names are looked for.
+#[derive(Clone, Debug)]
+enum Source {
+    Folder(PathBuf),
+    Dataset(Arc<Dataset>),
+}
+
+/// What is known of a text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Checked {
+    /// The text.
+    pub text: String,
+    /// Its mistakes, in the order of the text.
+    pub marks: Vec<Mark>,
+}
+
+/// The way the last solution has ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// With a dataset, after so many seconds, and with warnings.
+    Solved(f64, Vec<String>),
+    /// It was stopped.
+    Cancelled,
+    /// With an error.
+    Failed(String),
+}
+
+/// A dataset that was computed for a pane.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The pane.
+    pub pane: usize,
+    /// The dataset.
+    pub dataset: Arc<Dataset>,
+}
+
+/// The problem that is written, and the solution that is computed.
+#[derive(Debug)]
+pub struct Solving {
+    /// The text as its file has it.
+    pub on_disk: Option<String>,
+    /// The text that is being written to its file.
+    pub saving: Option<String>,
+    /// A changed text that has made place for another one.
+    pub before: Option<Draft>,
+    /// The dataset that the text came from: it holds the tables and points that the text names.
+    pub origin: Option<Arc<Dataset>>,
+    /// The way the last solution has ended.
+    pub outcome: Option<Outcome>,
+    /// The place in the text to go to.
+    pub wanted: Option<[usize; 2]>,
+    /// Memory that is free \[bytes\], as far as the system tells.
+    pub memory: fn() -> Option<u64>,
+    checked: Option<Arc<Checked>>,
+    checking: Option<Job<Checked>>,
+    running: Option<Running>,
+    ctx: egui::Context,
+}
+
+/// A solution that is being computed.
+#[derive(Debug)]
+pub struct Running {
+    pane: usize,
+    start: Instant,
+    told: Arc<Mutex<Told>>,
+    job: Job<Result<Dataset, Stopped>>,
+}
+
+/// What is told of a solution while it is computed.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// The phase, and how much of it is done.
+    pub progress: Option<Progress>,
+    /// What it takes, in words, once that is known.
+    pub estimate: Option<String>,
+}
+
+#[derive(Debug)]
+enum Stopped {
+    Cancelled,
+    Failed(String),
+}
+
+impl From<SolveError> for Stopped {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::Cancelled(_) => Self::Cancelled,
+            error => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+/// Phases of a solution, in their order.
+pub const PHASES: [Phase; 5] =
+    [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution, Phase::Intensity];
+
+impl Solving {
+    /// Nothing is written yet.
+    #[must_use]
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self {
+            on_disk: None,
+            saving: None,
+            before: None,
+            origin: None,
+            outcome: None,
+            wanted: None,
+            memory: || None,
+            checked: None,
+            checking: None,
+            running: None,
+            ctx: ctx.clone(),
+        }
+    }
+
+    /// Another text is written from now on.
+    pub fn begin(&mut self, on_disk: Option<String>, origin: Option<Arc<Dataset>>) {
+        (self.on_disk, self.origin) = (on_disk, origin);
+        (self.outcome, self.checked, self.checking) = (None, None, None);
+    }
+
+    /// True if the text is not as its file has it.
+    #[must_use]
+    pub fn is_changed(&self, draft: &Draft) -> bool {
+        self.on_disk.as_ref().is_none_or(|text| *text != draft.text)
+    }
+
+    /// Looks for mistakes in the background whenever the text is another one.
+    pub fn check(&mut self, draft: &Draft) {
+        if let Some(outcome) = self.checking.as_ref().and_then(Job::poll) {
+            self.checking = None;
+            let broken = |message| Checked {
+                text: draft.text.clone(),
+                marks: vec![Mark { at: None, message }],
+            };
+            self.checked = Some(Arc::new(outcome.unwrap_or_else(broken)));
+        }
+        let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
+        if self.checking.is_none() && !is_known {
+            let (text, source) = (draft.text.clone(), self.source(draft));
+            self.checking = Some(Job::start(&self.ctx, move |_| {
+                let marks = parse(&text, &source).err().map(|e| marks(&e)).unwrap_or_default();
+                Checked { text, marks }
+            }));
+        }
+    }
+
+    /// What is known of the text that was looked at last.
+    #[must_use]
+    pub fn checked(&self) -> Option<&Arc<Checked>> {
+        self.checked.as_ref()
+    }
+
+    fn source(&self, draft: &Draft) -> Source {
+        let folder = draft.folder.as_deref().or(draft.path.as_deref().and_then(Path::parent));
+        match (&self.origin, folder) {
+            (Some(dataset), None) => Source::Dataset(Arc::clone(dataset)),
+            (_, folder) => Source::Folder(folder.unwrap_or(Path::new("")).to_owned()),
+        }
+    }
+
+    /// Begins to solve the problem for a pane. A solution that is being computed is stopped.
+    pub fn solve(&mut self, draft: &Draft, pane: usize) {
+        let (text, source) = (draft.text.clone(), self.source(draft));
+        let told = Arc::new(Mutex::new(Told::default()));
+        let (theirs, memory, ctx) = (Arc::clone(&told), (self.memory)(), self.ctx.clone());
+        let job = Job::start(&self.ctx, move |stop| {
+            let follower = Follower { told: &theirs, stop, ctx: &ctx };
+            on_own_threads(|| solve(&text, &source, memory, &follower))?
+        });
+        self.outcome = None;
+        self.running = Some(Running { pane, start: Instant::now(), told, job });
+    }
+
+    /// Stops the solution that is being computed.
+    pub fn cancel(&mut self) {
+        if let Some(running) = &self.running {
+            running.job.cancel();
+        }
+    }
+
+    /// The solution that is being computed.
+    #[must_use]
+    pub fn running(&self) -> Option<&Running> {
+        self.running.as_ref()
+    }
+
+    /// True while something is computed.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        self.running.is_some() || self.checking.is_some()
+    }
+
+    /// The dataset that was computed since.
+    pub fn poll(&mut self) -> Option<Solved> {
+        let running = self.running.as_ref()?;
+        let outcome = running.job.poll()?;
+        let (seconds, pane) = (running.seconds(), running.pane);
+        self.running = None;
+        match outcome.map_err(Stopped::Failed).flatten() {
+            Ok(dataset) => {
+                let warnings = dataset.steps.iter().flat_map(|step| &step.warnings);
+                let warnings = warnings.map(|warning| warning.message.clone()).collect();
+                self.outcome = Some(Outcome::Solved(seconds, warnings));
+                Some(Solved { pane, dataset: Arc::new(dataset) })
+            }
+            Err(Stopped::Cancelled) => {
+                self.outcome = Some(Outcome::Cancelled);
+                None
+            }
+            Err(Stopped::Failed(error)) => {
+                self.outcome = Some(Outcome::Failed(error));
+                None
+            }
+        }
+    }
+}
+
+impl Running {
+    /// Seconds since it began.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    /// What is told of it now.
+    #[must_use]
+    pub fn told(&self) -> Told {
+        self.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// True once it was asked to stop.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.job.is_cancelled()
+    }
+}
+
+impl Told {
+    /// The part of the present phase that is done.
+    #[must_use]
+    pub fn part(&self) -> f32 {
+        self.progress.map_or(0.0, |p| p.done as f32 / p.total.max(1) as f32)
+    }
+}
+
+/// Hears of a solution's progress, and ends it.
+struct Follower<'a> {
+    told: &'a Mutex<Told>,
+    stop: &'a Stop,
+    ctx: &'a egui::Context,
+}
+
+impl Follower<'_> {
+    fn tell(&self, estimate: String) {
+        self.told.lock().unwrap_or_else(PoisonError::into_inner).estimate = Some(estimate);
+    }
+}
+
+impl Watcher for Follower<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        // as many pictures as eyes can follow
+        let hundredth = |p: Progress| (p.phase, 100 * p.done / p.total.max(1));
+        if told.progress.map(hundredth) != Some(hundredth(progress)) {
+            self.ctx.request_repaint();
+        }
+        told.progress = Some(progress);
+        Verdict::go_on_unless(self.stop.is_set())
+    }
+}
+
+/// On threads of their own, so that pictures, which are made on the others, do not wait for the solution.
+fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Stopped> {
+    let pool = rayon::ThreadPoolBuilder::new().build();
+    pool.map(|pool| pool.install(work)).map_err(|error| Stopped::Failed(error.to_string()))
+}
+
+fn solve(
+    text: &str,
+    source: &Source,
+    memory: Option<u64>,
+    follower: &Follower<'_>,
+) -> Result<Dataset, Stopped> {
+    let problem = parse(text, source).map_err(|error| Stopped::Failed(summary(&error)))?;
+    let plan = Plan::new(&problem, memory, follower)?;
+    follower.tell(plan.estimate().to_string());
+    ppum_format::check(plan.dataset()).map_err(|error| Stopped::Failed(error.to_string()))?;
+    Ok(plan.solve(follower)?)
+}
+
+fn parse(text: &str, source: &Source) -> Result<Problem, ProblemError> {
+    match source {
+        Source::Folder(folder) => Problem::parse(text, "problem", folder),
+        Source::Dataset(dataset) => Problem::parse_with(text, dataset),
+    }
+}
+
+fn summary(error: &ProblemError) -> String {
+    match error.mistakes() {
+        [one] => format!("not solved: {one}"),
+        many => format!("not solved: the text has {} mistakes", many.len()),
+    }
+}
+
+/// The mistakes with their places in the text.
+fn marks(error: &ProblemError) -> Vec<Mark> {
+    let mark = |mistake: &ppum_solve::problem::Mistake| match &mistake.location {
+        Location::Text { file, line, column } if file == "problem" => {
+            Mark { at: Some([*line, *column]), message: mistake.message.clone() }
+        }
+        place => Mark { at: None, message: format!("{place}: {}", mistake.message) },
+    };
+    error.mistakes().iter().map(mark).collect()
+}

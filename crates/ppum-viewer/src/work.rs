@@ -1,0 +1,366 @@
+//! What the window does with files and problems: what was read is shown, what has changed is read again, what was solved is seen.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{Align2, Color32, TextStyle, Ui};
+use ppum::dataset::Dataset;
+
+use crate::actions::Action;
+use crate::app::Viewer;
+use crate::files::dialog::Purpose;
+use crate::files::read::{Arrived, Content, Why};
+use crate::files::watch::{Stamp, stamp};
+use crate::files::{What, Written, name, session_file};
+use crate::panels::drawer::problem::editor_id;
+use crate::player;
+use crate::session::{Draft, Page, Pane, Session};
+use crate::solving::Solved;
+use crate::stage::{Opened, Stage};
+use crate::undo::Undo;
+
+impl Viewer {
+    /// Takes what has been read, written, dropped, chosen and solved since.
+    pub(crate) fn work(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        self.take_dropped(ui);
+        self.files.kept.size =
+            ctx.input(|input| input.viewport().inner_rect).map(|r| r.size().into());
+        for arrived in self.files.arrived() {
+            self.arrive(&ctx, arrived);
+        }
+        let (panes, draft) = (&self.session.panes, &self.session.draft);
+        let draft = draft.as_ref().and_then(|draft| draft.path.as_deref());
+        let is_open = |path: &Path| {
+            panes.iter().any(|pane| pane.file.as_deref() == Some(path)) || draft == Some(path)
+        };
+        for path in self.files.changed(is_open) {
+            self.read_again(&path);
+        }
+        if let Some(solved) = self.solving.poll() {
+            self.show_solved(solved);
+        }
+        for written in self.files.written() {
+            self.wrote(written);
+        }
+        if let Some((purpose, path)) = self.files.show(ui) {
+            self.chosen(&ctx, purpose, path);
+        }
+    }
+
+    /// True while something is read, written, solved or drawn.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        let is_drawing = self.stages.iter().any(|stage| stage.frames.is_working());
+        is_drawing || self.files.is_working() || self.solving.is_working()
+    }
+
+    /// Opens a file in a pane, which is made if it is the one beside.
+    pub fn open_file(&mut self, ctx: &egui::Context, path: &Path, pane: usize) {
+        let pane = pane.min(1);
+        if pane == self.session.panes.len() {
+            self.session.panes.push(Pane::default());
+            self.stages.push(Stage::new(ctx, self.backend));
+        }
+        self.files.open(path, pane, Why::Opened);
+    }
+
+    /// Shows a session: reads its files, and tells which are missing.
+    pub fn take_session(&mut self, ctx: &egui::Context, session: Session) {
+        self.session = session;
+        self.session.mend();
+        self.stages = self.session.panes.iter().map(|_| Stage::new(ctx, self.backend)).collect();
+        self.settings = Undo::new(self.session.settings());
+        self.show_theme(ctx);
+        for (number, pane) in self.session.panes.iter().enumerate() {
+            if let Some(path) = &pane.file {
+                self.files.open(path, number, Why::Restored);
+            }
+        }
+        self.solving.begin(None, None);
+        if let Some(path) = self.session.draft.as_ref().and_then(|draft| draft.path.as_ref()) {
+            self.files.open(path, 0, Why::Restored);
+        }
+    }
+
+    /// Keeps all that is to be remembered; the window closes.
+    pub fn leave(&mut self) {
+        self.files.finish();
+        self.files.keep();
+        self.files.keep_session(&self.session);
+    }
+
+    /// Does what was asked for with files and problems.
+    pub(crate) fn act_on_files(&mut self, ctx: &egui::Context, action: Action) {
+        let active = self.session.active;
+        let file = self.session.panes[active].file.clone();
+        match action {
+            Action::Open => self.files.ask(Purpose::Open(active), file.as_deref()),
+            Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
+            Action::Close => self.close(active),
+            Action::SaveDataset => self.files.ask(Purpose::SaveDataset(active), file.as_deref()),
+            // who writes the problem means the problem
+            Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
+            Action::SaveSession => match self.files.session.clone() {
+                Some(path) => self.write_session(path),
+                None => self.ask_session(),
+            },
+            Action::SaveSessionAs => self.ask_session(),
+            Action::Solve => self.solve(),
+            Action::CancelSolving => self.solving.cancel(),
+            Action::SaveProblem => self.save_problem(),
+            Action::SaveProblemAs => self.ask_problem(),
+            Action::CloseProblem => {
+                self.shelve();
+                self.session.draft = None;
+                self.session.drawer = None;
+            }
+            _ => {}
+        }
+    }
+
+    fn ask_session(&mut self) {
+        let near = self.files.session.clone().or_else(|| {
+            let file = self.session.pane().file.as_ref()?;
+            Some(file.with_extension(session_file::EXTENSION))
+        });
+        self.files.ask(Purpose::SaveSession, near.as_deref());
+    }
+
+    fn ask_problem(&mut self) {
+        let near = self.session.draft.as_ref().and_then(|draft| draft.path.clone());
+        self.files.ask(Purpose::SaveProblem, near.as_deref());
+    }
+
+    fn save_problem(&mut self) {
+        match self.session.draft.as_ref().and_then(|draft| draft.path.clone()) {
+            Some(path) => self.write_problem(path),
+            None => self.ask_problem(),
+        }
+    }
+
+    fn solve(&mut self) {
+        let (_, stage) = (&self.session, &self.stages[self.session.active]);
+        let dataset = stage.opened.as_ref().map(|opened| Arc::clone(&opened.dataset));
+        if self.session.draft.is_none()
+            && let Some(text) = dataset.as_ref().and_then(|dataset| dataset.problem.clone())
+        {
+            self.solving.begin(Some(text.clone()), dataset);
+            self.session.draft = Some(Draft { text, ..Draft::default() });
+        }
+        self.session.drawer = Some(Page::Problem);
+        if let Some(draft) = &self.session.draft {
+            self.solving.solve(draft, self.session.active);
+        }
+    }
+
+    /// A changed text that makes place for another one can be had back.
+    fn shelve(&mut self) {
+        if let Some(draft) = self.session.draft.clone().filter(|d| self.solving.is_changed(d)) {
+            self.solving.before = Some(draft);
+        }
+    }
+
+    /// Closes a dataset; of two panes the one.
+    fn close(&mut self, pane: usize) {
+        self.player.is_playing = false;
+        if self.session.panes.len() > 1 {
+            self.session.panes.remove(pane);
+            self.stages.remove(pane);
+            self.session.active = 0;
+        } else {
+            self.session.panes[pane] = Pane::default();
+            self.stages[pane].opened = None;
+        }
+    }
+
+    fn write_session(&mut self, path: PathBuf) {
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        match session_file::text(&self.session, &folder) {
+            Ok(text) => self.files.write_text(path, What::Session, text),
+            Err(error) => self.files.tell(&path, error.to_string(), true),
+        }
+    }
+
+    fn write_problem(&mut self, path: PathBuf) {
+        if let Some(draft) = &self.session.draft {
+            self.solving.saving = Some(draft.text.clone());
+            self.files.write_text(path, What::Problem, draft.text.clone());
+        }
+    }
+
+    /// Opens or writes the file that was chosen.
+    fn chosen(&mut self, ctx: &egui::Context, purpose: Purpose, path: PathBuf) {
+        match purpose {
+            Purpose::Open(pane) => self.open_file(ctx, &path, pane),
+            Purpose::SaveSession => self.write_session(path),
+            Purpose::SaveProblem => self.write_problem(path),
+            Purpose::SaveDataset(pane) => {
+                let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
+                if let Some(opened) = opened {
+                    self.files.write_dataset(path, pane, Arc::clone(&opened.dataset));
+                }
+            }
+            Purpose::Export(_, _, bytes) => self.files.write_bytes(path, bytes),
+        }
+    }
+
+    /// Something was written: it has a file now.
+    fn wrote(&mut self, Written { path, what }: Written) {
+        match what {
+            What::Dataset(pane) => {
+                if let (Some(pane), Some(stage)) =
+                    (self.session.panes.get_mut(pane), self.stages.get_mut(pane))
+                {
+                    pane.file = Some(path.clone());
+                    if let Some(opened) = &mut stage.opened {
+                        opened.path = Some(path.clone());
+                    }
+                }
+            }
+            What::Session => self.files.session = Some(path.clone()),
+            What::Problem => {
+                self.solving.on_disk = self.solving.saving.take();
+                if let Some(draft) = &mut self.session.draft {
+                    (draft.path, draft.folder) = (Some(path.clone()), None);
+                }
+            }
+            What::Export => return,
+        }
+        self.files.remember(&path);
+    }
+
+    /// Shows what was read; what cannot be read is told beside its name, and harms nothing.
+    fn arrive(&mut self, ctx: &egui::Context, arrived: Arrived) {
+        let Arrived { path, pane, why, stamp, content } = arrived;
+        let pane = pane.min(self.session.panes.len() - 1);
+        if content.is_ok() || why != Why::Opened {
+            self.files.follow(&path, stamp);
+        }
+        match content {
+            Err(error) => self.tell_unreadable(&path, why, stamp, &error),
+            Ok(content) => {
+                self.files.settle(&path);
+                if why == Why::Opened {
+                    self.files.remember(&path);
+                }
+                match content {
+                    Content::Dataset(dataset) => self.show_dataset(pane, path, dataset, why),
+                    Content::Problem(text) => self.take_problem(path, text, why),
+                    Content::Session(session) => {
+                        self.take_session(ctx, *session);
+                        self.files.session = Some(path);
+                    }
+                }
+            }
+        }
+    }
+
+    fn tell_unreadable(&mut self, path: &Path, why: Why, stamp: Stamp, error: &str) {
+        let name = name(path);
+        let text = match (why, stamp) {
+            (Why::Changed, None) => {
+                format!("{name} is no longer there; what was read of it is still shown")
+            }
+            (Why::Changed, _) => format!(
+                "{name} has changed and cannot be read: {error}. What was read before is still shown"
+            ),
+            (Why::Restored, _) => format!("{name} of the session cannot be read: {error}"),
+            (Why::Opened, _) => format!("{name} cannot be read: {error}"),
+        };
+        self.files.tell(path, text, true);
+    }
+
+    fn show_dataset(&mut self, pane: usize, path: PathBuf, dataset: Arc<Dataset>, why: Why) {
+        let is_same = self.session.panes[pane].file.as_ref() == Some(&path);
+        if why == Why::Opened && !is_same {
+            self.session.panes[pane] = Pane::default();
+        }
+        let place = &mut self.session.panes[pane];
+        place.file = Some(path.clone());
+        player::mend(place, &dataset);
+        self.stages[pane].opened = Some(Opened { path: Some(path), dataset });
+    }
+
+    /// The text of a problem that was opened, or has changed on disk.
+    fn take_problem(&mut self, path: PathBuf, text: String, why: Why) {
+        let is_changed =
+            self.session.draft.as_ref().is_some_and(|draft| self.solving.is_changed(draft));
+        match why {
+            Why::Restored => self.solving.on_disk = Some(text),
+            Why::Changed if is_changed => {
+                self.solving.on_disk = Some(text);
+                let name = name(&path);
+                let text = format!(
+                    "{name} has changed, and so has the text here: save this one over it, or open it again"
+                );
+                self.files.tell(&path, text, true);
+            }
+            Why::Changed => {
+                self.solving.on_disk = Some(text.clone());
+                if let Some(draft) = &mut self.session.draft {
+                    draft.text = text;
+                }
+            }
+            Why::Opened => {
+                self.shelve();
+                self.solving.begin(Some(text.clone()), None);
+                self.session.draft = Some(Draft { path: Some(path), folder: None, text });
+                self.session.drawer = Some(Page::Problem);
+            }
+        }
+    }
+
+    /// Reads a file again that has changed; of one that vanished the last state stays.
+    fn read_again(&mut self, path: &Path) {
+        if stamp(path).is_none() {
+            self.tell_unreadable(path, Why::Changed, None, "");
+            return;
+        }
+        for (number, pane) in self.session.panes.iter().enumerate() {
+            if pane.file.as_deref() == Some(path) {
+                self.files.open(path, number, Why::Changed);
+            }
+        }
+        let draft = self.session.draft.as_ref().and_then(|draft| draft.path.as_deref());
+        if draft == Some(path) {
+            self.files.open(path, 0, Why::Changed);
+        }
+    }
+
+    /// Shows what was solved; the view is kept if the plate has the same place.
+    fn show_solved(&mut self, Solved { pane, dataset }: Solved) {
+        let number = pane.min(self.session.panes.len() - 1);
+        let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
+        let before = stage.opened.as_ref().map(|opened| opened.dataset.domain.bounds);
+        if before != Some(dataset.domain.bounds) {
+            pane.place = None;
+        }
+        pane.file = None;
+        player::mend(pane, &dataset);
+        stage.opened = Some(Opened { path: None, dataset });
+    }
+
+    /// Files that were dropped: the first in the active pane, another one beside it.
+    fn take_dropped(&mut self, ui: &Ui) {
+        let (dropped, is_hovered) = ui
+            .input(|input| (input.raw.dropped_files.clone(), !input.raw.hovered_files.is_empty()));
+        for (k, file) in dropped.iter().take(2).enumerate() {
+            let pane = if k == 0 { self.session.active } else { 1 };
+            self.open_file(ui.ctx(), file.path(), pane);
+        }
+        if is_hovered {
+            hint(ui);
+        }
+    }
+}
+
+/// Words over the whole window while a file is dragged over it.
+fn hint(ui: &Ui) {
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop"));
+    let painter = ui.ctx().layer_painter(layer);
+    let rect = ui.ctx().content_rect();
+    painter.rect_filled(rect, 0.0, Color32::from_black_alpha(150));
+    let font = TextStyle::Heading.resolve(ui.style());
+    painter.text(rect.center(), Align2::CENTER_CENTER, "Drop it to open it", font, Color32::WHITE);
+}

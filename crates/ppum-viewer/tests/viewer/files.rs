@@ -1,0 +1,214 @@
+//! Files that are opened, broken, replaced, gone, remembered.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use ppum_viewer::files::kept::Kept;
+use ppum_viewer::session::Place;
+
+use crate::kit::plate;
+use crate::lab::{Lab, shot};
+
+fn named(title: &str) -> ppum::dataset::Dataset {
+    let mut dataset = plate();
+    dataset.title = title.into();
+    dataset
+}
+
+#[test]
+fn a_name_that_is_written_is_opened_and_remembered() {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &named("First"));
+    lab.window.get_by_label("Open a file…");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    lab.window.step();
+    lab.window.step();
+    let field = "Name of the file, with its folder";
+    lab.window.get_by_label(field);
+    // instead of what the field begins with
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    lab.window.step();
+    lab.window.event(egui::Event::Text(path.display().to_string()));
+    lab.window.step();
+    lab.window.key_press(Key::Enter);
+    lab.window.step();
+    lab.settle();
+    assert_eq!(lab.dataset(0).expect("it is open").title, "First");
+    assert!(lab.window.query_by_label(field).is_none(), "{}", lab.notes());
+    let kept = Kept::read(&lab.path("config"));
+    assert_eq!(kept.recent, [path]);
+    lab.window.get_by_label("Plate");
+}
+
+#[test]
+fn what_is_not_there_is_told_at_the_name() {
+    let mut lab = Lab::new();
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    lab.window.step();
+    lab.window.step();
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    lab.window.step();
+    lab.window.event(egui::Event::Text("/nowhere/at/all.h5".into()));
+    lab.window.step();
+    lab.window.key_press(Key::Enter);
+    lab.window.step();
+    lab.window.step();
+    shot(&mut lab, "solving-dialog");
+    lab.window.get_by_label("there is no such file");
+    lab.window.key_press(Key::Escape);
+    lab.window.step();
+    lab.window.step();
+    assert!(lab.window.query_by_label("there is no such file").is_none());
+}
+
+#[test]
+fn a_bad_file_is_told_and_harms_nothing() {
+    let mut lab = Lab::new();
+    let good = lab.write("good.h5", &named("Good"));
+    lab.open(&good);
+    let before = lab.dataset(0).expect("it is open");
+    let whole = fs::read(&good).expect("it was written");
+    let recent = lab.state().files.kept.recent.clone();
+    for (name, bytes) in [
+        ("half.h5", &whole[..whole.len() / 2]),
+        ("empty.h5", &[]),
+        ("words.h5", b"no dataset".as_slice()),
+        ("bytes", &[0xff, 0xfe, 0x00]),
+        ("foreign.ppum-session", b"{\"panes\": 3}"),
+    ] {
+        let path = lab.path(name);
+        fs::write(&path, bytes).expect("written");
+        lab.open(&path);
+        let note = lab.notes();
+        assert!(note.contains(&format!("{name} cannot be read: ")), "{name}: {note}");
+        assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")), "{name}");
+        assert_eq!(lab.state().files.kept.recent, recent, "{name}");
+        lab.window.get_by_label("Close the note").click();
+        lab.window.step();
+        lab.window.step();
+        assert_eq!(lab.notes(), "");
+    }
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("it is read by its path".into())
+    }
+}
+
+#[test]
+fn two_files_that_are_dropped_stand_side_by_side() {
+    let mut lab = Lab::new();
+    let paths = ["a", "b"].map(|name| lab.write(&format!("{name}.h5"), &named(name)));
+    let handle = |path: &PathBuf| Arc::new(Dropped(path.clone())) as egui::DroppedFileHandle;
+    lab.window.input_mut().dropped_files = paths.iter().map(handle).collect();
+    lab.window.step();
+    lab.settle();
+    let titles = [0, 1].map(|pane| lab.dataset(pane).expect("it is open").title.clone());
+    assert_eq!(titles, ["a", "b"]);
+    let files: Vec<_> = lab.state().session.panes.iter().map(|pane| pane.file.clone()).collect();
+    assert_eq!(files, paths.map(Some));
+}
+
+/// Replaced, broken, gone and back again: the view stays, and so does the last dataset that could be read.
+#[test]
+fn an_open_file_is_watched() {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &named("First"));
+    lab.open(&path);
+    let place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+    lab.state().session.panes[0].place = place;
+    lab.state().session.panes[0].scene.quantity = Some("syy".into());
+    lab.write("plate.h5", &named("Second"));
+    lab.until("the new file is read", |viewer| title(viewer) == "Second");
+    assert_eq!(lab.state().session.panes[0].place, place);
+    assert_eq!(lab.state().session.panes[0].scene.quantity.as_deref(), Some("syy"));
+    assert_eq!(lab.notes(), "");
+
+    fs::write(&path, "broken").expect("written");
+    lab.until("a broken file is told", |viewer| !viewer.files.notes.is_empty());
+    assert!(lab.notes().contains("plate.h5 has changed and cannot be read: "), "{}", lab.notes());
+    assert_eq!(title(lab.window.state()), "Second");
+
+    fs::remove_file(&path).expect("removed");
+    lab.until("that it is gone is told", |viewer| {
+        viewer.files.notes.iter().any(|note| note.text.contains("no longer there"))
+    });
+    assert_eq!(title(lab.window.state()), "Second");
+
+    lab.write("plate.h5", &named("Third"));
+    lab.until("it is back", |viewer| title(viewer) == "Third");
+    assert_eq!((lab.notes().as_str(), lab.state().session.panes[0].place), ("", place));
+}
+
+fn title(viewer: &ppum_viewer::Viewer) -> String {
+    viewer.stages[0].opened.as_ref().map(|opened| opened.dataset.title.clone()).unwrap_or_default()
+}
+
+/// A series that has lost steps: the step that was looked at is gone, and the last one is shown.
+#[test]
+fn a_shorter_series_is_shown_to_its_end() {
+    let mut lab = Lab::new();
+    let path = lab.write("series.h5", &ppum_testkit::synthetic::growing(4));
+    lab.open(&path);
+    lab.state().session.panes[0].scene.subject.step = Some(3);
+    lab.settle();
+    lab.write("series.h5", &ppum_testkit::synthetic::growing(2));
+    let steps = |viewer: &ppum_viewer::Viewer| {
+        viewer.stages[0].opened.as_ref().map(|opened| opened.dataset.steps.len())
+    };
+    lab.until("it is read", |viewer| steps(viewer) == Some(2));
+    lab.settle();
+    assert_eq!(lab.state().session.panes[0].scene.subject.step, None);
+    assert_eq!(lab.window.state().stages[0].frames.failure(), None);
+}
+
+#[test]
+fn a_dataset_is_saved_and_read_back() {
+    let mut lab = Lab::new();
+    let dataset = Arc::new(named("Solved"));
+    lab.state().open(None, Arc::clone(&dataset));
+    let path = lab.path("saved.h5");
+    lab.state().files.write_dataset(path.clone(), 0, dataset);
+    lab.settle();
+    assert_eq!(lab.state().session.panes[0].file, Some(path.clone()));
+    assert_eq!(ppum_format::read(&path).expect("a dataset"), *lab.dataset(0).expect("open"));
+    // into a folder that is not there
+    let nowhere = lab.path("nowhere/saved.h5");
+    let dataset = lab.dataset(0).expect("open");
+    lab.state().files.write_dataset(nowhere, 0, dataset);
+    lab.settle();
+    assert!(lab.notes().contains("cannot be written"), "{}", lab.notes());
+    assert_eq!(lab.state().session.panes[0].file, Some(path));
+}
+
+/// The last session's size and recent files, and the same again from damaged ones.
+#[test]
+fn damaged_settings_harm_nothing() {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &named("First"));
+    lab.open(&path);
+    lab.state().leave();
+    let config = lab.path("config");
+    for text in ["", "{", "null", "[]", "{\"recent\": 3}", "{\"size\": [1e300, -1.0]}", "\u{0}"] {
+        fs::write(config.join("window.json"), text).expect("written");
+        fs::write(config.join("last.ppum-session"), text).expect("written");
+        let kept = Kept::read(&config);
+        assert_eq!(kept, Kept::default(), "{text}");
+        let start = ppum_viewer::window::Start::default();
+        let start = ppum_viewer::window::Start { folder: Some(config.clone()), ..start };
+        let viewer = start.viewer(&egui::Context::default());
+        assert_eq!(viewer.session, ppum_viewer::session::Session::default(), "{text}");
+        assert!(viewer.files.notes.iter().all(|note| note.text.contains("is lost")), "{text}");
+    }
+}

@@ -1,0 +1,180 @@
+//! Series: the steps one after the other, their plots, and what the solver has told of them.
+
+use std::sync::Arc;
+
+use egui::Key;
+use egui_kittest::kittest::Queryable as _;
+use ppum::crack::{End, TipId};
+use ppum::dataset::{Dataset, Record, TipIntensity, Warning};
+use ppum::vec2::vec2;
+use ppum_testkit::synthetic::growing;
+use ppum_viewer::panels::drawer::series::plots;
+use ppum_viewer::session::Page;
+
+use crate::kit::plate;
+use crate::lab::{Lab, shot};
+
+fn series(count: usize) -> Lab {
+    let mut lab = Lab::new();
+    lab.state().open(None, Arc::new(growing(count)));
+    lab.settle();
+    lab
+}
+
+fn step(lab: &mut Lab) -> Option<usize> {
+    lab.state().session.panes[0].scene.subject.step
+}
+
+#[test]
+fn keys_and_buttons_go_through_the_steps() {
+    let mut lab = series(4);
+    lab.window.get_by_label("step 3 of 3, load 1");
+    for (key, expected) in [
+        (Key::CloseBracket, 3),
+        (Key::OpenBracket, 2),
+        (Key::OpenBracket, 1),
+        (Key::OpenBracket, 0),
+        (Key::OpenBracket, 0),
+        (Key::CloseBracket, 1),
+    ] {
+        lab.window.key_press(key);
+        lab.window.step();
+        assert_eq!(step(&mut lab), Some(expected));
+    }
+    lab.window.get_by_label("Step after").click();
+    lab.settle();
+    assert_eq!(step(&mut lab), Some(2));
+    // what is drawn is that step
+    let frame = lab.window.state().stages[0].frames.newest().cloned().expect("a picture");
+    assert_eq!(frame.wanted.scene.subject.step, Some(2));
+    assert_eq!(frame.field.field().step.load, lab.dataset(0).expect("open").steps[2].load);
+    // and it is a setting that can be undone
+    lab.window.get_by_label("Undo").click();
+    lab.window.step();
+    assert_eq!(step(&mut lab), Some(1));
+}
+
+#[test]
+fn a_single_step_has_no_player() {
+    let mut lab = Lab::new();
+    lab.state().open(None, Arc::new(plate()));
+    lab.settle();
+    assert!(lab.window.query_by_label("Play the steps").is_none());
+    lab.window.key_press(Key::Space);
+    lab.window.key_press(Key::OpenBracket);
+    lab.window.step();
+    assert!(!lab.state().player.is_playing);
+}
+
+#[test]
+fn it_plays_to_the_end_and_again_from_the_start() {
+    let mut lab = series(3);
+    lab.state().player.speed = 30.0;
+    lab.state().player.is_looping = false;
+    lab.window.key_press(Key::Space);
+    lab.window.step();
+    assert!(lab.state().player.is_playing);
+    assert_eq!(step(&mut lab), Some(0), "from the end it begins anew");
+    lab.until("it stops at the end", |viewer| !viewer.player.is_playing);
+    assert_eq!(step(&mut lab), Some(2));
+    // every step was one of the player, so one undo leads before all of them
+    lab.settle();
+    lab.window.get_by_label("Undo").click();
+    lab.window.step();
+    assert_eq!(step(&mut lab), None);
+    lab.window.get_by_label("Loop").click();
+    lab.window.step();
+    lab.window.get_by_label("Play the steps").click();
+    lab.window.step();
+    for expected in [1, 2, 0, 1] {
+        lab.until("it goes round", |viewer| {
+            viewer.session.panes[0].scene.subject.step == Some(expected)
+        });
+    }
+    lab.window.get_by_label("Stop").click();
+    lab.window.step();
+    assert!(!lab.state().player.is_playing);
+}
+
+/// K of tip 0 in steps 0 and 2, as if the solver had not found that of step 1.
+fn with_factors() -> Dataset {
+    let mut dataset = growing(3);
+    for (k, step) in dataset.steps.iter_mut().enumerate().filter(|(k, _)| *k != 1) {
+        let tip = TipId { crack: 0, end: End::Last };
+        let (k1, k2) = (1.0 + k as f64, -0.25 * k as f64);
+        step.intensities.push(TipIntensity { tip, k1, k2, rings: Vec::new() });
+    }
+    dataset
+}
+
+#[test]
+fn curves_have_the_values_of_the_steps() {
+    let dataset = with_factors();
+    let plots = plots(&dataset);
+    let curve = |name: &str| {
+        let (_, plot) = plots.iter().find(|(known, _)| *known == name).expect("it is plotted");
+        assert_eq!(plot.curves.len(), 1, "{name}");
+        plot.curves[0].points.clone()
+    };
+    let factors = curve("K_I against the steps");
+    assert_eq!((factors[0], factors[2]), ([0.0, 1.0], [2.0, 3.0]));
+    assert!(factors[1][1].is_nan(), "the curve breaks where there is no value");
+    assert_eq!(curve("K_II against the steps")[2], [2.0, -0.5]);
+    // the length of a chain of segments, by hand
+    let lengths = curve("Crack length against the steps");
+    for (k, step) in dataset.steps.iter().enumerate() {
+        let points = &step.cracks[0].points;
+        let length: f64 = points.windows(2).map(|p| (p[1].x - p[0].x).hypot(p[1].y - p[0].y)).sum();
+        assert!((lengths[k][1] - length).abs() < 1e-12);
+    }
+    assert_eq!(curve("Load against the steps"), [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]]);
+}
+
+#[test]
+fn a_click_on_a_plot_goes_to_the_step() {
+    let mut lab = Lab::new();
+    lab.state().open(None, Arc::new(with_factors()));
+    lab.state().session.drawer = Some(Page::Series);
+    lab.settle();
+    shot(&mut lab, "solving-series");
+    let plot = lab.window.get_by_label("K_I against the steps").rect();
+    for (part, expected) in [(0.3, 0), (0.6, 1), (0.95, 2)] {
+        let at = egui::pos2(plot.left() + part * plot.width(), plot.center().y);
+        lab.window.hover_at(at);
+        lab.window.drag_at(at);
+        lab.window.drop_at(at);
+        lab.window.step();
+        lab.settle();
+        assert_eq!(step(&mut lab), Some(expected), "at {part} of the plot's width");
+    }
+}
+
+/// The solver's page: its numbers, a warning that leads to its place, values of patches as colours.
+#[test]
+fn what_the_solver_tells_is_shown() {
+    let mut lab = Lab::new();
+    let mut dataset = plate();
+    let at = Some(vec2(0.5, 0.0));
+    let message = "the faces overlap".to_owned();
+    let kind = "faces-overlap".to_owned();
+    dataset.steps[0].warnings = vec![Warning { kind, at, value: 1.0, limit: 0.5, message }];
+    dataset.steps[0].history.push(Record { name: "mood".into(), value: 7.25, unit: String::new() });
+    lab.state().open(None, Arc::new(dataset));
+    lab.state().session.drawer = Some(Page::Solver);
+    lab.settle();
+    shot(&mut lab, "solving-solver");
+    lab.window.get_by_label("7.25");
+    lab.window.get_by_label("Seconds of the phases");
+    lab.window.get_by_label("level").click();
+    lab.window.step();
+    lab.settle();
+    assert_eq!(lab.state().session.panes[0].scene.quantity.as_deref(), Some("level"));
+    let frame = lab.window.state().stages[0].frames.newest().cloned().expect("a picture");
+    assert!(frame.shown.quantity().is_none(), "values of cells are shown");
+    lab.window.get_by_label("⚠ the faces overlap").click();
+    lab.window.step();
+    let is_there = |viewer: &ppum_viewer::Viewer| {
+        viewer.session.panes[0].place.is_some_and(|place| place.center == [0.5, 0.0])
+    };
+    lab.until("it flies there", is_there);
+}

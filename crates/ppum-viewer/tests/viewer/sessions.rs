@@ -1,0 +1,208 @@
+//! Sessions as files: all that was chosen comes back.
+
+use std::fs;
+use std::path::Path;
+
+use egui::{Key, Modifiers};
+use ppum_render::range::Range;
+use ppum_render::scale::Scale;
+use ppum_scene::deformed::Factor;
+use ppum_scene::overlays::{Levels, Overlay};
+use ppum_testkit::random::Random;
+use ppum_viewer::files::session_file::{parse, text};
+use ppum_viewer::session::{Draft, Page, Pane, Place, Session, Theme};
+use ppum_viewer::window::Start;
+
+use crate::kit::plate;
+use crate::lab::Lab;
+
+/// Any finite number, the smallest and the largest too.
+fn number(random: &mut Random) -> f64 {
+    loop {
+        let value = f64::from_bits(random.bits());
+        if value.is_finite() {
+            return value;
+        }
+    }
+}
+
+fn some<T>(random: &mut Random, value: impl FnOnce(&mut Random) -> T) -> Option<T> {
+    (random.below(2) == 1).then(|| value(random))
+}
+
+fn words(random: &mut Random) -> String {
+    let letters = ['a', 'σ', '"', '\\', '\n', ' ', '\u{7f}', '}', 'é', '\u{1f600}'];
+    (0..random.below(12)).map(|_| random.pick(&letters)).collect()
+}
+
+fn range(random: &mut Random) -> Range {
+    match random.below(4) {
+        0 => Range::Auto,
+        1 => Range::Full,
+        2 => Range::Percentiles(random.between(0.0, 49.0), random.between(51.0, 100.0)),
+        _ => {
+            let from = random.between(-1e9, 1e9);
+            Range::Fixed(from, from + random.between(1e-3, 1e12))
+        }
+    }
+}
+
+fn pane(random: &mut Random) -> Pane {
+    let mut pane = Pane::default();
+    let scene = &mut pane.scene;
+    scene.subject.step = some(random, |r| r.below(1000));
+    scene.subject.part = some(random, words);
+    scene.subject.functions =
+        (0..random.below(3)).map(|_| (words(random), words(random))).collect();
+    scene.subject.weight = some(random, words);
+    scene.quantity = some(random, words);
+    scene.colors.colormap = some(random, words);
+    scene.colors.range = range(random);
+    scene.colors.scale = random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]);
+    scene.colors.contrast = random.below(2) == 1;
+    scene.colors.bands = some(random, |r| r.below(65_536) as u16);
+    scene.overlays.shown = Overlay::ALL.into_iter().filter(|_| random.below(2) == 1).collect();
+    scene.overlays.isolines = some(random, |r| match r.below(3) {
+        0 => Levels::Auto,
+        1 => Levels::Count(1 + r.below(50)),
+        _ => Levels::At((0..3).map(|k| f64::from(k) + r.unit()).collect()),
+    });
+    scene.overlays.level_labels = random.below(2) == 1;
+    scene.overlays.arrows = some(random, number);
+    scene.deformed = some(random, |r| {
+        if r.below(2) == 1 { Factor::Auto } else { Factor::Given(r.between(0.0, 1e6)) }
+    });
+    scene.outline = random.below(2) == 1;
+    pane.place = some(random, |r| Place { center: [number(r), number(r)], width: number(r) });
+    pane.file = some(random, |r| format!("/data/{}.h5", r.below(9)).into());
+    pane
+}
+
+fn session(random: &mut Random) -> Session {
+    let panes: Vec<Pane> = (0..=random.below(2)).map(|_| pane(random)).collect();
+    let draft = |r: &mut Random| Draft {
+        path: some(r, |r| format!("/data/deep/{}.toml", r.below(9)).into()),
+        folder: some(r, |_| "/elsewhere".into()),
+        text: words(r),
+    };
+    Session {
+        active: random.below(panes.len()),
+        panes,
+        linked: random.below(2) == 1,
+        panels: random.below(2) == 1,
+        drawer: some(random, |r| r.pick(&[Page::Plot, Page::Series, Page::Problem])),
+        theme: random.pick(&[Theme::System, Theme::Light, Theme::Dark]),
+        draft: some(random, draft),
+        ..Session::default()
+    }
+}
+
+/// Every bit of every number, every letter; wherever the folder lies.
+#[test]
+fn any_session_comes_back_from_its_text() {
+    let mut random = Random(15);
+    for count in 0..400 {
+        let session = session(&mut random);
+        for folder in ["/data", "/data/deep", "/elsewhere", "/"] {
+            let text = text(&session, Path::new(folder)).expect("it has a text");
+            let back = parse(&text, Path::new(folder)).expect("it is a session");
+            assert_eq!(back, session, "{count} {folder}\n{text}");
+        }
+    }
+}
+
+/// What no file can say is left, and all else is kept.
+#[test]
+fn a_number_that_is_none_costs_no_session() {
+    let mut session = Session::default();
+    session.panes[0].place = Some(Place { center: [0.0, f64::NAN], width: 1.0 });
+    session.panes[0].scene.quantity = Some("syy".into());
+    session.panes[0].scene.colors.range = Range::Fixed(2.0, 1.0);
+    let text = text(&session, Path::new("/")).expect("it has a text");
+    let back = parse(&text, Path::new("/")).expect("it is a session");
+    assert_eq!((back.panes[0].place, back.panes[0].scene.colors.range), (None, Range::Auto));
+    assert_eq!(back.panes[0].scene.quantity.as_deref(), Some("syy"));
+}
+
+#[test]
+fn other_texts_are_refused_with_a_reason() {
+    for (wrong, reason) in [
+        ("", "no session"),
+        ("{}", "ppum-session"),
+        ("[1]", "no session"),
+        ("{\"ppum-session\": 99, \"panes\": []}", "newer"),
+        ("{\"ppum-session\": 1, \"panes\": 7}", "no session"),
+        ("{\"ppum-session\": \"1\"}", "no session"),
+    ] {
+        let error = parse(wrong, Path::new("/")).expect_err(wrong).to_string();
+        assert!(error.contains(reason), "{wrong}: {error}");
+    }
+    // what a file may say and a window cannot show is mended
+    let none = parse("{\"ppum-session\": 1, \"panes\": [], \"active\": 7}", Path::new("/"));
+    let none = none.expect("a session");
+    assert_eq!((none.panes.len(), none.active), (1, 0));
+}
+
+/// Saved by a key, moved with its dataset to another folder, opened there.
+#[test]
+fn a_saved_session_opens_where_it_lies_with_its_files() {
+    let mut lab = Lab::new();
+    fs::create_dir(lab.path("here")).expect("a folder");
+    let path = lab.write("here/plate.h5", &plate());
+    lab.open(&path);
+    let place = Some(Place { center: [0.5, 1e-13], width: 1.234_567_890_123_456_7e-12 });
+    lab.state().session.panes[0].place = place;
+    lab.state().session.panes[0].scene.quantity = Some("sxx".into());
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    lab.window.step();
+    lab.window.step();
+    // the name that is proposed stands beside the dataset
+    lab.window.key_press(Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let saved = lab.path("here/plate.ppum-session");
+    assert_eq!(lab.viewer().files.session, Some(saved.clone()), "{}", lab.notes());
+    assert!(!fs::read_to_string(&saved).expect("there").contains("here"), "names are relative");
+    let before = lab.state().session.clone();
+
+    fs::rename(lab.path("here"), lab.path("there")).expect("moved");
+    let there = lab.path("there");
+    lab.reopen(Start { files: vec![there.join("plate.ppum-session")], ..Start::default() });
+    let mut expected = before;
+    expected.panes[0].file = Some(there.join("plate.h5"));
+    assert_eq!(lab.viewer().session, expected, "{}", lab.notes());
+    assert_eq!(*lab.dataset(0).expect("it is open"), plate());
+
+    // without its dataset: told, and everything else is there
+    fs::remove_file(there.join("plate.h5")).expect("removed");
+    lab.reopen(Start { files: vec![there.join("plate.ppum-session")], ..Start::default() });
+    assert!(lab.notes().contains("plate.h5 of the session cannot be read"), "{}", lab.notes());
+    assert!(lab.dataset(0).is_none());
+    assert_eq!(lab.state().session, expected);
+    // and once it is there again it is shown
+    lab.write("there/plate.h5", &plate());
+    lab.until("it is read", |viewer| viewer.stages[0].opened.is_some());
+    assert_eq!(lab.state().session, expected);
+    assert_eq!(lab.notes(), "");
+}
+
+#[test]
+fn the_window_reopens_as_it_was() {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &plate());
+    lab.open(&path);
+    lab.state().session.panes[0].scene.quantity = Some("sxy".into());
+    lab.state().session.theme = Theme::Dark;
+    lab.state().session.draft = Some(Draft { text: "title = \"σ\"".into(), ..Draft::default() });
+    lab.settle();
+    let before = lab.state().session.clone();
+    lab.reopen(Start::default());
+    assert_eq!(lab.state().session, before);
+    assert!(lab.dataset(0).is_some());
+    // with a file of its own it has the looks alone
+    let other = lab.write("other.h5", &plate());
+    lab.reopen(Start { files: vec![other.clone()], ..Start::default() });
+    assert_eq!(lab.state().session.theme, Theme::Dark);
+    assert_eq!(lab.state().session.panes[0].file, Some(other));
+    assert_eq!(lab.state().session.panes[0].scene.quantity, None);
+}

@@ -1,0 +1,236 @@
+//! Problems: mistakes at their places, solved in the background, stopped, refused, saved only when it is asked for.
+
+use std::fs;
+use std::sync::Arc;
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use ppum::progress::unwatched;
+use ppum_solve::problem::Problem;
+use ppum_solve::solve::solve;
+use ppum_viewer::session::Place;
+use ppum_viewer::solving::Outcome;
+use ppum_viewer::window::Start;
+
+use crate::lab::{Lab, shot};
+
+const TEXT: &str = include_str!("../../../../examples/centre-crack.toml");
+
+/// The centre crack with cells of some level.
+fn text(level: u32) -> String {
+    TEXT.replace("level = 6", &format!("level = {level}"))
+}
+
+/// A window with a problem file that is open.
+fn lab(text: &str) -> Lab {
+    let mut lab = Lab::new();
+    let path = lab.path("plate.toml");
+    fs::write(&path, text).expect("written");
+    lab.open(&path);
+    lab
+}
+
+fn draft(lab: &mut Lab) -> &mut String {
+    &mut lab.state().session.draft.as_mut().expect("a problem is open").text
+}
+
+#[test]
+fn mistakes_stand_at_their_places_while_one_writes() {
+    let mut lab = lab(&text(3));
+    lab.window.get_by_label("Text of the problem");
+    let checked = lab.state().solving.checked().expect("it was looked at").clone();
+    assert_eq!(checked.marks, []);
+    *draft(&mut lab) = text(3).replace("young = 1.0", "yong = 1.0");
+    lab.settle();
+    let checked = lab.state().solving.checked().expect("it was looked at").clone();
+    let line = TEXT.lines().position(|line| line.starts_with("young")).expect("it is there") + 1;
+    let places: Vec<_> = checked.marks.iter().filter_map(|mark| mark.at).collect();
+    assert!(places.contains(&[line, 1]), "{:?}", checked.marks);
+    let mark = checked.marks.iter().find(|mark| mark.at == Some([line, 1])).expect("it is there");
+    assert!(mark.message.contains("young"), "the remedy: {}", mark.message);
+    shot(&mut lab, "solving-mistake");
+    // it stands below, and a click goes there
+    let label = format!("{line}:1  {}", mark.message);
+    lab.window.get_by_label(&label).click();
+    lab.window.run_steps(4);
+    // what is written now stands at the cursor: the letter that is missing
+    lab.window.key_press(Key::ArrowRight);
+    lab.window.key_press(Key::ArrowRight);
+    lab.window.step();
+    lab.window.event(egui::Event::Text("u".into()));
+    lab.window.step();
+    lab.settle();
+    assert_eq!(*draft(&mut lab), text(3));
+    assert_eq!(lab.state().solving.checked().expect("looked at").marks, []);
+    // the file is as it was
+    assert_eq!(fs::read_to_string(lab.path("plate.toml")).expect("there"), text(3));
+}
+
+/// The result is that of the solver, bit by bit, and the view stays.
+#[test]
+fn a_problem_is_solved_where_one_looks() {
+    let mut lab = lab(&text(2));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let solved = |text: &str, lab: &Lab| {
+        let problem = Problem::parse(text, "problem", lab.folder.path()).expect("a problem");
+        solve(&problem, unwatched()).expect("it can be solved")
+    };
+    let coefficients =
+        |dataset: &ppum::dataset::Dataset| dataset.steps[0].fields[0].coefficients.clone();
+    let first = lab.dataset(0).expect("it is solved");
+    assert_eq!(coefficients(&first), coefficients(&solved(&text(2), &lab)));
+    assert!(matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))));
+    // change a number, solve again
+    let place = Some(Place { center: [0.5, 0.0], width: 1e-6 });
+    lab.state().session.panes[0].place = place;
+    let changed = text(2).replace("traction = [0.0, 1.0]", "traction = [0.0, 3.0]");
+    draft(&mut lab).clone_from(&changed);
+    lab.window.get_by_label("Solve").click();
+    lab.window.step();
+    lab.settle();
+    let second = lab.dataset(0).expect("it is solved");
+    assert_eq!(coefficients(&second), coefficients(&solved(&changed, &lab)));
+    assert_eq!(lab.state().session.panes[0].place, place);
+    // three times the load: three times the field, to rounding of the solution
+    let [a, b] = [&first, &second].map(|d| d.steps[0].intensities[0].k1);
+    assert!((b / a - 3.0).abs() < 1e-9, "{a} {b}");
+    // another plate is seen as a whole
+    *draft(&mut lab) = text(2).replace("max = [1.0, 1.0]", "max = [1.0, 1.5]");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let viewer = lab.viewer();
+    assert_eq!(viewer.session.panes[0].place, None, "{:?}", viewer.solving.outcome);
+}
+
+#[test]
+fn a_solution_is_stopped_and_what_was_there_stays() {
+    let mut lab = lab(&text(2));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let before = lab.dataset(0).expect("it is solved");
+    // minutes of work
+    *draft(&mut lab) = text(8).replace("order = 2", "order = 4");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.until("its cost is told", |viewer| {
+        viewer.solving.running().is_some_and(|running| running.told().estimate.is_some())
+    });
+    shot(&mut lab, "solving-running");
+    lab.window.get_by_label("Cancel").click();
+    lab.window.step();
+    let start = std::time::Instant::now();
+    lab.settle();
+    // within the time of a cell or of one step of the linear solver, on a machine that does other things too
+    assert!(start.elapsed().as_secs_f64() < 30.0, "{:?}", start.elapsed());
+    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled));
+    lab.window.get_by_label("Cancelled. What was there before is still shown.");
+    assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
+}
+
+#[test]
+fn what_cannot_be_solved_is_refused_with_the_reason() {
+    let mut lab = lab(&text(9));
+    lab.state().solving.memory = || Some(1 << 20);
+    let solve = |lab: &mut Lab| {
+        lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+        lab.window.step();
+        lab.settle();
+        match &lab.state().solving.outcome {
+            Some(Outcome::Failed(error)) => error.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let error = solve(&mut lab);
+    assert!(error.contains("1.0 MiB") && error.contains("use fewer cells"), "{error}");
+    lab.window.get_by_label(&error);
+    *draft(&mut lab) = "title = \"none\"\n[domain]\n".into();
+    let error = solve(&mut lab);
+    assert!(error.starts_with("not solved: "), "{error}");
+    assert!(lab.dataset(0).is_none());
+}
+
+/// The text goes into its file when that is asked for, and not before; one that changes on disk is taken, unless both have.
+#[test]
+fn the_file_is_written_when_it_is_saved() {
+    let mut lab = lab(&text(3));
+    let path = lab.path("plate.toml");
+    *draft(&mut lab) = text(2);
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    assert_eq!(fs::read_to_string(&path).expect("there"), text(3));
+    lab.window.get_by_label("Save").click();
+    lab.window.step();
+    lab.settle();
+    assert_eq!(fs::read_to_string(&path).expect("there"), text(2), "{}", lab.notes());
+    // somebody else writes it
+    fs::write(&path, text(4)).expect("written");
+    let level = |viewer: &ppum_viewer::Viewer, text: &str| {
+        viewer.session.draft.as_ref().is_some_and(|draft| draft.text == text)
+    };
+    lab.until("it is read again", |viewer| level(viewer, &text(4)));
+    // and now both
+    *draft(&mut lab) = text(5);
+    fs::write(&path, text(6)).expect("written");
+    lab.until("it is told", |viewer| {
+        viewer.files.notes.iter().any(|n| n.text.contains("so has the text here"))
+    });
+    assert_eq!(*draft(&mut lab), text(5));
+}
+
+/// A dataset brings its problem, with the points that came from a file which is not there.
+#[test]
+fn the_problem_of_a_dataset_is_solved_again() {
+    let mut lab = Lab::new();
+    let points = "-0.5,-0.4\n0.6,-0.5\n0.1,0.2\n-0.6,0.7\n0.5,0.6\n";
+    fs::write(lab.path("points.csv"), points).expect("written");
+    let text = text(2).replace("level = 2", "points = \"points.csv\"");
+    let problem = Problem::parse(&text, "problem", lab.folder.path()).expect("a problem");
+    let dataset = solve(&problem, unwatched()).expect("it can be solved");
+    fs::remove_file(lab.path("points.csv")).expect("removed");
+    let expected = dataset.steps[0].fields[0].coefficients.clone();
+    lab.state().open(None, Arc::new(dataset));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    assert!(
+        matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))),
+        "{:?}",
+        lab.state().solving.outcome
+    );
+    assert_eq!(lab.dataset(0).expect("solved").steps[0].fields[0].coefficients, expected);
+}
+
+/// A text that was changed and makes place for another one can be had back.
+#[test]
+fn no_text_is_lost() {
+    let mut lab = lab(&text(3));
+    let mine = text(3).replace("young = 1.0", "young = 7.0");
+    draft(&mut lab).clone_from(&mine);
+    let other = lab.path("other.toml");
+    fs::write(&other, text(2)).expect("written");
+    lab.open(&other);
+    assert_eq!(*draft(&mut lab), text(2));
+    lab.window.get_by_label("Back to the text before").click();
+    lab.window.step();
+    assert_eq!(*draft(&mut lab), mine);
+    // nor by the end of the day
+    lab.reopen(Start::default());
+    assert_eq!(*draft(&mut lab), mine);
+}
+
+#[test]
+fn an_example_is_a_click_away() {
+    let mut lab = Lab::new();
+    shot(&mut lab, "solving-start");
+    lab.window.get_by_label("Smooth manufactured field").click();
+    lab.window.step();
+    lab.settle();
+    assert_eq!(lab.dataset(0).expect("it is solved").title, "Smooth manufactured field");
+    shot(&mut lab, "solving-example");
+    lab.window.get_by_label("Plate");
+    lab.window.get_by_label("Text of the problem");
+}
