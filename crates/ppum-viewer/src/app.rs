@@ -1,28 +1,19 @@
 //! The window as a whole: what is open, what is shown around the plate, what actions do.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{CentralPanel, Panel, Ui};
 use ppum::dataset::Dataset;
-use ppum_render::colormap::NAMES;
-use ppum_render::range::Range;
-use ppum_render::scale::Scale;
-use ppum_scene::colors::Colors;
-use ppum_scene::compare::Compare;
-use ppum_scene::deformed::Factor;
-use ppum_scene::overlays::Levels;
 
-use crate::actions::{self, Action};
-use crate::controls::swing::Swing;
+use crate::actions;
 use crate::desk::Desk;
-use crate::export::{Kind, Order};
 use crate::fonts::fonts;
 use crate::frames::Backend;
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
-use crate::player::{self, Player};
+use crate::player::Player;
 use crate::session::{Page, Pane, Place, Session, Theme};
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
@@ -43,10 +34,11 @@ pub struct Viewer {
     /// The problem that is written and solved.
     #[cfg(feature = "solve")]
     pub solving: crate::solving::Solving,
-    palette: Option<Palette>,
-    exporter: Option<Exporter>,
-    has_help: bool,
-    tip: usize,
+    pub(crate) palette: Option<Palette>,
+    pub(crate) exporter: Option<Exporter>,
+    pub(crate) has_help: bool,
+    /// The number of the tip that is flown to next.
+    pub(crate) tip: usize,
     pub(crate) backend: Backend,
 }
 
@@ -157,93 +149,6 @@ impl Viewer {
         }
     }
 
-    /// Does what was asked for.
-    pub fn act(&mut self, ctx: &egui::Context, action: Action) {
-        let active = self.session.active;
-        let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
-        match action {
-            Action::Fit => stage.fly_to(pane, None),
-            Action::Tip(number) => {
-                self.tip = number;
-                stage.fly_to_tip(pane, number);
-            }
-            Action::NextTip => {
-                stage.fly_to_tip(pane, self.tip);
-                self.tip += 1;
-            }
-            Action::ZoomIn => stage.nudge(pane, 0.0, 0.0, 1.5),
-            Action::ZoomOut => stage.nudge(pane, 0.0, 0.0, 1.0 / 1.5),
-            Action::Pan(right, up) => stage.nudge(pane, f64::from(right), f64::from(up), 1.0),
-            Action::Back => stage.go_back(pane),
-            Action::Forward => stage.go_forward(pane),
-            Action::NextScale => {
-                pane.scene.colors.scale = match pane.scene.colors.scale {
-                    Scale::Linear => Scale::Log,
-                    Scale::Log => Scale::SymLog,
-                    Scale::SymLog => Scale::Linear,
-                }
-            }
-            Action::AutomaticRange => pane.scene.colors.range = Range::Auto,
-            Action::FreezeRange => freeze(pane, stage),
-            Action::NextMap => next_map(pane),
-            Action::ReverseMap => reverse_map(pane, stage),
-            Action::Quantity => {
-                stage.controls.quantities.open();
-                stage.controls.wants_quantity = true;
-                self.session.panels = true;
-            }
-            Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
-            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
-            Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
-            Action::Swing => {
-                let now = ctx.input(|input| input.time);
-                stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
-                pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
-            }
-            Action::Compare => toggle_comparison(pane),
-            Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
-            Action::CopyCommand => copy_command(ctx, pane, stage),
-            Action::Probe => {
-                if let Some(spot) = stage.spot() {
-                    stage.pin(pane, spot);
-                }
-            }
-            Action::CircleForK => {
-                stage.circle_nearest_tip(pane);
-                self.session.drawer = Some(Page::Plot);
-            }
-            Action::Draw(tool) => stage.reading.tool = Some(tool),
-            Action::Extrema => pane.extrema = !pane.extrema,
-            Action::Drawer(page) => {
-                if page == Page::Plot {
-                    stage.choose_curve(pane);
-                }
-                toggle(&mut self.session.drawer, page);
-            }
-            Action::Step(by) => {
-                if let Some(opened) = &stage.opened {
-                    player::go(pane, &opened.dataset, by.into());
-                }
-            }
-            Action::Play => {
-                if let Some(opened) = &stage.opened {
-                    self.player.toggle(pane, &opened.dataset);
-                }
-            }
-            Action::Split => self.split(ctx),
-            Action::Undo => self.restore(ctx, true),
-            Action::Redo => self.restore(ctx, false),
-            Action::Panels => self.session.panels = !self.session.panels,
-            Action::Theme => self.turn_theme(ctx),
-            Action::Help => self.has_help = !self.has_help,
-            Action::Palette => self.palette = Some(Palette::default()),
-            #[cfg(feature = "solve")]
-            other => self.act_on_files(ctx, other),
-            #[cfg(not(feature = "solve"))]
-            _ => {}
-        }
-    }
-
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
@@ -259,7 +164,7 @@ impl Viewer {
     }
 
     /// Goes a step back or forward in the settings; places stay where they are.
-    fn restore(&mut self, ctx: &egui::Context, back: bool) {
+    pub(crate) fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
         let state = if back { self.settings.back() } else { self.settings.forward() };
@@ -273,7 +178,7 @@ impl Viewer {
         self.show_theme(ctx);
     }
 
-    fn turn_theme(&mut self, ctx: &egui::Context) {
+    pub(crate) fn turn_theme(&mut self, ctx: &egui::Context) {
         self.session.theme = match self.session.theme {
             Theme::Dark => Theme::Light,
             _ => Theme::Dark,
@@ -288,60 +193,6 @@ impl Viewer {
             Theme::Light => egui::ThemePreference::Light,
             Theme::Dark => egui::ThemePreference::Dark,
         });
-    }
-}
-
-/// Copies the command that draws what is seen.
-fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
-    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return };
-    let order = Order {
-        field: Arc::clone(&frame.field),
-        file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
-        scene: pane.scene.clone(),
-        view,
-        size: view.pixels,
-        kind: Kind::Picture,
-    };
-    if let Ok(command) = order.command(Path::new("picture.png")) {
-        ctx.copy_text(command);
-    }
-}
-
-fn toggle<T: PartialEq>(setting: &mut Option<T>, on: T) {
-    *setting = if setting.as_ref() == Some(&on) { None } else { Some(on) };
-}
-
-/// Direct against resampled, on and off.
-fn toggle_comparison(pane: &mut Pane) {
-    pane.compare = match pane.compare {
-        None => Some(Compare::default()),
-        Some(_) => None,
-    };
-}
-
-/// The next map, reversed if this one is.
-fn next_map(pane: &mut Pane) {
-    let colors = &mut pane.scene.colors;
-    let name = colors.colormap.as_deref().unwrap_or(NAMES[0]);
-    let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
-    let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
-    colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
-}
-
-/// The map from its other end; that of the picture if none is chosen.
-fn reverse_map(pane: &mut Pane, stage: &Stage) {
-    let quantity = stage.frames.newest().and_then(|frame| frame.shown.quantity());
-    let colors = &mut pane.scene.colors;
-    let name = colors.colormap.as_deref().unwrap_or(Colors::default_map(quantity));
-    let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
-    colors.colormap = Some(reversed);
-}
-
-/// Keeps the range of the picture.
-fn freeze(pane: &mut Pane, stage: &Stage) {
-    if let Some(frame) = stage.frames.newest() {
-        let norm = &frame.picture.normalization;
-        pane.scene.colors.range = Range::Fixed(norm.min(), norm.max());
     }
 }
 

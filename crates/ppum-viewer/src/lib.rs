@@ -6,6 +6,7 @@
 //! palette does is one [`Action`](actions::Action). Nothing here draws a field: the window is a loop around what
 //! `ppum render` does.
 
+mod acting;
 pub mod actions;
 pub mod app;
 pub mod controls;

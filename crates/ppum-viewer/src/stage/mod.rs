@@ -191,6 +191,14 @@ impl Stage {
         self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
     }
 
+    /// The number of tips of the step that is looked at.
+    #[must_use]
+    pub fn tips(&self, pane: &Pane) -> usize {
+        let Some(opened) = &self.opened else { return 0 };
+        let step = opened.dataset.steps.get(pane.scene.subject.step_of(&opened.dataset));
+        step.map_or(0, |step| tips(&step.cracks).count())
+    }
+
     /// Flies to a tip of the step that is looked at, by its number.
     pub fn fly_to_tip(&mut self, pane: &Pane, number: usize) {
         let Some(opened) = &self.opened else { return };

@@ -1,0 +1,211 @@
+//! What actions do.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use ppum_render::colormap::NAMES;
+use ppum_render::range::Range;
+use ppum_render::scale::Scale;
+use ppum_scene::colors::Colors;
+use ppum_scene::compare::Compare;
+use ppum_scene::deformed::Factor;
+use ppum_scene::overlays::Levels;
+
+use crate::actions::Action;
+use crate::app::Viewer;
+use crate::controls::swing::Swing;
+use crate::export::{Kind, Order};
+use crate::panels::export::Exporter;
+use crate::panels::palette::Palette;
+use crate::player;
+use crate::session::{Page, Pane};
+use crate::stage::Stage;
+
+impl Viewer {
+    /// Does what was asked for.
+    pub fn act(&mut self, ctx: &egui::Context, action: Action) {
+        let is_done = self.travel(action)
+            || self.choose(ctx, action)
+            || self.read(ctx, action)
+            || self.arrange(ctx, action);
+        #[cfg(feature = "solve")]
+        if !is_done {
+            self.act_on_files(ctx, action);
+        }
+        #[cfg(not(feature = "solve"))]
+        let _ = is_done;
+    }
+
+    fn active(&mut self) -> (&mut Pane, &mut Stage) {
+        let active = self.session.active;
+        (&mut self.session.panes[active], &mut self.stages[active])
+    }
+
+    /// Moves; false if the action is none that does.
+    fn travel(&mut self, action: Action) -> bool {
+        let next = self.tip;
+        let (pane, stage) = self.active();
+        match action {
+            Action::Fit => stage.fly_to(pane, None),
+            Action::Tip(number) => {
+                stage.fly_to_tip(pane, number);
+                self.tip = number + 1;
+            }
+            Action::NextTip => {
+                let count = stage.tips(pane);
+                if count > 0 {
+                    stage.fly_to_tip(pane, next % count);
+                    self.tip = next % count + 1;
+                }
+            }
+            Action::ZoomIn => stage.nudge(pane, 0.0, 0.0, ENLARGED),
+            Action::ZoomOut => stage.nudge(pane, 0.0, 0.0, 1.0 / ENLARGED),
+            Action::Pan(right, up) => stage.nudge(pane, right.into(), up.into(), 1.0),
+            Action::Back => stage.go_back(pane),
+            Action::Forward => stage.go_forward(pane),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Changes what is shown, and its colours; false if the action is none that does.
+    fn choose(&mut self, ctx: &egui::Context, action: Action) -> bool {
+        let (pane, stage) = self.active();
+        let colors = &mut pane.scene.colors;
+        match action {
+            Action::NextScale => colors.scale = next_scale(colors.scale),
+            Action::AutomaticRange => colors.range = Range::Auto,
+            Action::FreezeRange => freeze(pane, stage),
+            Action::NextMap => next_map(colors),
+            Action::ReverseMap => reverse_map(colors, stage),
+            Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
+            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
+            Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
+            Action::Swing => {
+                let now = ctx.input(|input| input.time);
+                stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
+                pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
+            }
+            Action::Compare => toggle(&mut pane.compare, Compare::default()),
+            Action::Extrema => pane.extrema = !pane.extrema,
+            Action::Quantity => {
+                stage.controls.quantities.open();
+                stage.controls.wants_quantity = true;
+                self.session.panels = true;
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Reads values, goes through the steps, takes pictures out; false if the action is none that does.
+    fn read(&mut self, ctx: &egui::Context, action: Action) -> bool {
+        let active = self.session.active;
+        let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
+        match action {
+            Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
+            Action::CopyCommand => copy_command(ctx, pane, stage),
+            Action::Probe => {
+                if let Some(spot) = stage.spot() {
+                    stage.pin(pane, spot);
+                }
+            }
+            Action::CircleForK => {
+                stage.circle_nearest_tip(pane);
+                self.session.drawer = Some(Page::Plot);
+            }
+            Action::Draw(tool) => stage.reading.tool = Some(tool),
+            Action::Step(by) => {
+                if let Some(opened) = &stage.opened {
+                    player::go(pane, &opened.dataset, by.into());
+                }
+            }
+            Action::Play => {
+                if let Some(opened) = &stage.opened {
+                    self.player.toggle(pane, &opened.dataset);
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Changes the window itself; false if the action is none that does.
+    fn arrange(&mut self, ctx: &egui::Context, action: Action) -> bool {
+        match action {
+            Action::Drawer(page) if self.session.drawer == Some(page) => self.session.drawer = None,
+            Action::Drawer(page) => {
+                let (pane, stage) = self.active();
+                if page == Page::Plot {
+                    stage.choose_curve(pane);
+                }
+                self.session.drawer = Some(page);
+            }
+            Action::Split => self.split(ctx),
+            Action::Undo => self.restore(ctx, true),
+            Action::Redo => self.restore(ctx, false),
+            Action::Panels => self.session.panels = !self.session.panels,
+            Action::Theme => self.turn_theme(ctx),
+            Action::Help => self.has_help = !self.has_help,
+            Action::Palette => self.palette = Some(Palette::default()),
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// How much larger a key makes things.
+const ENLARGED: f64 = 1.5;
+
+/// Takes a setting away, or gives it a value if it has none.
+fn toggle<T>(setting: &mut Option<T>, on: T) {
+    *setting = if setting.is_some() { None } else { Some(on) };
+}
+
+fn next_scale(scale: Scale) -> Scale {
+    match scale {
+        Scale::Linear => Scale::Log,
+        Scale::Log => Scale::SymLog,
+        Scale::SymLog => Scale::Linear,
+    }
+}
+
+/// Copies the command that draws what is seen.
+fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
+    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return };
+    let order = Order {
+        field: Arc::clone(&frame.field),
+        file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
+        scene: pane.scene.clone(),
+        view,
+        size: view.pixels,
+        kind: Kind::Picture,
+    };
+    if let Ok(command) = order.command(Path::new("picture.png")) {
+        ctx.copy_text(command);
+    }
+}
+
+/// The next map, reversed if this one is.
+fn next_map(colors: &mut Colors) {
+    let name = colors.colormap.as_deref().unwrap_or(NAMES[0]);
+    let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
+    let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
+    colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
+}
+
+/// The map from its other end; that of the picture if none is chosen.
+fn reverse_map(colors: &mut Colors, stage: &Stage) {
+    let quantity = stage.frames.newest().and_then(|frame| frame.shown.quantity());
+    let name = colors.colormap.as_deref().unwrap_or(Colors::default_map(quantity));
+    let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
+    colors.colormap = Some(reversed);
+}
+
+/// Keeps the range of the picture.
+fn freeze(pane: &mut Pane, stage: &Stage) {
+    if let Some(frame) = stage.frames.newest() {
+        let norm = &frame.picture.normalization;
+        pane.scene.colors.range = Range::Fixed(norm.min(), norm.max());
+    }
+}
