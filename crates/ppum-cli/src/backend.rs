@@ -31,8 +31,9 @@ pub(crate) struct Engine {
     threads: Option<NonZeroUsize>,
 }
 
+/// What computes the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Backend {
+pub(crate) enum Backend {
     /// A graphics card if there is one and it can, else the CPU
     Auto,
     /// This machine's processor

@@ -82,6 +82,9 @@ fn subject(scene: &Scene, words: &mut Words) {
     if let Some(weight) = &subject.weight {
         words.add(format!("--weight={weight}"));
     }
+    for (name, formula) in &subject.quantities {
+        words.add(format!("--define={name}={formula}"));
+    }
 }
 
 fn colors(scene: &Scene, words: &mut Words) {
@@ -103,6 +106,9 @@ fn colors(scene: &Scene, words: &mut Words) {
     }
     if let Some(bands) = colors.bands {
         words.add(format!("--bands={bands}"));
+    }
+    if colors.symmetric {
+        words.add("--symmetric");
     }
 }
 

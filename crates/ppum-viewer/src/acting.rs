@@ -176,7 +176,7 @@ fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
     let order = Order {
         field: Arc::clone(&frame.field),
         file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
-        scene: pane.scene.clone(),
+        scene: pane.scene.drawn(),
         view,
         size: view.pixels,
         kind: Kind::Picture,

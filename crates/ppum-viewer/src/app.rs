@@ -14,7 +14,7 @@ use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
-use crate::session::{Page, Pane, Place, Session, Theme};
+use crate::session::{Page, Place, Session, Theme};
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
 
@@ -53,6 +53,8 @@ impl Viewer {
     #[must_use]
     pub fn with_backend(ctx: &egui::Context, mut session: Session, backend: Backend) -> Self {
         ctx.set_fonts(fonts());
+        // a cursor that blinks would have the window drawn for ever
+        ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         session.mend();
         let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
         Self {
@@ -98,12 +100,14 @@ impl Viewer {
             actions: &mut actions,
         };
         Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
+        panels::drawer::show(ui, &mut desk);
         let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
         if desk.session.panels && has_plate {
             Panel::right("side").default_size(300.0).show(ui, |ui| panels::side(ui, &mut desk));
         }
-        panels::drawer::show(ui, &mut desk);
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
+        #[cfg(feature = "solve")]
+        panels::files::notes(ui, &mut desk);
         help::show(ui, &mut self.has_help);
         if let Some(palette) = &mut self.palette {
             let (is_done, chosen) = palette.show(ui);

@@ -51,6 +51,7 @@ pub fn screenshot(start: Start) -> Result<Image, ScreenshotError> {
     let ctx = Context::default();
     ctx.options_mut(|options| options.max_passes = 2.try_into().expect("two is not zero"));
     let mut viewer = start.viewer(&ctx);
+    viewer.files.leave_no_trace();
     let output = at_rest(&ctx, &mut viewer, size, &state)?;
     drawn(&ctx, output, pixels, &state)
 }

@@ -17,6 +17,7 @@ use ppum::dataset::Dataset;
 use crate::app::Viewer;
 use crate::frames::Backend;
 use crate::session::Session;
+use crate::stage::pixels;
 
 /// What a frame took \[s\].
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +93,7 @@ impl Measured {
         });
         let session = Session { panels: false, ..Session::default() };
         let mut viewer = Viewer::with_backend(&ctx, session, backend);
+        pixels::use_device(&ctx, state.target_format);
         viewer.open(None, dataset);
         let mouse = pos2(size[0] as f32, size[1] as f32) / 2.0;
         Ok(Self {
@@ -227,8 +229,8 @@ impl Measured {
                 return Ok(());
             }
             let left = PATIENCE.checked_sub(start.elapsed()).ok_or(TimingError::Late)?;
-            // who asks to be shown may have asked before
-            let _ = self.woken.recv_timeout(left.min(Duration::from_millis(50)));
+            // who asks to be shown once more before it was shown is not heard
+            let _ = self.woken.recv_timeout(left.min(Duration::from_micros(500)));
         }
     }
 
@@ -269,11 +271,7 @@ fn device() -> Result<RenderState, TimingError> {
     let setup = WgpuSetup::without_display_handle();
     let instance = block_on(setup.new_instance());
     let configuration = egui_wgpu::WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
-    let options = RendererOptions {
-        dithering: std::env::var_os("DITHER").is_some(),
-        ..RendererOptions::default()
-    };
-    block_on(RenderState::create(&configuration, &instance, None, options))
+    block_on(RenderState::create(&configuration, &instance, None, RendererOptions::default()))
         .map_err(|error| TimingError::NoDriver(error.to_string()))
 }
 

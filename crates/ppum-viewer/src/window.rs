@@ -9,6 +9,7 @@ use crate::app::Viewer;
 use crate::files::{Files, kept};
 use crate::frames::Backend;
 use crate::session::Session;
+use crate::stage::pixels;
 
 /// How the window begins.
 #[derive(Debug, Default)]
@@ -59,7 +60,11 @@ impl From<eframe::Error> for WindowError {
         let words = error.to_string();
         match error {
             eframe::Error::Wgpu(_) => Self::NoDriver(words),
-            eframe::Error::WinitEventLoop(_) => Self::NoDisplay(words),
+            // before the reason stands the place in winit's sources
+            eframe::Error::WinitEventLoop(_) => {
+                let reason = words.rsplit(": ").next().unwrap_or_default();
+                Self::NoDisplay(reason.trim_end_matches('.').to_owned())
+            }
             eframe::Error::AppCreation(_) | eframe::Error::Winit(_) => Self::Other(words),
         }
     }
@@ -118,6 +123,9 @@ pub fn run(start: Start) -> Result<(), WindowError> {
         .with_drag_and_drop(true);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
     let create = move |cc: &eframe::CreationContext<'_>| {
+        if let Some(state) = &cc.wgpu_render_state {
+            pixels::use_device(&cc.egui_ctx, state.target_format);
+        }
         Ok(Box::new(start.viewer(&cc.egui_ctx)) as Box<dyn eframe::App>)
     };
     Ok(eframe::run_native("ppum", options, Box::new(create))?)

@@ -24,8 +24,10 @@ impl Viewer {
     pub(crate) fn work(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.take_dropped(ui);
-        self.files.kept.size =
-            ctx.input(|input| input.viewport().inner_rect).map(|r| r.size().into());
+        if let Some(rect) = ctx.input(|input| input.viewport().inner_rect) {
+            self.files.kept.size = Some(rect.size().into());
+        }
+        self.files.keep(&self.session);
         for arrived in self.files.arrived() {
             self.arrive(&ctx, arrived);
         }
@@ -85,9 +87,7 @@ impl Viewer {
 
     /// Keeps all that is to be remembered; the window closes.
     pub fn leave(&mut self) {
-        self.files.finish();
-        self.files.keep();
-        self.files.keep_session(&self.session);
+        self.files.finish(&self.session);
     }
 
     /// Does what was asked for with files and problems.
@@ -201,7 +201,6 @@ impl Viewer {
                     self.files.write_dataset(path, pane, Arc::clone(&opened.dataset));
                 }
             }
-            Purpose::Export(_, _, bytes) => self.files.write_bytes(path, bytes),
         }
     }
 
@@ -225,7 +224,6 @@ impl Viewer {
                     (draft.path, draft.folder) = (Some(path.clone()), None);
                 }
             }
-            What::Export => return,
         }
         self.files.remember(&path);
     }

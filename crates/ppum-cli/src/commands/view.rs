@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::backend::Backend;
 use crate::output::Output;
 
 /// Explore datasets in a window, exactly, down to the tip
@@ -14,6 +15,9 @@ pub(crate) struct Args {
     /// Session to begin with, as the window saves it
     #[arg(long, value_name = "FILE.ppum-session", conflicts_with = "files")]
     session: Option<PathBuf>,
+    /// What computes the values
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: Backend,
     /// Width and height of the window in points [default: those of the last time]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
@@ -64,10 +68,22 @@ impl Args {
         Ok(ppum_viewer::window::Start {
             files,
             size: self.size.map(|size| size.map(|n| n as f32)),
+            backend: self.backend(),
             folder: ppum_viewer::files::kept::folder(),
             memory: Some(crate::memory::free),
             ..Default::default()
         })
+    }
+
+    #[cfg(feature = "window")]
+    fn backend(&self) -> ppum_viewer::frames::Backend {
+        use ppum_viewer::frames::Backend as Known;
+        match self.backend {
+            Backend::Auto => Known::Auto,
+            Backend::Cpu => Known::Cpu,
+            Backend::Gpu => Known::Gpu,
+            Backend::Splat => Known::Splat,
+        }
     }
 
     #[cfg(feature = "window")]
@@ -82,7 +98,8 @@ impl Args {
             target.display()
         );
         crate::target::check(target, crate::target::Kind::Picture, inputs)?;
-        let image = ppum_viewer::offscreen::screenshot(self.start()?)?;
+        let start = self.start()?;
+        let image = crate::graphics::opening(|| ppum_viewer::offscreen::screenshot(start))?;
         let png = ppum_render::png::encode(&image, &[])?;
         if crate::standard::is_standard(target) {
             return Ok(out.exact().write_all(&png)?);
@@ -95,7 +112,7 @@ impl Args {
     /// Says how to get the window.
     #[cfg(not(feature = "window"))]
     pub(crate) fn run(&self, _: &mut Output) -> anyhow::Result<()> {
-        let Self { files: _, session: _, size: _, screenshot: _ } = self;
+        let Self { files: _, session: _, backend: _, size: _, screenshot: _ } = self;
         anyhow::bail!(
             "this program was built without the window; build it with \
              `cargo install --locked --path crates/ppum-cli --features window`"

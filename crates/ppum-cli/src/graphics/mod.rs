@@ -15,6 +15,10 @@ use serde::Serialize;
 pub(crate) use cards::{Card, Cards};
 #[cfg(feature = "gpu")]
 pub(crate) use devices::{MISSING, adapters, draw};
+#[cfg(all(feature = "gpu", feature = "window"))]
+pub(crate) use drivers::opening;
+#[cfg(all(not(feature = "gpu"), feature = "window"))]
+pub(crate) use none::opening;
 #[cfg(not(feature = "gpu"))]
 pub(crate) use none::{Card, Cards, MISSING, adapters, draw};
 

@@ -84,3 +84,27 @@ fn without_an_adapter_the_cpu_is_measured() {
     check(&report, &["cpu f64", "cpu f32"]);
     assert!(report["renderer"]["missing"].as_str().unwrap().contains("no graphics adapter"));
 }
+
+#[cfg(not(feature = "window"))]
+#[test]
+fn without_the_window_there_is_nothing_to_measure() {
+    assert!(Lab::new().fail("bench window").contains("--features window"));
+}
+
+#[cfg(feature = "window")]
+#[test]
+fn the_window_is_measured() {
+    let lab = Lab::new();
+    let (code, text, complaint) = lab.without_driver("bench window --quick");
+    assert!(code != Some(0) && text.is_empty() && complaint.contains("mesa-vulkan-drivers"));
+    let report = lab.json("bench window --quick --frames 3");
+    let window = &report["window"];
+    assert_eq!(window["frames"], 3);
+    for row in window["rows"].as_array().expect("rows") {
+        let ms = |key: &str| row[key]["median"].as_f64().expect("a time");
+        let parts = ["layout_ms", "picture_ms", "upload_ms", "paint_ms"].map(ms);
+        assert!(parts.iter().all(|part| *part >= 0.0) && ms("picture_ms") > 0.0);
+        assert!(row["frame_ms"]["most"].as_f64() >= row["frame_ms"]["least"].as_f64());
+        assert_eq!(row["idle_repaints"], false, "at rest the window is not shown anew");
+    }
+}

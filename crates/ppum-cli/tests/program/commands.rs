@@ -34,6 +34,7 @@ fn colors(random: &mut Random) -> Colors {
         symmetric: random.below(2) == 0,
         contrast: random.below(2) == 0,
         bands: maybe(random, |r| r.below(20) as u16 + 1),
+        symmetric: random.below(2) == 0,
     }
 }
 
@@ -60,6 +61,11 @@ fn scene(random: &mut Random) -> Scene {
             .collect(),
         quantities: Vec::new(),
         weight: maybe(random, |r| r.pick(&["bump", "(1 - t)^2"]).to_owned()),
+        // a plate that names no quantity: the error is the same
+        quantities: (random.below(20) == 0)
+            .then(|| ("stretch".to_owned(), "ux".to_owned()))
+            .into_iter()
+            .collect(),
     };
     let deformed = maybe(random, |r| r.pick(&[Factor::Auto, Factor::Given(0.013)]));
     let quantities = ["von-mises", "-uy", "(sxx + syy)/2", "s1", "sqrt(ux^2 + uy^2)"];

@@ -32,6 +32,7 @@ mod shell;
 mod sif;
 mod solve;
 mod streams;
+mod view;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -37,6 +37,28 @@ fn pixels_without_the_function_one() {
     }
 }
 
+/// A quantity of the dataset's has another formula, and so has what is made of it.
+#[test]
+fn a_named_quantity() {
+    let lab = Lab::solved(&crate::with_formulas());
+    let value = |quantity: &str, more: &[&str]| {
+        let words = format!("probe plate.h5 --at 0.25,0.5 -q {quantity}");
+        lab.json_with(&words, more)["points"][0]["values"][quantity].as_f64().unwrap()
+    };
+    let define = ["--define", "stretch=uy + 3*x"];
+    assert_eq!(value("stretch", &define), value("uy", &[]) + 0.75);
+    assert_eq!(value("2*stretch", &define), 2.0 * value("stretch", &define));
+    for (definition, complaint) in [
+        ("strech=ux", "the dataset names no quantity `strech`; did you mean `stretch`?"),
+        ("stretch=ux + ", "--define stretch: line 1, column"),
+        ("stretch=2*stretch", "unknown name `stretch`"),
+    ] {
+        let said =
+            lab.fail(&format!("probe plate.h5 --at 0,0 --define={}", definition.replace(' ', "")));
+        assert!(said.contains(complaint), "{said}");
+    }
+}
+
 /// Linear functions are the same with every weight, the partition of unity is another.
 #[test]
 fn the_weight() {

@@ -48,7 +48,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 21] = [
+const DOORS: [(&str, &str); 22] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
@@ -62,6 +62,7 @@ const DOORS: [(&str, &str); 21] = [
     ("naga", "ppum-testkit"),
     ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
+    ("rfd", "ppum-viewer"),
     ("self_cell", "ppum-viewer"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),

@@ -67,8 +67,10 @@ impl Controls {
             Some(Outcome::Found(range)) => (pane.scene.colors.range, self.whole) = (range, None),
             Some(Outcome::Failed(reason)) => (self.refused, self.whole) = (Some(reason), None),
         }
-        // a picture that is being made is not taken back for the next one: it would never be seen
-        if let Some(swing) = self.swing.as_mut().filter(|_| !frames.is_working()) {
+        // the next factor is for when this one has been seen
+        let wanted = self.drawn(&pane.scene).deformed;
+        let is_seen = frames.newest().is_some_and(|frame| frame.wanted.scene.deformed == wanted);
+        if let Some(swing) = self.swing.as_mut().filter(|_| is_seen) {
             swing.go_on(ctx.input(|input| input.time));
             ctx.request_repaint();
         }

@@ -3,7 +3,6 @@
 use std::env;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
-use std::sync::Arc;
 
 use egui::{Align2, Key, Modifiers, ScrollArea, TextEdit, Ui, Window};
 
@@ -12,7 +11,7 @@ use super::session_file;
 use crate::job::Job;
 
 /// What a file is chosen for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// To open it in a pane.
     Open(usize),
@@ -22,37 +21,33 @@ pub enum Purpose {
     SaveDataset(usize),
     /// To write the problem's text.
     SaveProblem,
-    /// To write what was made: its name in words, the ends that names of such files have, its bytes.
-    Export(&'static str, &'static [&'static str], Arc<[u8]>),
 }
 
 impl Purpose {
     /// The heading.
     #[must_use]
-    pub fn title(&self) -> String {
+    pub fn title(self) -> &'static str {
         match self {
-            Self::Open(0) => "Open a file".into(),
-            Self::Open(_) => "Open a file on the right".into(),
-            Self::SaveSession => "Save the session".into(),
-            Self::SaveDataset(_) => "Save the dataset".into(),
-            Self::SaveProblem => "Save the problem".into(),
-            Self::Export(what, ..) => format!("Save {what}"),
+            Self::Open(0) => "Open a file",
+            Self::Open(_) => "Open a file on the right",
+            Self::SaveSession => "Save the session",
+            Self::SaveDataset(_) => "Save the dataset",
+            Self::SaveProblem => "Save the problem",
         }
     }
 
     /// The ends of the names of files that fit, the usual one first.
     #[must_use]
-    pub fn extensions(&self) -> &'static [&'static str] {
+    pub fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Open(_) => &["h5", "toml", session_file::EXTENSION, "hdf5"],
             Self::SaveSession => &[session_file::EXTENSION],
             Self::SaveDataset(_) => &["h5"],
             Self::SaveProblem => &["toml"],
-            Self::Export(_, extensions, _) => extensions,
         }
     }
 
-    fn is_open(&self) -> bool {
+    fn is_open(self) -> bool {
         matches!(self, Self::Open(_))
     }
 }
@@ -91,8 +86,8 @@ impl Dialog {
 
     /// What the file is chosen for.
     #[must_use]
-    pub fn purpose(&self) -> &Purpose {
-        &self.purpose
+    pub fn purpose(&self) -> Purpose {
+        self.purpose
     }
 
     /// Shows it: `Some(None)` once it is closed, with a file if one was chosen.

@@ -9,6 +9,7 @@ pub mod watch;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use egui::Ui;
 use ppum::dataset::Dataset;
@@ -29,6 +30,8 @@ pub struct Note {
     pub text: String,
     /// True if something could not be done.
     pub is_error: bool,
+    /// The time when it was told.
+    pub since: Instant,
 }
 
 /// The files of a window.
@@ -43,6 +46,12 @@ pub struct Files {
     folder: Option<PathBuf>,
     readings: Vec<Reading>,
     writings: Vec<Writing>,
+    /// What is remembered, on its way to its file; true if all of it is on the way.
+    keeping: Option<Job<()>>,
+    is_kept: bool,
+    /// The session that was kept last, and when.
+    last: Option<Session>,
+    since: Instant,
     dialog: Option<Dialog>,
     watch: Watch,
     ctx: egui::Context,
@@ -65,8 +74,6 @@ pub enum What {
     Session,
     /// The problem's text.
     Problem,
-    /// Something that was made.
-    Export,
 }
 
 /// A file that was written.
@@ -77,6 +84,9 @@ pub struct Written {
     /// What is in it.
     pub what: What,
 }
+
+/// The least time between two writings of a session that changes.
+const PAUSE: Duration = Duration::from_secs(5);
 
 impl Files {
     /// Files of a window that remembers in a folder, if it has one.
@@ -90,6 +100,10 @@ impl Files {
             folder,
             readings: Vec::new(),
             writings: Vec::new(),
+            keeping: None,
+            is_kept: true,
+            last: None,
+            since: Instant::now(),
             dialog: None,
             watch: Watch::new(ctx),
             ctx: ctx.clone(),
@@ -130,28 +144,60 @@ impl Files {
     /// True while files are read or written.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        !self.readings.is_empty() || !self.writings.is_empty()
+        let is_keeping = self.keeping.is_some() || (!self.is_kept && self.folder.is_some());
+        !self.readings.is_empty() || !self.writings.is_empty() || is_keeping
+    }
+
+    /// Remembers nothing from now on: what is shown is for a picture only.
+    pub fn leave_no_trace(&mut self) {
+        self.folder = None;
     }
 
     /// Puts a file in front of the recent ones, and keeps that.
     pub fn remember(&mut self, path: &Path) {
         self.kept.note(path);
-        self.keep();
+        self.is_kept = false;
     }
 
-    /// Keeps what is remembered. A disk that is full, or a folder that is not to be written, is no reason to disturb anybody.
-    pub fn keep(&mut self) {
-        let Some(folder) = self.folder.clone() else { return };
-        let kept = self.kept.clone();
-        // on this thread: two small files in one step each, in the order in which they were meant
-        let _ = kept.write(&folder);
-    }
-
-    /// Keeps the session for the next time.
-    pub fn keep_session(&self, session: &Session) {
-        if let Some(folder) = &self.folder {
-            let _ = kept::keep_session(session, folder);
+    /// Keeps what is remembered, in the background and one writing after the other: recent files at once, the session a
+    /// while after it has changed. A disk that is full is no reason to disturb anybody.
+    pub fn keep(&mut self, session: &Session) {
+        if self.keeping.as_ref().is_some_and(|job| job.poll().is_some()) {
+            self.keeping = None;
         }
+        let is_same = self.is_kept && self.last.as_ref() == Some(session);
+        if is_same || self.keeping.is_some() || self.folder.is_none() {
+            return;
+        }
+        match PAUSE.checked_sub(self.since.elapsed()).filter(|_| self.is_kept) {
+            Some(rest) => self.ctx.request_repaint_after(rest),
+            None => self.keep_now(session),
+        }
+    }
+
+    fn keep_now(&mut self, session: &Session) {
+        let Some(folder) = self.folder.clone() else { return };
+        (self.is_kept, self.last, self.since) = (true, Some(session.clone()), Instant::now());
+        let (kept, session) = (self.kept.clone(), session.clone());
+        self.keeping = Some(Job::start(&self.ctx, move |_| {
+            let _ = kept.write(&folder);
+            let _ = kept::keep_session(&session, &folder);
+        }));
+    }
+
+    /// Waits until everything is written, and all that is remembered too: the window is about to close.
+    pub fn finish(&mut self, session: &Session) {
+        let is_busy = |files: &Self| !files.writings.is_empty() || files.keeping.is_some();
+        while is_busy(self) {
+            self.written();
+            self.keep(session);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        self.keep_now(session);
+        while self.keeping.as_ref().is_some_and(|job| job.poll().is_none()) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        self.keeping = None;
     }
 
     /// The folder of what is remembered.
@@ -163,7 +209,8 @@ impl Files {
     /// Tells something about a file in place of what was told of it before.
     pub fn tell(&mut self, path: &Path, text: impl Into<String>, is_error: bool) {
         self.settle(path);
-        self.notes.push(Note { path: path.to_owned(), text: text.into(), is_error });
+        let (path, since) = (path.to_owned(), Instant::now());
+        self.notes.push(Note { path, text: text.into(), is_error, since });
     }
 
     /// Nothing is to be told about a file any more.
@@ -200,7 +247,7 @@ impl Files {
     pub fn show(&mut self, ui: &Ui) -> Option<(Purpose, PathBuf)> {
         let dialog = self.dialog.as_mut()?;
         let done = dialog.show(ui)?;
-        let purpose = dialog.purpose().clone();
+        let purpose = dialog.purpose();
         self.dialog = None;
         Some((purpose, done?))
     }
@@ -223,15 +270,6 @@ impl Files {
     /// Writes a text in the background.
     pub fn write_text(&mut self, path: PathBuf, what: What, text: String) {
         self.write(path, what, move |path| kept::replace(path, &text).map_err(|e| e.to_string()));
-    }
-
-    /// Writes bytes in the background.
-    pub fn write_bytes(&mut self, path: PathBuf, bytes: Arc<[u8]>) {
-        self.write(path, What::Export, move |path| {
-            let written: std::io::Result<()> =
-                ppum_file::replace(path, |out| out.write_all(&bytes));
-            written.map_err(|error| error.to_string())
-        });
     }
 
     /// Writes a dataset in the background.
@@ -266,14 +304,6 @@ impl Files {
             }
         }
         written
-    }
-
-    /// Waits until everything is written: the window is about to close.
-    pub fn finish(&mut self) {
-        while !self.writings.is_empty() {
-            self.written();
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        }
     }
 }
 

@@ -110,6 +110,10 @@ impl Maker {
         let (drawn, is_whole) = self.drawn(wish, &place, is_stale)?;
         let style = self.style(wanted, &place, &drawn)?;
         let goal = self.goal(wanted, &place, (&drawn, is_whole), &style);
+        if let Some(goal) = &goal {
+            // what cannot be used is refused before it is shown, or anything glides there
+            goal.normalization(style.scale).map_err(Stop::at(Fault::Colors))?;
+        }
         let (span, is_there) = self.span(wanted, &drawn, &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
         if self
@@ -126,7 +130,7 @@ impl Maker {
         if !is_whole {
             self.draw_whole(&place, &watcher)?;
         } else if goal.is_none() {
-            self.find_range(wanted, &place, (&drawn, &style), &watcher)?;
+            self.find_range(&place, (&drawn, &style), &watcher)?;
         } else if is_there {
             return self.finish(wanted, &place, (drawn, painted, &style), &watcher);
         }
@@ -207,7 +211,10 @@ impl Maker {
         match goal {
             Some(goal) if style.range.is_found() => self.eased.toward(about, goal.clone(), now),
             Some(goal) => {
-                self.eased.set(about, goal.clone());
+                // one that is refused must not be what the next range begins with
+                if goal.normalization(style.scale).is_ok() {
+                    self.eased.set(about, goal.clone());
+                }
                 (goal.clone(), true)
             }
             None => {
@@ -221,7 +228,6 @@ impl Maker {
 
     fn find_range(
         &mut self,
-        wanted: &Wanted,
         place: &Place,
         (drawn, style): (&Arc<Drawn>, &Style),
         watcher: &dyn Watcher,
@@ -231,8 +237,6 @@ impl Maker {
         let field = place.subject.field.0.field();
         let found = || range::found(field, seen.seen(), quantity, drawn, style, watcher);
         let found = found().map_err(Stop::at(Fault::Colors))?;
-        // a range that cannot be used is refused before anything glides there
-        found.normalization(wanted.scene.colors.scale).map_err(Stop::at(Fault::Colors))?;
         self.ranges.set(ranged(drawn, style), found);
         Ok(())
     }

@@ -1,7 +1,7 @@
-//! Colours, as pixels of a picture and as those that the window shows.
+//! Colours, as pixels of a picture and as those that egui shows.
 
 use std::ops::Deref;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use egui::{Color32, ColorImage};
 use ppum_render::image::Image;
@@ -10,21 +10,24 @@ use ppum_render::range::{RangeError, Span};
 use ppum_scene::drawing::Drawn;
 use rayon::prelude::*;
 
-/// A picture, and its pixels as the window takes them.
+/// A picture, and its pixels as egui takes them.
 #[derive(Debug)]
 pub struct Painted {
     /// The picture.
     pub picture: Picture,
-    /// Its pixels.
-    pub texture: Arc<ColorImage>,
+    texture: OnceLock<Arc<ColorImage>>,
 }
 
 impl Painted {
-    /// A picture with its texture.
+    /// A picture.
     #[must_use]
     pub fn new(picture: Picture) -> Self {
-        let texture = Arc::new(texture(&picture.image));
-        Self { picture, texture }
+        Self { picture, texture: OnceLock::new() }
+    }
+
+    /// Its pixels for egui, made when they are needed first.
+    pub fn texture(&self) -> &Arc<ColorImage> {
+        self.texture.get_or_init(|| Arc::new(texture(&self.picture.image)))
     }
 
     /// Values in the colours of a range.

@@ -25,7 +25,7 @@ pub struct Other {
     /// The way of resampling.
     pub compare: Compare,
     /// What was resampled, in the colours of the direct picture.
-    pub picture: Painted,
+    pub picture: Arc<Painted>,
     /// The difference, resampled − direct: blue, white, red.
     pub difference: Arc<Painted>,
     /// The errors over the pixels of the view.
@@ -70,7 +70,7 @@ impl Resampling {
         let painted = in_colors_of(picture, style, &resampled.raster, &drawn.view)?;
         let other = Arc::new(Other {
             compare,
-            picture: painted,
+            picture: Arc::new(painted),
             difference: apart,
             norms: resampled.norms,
             bytes: resampled.bytes,

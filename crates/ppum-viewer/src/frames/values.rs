@@ -149,7 +149,9 @@ impl Values {
 
     /// The view itself if it is soon drawn in single precision, else a coarse one.
     fn affordable(&self, place: &Place) -> View {
-        let pace = self.pace.of(&place.subject).single;
+        let Pace { whole, single, .. } = self.pace.of(&place.subject);
+        // double precision takes longer; coarse pictures take longer for each of their pixels
+        let pace = [whole, single].into_iter().flatten().reduce(f64::min);
         let is_quick = pace.is_some_and(|pace| is_quick(pace, &place.view));
         if is_quick { place.view } else { coarse(&place.view) }
     }

@@ -9,7 +9,7 @@ use super::renderer::Backend;
 use super::stop::Stop;
 use super::{Failure, Fault, Outcome};
 
-#[cfg(any(target_arch = "wasm32", test))]
+#[cfg(test)]
 pub(super) use inline::Inline;
 #[cfg(target_arch = "wasm32")]
 pub(super) use inline::Inline as Worker;
@@ -20,7 +20,7 @@ pub(super) use threaded::Threaded as Worker;
 pub(super) type Wake = Box<dyn Fn() + Send>;
 
 /// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and forgets everything.
-fn step(
+pub(super) fn step(
     maker: &mut Maker,
     backend: Backend,
     wish: &Wish,

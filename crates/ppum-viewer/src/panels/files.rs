@@ -1,8 +1,9 @@
 //! The menu of files, and what is told of them.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
-use egui::{ProgressBar, Spinner, Ui};
+use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, Spinner, Ui};
 
 use super::top::button;
 use crate::actions::Action;
@@ -71,46 +72,69 @@ pub fn open_example(desk: &mut Desk<'_>, example: &Example) {
     desk.session.drawer = Some(Page::Problem);
 }
 
-/// What is being read, and what is told of files.
-pub fn notes(ui: &mut Ui, desk: &mut Desk<'_>) {
+/// What is being read, and what is told of files: over the plate's upper edge, so that nothing moves for it.
+pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
+    if desk.files.notes.is_empty() && desk.files.readings().is_empty() {
+        return;
+    }
+    let area = Area::new(Id::unique("notes")).order(Order::Foreground);
+    let area = area.anchor(Align2::CENTER_TOP, [0.0, 36.0]);
+    area.show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_max_width((ui.ctx().content_rect().width() - 60.0).min(640.0));
+            readings(ui, desk);
+            told(ui, desk);
+        });
+    });
+}
+
+fn readings(ui: &mut Ui, desk: &mut Desk<'_>) {
     let mut cancelled = None;
     for reading in desk.files.readings() {
-        ui.add(Spinner::new().size(14.0));
-        match reading.part().filter(|part| *part < 1.0) {
-            Some(part) => {
-                ui.add(ProgressBar::new(part).desired_width(80.0));
-                ui.weak(format!("reading {}", name(&reading.path)));
+        ui.horizontal(|ui| {
+            match reading.part().filter(|part| *part < 1.0) {
+                Some(part) => {
+                    ui.add(ProgressBar::new(part).desired_width(80.0));
+                    ui.label(format!("reading {}", name(&reading.path)));
+                }
+                None => {
+                    ui.add(Spinner::new().size(14.0));
+                    ui.label(format!("checking {}", name(&reading.path)));
+                }
             }
-            None => {
-                ui.weak(format!("checking {}", name(&reading.path)));
+            if button(ui, "✗", "Stop reading").clicked() {
+                cancelled = Some(reading.path.clone());
             }
-        }
-        if button(ui, "✗", "Stop reading").clicked() {
-            cancelled = Some(reading.path.clone());
-        }
+        });
     }
     if let Some(path) = cancelled {
         desk.files.cancel(&path);
     }
+}
+
+fn told(ui: &mut Ui, desk: &mut Desk<'_>) {
     let mut closed = None;
     for note in &desk.files.notes {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             if button(ui, "✗", "Close the note").clicked() {
                 closed = Some(note.path.clone());
             }
-            match note.is_error {
-                true => ui.colored_label(ui.visuals().error_fg_color, &note.text),
-                false => ui.weak(&note.text),
-            };
+            let text = RichText::new(&note.text);
+            let text = if note.is_error { text.color(ui.visuals().error_fg_color) } else { text };
+            ui.add(Label::new(text).wrap());
         });
+        // what went well need not be confirmed
+        if !note.is_error {
+            match SHOWN.checked_sub(note.since.elapsed()) {
+                Some(rest) => ui.ctx().request_repaint_after(rest),
+                None => closed = Some(note.path.clone()),
+            }
+        }
     }
     if let Some(path) = closed {
         desk.files.settle(&path);
     }
 }
 
-/// True if there is something to tell.
-#[must_use]
-pub fn has_notes(desk: &Desk<'_>) -> bool {
-    !desk.files.notes.is_empty() || !desk.files.readings().is_empty()
-}
+/// The time for which it is told that something went well.
+const SHOWN: Duration = Duration::from_secs(4);

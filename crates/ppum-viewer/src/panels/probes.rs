@@ -59,16 +59,19 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         pane.probes.remove(k);
         stage.reading.selected = None;
     }
-    if ui.button("Remove all probes").clicked() {
-        pane.probes.clear();
-    }
-    let table = table(&stage.reading.probes, &names);
     let all = stage.reading.probes.clone();
-    if ui.button("Copy probes").on_hover_text("As text, with all digits").clicked() {
-        let texts = all.iter().map(|probed| words::all(probed, &names[0], &names[1]));
-        ui.ctx().copy_text(texts.collect());
-    }
-    outputs(ui, stage, &[("csv", &|| table.csv().into_bytes())], &|| table.csv());
+    let table = table(&all, &names);
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Remove all").clicked() {
+            pane.probes.clear();
+        }
+        if ui.button("Copy").on_hover_text("As text, with all digits").clicked() {
+            let texts = all.iter().map(|probed| words::all(probed, &names[0], &names[1]));
+            ui.ctx().copy_text(texts.collect());
+        }
+        let csv = || table.csv().into_bytes();
+        outputs(ui, stage, &[("csv", &csv)], &|| table.csv());
+    });
 }
 
 /// The quantity's name and unit.
@@ -84,7 +87,7 @@ fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     let cell = [words::cell(probed), words::patches(probed)];
     lines.push(cell.into_iter().flatten().collect::<Vec<_>>().join("; "));
     for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
-        let text = RichText::new(line).small();
+        let text = RichText::new(line).size(11.5);
         ui.add(egui::Label::new(if k == 0 { text.strong() } else { text }).wrap());
     }
 }

@@ -29,10 +29,6 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
         player::show(ui, desk);
     });
-    #[cfg(feature = "solve")]
-    if super::files::has_notes(desk) {
-        ui.horizontal_wrapped(|ui| super::files::notes(ui, desk));
-    }
 }
 
 /// A button with a sign, which has a name too.

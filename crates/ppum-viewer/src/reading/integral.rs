@@ -8,6 +8,7 @@ use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_scene::profile::Along;
 use ppum_scene::tips::words;
+use ppum_solve::diagnostics::effort::check_effort;
 use ppum_solve::intensity::{CircleError, clearance, on_circle};
 use ppum_solve::problem::Problem;
 
@@ -85,6 +86,9 @@ impl Asked {
             Err(_) => return Some(Err(UNKNOWN.into())),
             Ok(problem) => problem,
         };
+        if let Err(error) = check_effort(&self.dataset, self.step, problem.as_ref()) {
+            return Some(Err(error.to_string()));
+        }
         match on_circle(&self.dataset, self.step, self.tip, self.radius, problem.as_ref(), watcher)
         {
             Err(CircleError::Cancelled(_)) => None,
@@ -136,9 +140,15 @@ pub fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option<f64> {
 /// Part of a tip's clearance that the solver's preferred ring has.
 const PREFERRED: f64 = 0.9;
 
-/// `K_I = 1.23, K_II = 0`, with the spread.
+/// `K_I = 1.23, K_II = 0 (spread 2e-5)`, and below it the factors that the solver stored for the tip.
 #[must_use]
-pub fn told(factors: &TipIntensity) -> String {
-    let [k1, k2, spread] = words(factors.k1, factors.k2, factors.spread());
-    format!("K_I = {k1}, K_II = {k2} (spread {spread})").replace('-', "−")
+pub fn told(factors: &TipIntensity, stored: &[TipIntensity]) -> String {
+    let line = |factors: &TipIntensity| {
+        let [k1, k2, spread] = words(factors.k1, factors.k2, factors.spread());
+        format!("K_I = {k1}, K_II = {k2}, spread {spread}").replace('-', "−")
+    };
+    match stored.iter().find(|known| known.tip == factors.tip) {
+        Some(known) => format!("{}\nstored: {}", line(factors), line(known)),
+        None => line(factors),
+    }
 }

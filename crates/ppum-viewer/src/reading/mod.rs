@@ -20,6 +20,7 @@ use crate::stage::tools::{Grip, Tool};
 use job::Job;
 use output::Output;
 use plotted::{Asked, Plotted};
+use ppum_scene::profile::Along;
 use probe::{Probed, Reader};
 use spot::Spot;
 
@@ -42,6 +43,8 @@ pub struct Reading {
     pub(crate) clicked: Option<(f64, Spot)>,
     /// Values along the curve.
     pub plot: Job<Asked, Plotted>,
+    /// The last values along a curve that could be found.
+    pub good: Option<(Along, Arc<Plotted>)>,
     /// K on the circle.
     #[cfg(feature = "solve")]
     pub integral: integral::Integral,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ppum::field::Field;
 use ppum::progress::Watcher;
-use ppum::quantity::Quantity;
+use ppum::quantity::{Quantity, QuantityError};
 use ppum_figure::plot::{Curve, Plot, PlotAxis, slope, with_slope};
 use ppum_render::scale::Scale;
 use ppum_scene::profile::{
@@ -105,7 +105,7 @@ const MOST: usize = 100_000;
 #[derive(Debug, thiserror::Error)]
 enum Fault {
     #[error("`{0}`: {1}")]
-    Quantity(String, ppum::quantity::QuantityError),
+    Quantity(String, Box<QuantityError>),
     #[error(transparent)]
     Profile(#[from] ProfileError),
 }
@@ -115,7 +115,7 @@ fn named(field: &Field<'_>, list: &str) -> Result<Vec<(String, Quantity)>, Fault
     let parsed = |text: &str| {
         let quantity = Quantity::parse(text, field)
             .and_then(|quantity| quantity.check(field).map(|()| quantity))
-            .map_err(|error| Fault::Quantity(text.to_owned(), error))?;
+            .map_err(|error| Fault::Quantity(text.to_owned(), Box::new(error)))?;
         Ok((text.to_owned(), quantity))
     };
     let texts = parts(list).into_iter().filter(|text| !text.is_empty());

@@ -47,7 +47,7 @@ impl Against {
         painter.rect_filled(target, 0.0, ground(ui));
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(shown.handle.id(), target, whole, Color32::WHITE);
-        let layers = placed(&frame.wanted.view, view, rect);
+        let layers = placed(&frame.layers_view, view, rect);
         shapes::draw(&painter, layers, &frame.layers.items);
         words(ui, rect, at, other, pane.against.difference);
     }

@@ -1,6 +1,8 @@
 //! The colour bar on the plate: drawn as figures draw it, and the control of the range. Its ends are dragged, its middle shifts both,
 //! the wheel spreads them; a click on an end edits its number, a double click leaves the range to the program.
 
+use std::sync::Arc;
+
 use egui::{
     Align2, Area, Color32, CursorIcon, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke,
     TextEdit, Ui, pos2, vec2,
@@ -8,13 +10,13 @@ use egui::{
 use ppum::text::{exact, trimmed_to};
 use ppum::vec2::Vec2;
 use ppum_figure::figure::{Bar, Design, Labels, Theme};
-use ppum_render::extrema::Extremum;
+use ppum_render::extrema::{Extrema, Extremum};
 use ppum_render::picture::Picture;
 use ppum_render::range::Range;
 use ppum_render::scale::Normalization;
 use ppum_render::view::View;
 use ppum_scene::colors::Colors;
-use ppum_scene::drawing::Values;
+use ppum_scene::drawing::{Drawn, Values};
 use ppum_scene::range::{Telling, value};
 
 use crate::frames::Frame;
@@ -30,6 +32,8 @@ pub struct Grip {
     grabbed: Option<(Normalization, f64)>,
     /// The end that is written, and what.
     edited: Option<Edited>,
+    /// The extrema of values, which are looked for with ranges that are found and hold for those that are given.
+    extrema: Option<(Arc<Drawn>, Extrema)>,
 }
 
 #[derive(Clone, Debug)]
@@ -89,7 +93,7 @@ pub fn show(
     for end in [0, 1] {
         standing.end(ui, grip, colors, end);
     }
-    standing.extrema(ui);
+    standing.extrema(ui, grip.extrema(frame));
     standing.edit(ui, grip, colors);
     if let Some(value) = hover.and_then(|(view, offset)| value_at(frame, view, offset)) {
         standing.follow(ui, value);
@@ -117,6 +121,17 @@ fn bar(ui: &Ui, picture: &Picture, labels: &Labels, length: f32) -> Bar {
     design.font_size *= LETTERS;
     design.theme = if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light };
     Bar::new(picture, labels, &design, f64::from(length))
+}
+
+impl Grip {
+    /// The extrema of a picture's values, if they are known.
+    fn extrema(&mut self, frame: &Frame) -> Option<&Extrema> {
+        if let Some(found) = &frame.picture.span.values {
+            self.extrema = Some((Arc::clone(&frame.drawn), found.clone()));
+        }
+        let known = self.extrema.as_ref().filter(|(of, _)| Arc::ptr_eq(of, &frame.drawn));
+        known.map(|(_, extrema)| extrema)
+    }
 }
 
 impl<'a> Standing<'a> {
@@ -268,9 +283,9 @@ impl<'a> Standing<'a> {
     }
 
     /// Small marks at the smallest and the largest value of all, with their places.
-    fn extrema(&self, ui: &Ui) {
+    fn extrema(&self, ui: &Ui, extrema: Option<&Extrema>) {
         let picture = &self.frame.picture;
-        let Some(extrema) = &picture.span.values else { return };
+        let Some(extrema) = extrema else { return };
         if self.has_classes() || picture.one_value.is_some() || !picture.has_values {
             return;
         }
@@ -416,7 +431,8 @@ fn rounded(value: f64, digits: usize) -> f64 {
 
 /// The value of a picture below a place of the view.
 fn value_at(frame: &Frame, view: &View, offset: Vec2) -> Option<f64> {
-    let made = &frame.wanted.view;
+    // of a rough picture that of its own pixels
+    let made = &frame.drawn.view;
     let pixel = made.pixel_of_offset(offset + (view.center - made.center));
     let [columns, rows] = made.pixels;
     let is_inside = pixel.x >= 0.0

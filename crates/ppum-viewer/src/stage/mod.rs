@@ -4,6 +4,8 @@ pub mod against;
 pub mod bar;
 pub mod flight;
 pub mod locator;
+pub mod material;
+pub mod pixels;
 pub mod readout;
 pub mod scale_bar;
 pub mod sight;

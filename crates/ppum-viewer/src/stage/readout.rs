@@ -75,7 +75,8 @@ impl Stage {
                 Some(known) => self.reading.selected = Some(known),
                 None => {
                     let hover = self.reading.hover.as_ref();
-                    self.reading.clicked = hover.map(|probed| (now, probed.spot));
+                    let inside = hover.filter(|probed| !probed.is_outside());
+                    self.reading.clicked = inside.map(|probed| (now, probed.spot));
                 }
             }
         }
@@ -96,11 +97,11 @@ impl Stage {
         self.reading.selected = Some(pane.probes.len() - 1);
     }
 
-    /// The point that is read: that at the pointer, else the middle of the view.
+    /// The point that is read: that of the plate at the pointer, else the middle of the view.
     #[must_use]
     pub fn spot(&self) -> Option<Spot> {
-        let hover = self.reading.hover.as_ref().map(|probed| probed.spot);
-        hover.or_else(|| Some(Spot::new(self.view?.center, Vec2::ZERO)))
+        let hover = self.reading.hover.as_ref().filter(|probed| !probed.is_outside());
+        hover.map(|probed| probed.spot).or_else(|| Some(Spot::new(self.view?.center, Vec2::ZERO)))
     }
 
     /// What is read at the pointer, else at the selected probe, as a text to be copied.
@@ -118,6 +119,7 @@ impl Stage {
         let parts = self.words(pane);
         let (rect, _) =
             ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
+        ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
         let builder = egui::UiBuilder::new()
             .max_rect(rect.shrink2(vec2(8.0, 0.0)))
             .layout(egui::Layout::left_to_right(egui::Align::Center));
@@ -127,7 +129,8 @@ impl Stage {
                 if k > 0 {
                     ui.separator();
                 }
-                ui.add(egui::Label::new(RichText::new(text)).truncate().selectable(false));
+                let text = RichText::new(text).color(ui.visuals().strong_text_color());
+                ui.add(egui::Label::new(text).truncate().selectable(false));
             }
         });
     }
@@ -186,6 +189,14 @@ impl Stage {
         self.told_integral(ui, sight, pane, &cracks);
     }
 
+    /// The factors that the solver stored in the step that is shown.
+    #[cfg(feature = "solve")]
+    fn stored_factors(&self, pane: &Pane) -> Vec<ppum::dataset::TipIntensity> {
+        let dataset = self.opened.as_ref().map(|opened| &opened.dataset);
+        let step = dataset.and_then(|d| d.steps.get(pane.scene.subject.step_of(d)));
+        step.map(|step| step.intensities.clone()).unwrap_or_default()
+    }
+
     /// K beside the circle, or the reason why there is none.
     #[cfg(feature = "solve")]
     fn told_integral(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane, cracks: &[Crack]) {
@@ -193,8 +204,9 @@ impl Stage {
         if !self.reading.integral.is_asked() || self.reading.grip.is_some() {
             return;
         }
+        let stored = self.stored_factors(pane);
         let text = match self.reading.integral.found() {
-            Some(Ok(factors)) => crate::reading::integral::told(&factors),
+            Some(Ok(factors)) => crate::reading::integral::told(&factors, &stored),
             Some(Err(reason)) => reason,
             None => "K …".into(),
         };
@@ -208,9 +220,9 @@ impl Stage {
 /// A text on a plate of its own above a position, inside a rectangle.
 #[cfg(feature = "solve")]
 fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
-    let width = (within.width() - 24.0).min(360.0);
+    let width = (within.width() - 24.0).min(420.0);
     let font = egui::TextStyle::Body.resolve(ui.style());
-    let color = ui.visuals().text_color();
+    let color = ui.visuals().strong_text_color();
     let galley = ui.painter().layout(text.to_owned(), font, color, width);
     let size = galley.size() + vec2(12.0, 8.0);
     let room = (within.size() - size).max(egui::Vec2::ZERO);
@@ -218,7 +230,11 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let corner = within.min + corner.max(egui::Vec2::ZERO).min(room);
     let rect = Rect::from_min_size(corner, size);
     ui.painter_at(within).rect_filled(rect, 4.0, ui.visuals().panel_fill.gamma_multiply(0.92));
-    ui.put(rect, egui::Label::new(text).selectable(false));
+    // a label, so that it is read aloud too; of a child, since the plate's own room is given away
+    let builder = egui::UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0)));
+    let mut child = ui.new_child(builder);
+    child.set_clip_rect(within);
+    child.add(egui::Label::new(galley).selectable(false));
 }
 
 /// The parts that have room beside each other.

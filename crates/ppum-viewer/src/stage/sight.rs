@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use egui::{Pos2, Rect, pos2};
-use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::Deformation;
 use ppum_render::view::View;
@@ -11,6 +10,7 @@ use ppum_render::view::View;
 use crate::field::OwnedField;
 use crate::frames::Frame;
 use crate::reading::spot::Spot;
+use crate::stage::material::material;
 
 /// A view in a rectangle of the window, of the plate as it was or deformed.
 pub struct Sight {
@@ -22,8 +22,8 @@ pub struct Sight {
     moved: Option<(Arc<OwnedField>, f64)>,
 }
 
-/// Points of a line between two others on the deformed plate.
-const STEPS: usize = 24;
+/// Points of a polyline on the deformed plate, where it has fewer corners.
+const STEPS: usize = 96;
 
 impl Sight {
     /// A view in a rectangle; of the deformed plate if the picture shows that.
@@ -52,10 +52,8 @@ impl Sight {
         let Some((field, factor)) = &self.moved else {
             return Some(Spot::new(self.view.center, offset));
         };
-        let one = View::new(self.view.center + offset, self.view.pixel_size(), [1, 1]).ok()?;
-        let seen = Deformation::new(field.field(), *factor).ok()?.seen(&one);
-        let points = seen.points(unwatched()).ok()?;
-        points.at(0, 0).first().map(|point| Spot::new(seen.anchor, point.offset))
+        let pixel = self.view.pixel_size();
+        material(field.field(), *factor, [self.view.center, offset], pixel)
     }
 
     /// Where a point lies, in points of the window from the rectangle's corner; it may be far away.
@@ -93,11 +91,12 @@ impl Sight {
     /// What is seen of the lines between points, one after the other.
     #[must_use]
     pub fn lines(&self, spots: &[Spot]) -> Vec<[Pos2; 2]> {
+        let steps = (STEPS / spots.len().max(1)).max(1);
         let places: Vec<Vec2> = match &self.moved {
             None => spots.iter().map(|spot| self.place(spot)).collect(),
             Some(_) => spots
                 .windows(2)
-                .flat_map(|pair| (0..=STEPS).map(move |k| between(pair, k)))
+                .flat_map(|pair| (0..=steps).map(move |k| between(pair, k as f64 / steps as f64)))
                 .map(|spot| self.place(&spot))
                 .collect(),
         };
@@ -107,12 +106,10 @@ impl Sight {
     }
 }
 
-fn between(pair: &[Spot], k: usize) -> Spot {
+/// The point at a part of the way between two others.
+fn between(pair: &[Spot], part: f64) -> Spot {
     let (a, b) = (pair[0], pair[1]);
-    Spot::new(
-        a.anchor(),
-        a.offset() + (b.from(a.anchor()) - a.offset()) * (k as f64 / STEPS as f64),
-    )
+    Spot::new(a.anchor(), a.offset() + (b.from(a.anchor()) - a.offset()) * part)
 }
 
 /// The part of a line inside a box from zero to `size`, with some room around it (Liang and Barsky 1984).

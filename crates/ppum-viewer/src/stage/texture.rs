@@ -8,28 +8,37 @@ use ppum_render::view::View;
 
 use crate::frames::Painted;
 use crate::shapes::Placed;
+use crate::stage::pixels::{self, Place};
 
 /// A picture on its way to the screen; it is sent there once.
 #[derive(Default)]
 pub struct Texture {
+    place: Place,
     sent: Option<(Arc<ColorImage>, TextureHandle)>,
 }
 
 impl Texture {
     /// Draws a picture in a rectangle that shows a view.
-    pub fn show(&mut self, painter: &Painter, painted: &Painted, view: &View, rect: Rect) {
+    pub fn show(&mut self, painter: &Painter, painted: &Arc<Painted>, view: &View, rect: Rect) {
         let placed = placed(&painted.view, view, rect);
         let size = painted.image.size.map(|n| n as f32 * placed.scale);
         let target = Rect::from_min_size(placed.corner, vec2(size[0], size[1]));
+        // a coarse picture looks better smooth; of a fine one pixels are pixels
+        let is_coarse = painted.view.pixels[0] < view.pixels[0] / 2;
+        if pixels::draw(painter, &self.place, painted, (target, is_coarse)) {
+            return;
+        }
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let handle = self.send(painter, painted, view);
+        let handle = self.send(painter, painted.texture(), is_coarse);
         painter.image(handle.id(), target, whole, Color32::WHITE);
     }
 
-    fn send(&mut self, painter: &Painter, painted: &Painted, view: &View) -> &TextureHandle {
-        let image = &painted.texture;
-        // a coarse picture looks better smooth; of a fine one pixels are pixels
-        let is_coarse = painted.view.pixels[0] < view.pixels[0] / 2;
+    fn send(
+        &mut self,
+        painter: &Painter,
+        image: &Arc<ColorImage>,
+        is_coarse: bool,
+    ) -> &TextureHandle {
         let options = if is_coarse { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
         let (sent, handle) = self.sent.get_or_insert_with(|| {
             (Arc::clone(image), painter.ctx().load_texture("plate", Arc::clone(image), options))

@@ -2,6 +2,8 @@
 
 mod controls;
 mod files;
+mod frames;
+mod hands;
 mod kit;
 mod lab;
 mod moving;

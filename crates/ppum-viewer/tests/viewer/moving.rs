@@ -69,7 +69,9 @@ fn the_wheel_keeps_the_point_below_the_cursor() {
     let mut window = window(plate(), [900.0, 600.0]);
     let mut random = Random(3);
     for _ in 0..12 {
+        // the colour bar on the right has the wheel for itself
         let rect = stage(&window).shrink(60.0);
+        let rect = rect.with_max_x(rect.max.x - 80.0);
         let at = rect.lerp_inside(vec2(random.unit() as f32, random.unit() as f32));
         window.hover_at(at);
         window.step();

@@ -178,3 +178,18 @@ fn what_the_solver_tells_is_shown() {
     };
     lab.until("it flies there", is_there);
 }
+
+/// In the smallest window that is promised every button of the player lies inside.
+#[test]
+fn the_player_has_room_in_a_small_window() {
+    let mut lab = series(12);
+    lab.window.set_size(egui::vec2(700.0, 500.0));
+    lab.state().session.drawer = Some(Page::Series);
+    lab.settle();
+    lab.settle();
+    shot(&mut lab, "solving-small");
+    for name in ["Step before", "Step after", "Play the steps", "Loop", "Keys", "File"] {
+        let rect = lab.window.get_by_label(name).rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= 700.0, "{name}: {rect:?}");
+    }
+}

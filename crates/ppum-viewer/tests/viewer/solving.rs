@@ -234,3 +234,22 @@ fn an_example_is_a_click_away() {
     lab.window.get_by_label("Plate");
     lab.window.get_by_label("Text of the problem");
 }
+
+/// In the smallest window that is promised everything that is needed is inside.
+#[test]
+fn a_problem_has_room_in_a_small_window() {
+    let mut lab = lab(&text(2).replace("young", "yong"));
+    lab.state().session.theme = ppum_viewer::session::Theme::Light;
+    lab.window.ctx.set_theme(egui::Theme::Light);
+    lab.window.set_size(egui::vec2(700.0, 500.0));
+    lab.settle();
+    lab.settle();
+    shot(&mut lab, "solving-small-problem");
+    for name in ["Solve", "Save", "Save as…", "Text of the problem", "Problem", "File"] {
+        let rect = lab.window.get_by_label(name).rect();
+        assert!(
+            rect.left() >= 0.0 && rect.right() <= 700.0 && rect.top() < 490.0,
+            "{name}: {rect:?}"
+        );
+    }
+}

@@ -2,15 +2,18 @@
 
 #[cfg(feature = "solve")]
 use std::path::Path;
+use std::sync::Arc;
 
 use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Sense, Stroke, Ui, vec2};
 use ppum::crack::{Crack, tips};
-use ppum_figure::canvas::{Canvas, Item};
 use ppum_figure::plot::{Area, LEAST, Plot, plot};
 use ppum_scene::profile::Along;
 
 use crate::desk::Desk;
+use crate::panels::chart::darkened;
 use crate::panels::entry::entry;
+#[cfg(feature = "solve")]
+use crate::panels::top::button;
 use crate::reading::plotted::{Asked, Values};
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
@@ -21,11 +24,10 @@ use crate::stage::tools::Tool;
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     ui.horizontal_wrapped(|ui| chooser(ui, pane, stage));
-    ui.horizontal_wrapped(|ui| settings(ui, pane));
     stage.reading.marked = None;
     let Some(frame) = stage.frames.newest().cloned() else { return };
     let Some(asked) = Asked::of(pane, &frame.field) else {
-        ui.label("Draw a line or a circle over the plate, or choose a crack or a tip.");
+        ui.weak("Draw a line or a circle over the plate, or choose a crack or a tip.");
         return;
     };
     let theirs = asked.clone();
@@ -39,17 +41,29 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         // asked for again when what runs is done
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(15));
     }
-    match &*found {
-        Err(reason) => {
-            ui.colored_label(ui.visuals().error_fg_color, reason);
+    if found.is_ok() {
+        stage.reading.good = Some((known.along, Arc::clone(&found)));
+    }
+    let good = stage.reading.good.clone().filter(|(along, _)| *along == asked.along);
+    let values = good.as_ref().and_then(|(_, found)| found.as_ref().as_ref().ok());
+    let page = values.map(|values| values.plot(pane.plot.log));
+    ui.horizontal_wrapped(|ui| {
+        settings(ui, pane);
+        if let (Some(values), Some(page)) = (values, &page) {
+            save(ui, stage, values, page);
         }
-        Ok(values) => found_values(ui, pane, stage, values),
+    });
+    if let Err(reason) = &*found {
+        ui.colored_label(ui.visuals().error_fg_color, reason);
+    }
+    if let (Some(values), Some(page)) = (values, &page) {
+        graph(ui, pane, stage, values, page);
     }
 }
 
-fn found_values(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values) {
-    let drawn = values.plot(pane.plot.log);
-    let page = || plot(&drawn, PAGE);
+/// Buttons for the files of a plot.
+fn save(ui: &mut Ui, stage: &mut Stage, values: &Values, drawn: &Plot) {
+    let page = || plot(drawn, PAGE);
     let files: [(&str, &dyn Fn() -> Vec<u8>); 4] = [
         ("csv", &|| values.table.csv().into_bytes()),
         ("svg", &|| page().svg(96.0, &[]).into_bytes()),
@@ -57,7 +71,6 @@ fn found_values(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values) {
         ("png", &|| ppum_render::png::encode_at(&page().image(), None, &[]).unwrap_or_default()),
     ];
     outputs(ui, stage, &files, &|| values.table.csv());
-    graph(ui, pane, stage, values, &drawn);
 }
 
 /// Size of the page of a plot that is written to a file, as `ppum plot` has it.
@@ -66,7 +79,7 @@ const PAGE: [u32; 2] = [900, 600];
 /// Which curve.
 fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
     let cracks = stage.cracks(pane).unwrap_or_default();
-    let chosen = pane.curve.as_ref().map_or("no curve".into(), |along| name(along));
+    let chosen = pane.curve.as_ref().map_or("no curve".into(), name);
     let list = ComboBox::from_id_salt("curve").selected_text(chosen).width(150.0);
     let list = list.show_ui(ui, |ui| {
         let before = pane.curve;
@@ -79,14 +92,16 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
         }
     });
     list.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Curve"));
-    for (tool, name) in [
-        (Tool::Line, "Draw a line"),
-        (Tool::Circle, "Draw a circle"),
-        (Tool::Ray, "Draw a ray"),
-        (Tool::Crack, "Click a crack"),
+    for (tool, sign, name) in [
+        (Tool::Line, "Line", "Draw a line"),
+        (Tool::Circle, "Circle", "Draw a circle"),
+        (Tool::Ray, "Ray", "Draw a ray"),
+        (Tool::Crack, "Crack", "Click a crack"),
     ] {
         let is_on = stage.reading.tool == Some(tool);
-        if ui.selectable_label(is_on, name).on_hover_text(tool.hint()).clicked() {
+        let chosen = ui.selectable_label(is_on, sign).on_hover_text(tool.hint());
+        chosen.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_on, name));
+        if chosen.clicked() {
             stage.reading.tool = (!is_on).then_some(tool);
             if tool == Tool::Ray {
                 pane.plot.log = [true; 2];
@@ -168,7 +183,7 @@ fn with_numbers(along: Along, text: &str) -> Option<Along> {
 /// Quantities, axes and points.
 fn settings(ui: &mut Ui, pane: &mut Pane) {
     let text = pane.plot.quantities.clone().unwrap_or_default();
-    if let Some(text) = entry(ui, "Quantities of the plot", &text, "as on the plate", 190.0) {
+    if let Some(text) = entry(ui, "Quantities of the plot", &text, "as on the plate", 150.0) {
         pane.plot.quantities = (!text.trim().is_empty()).then_some(text);
     }
     let [x, y] = &mut pane.plot.log;
@@ -187,15 +202,13 @@ pub(crate) fn outputs(
     files: &[(&str, &dyn Fn() -> Vec<u8>)],
     text: &dyn Fn() -> String,
 ) {
-    ui.horizontal_wrapped(|ui| {
-        if ui.button("Copy CSV").clicked() {
-            ui.ctx().copy_text(text());
-        }
-        #[cfg(feature = "solve")]
-        write(ui, stage, files);
-        #[cfg(not(feature = "solve"))]
-        let _ = (stage, files);
-    });
+    if ui.button("Copy CSV").clicked() {
+        ui.ctx().copy_text(text());
+    }
+    #[cfg(feature = "solve")]
+    write(ui, stage, files);
+    #[cfg(not(feature = "solve"))]
+    let _ = (stage, files);
 }
 
 #[cfg(feature = "solve")]
@@ -204,10 +217,11 @@ fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)])
     let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
     let output = &mut stage.reading.output;
     let label = ui.label("File");
-    let field = egui::TextEdit::singleline(&mut output.path).hint_text("name").desired_width(150.0);
+    let field = egui::TextEdit::singleline(&mut output.path).hint_text("name").desired_width(110.0);
     ui.add(field).labelled_by(label.id);
     for (end, bytes) in files {
-        if ui.button(format!("Save {}", end.to_uppercase())).clicked() {
+        let end_shown = end.to_uppercase();
+        if button(ui, &end_shown, &format!("Save {end_shown}")).clicked() {
             output.save(end, &bytes(), &inputs);
         }
     }
@@ -258,36 +272,8 @@ const SMALLER: f32 = 0.75;
 fn lettered(ui: &Ui, painter: &egui::Painter, rect: Rect, text: &str) {
     let font = FontId::proportional(13.0);
     let galley = painter.layout_no_wrap(text.to_owned(), font, ui.visuals().strong_text_color());
-    let at = rect.right_top() + vec2(-14.0, 4.0);
-    let place = Align2::RIGHT_TOP.anchor_size(at, galley.size());
+    let at = rect.left_bottom() + vec2(8.0, -3.0);
+    let place = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
     painter.rect_filled(place.expand(3.0), 3.0, ui.visuals().extreme_bg_color);
     painter.galley(place.min, galley, Color32::WHITE);
-}
-
-/// A page with its greys turned round, for dark windows; colours are the same.
-fn darkened(page: Canvas) -> Canvas {
-    let items = page.items.into_iter().map(|item| match item {
-        Item::Line { path, mut pen } => {
-            pen.color = turned(pen.color);
-            if let Some(halo) = &mut pen.halo {
-                halo.color = turned(halo.color);
-            }
-            Item::Line { path, pen }
-        }
-        Item::Fill { outline, color } => Item::Fill { outline, color: turned(color) },
-        Item::Text(mut line) => {
-            line.color = turned(line.color);
-            Item::Text(line)
-        }
-        Item::Inset { corner, canvas } => Item::Inset { corner, canvas: darkened(canvas) },
-        other => other,
-    });
-    Canvas { size: page.size, paper: turned(page.paper), items: items.collect() }
-}
-
-fn turned(color: [u8; 4]) -> [u8; 4] {
-    let [r, g, b, a] = color;
-    let (low, high) = (r.min(g).min(b), r.max(g).max(b));
-    let grey = |v: u8| 20 + (u16::from(255 - v) * 225 / 255) as u8;
-    if high - low < 12 { [grey(r), grey(g), grey(b), a] } else { color }
 }

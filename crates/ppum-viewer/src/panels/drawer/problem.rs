@@ -169,7 +169,12 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
             ui.colored_label(ui.visuals().error_fg_color, error);
         }
         Some(Outcome::Solved(seconds, warnings)) => {
-            ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
+            ui.horizontal_wrapped(|ui| {
+                ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
+                if ui.button("Save the dataset…").clicked() {
+                    desk.actions.push(Action::SaveDataset);
+                }
+            });
             for warning in warnings {
                 ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
             }
@@ -217,7 +222,8 @@ fn progress(ui: &mut Ui, running: &Running) {
     let name = phase.map_or("beginning", ppum::progress::Phase::name);
     let name = if running.is_cancelled() { "stopping" } else { name };
     let text = format!("{} of {}: {name}, {:.0} s", at + 1, PHASES.len(), running.seconds());
-    let bar = ui.add(ProgressBar::new(told.part()).text(text.clone()));
+    let bar = ui.add(ProgressBar::new(told.part()).desired_height(8.0));
+    ui.label(&text);
     bar.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &text));
     ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
 }

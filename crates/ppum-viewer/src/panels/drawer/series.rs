@@ -1,6 +1,6 @@
 //! Stress intensity factors and lengths of cracks against the steps of a series.
 
-use egui::{Color32, ScrollArea, Stroke, Ui, vec2};
+use egui::{ScrollArea, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
@@ -29,12 +29,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.horizontal(|ui| {
             for (name, mut plot) in plots {
                 plot.x.range = Some(range);
+                plot.x.marks = (0..dataset.steps.len()).map(|k| k as f64).collect();
                 let chart = chart(ui, name, &plot, vec2(width, room.y.max(120.0)));
-                let x = chart.position(step as f64, range);
-                let line = Stroke::new(1.0, Color32::from_rgb(200, 60, 60));
-                ui.painter().vline(x, chart.frame.y_range(), line);
+                chart.mark(ui, step as f64);
                 if let Some(at) = chart.response.interact_pointer_pos() {
-                    let chosen = chart.value_at(at.x, range).round().max(0.0) as usize;
+                    let chosen = chart.across(at.x).round().max(0.0) as usize;
                     pane.scene.subject.step = Some(chosen.min(dataset.steps.len() - 1));
                 }
             }

@@ -25,10 +25,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     ScrollArea::horizontal().id_salt("solver").show(ui, |ui| {
         ui.horizontal_top(|ui| {
             numbers(ui, step, room);
+            warnings(ui, desk, &dataset, step, room);
             for (name, plot) in plots(&dataset, step) {
                 chart(ui, name, &plot, vec2(440.0, (room - 14.0).max(120.0)));
             }
-            warnings(ui, desk, &dataset, step, room);
         });
     });
 }
@@ -118,7 +118,7 @@ fn course(dataset: &Dataset, name: &str) -> Vec<[f64; 2]> {
 fn warnings(ui: &mut Ui, desk: &mut Desk<'_>, dataset: &Dataset, step: &Step, height: f32) {
     ScrollArea::vertical().id_salt("warnings").max_height(height).show(ui, |ui| {
         ui.vertical(|ui| {
-            ui.set_width(360.0);
+            ui.set_width(if step.warnings.is_empty() { 90.0 } else { 320.0 });
             if step.warnings.is_empty() {
                 ui.weak("No warnings.");
             }

@@ -5,6 +5,7 @@ use ppum_scene::range::places;
 use ppum_scene::table::{Column, Table};
 use ppum_scene::tips::{Tip, stored, words};
 
+use super::plot::outputs;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::panels::top::button;
@@ -23,10 +24,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         return;
     }
     let table = table(&tips);
-    super::plot::outputs(ui, stage, &[("csv", &|| table.csv().into_bytes())], &|| table.csv());
+    let csv = || table.csv().into_bytes();
+    ui.horizontal_wrapped(|ui| outputs(ui, stage, &[("csv", &csv)], &|| table.csv()));
     let places = places(&opened.dataset);
     ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-        Grid::new("tips").striped(true).min_col_width(40.0).show(ui, |ui| {
+        Grid::new("tips").striped(true).spacing([18.0, 4.0]).show(ui, |ui| {
             for head in ["tip", "crack", "position", "direction", "K_I", "K_II", "spread"] {
                 ui.strong(head);
             }

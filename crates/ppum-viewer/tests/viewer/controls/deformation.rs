@@ -34,7 +34,7 @@ fn the_deformation_plays_without_changing_the_session() {
     window.step();
     assert_eq!(scene(&window).deformed, Some(Factor::Auto));
     let mut factors = Vec::new();
-    for _ in 0..200 {
+    for _ in 0..300 {
         window.step();
         std::thread::sleep(std::time::Duration::from_millis(10));
         factors.extend(frame(&window).factor);

@@ -1,0 +1,110 @@
+//! The point of the plate that the displacement has moved to a place: x + s u(x) = y, by Newton's method.
+//!
+//! What is found is such a point, whichever start has led there; where the plate folds it is one of several.
+
+use ppum::crack::{Side, tips};
+use ppum::field::{Field, LocalField};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+use crate::reading::spot::Spot;
+
+/// Steps from one start, and halvings of a step.
+const STEPS: usize = 25;
+const HALVINGS: usize = 8;
+/// Starts around the first one, for places near cracks.
+const AROUND: u32 = 8;
+/// Points nearer to a tip than this part of the plate are counted from it.
+const NEAR: f64 = 1e-3;
+/// What is missed at most, in pixels.
+const MISS: f64 = 1e-3;
+
+/// The point that `factor` times its displacement moves to `center + offset`, to a thousandth of a pixel; none if no
+/// point of the plate lies there.
+#[must_use]
+pub fn material(
+    field: &Field<'_>,
+    factor: f64,
+    [center, offset]: [Vec2; 2],
+    pixel: f64,
+) -> Option<Spot> {
+    let place = center + offset;
+    let bounds = field.domain.bounds;
+    let within = |p: Vec2| p.max(bounds.min).min(bounds.max);
+    let first = within(place);
+    let moved = map(&mut field.at(first), Vec2::ZERO, factor).map_or(Vec2::ZERO, |at| at.shift);
+    let start = within(place - moved);
+    let reach = moved.length().max(4.0 * pixel);
+    let around = (0..AROUND).map(|k| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(AROUND)).sin_cos();
+        within(start + vec2(cos, sin) * reach)
+    });
+    let tolerance = (MISS * pixel).max(4.0 * f64::EPSILON * place.length());
+    let solved = |start: Vec2| {
+        // coarsely first, which says from where the point should be counted
+        let coarse = solve(field, factor, start, place - start, tolerance.max(1e-9 * reach))?;
+        let near = start + coarse;
+        let anchor = tip_near(field, near).unwrap_or(near);
+        let rest = [(center - anchor) + offset, near - anchor];
+        newton(&mut field.at(anchor), factor, rest, tolerance).map(|o| Spot::new(anchor, o))
+    };
+    [start, first].into_iter().chain(around).find_map(solved)
+}
+
+fn solve(field: &Field<'_>, factor: f64, start: Vec2, goal: Vec2, miss: f64) -> Option<Vec2> {
+    newton(&mut field.at(start), factor, [goal, Vec2::ZERO], miss)
+}
+
+/// The tip beside a point.
+fn tip_near(field: &Field<'_>, point: Vec2) -> Option<Vec2> {
+    let (size, cracks) = (field.domain.bounds.size(), &field.step.cracks);
+    let all = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
+    let distance = |tip: &Vec2| (*tip - point).length();
+    let nearest = all.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (distance(&nearest) < NEAR * size.x.max(size.y)).then_some(nearest)
+}
+
+/// s u and its gradient at a point.
+struct Moved {
+    shift: Vec2,
+    /// The columns of I + s ∇u.
+    columns: [Vec2; 2],
+}
+
+fn map(local: &mut LocalField<'_>, offset: Vec2, factor: f64) -> Option<Moved> {
+    let mut jets = [Jet::constant(0.0); 2];
+    if local.field.components() != 2 || !local.evaluate::<1>(offset, Side::Above, &mut jets) {
+        return None;
+    }
+    let [u, v] = jets;
+    let shift = vec2(u.v, v.v) * factor;
+    let columns = [vec2(1.0 + factor * u.x, factor * v.x), vec2(factor * u.y, 1.0 + factor * v.y)];
+    shift.is_finite().then_some(Moved { shift, columns })
+}
+
+/// The offset that is moved to a goal, both counted from the field's anchor.
+fn newton(
+    local: &mut LocalField<'_>,
+    factor: f64,
+    [goal, start]: [Vec2; 2],
+    tolerance: f64,
+) -> Option<Vec2> {
+    let (mut at, mut here) = (start, map(local, start, factor)?);
+    let mut miss = goal - at - here.shift;
+    for _ in 0..STEPS {
+        if miss.length() <= tolerance {
+            return Some(at);
+        }
+        let [a, b] = here.columns;
+        let newton = vec2(miss.cross(b), a.cross(miss)) / a.cross(b);
+        let step = if newton.is_finite() { newton } else { miss };
+        let nearer = (0..HALVINGS).find_map(|k| {
+            let next = at + step * 0.5f64.powi(k as i32);
+            let there = map(local, next, factor)?;
+            let left = goal - next - there.shift;
+            (left.length() < miss.length()).then_some((next, there, left))
+        });
+        (at, here, miss) = nearer?;
+    }
+    None
+}

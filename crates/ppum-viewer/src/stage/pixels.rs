@@ -1,0 +1,278 @@
+//! Pixels of a picture drawn by a shader of our own, which does nothing but fetch them.
+//!
+//! That of egui filters, dithers and counts with remainders at every pixel; a software driver computes all of it, whatever it
+//! needs, which takes ten times as long as all the rest of a frame (docs/decisions/0012-frames-of-the-window.md).
+
+use std::sync::{Arc, Weak};
+
+use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
+use egui::{Context, Id, PaintCallbackInfo, Painter, Rect};
+use ppum_render::image::Image;
+
+use crate::frames::Painted;
+
+/// Lets pictures be drawn by the shader on a device of wgpu; elsewhere egui draws them.
+pub fn use_device(ctx: &Context, target: wgpu::TextureFormat) {
+    if !target.is_srgb() {
+        ctx.data_mut(|data| data.insert_temp(id(), target));
+    }
+}
+
+fn id() -> Id {
+    Id::unique("format of the window's pixels")
+}
+
+/// A place for a picture on the device, as long as it is held.
+#[derive(Clone, Default)]
+pub(super) struct Place(Arc<()>);
+
+/// Draws a picture with its corners at those of a rectangle, a coarse one smoothly; false if egui has to.
+pub(super) fn draw(
+    painter: &Painter,
+    place: &Place,
+    picture: &Arc<Painted>,
+    (target, is_smooth): (Rect, bool),
+) -> bool {
+    let format: Option<wgpu::TextureFormat> = painter.ctx().data(|data| data.get_temp(id()));
+    let Some(format) = format else { return false };
+    let rect = painter.clip_rect();
+    let relative = |x: f32, from: f32, size: f32| 2.0 * (x - from) / size - 1.0;
+    let corner = |p: egui::Pos2| {
+        [relative(p.x, rect.min.x, rect.width()), -relative(p.y, rect.min.y, rect.height())]
+    };
+    let ([left, top], [right, bottom]) = (corner(target.min), corner(target.max));
+    let shown = Shown {
+        place: place.clone(),
+        picture: Arc::clone(picture),
+        corners: [left, top, right, bottom],
+        is_smooth,
+        format,
+    };
+    painter.add(Callback::new_paint_callback(rect, shown));
+    true
+}
+
+/// A picture that is to be drawn.
+struct Shown {
+    place: Place,
+    picture: Arc<Painted>,
+    /// Left, top, right and bottom, from −1 to 1 across the rectangle that is drawn in.
+    corners: [f32; 4],
+    is_smooth: bool,
+    format: wgpu::TextureFormat,
+}
+
+/// What the device keeps: pipelines, and pictures by their places.
+struct Kept {
+    pipelines: [wgpu::RenderPipeline; 2],
+    sampler: wgpu::Sampler,
+    pictures: Vec<Picture>,
+}
+
+/// A picture on the device.
+struct Picture {
+    place: Weak<()>,
+    picture: Arc<Painted>,
+    texture: wgpu::Texture,
+    corners: wgpu::Buffer,
+    bindings: wgpu::BindGroup,
+}
+
+impl CallbackTrait for Shown {
+    fn prepare(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        _: &ScreenDescriptor,
+        _: &mut wgpu::CommandEncoder,
+        resources: &mut CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        let kept = resources.entry::<Kept>().or_insert_with(|| Kept::new(device, self.format));
+        kept.pictures.retain(|picture| picture.place.strong_count() > 0);
+        let mut known = kept.pictures.iter().position(|picture| picture.is_at(&self.place));
+        if known.is_some_and(|k| kept.pictures[k].picture.image.size != self.picture.image.size) {
+            known.take().map(|k| kept.pictures.remove(k));
+        }
+        match known {
+            Some(k) => kept.pictures[k].change(queue, &self.picture),
+            None => {
+                let new = kept.picture(device, queue, self);
+                kept.pictures.push(new);
+            }
+        }
+        if let Some(picture) = kept.pictures.iter().find(|picture| picture.is_at(&self.place)) {
+            let bytes: Vec<u8> = self.corners.iter().flat_map(|x| x.to_le_bytes()).collect();
+            queue.write_buffer(&picture.corners, 0, &bytes);
+        }
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _: PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        let Some(kept) = resources.get::<Kept>() else { return };
+        let Some(picture) = kept.pictures.iter().find(|p| p.is_at(&self.place)) else { return };
+        pass.set_pipeline(&kept.pipelines[usize::from(self.is_smooth)]);
+        pass.set_bind_group(0, &picture.bindings, &[]);
+        pass.draw(0..4, 0..1);
+    }
+}
+
+impl Kept {
+    fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("picture"),
+            source: wgpu::ShaderSource::Wgsl(include_str!("pixels.wgsl").into()),
+        });
+        let layout = layout(device);
+        let pipelines =
+            ["exact", "smoothed"].map(|entry| pipeline(device, &shader, &layout, entry, format));
+        let filter = wgpu::FilterMode::Linear;
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: filter,
+            min_filter: filter,
+            ..Default::default()
+        });
+        Self { pipelines, sampler, pictures: Vec::new() }
+    }
+
+    fn picture(&self, device: &wgpu::Device, queue: &wgpu::Queue, shown: &Shown) -> Picture {
+        let [width, height] = shown.picture.image.size;
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let corners = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("corners"),
+            size: size_of::<[f32; 4]>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let resources = [
+            corners.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&view),
+            wgpu::BindingResource::Sampler(&self.sampler),
+        ];
+        let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("picture"),
+            layout: &self.pipelines[0].get_bind_group_layout(0),
+            entries: &entries(resources),
+        });
+        let (place, picture) = (Arc::downgrade(&shown.place.0), Arc::clone(&shown.picture));
+        send(queue, &texture, &picture.image);
+        Picture { place, picture, texture, corners, bindings }
+    }
+}
+
+fn entries<const N: usize>(
+    resources: [wgpu::BindingResource<'_>; N],
+) -> Vec<wgpu::BindGroupEntry<'_>> {
+    let numbered = (0..).zip(resources);
+    numbered.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect()
+}
+
+impl Picture {
+    fn is_at(&self, place: &Place) -> bool {
+        self.place.as_ptr() == Arc::as_ptr(&place.0)
+    }
+
+    /// Sends another picture of the same size, if it is another one.
+    fn change(&mut self, queue: &wgpu::Queue, picture: &Arc<Painted>) {
+        if !Arc::ptr_eq(&self.picture, picture) {
+            send(queue, &self.texture, &picture.image);
+            self.picture = Arc::clone(picture);
+        }
+    }
+}
+
+fn send(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
+    let [width, height] = image.size;
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(4 * width),
+        rows_per_image: Some(height),
+    };
+    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    queue.write_texture(texture.as_image_copy(), &image.rgba, layout, size);
+}
+
+/// The corners, the picture, and how it is smoothed; one layout for both pipelines.
+fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
+    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty,
+        count: None,
+    };
+    let corners = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let picture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let bindings = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("picture"),
+        entries: &[
+            entry(0, wgpu::ShaderStages::VERTEX, corners),
+            entry(1, wgpu::ShaderStages::VERTEX_FRAGMENT, picture),
+            entry(2, wgpu::ShaderStages::FRAGMENT, sampler),
+        ],
+    });
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("picture"),
+        bind_group_layouts: &[Some(&bindings)],
+        immediate_size: 0,
+    })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    shader: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    entry: &str,
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("picture"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some("corner"),
+            buffers: &[],
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            ..Default::default()
+        },
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: shader,
+            entry_point: Some(entry),
+            targets: &[Some(wgpu::ColorTargetState {
+                format,
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,92 @@
+//! Pictures on their way to the screen.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{Event, PointerButton, pos2, vec2};
+use egui_kittest::Harness;
+use ppum_viewer::Viewer;
+use ppum_viewer::session::Session;
+use ppum_viewer::stage::pixels::use_device;
+
+use crate::kit::{plate, settle, window};
+
+#[test]
+fn at_rest_nothing_is_shown_anew() {
+    let mut window = window(plate(), [700.0, 500.0]);
+    let frame = window.state().stages[0].frames.newest().cloned().expect("a picture");
+    for _ in 0..60 {
+        // effects of the mouse and of panels fade
+        window.step();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let delays = window.output().viewport_output.values().map(|viewport| viewport.repaint_delay);
+    assert_eq!(delays.min(), Some(Duration::MAX));
+    let later = window.state().stages[0].frames.newest().expect("a picture");
+    assert!(Arc::ptr_eq(&frame, later) && frame.is_final);
+}
+
+#[test]
+fn a_drag_moves_the_picture_and_ends_with_the_whole_one() {
+    let mut window = window(plate(), [700.0, 500.0]);
+    let view = |window: &Harness<'_, Viewer>| window.state().stages[0].view.expect("a plate");
+    let (before, mut mouse) = (view(&window), pos2(200.0, 250.0));
+    window.event(Event::PointerMoved(mouse));
+    window.step();
+    let button = |pos, pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    };
+    window.event(button(mouse, true));
+    window.step();
+    let mut was_rough = false;
+    for _ in 0..10 {
+        mouse += vec2(6.0, -2.0);
+        window.event(Event::PointerMoved(mouse));
+        window.step();
+        std::thread::sleep(Duration::from_millis(20));
+        window.step();
+        let newest = window.state().stages[0].frames.newest().expect("a picture");
+        was_rough |= newest.drawn.by.ends_with("moved");
+    }
+    window.event(button(mouse, false));
+    settle(&mut window);
+    let after = view(&window);
+    let moved = (before.center - after.center) / before.pixel_size();
+    assert!((moved.x - 60.0).abs() < 1e-6 && (moved.y - 20.0).abs() < 1e-6, "{moved:?}");
+    assert!(was_rough, "strips are drawn while one drags");
+    let last = window.state().stages[0].frames.newest().expect("a picture");
+    assert!(last.is_final && last.drawn.view == after && last.drawn.by == "cpu f64");
+}
+
+/// The shader that fetches pixels draws what egui draws.
+#[test]
+fn both_shaders_draw_the_same_pixels() {
+    let draw = |ours: bool| {
+        let dataset = Arc::new(plate());
+        let builder = Harness::builder().with_size([500.0, 400.0]).with_max_steps(1000).wgpu();
+        let mut harness = builder.build_eframe(|cc| {
+            let state = cc.wgpu_render_state.as_ref().expect("wgpu draws");
+            if ours {
+                use_device(&cc.egui_ctx, state.target_format);
+            }
+            let session = Session { panels: false, ..Session::default() };
+            let mut viewer = Viewer::new(&cc.egui_ctx, session);
+            viewer.open(None, dataset);
+            viewer
+        });
+        settle(&mut harness);
+        harness.render().expect("a driver draws")
+    };
+    let [ours, theirs] = [true, false].map(draw);
+    assert_eq!(ours.dimensions(), theirs.dimensions());
+    let far = ours
+        .pixels()
+        .zip(theirs.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 1));
+    assert_eq!(far.count(), 0);
+    let colors: std::collections::BTreeSet<_> = ours.pixels().map(|pixel| pixel.0).collect();
+    assert!(colors.len() > 50, "a picture is there");
+}
