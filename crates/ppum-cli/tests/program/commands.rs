@@ -31,7 +31,6 @@ fn colors(random: &mut Random) -> Colors {
         colormap: maybe(random, |r| r.pick(&["vik_r", "coolwarm", "viridis"]).to_owned()),
         range: random.pick(&ranges),
         scale: random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
-        symmetric: random.below(2) == 0,
         contrast: random.below(2) == 0,
         bands: maybe(random, |r| r.below(20) as u16 + 1),
         symmetric: random.below(2) == 0,
@@ -59,7 +58,6 @@ fn scene(random: &mut Random) -> Scene {
         functions: maybe(random, |_| ("westergaard 1".to_owned(), "r*(1 + y)".to_owned()))
             .into_iter()
             .collect(),
-        quantities: Vec::new(),
         weight: maybe(random, |r| r.pick(&["bump", "(1 - t)^2"]).to_owned()),
         // a plate that names no quantity: the error is the same
         quantities: (random.below(20) == 0)

@@ -119,6 +119,8 @@ impl Dialog {
         if edit.changed() {
             (self.chosen, self.error, self.replaced) = (None, None, None);
         }
+        // what is written now decides, not what stood there before
+        let fitting = self.fitting();
         let mut taken = self.list(ui, &fitting);
         if tab || (enter && self.chosen.is_some()) {
             taken = taken.or_else(|| fitting.get(self.chosen.unwrap_or(0)).cloned());

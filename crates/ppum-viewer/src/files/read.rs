@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 use ppum::dataset::Dataset;
 use ppum_solve::problem::MAX_LENGTH as MAX_PROBLEM;
@@ -60,6 +61,8 @@ pub struct Reading {
     pub pane: usize,
     /// The reason.
     pub why: Why,
+    /// The time when it was begun.
+    pub since: Instant,
     stamp: Stamp,
     job: Job<Result<Content, String>>,
     bytes: Arc<AtomicU64>,
@@ -73,7 +76,7 @@ impl Reading {
         let stamp = stamp(&path);
         let counted = Arc::clone(&bytes);
         let job = Job::start(ctx, move |stop| read(&file, &counted, stop));
-        Self { path, pane, why, stamp, job, bytes }
+        Self { path, pane, why, since: Instant::now(), stamp, job, bytes }
     }
 
     /// The part of the file that was read, of those whose length is known; what follows is checked then.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ppum_scene::colors::Colors;
 use ppum_scene::scene::Scene;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::session::{Pane, Place, Session};
@@ -77,11 +78,15 @@ fn make_readable(pane: &mut Pane) {
     if !is_readable(&pane.scene) {
         pane.scene = Scene::default();
     }
+    if !is_readable(pane) {
+        let Pane { file, scene, place, .. } = std::mem::take(pane);
+        *pane = Pane { file, scene, place, ..Pane::default() };
+    }
 }
 
-fn is_readable(scene: &Scene) -> bool {
-    let read = serde_json::to_value(scene).and_then(serde_json::from_value::<Scene>);
-    read.is_ok_and(|read| read == *scene)
+fn is_readable<T: Serialize + DeserializeOwned + PartialEq>(value: &T) -> bool {
+    let read = serde_json::to_value(value).and_then(serde_json::from_value::<T>);
+    read.is_ok_and(|read| read == *value)
 }
 
 /// Changes the names of all files of a session.

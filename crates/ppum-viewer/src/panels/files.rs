@@ -10,7 +10,7 @@ use crate::actions::Action;
 use crate::desk::Desk;
 use crate::files::examples::{self, Example};
 use crate::files::name;
-use crate::files::read::Why;
+use crate::files::read::{Reading, Why};
 use crate::session::{Draft, Page};
 
 /// The menu.
@@ -74,11 +74,16 @@ pub fn open_example(desk: &mut Desk<'_>, example: &Example) {
 
 /// What is being read, and what is told of files: over the plate's upper edge, so that nothing moves for it.
 pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
-    if desk.files.notes.is_empty() && desk.files.readings().is_empty() {
+    let waits = desk.files.readings().iter().filter_map(|r| QUICK.checked_sub(r.since.elapsed()));
+    if let Some(rest) = waits.min() {
+        ui.ctx().request_repaint_after(rest);
+    }
+    let is_slow = desk.files.readings().iter().any(is_slow);
+    if desk.files.notes.is_empty() && !is_slow {
         return;
     }
     let area = Area::new(Id::unique("notes")).order(Order::Foreground);
-    let area = area.anchor(Align2::CENTER_TOP, [0.0, 36.0]);
+    let area = area.anchor(Align2::CENTER_TOP, [0.0, 36.0]).fade_in(false);
     area.show(ui.ctx(), |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_max_width((ui.ctx().content_rect().width() - 60.0).min(640.0));
@@ -88,9 +93,16 @@ pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
     });
 }
 
+/// What is read within this time is not told: words that come and go at once only disturb.
+const QUICK: Duration = Duration::from_millis(300);
+
+fn is_slow(reading: &Reading) -> bool {
+    reading.since.elapsed() > QUICK
+}
+
 fn readings(ui: &mut Ui, desk: &mut Desk<'_>) {
     let mut cancelled = None;
-    for reading in desk.files.readings() {
+    for reading in desk.files.readings().iter().filter(|reading| is_slow(reading)) {
         ui.horizontal(|ui| {
             match reading.part().filter(|part| *part < 1.0) {
                 Some(part) => {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ppum::crack::{SegmentId, Side, TipId, tips};
+use ppum::field::LocalField;
 use ppum::quantity::QuantityGradient;
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
@@ -109,25 +110,13 @@ impl Reader {
             patches.sort_unstable();
         }
         let cell = self.cell_of(spot.point(), &patches);
-        let values: &[Option<Side>] = match on {
+        let sides: &[Option<Side>] = match on {
             Some(_) => &[Some(Side::Above), Some(Side::Below)],
             None => &[None],
         };
-        let sides = values.iter().map(|&side| {
-            let on = side.unwrap_or_default();
-            let (value, gradient) = match (&self.shown, &self.gradient) {
-                (Shown::Quantity(_), Some(both)) => {
-                    let slope = both.at(&mut local, spot.offset(), on);
-                    (slope.value, slope.gradient)
-                }
-                (Shown::Quantity(quantity), None) => {
-                    (quantity.at(&mut local, spot.offset(), on), NOWHERE)
-                }
-                (Shown::Cells(_, values), _) => {
-                    let of_cell = cell.and_then(|(patch, _)| values.get(patch as usize));
-                    (of_cell.copied().unwrap_or(f64::NAN), NOWHERE)
-                }
-            };
+        let sides = sides.iter().map(|&side| {
+            let at = (spot.offset(), side.unwrap_or_default());
+            let (value, gradient) = self.value(&mut local, at, cell);
             Sided { side, value, gradient }
         });
         let sides = sides.collect();
@@ -137,6 +126,26 @@ impl Reader {
         };
         let patches = patches.iter().map(phi).collect();
         Probed { spot: *spot, tip, crack: on.map(|segment| segment.crack), sides, cell, patches }
+    }
+
+    /// Value and gradient on a side; of a value of cells that of the point's own.
+    fn value(
+        &self,
+        local: &mut LocalField<'_>,
+        (offset, side): (Vec2, Side),
+        cell: Option<(u32, u8)>,
+    ) -> (f64, Vec2) {
+        match (&self.shown, &self.gradient) {
+            (Shown::Quantity(_), Some(both)) => {
+                let slope = both.at(local, offset, side);
+                (slope.value, slope.gradient)
+            }
+            (Shown::Quantity(quantity), None) => (quantity.at(local, offset, side), NOWHERE),
+            (Shown::Cells(_, values), _) => {
+                let of_cell = cell.and_then(|(patch, _)| values.get(patch as usize));
+                (of_cell.copied().unwrap_or(f64::NAN), NOWHERE)
+            }
+        }
     }
 
     /// The spot itself, or the tip or the point of a crack that lies within reach of it.

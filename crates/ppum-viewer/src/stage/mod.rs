@@ -4,6 +4,7 @@ pub mod against;
 pub mod bar;
 pub mod flight;
 pub mod locator;
+mod marks;
 pub mod material;
 pub mod pixels;
 pub mod readout;
@@ -126,7 +127,6 @@ impl Stage {
             None => self.trail.note(&pane.place),
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
-        self.pick(&response, pane, &opened.dataset);
         if self.frames.poll() {
             // panels have been shown, from the picture before
             ui.ctx().request_repaint();
@@ -138,7 +138,7 @@ impl Stage {
         let keeps_range = pane.keeps_range;
         // grids are of the plate as it was
         let compare = pane.compare.filter(|_| scene.deformed.is_none());
-        let dataset = opened.dataset;
+        let dataset = Arc::clone(&opened.dataset);
         self.frames.want(Wanted { dataset, scene, view, compare, keeps_range });
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
@@ -150,6 +150,7 @@ impl Stage {
         self.furnish(ui, rect, pane, &view);
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         self.read(ui, &response, &sight, pane);
+        self.pick(&response, pane, &opened.dataset);
         self.marks(ui, &sight, pane);
         self.line(ui, pane);
     }

@@ -1,6 +1,6 @@
 //! Curves drawn over the plate by the mouse, and their handles.
 
-use egui::{Key, Modifiers, PointerButton, Response, Ui};
+use egui::{CursorIcon, Key, Modifiers, PointerButton, Response, Ui};
 use ppum::crack::{Crack, TipId, tips};
 use ppum::vec2::Vec2;
 use ppum_scene::profile::Along;
@@ -63,15 +63,10 @@ impl Stage {
         sight: &Sight,
         pane: &mut Pane,
     ) -> bool {
-        if ui.input_mut(|input| {
-            self.reading.tool.is_some() && input.consume_key(Modifiers::NONE, Key::Escape)
-        }) {
-            self.reading.tool = None;
-        }
         let Some(cracks) = self.cracks(pane) else { return false };
-        let size = self.plate_size();
-        let places = Places { view: &sight.view, size, cracks: &cracks };
+        let places = Places { view: &sight.view, size: self.plate_size(), cracks: &cracks };
         let pen = Pen { sight, places };
+        self.point_at(ui, response, &pen, pane);
         if self.reading.tool == Some(Tool::Crack) && response.clicked() {
             let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
             if let Some(index) = at.and_then(|spot| nearest_crack(&cracks, &spot)) {
@@ -81,20 +76,7 @@ impl Stage {
             return true;
         }
         if response.drag_started_by(PointerButton::Primary) {
-            let origin = ui.input(|input| input.pointer.press_origin());
-            let modifiers = ui.input(|input| input.modifiers);
-            let tool = self.reading.tool.or(match () {
-                () if modifiers.shift => Some(Tool::Line),
-                () if modifiers.command => Some(Tool::Circle),
-                () => None,
-            });
-            self.reading.grip = origin.and_then(|at| {
-                pen.gripped(pane.curve, at).or_else(|| {
-                    let (along, grip) = pen.begun(tool?, &sight.spot(at)?)?;
-                    pane.curve = Some(along);
-                    Some(grip)
-                })
-            });
+            self.reading.grip = self.gripped(ui, &pen, pane);
         }
         let Some(grip) = self.reading.grip else { return false };
         let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
@@ -105,6 +87,38 @@ impl Stage {
             (self.reading.grip, self.reading.tool) = (None, None);
         }
         true
+    }
+
+    /// Escape leaves a tool; the pointer says what a drag would do.
+    fn point_at(&mut self, ui: &Ui, response: &Response, pen: &Pen<'_>, pane: &Pane) {
+        let has_tool = self.reading.tool.is_some();
+        if has_tool && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.reading.tool = None;
+        }
+        let Some(at) = response.hover_pos() else { return };
+        if pen.gripped(pane.curve, at).is_some() {
+            ui.ctx().set_cursor_icon(CursorIcon::Grab);
+        } else if has_tool {
+            ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+        }
+    }
+
+    /// The handle that a drag has begun at; that of a new curve if a tool is chosen, by itself or by a key that is held.
+    fn gripped(&self, ui: &Ui, pen: &Pen<'_>, pane: &mut Pane) -> Option<Grip> {
+        let at = ui.input(|input| input.pointer.press_origin())?;
+        let modifiers = ui.input(|input| input.modifiers);
+        let by_key = match () {
+            () if modifiers.shift => Some(Tool::Line),
+            () if modifiers.command => Some(Tool::Circle),
+            () => None,
+        };
+        if let Some(grip) = pen.gripped(pane.curve, at) {
+            return Some(grip);
+        }
+        let tool = self.reading.tool.or(by_key)?;
+        let (along, grip) = pen.begun(tool, &pen.sight.spot(at)?)?;
+        pane.curve = Some(along);
+        Some(grip)
     }
 
     /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one that is.

@@ -162,6 +162,30 @@ fn a_click_pins_a_probe_and_a_double_click_does_not() {
     settle(&mut window);
     assert_eq!(window.state().session.panes[0].probes.len(), 1);
     assert_eq!(window.state().stages[0].reading.selected, Some(0));
+    // two clicks at once show the whole plate, and pin nothing
+    let slow = |options: &mut egui::Options| options.input_options.max_double_click_delay = 2.0;
+    window.ctx.options_mut(slow);
+    let other = at(&window, v(-0.4, 0.5));
+    window.hover_at(other);
+    window.step();
+    for pressed in [true, false, true, false] {
+        window.event(button(other, pressed));
+    }
+    window.step();
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+}
+
+#[test]
+fn probes_can_be_undone() {
+    let mut window = window(plate(), SIZE);
+    hover(&mut window, v(0.4, 0.5));
+    window.key_press(Key::P);
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut window);
+    assert_eq!(window.state().session.panes[0].probes.len(), 0);
 }
 
 /// Probes follow the quantity, and their place can be written.
@@ -336,12 +360,12 @@ fn click(window: &mut Window, place: Pos2) {
     window.hover_at(place);
     window.step();
     for pressed in [true, false] {
-        window.event(Event::PointerButton {
-            pos: place,
-            button: egui::PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
+        window.event(button(place, pressed));
         window.step();
     }
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    let modifiers = Modifiers::NONE;
+    Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers }
 }

@@ -10,6 +10,7 @@ use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_testkit::random::Random;
 use ppum_viewer::files::session_file::{parse, text};
+use ppum_viewer::reading::spot::Spot;
 use ppum_viewer::session::{Draft, Page, Pane, Place, Session, Theme};
 use ppum_viewer::window::Start;
 
@@ -74,6 +75,14 @@ fn pane(random: &mut Random) -> Pane {
     });
     scene.outline = random.below(2) == 1;
     pane.place = some(random, |r| Place { center: [number(r), number(r)], width: number(r) });
+    pane.extrema = random.below(2) == 1;
+    pane.keeps_range = random.below(2) == 1;
+    let spot = |r: &mut Random| Spot {
+        anchor: [number(r), number(r)],
+        offset: [number(r), number(r)],
+        on: some(r, |r| [r.below(9) as u32, r.below(9) as u32]),
+    };
+    pane.probes = (0..random.below(3)).map(|_| spot(random)).collect();
     pane.file = some(random, |r| format!("/data/{}.h5", r.below(9)).into());
     pane
 }
@@ -93,7 +102,6 @@ fn session(random: &mut Random) -> Session {
         drawer: some(random, |r| r.pick(&[Page::Plot, Page::Series, Page::Problem])),
         theme: random.pick(&[Theme::System, Theme::Light, Theme::Dark]),
         draft: some(random, draft),
-        ..Session::default()
     }
 }
 
@@ -118,8 +126,10 @@ fn a_number_that_is_none_costs_no_session() {
     session.panes[0].place = Some(Place { center: [0.0, f64::NAN], width: 1.0 });
     session.panes[0].scene.quantity = Some("syy".into());
     session.panes[0].scene.colors.range = Range::Fixed(2.0, 1.0);
+    session.panes[0].probes = vec![Spot { anchor: [f64::NAN; 2], ..Spot::default() }];
     let text = text(&session, Path::new("/")).expect("it has a text");
     let back = parse(&text, Path::new("/")).expect("it is a session");
+    assert_eq!(back.panes[0].probes, []);
     assert_eq!((back.panes[0].place, back.panes[0].scene.colors.range), (None, Range::Auto));
     assert_eq!(back.panes[0].scene.quantity.as_deref(), Some("syy"));
 }

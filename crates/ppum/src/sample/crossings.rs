@@ -44,7 +44,8 @@ pub fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     found
 }
 
-/// The same of a curve whose points are counted from an anchor: near it no digit of them is lost.
+/// The same of a curve whose points are counted from an anchor, that of a circle its centre: near it no digit of them is
+/// lost.
 #[must_use]
 pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passage> {
     if anchor == Vec2::ZERO {
@@ -54,10 +55,16 @@ pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passag
         let points = crack.points.iter().map(|&p| p - anchor).collect();
         Crack { points, ends: crack.ends }
     };
-    let mut all = passages(&cracks.iter().map(seen).collect::<Vec<_>>(), curve);
-    for place in all.iter_mut().flat_map(|passage| &mut passage.places) {
-        let offset = place.point;
-        *place = Place { point: anchor + offset, anchor, offset, ..*place };
+    let seen: Vec<Crack> = cracks.iter().map(seen).collect();
+    let mut all = passages(&seen, curve);
+    for passage in &mut all {
+        let Some(id) = passage.places[0].on else { continue };
+        let points = &seen[id.crack as usize].points[id.segment as usize..];
+        let offset = curve.refined([points[0], points[1]], passage.places[0].point);
+        passage.at = curve.at(offset).0;
+        for place in &mut passage.places {
+            *place = Place { point: anchor + offset, anchor, offset, ..*place };
+        }
     }
     all
 }
@@ -96,6 +103,24 @@ impl Curve {
                 let (nearest, distance) = (-tangent.dot(from), tangent.cross(from));
                 let half = ((radius - distance) * (radius + distance)).sqrt();
                 [-half, half].map(|half| Some((nearest + half) / way.length()))
+            }
+        }
+    }
+
+    /// The point at which the curve, a circle one about the origin, meets the line of a segment, near a point where it is
+    /// known to do so: found from the end that is nearer to the origin, so that near it no digit is lost.
+    fn refined(&self, [p, q]: [Vec2; 2], known: Vec2) -> Vec2 {
+        let near = if p.length() < q.length() { p } else { q };
+        let tangent = (q - p).unit();
+        match *self {
+            Self::Line([a, b]) => {
+                a + (b - a) * ((near - a).cross(tangent) / (b - a).cross(tangent))
+            }
+            Self::Circle(_, radius) => {
+                let distance = tangent.cross(near);
+                let half = ((radius - distance) * (radius + distance)).max(0.0).sqrt();
+                let ahead = half.copysign(tangent.dot(known));
+                tangent.left() * distance + tangent * ahead
             }
         }
     }
@@ -189,6 +214,34 @@ mod tests {
             }
         }
         assert!(passed > 50, "{passed}");
+    }
+
+    /// Counted from an anchor passages are the same, and deep inside they keep their digits.
+    #[test]
+    fn anchors_change_nothing_but_digits() {
+        for k in 0..100 {
+            let [a, b, p, q, anchor] = [0, 1, 2, 3, 4].map(|n| random(5 * k + n));
+            let cracks = [Crack { points: vec![p, q], ends: [CrackEnd::Tip; 2] }];
+            let found = passages(&cracks, Curve::Line([a, b]));
+            let seen = passages_from(&cracks, anchor, Curve::Line([a - anchor, b - anchor]));
+            assert_eq!(found.len(), seen.len(), "{k}");
+            for (found, seen) in found.iter().zip(&seen) {
+                assert!((found.at - seen.at).abs() < 1e-12);
+                assert!((found.places[0].point - seen.places[0].point).length() < 1e-12);
+                assert_eq!(found.places.map(|p| p.side), seen.places.map(|p| p.side));
+            }
+        }
+        // 10⁻¹¹ behind a tip
+        let points = vec![vec2(-0.5, 0.1), vec2(0.5, 0.1)];
+        let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];
+        let [a, b] = [vec2(-1e-11, -1e-11), vec2(-1e-11, 2e-11)];
+        let seen = passages_from(&cracks, vec2(0.5, 0.1), Curve::Line([a, b]));
+        assert_eq!(seen.len(), 1);
+        assert!((seen[0].at / 1e-11 - 1.0).abs() < 1e-12);
+        assert!((seen[0].places[0].offset.x / -1e-11 - 1.0).abs() < 1e-14);
+        let around = passages_from(&cracks, vec2(0.5, 0.1), Curve::Circle(Vec2::ZERO, 1e-11));
+        assert_eq!(around.len(), 1);
+        assert!((around[0].places[0].offset.x / -1e-11 - 1.0).abs() < 1e-14);
     }
 
     /// A kink is passed once, a tip and a segment along the line not at all.

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// The least width of a plot that can be read \[points\].
-const LEAST: f32 = 260.0;
+const LEAST: f32 = 210.0;
 
 /// The plots that there is something for, with their names.
 #[must_use]

@@ -53,6 +53,9 @@ fn a_patch_is_picked_on_the_plate() {
     window.drop_at(at);
     settle(&mut window);
     let part = scene(&window).subject.part.expect("a patch was chosen");
+    // such a click pins no probe
+    window.run_steps(10);
+    assert!(window.state().session.pane().probes.is_empty());
     let number: usize = part.strip_prefix("patch:").expect("a patch").parse().expect("a number");
     let dataset = std::sync::Arc::clone(frame(&window).field.dataset());
     assert!(dataset.steps[0].partition.cell[number].contains(place));

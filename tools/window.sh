@@ -1,0 +1,76 @@
+#!/bin/sh
+# Drives the real window under Xvfb with a real mouse and real keys, and keeps a picture of each state: of all that
+# docs/window.md shows and of what one looks at to judge it.
+# Needs xvfb, xdotool and imagemagick (Debian's names), and a program that was built with the window:
+#     cargo build --release --features window
+#     tools/window.sh target/release/ppum DATASET.h5 FOLDER [WIDTHxHEIGHT]
+set -eu
+program=$1 dataset=$2 folder=$3 size=${4:-1280x800}
+mkdir -p "$folder"
+home=$(mktemp -d)
+number=$((90 + $$ % 9))
+export DISPLAY=":$number" PPUM_CONFIG="$home" XDG_RUNTIME_DIR="$home"
+Xvfb "$DISPLAY" -screen 0 "${size}x24" >/dev/null 2>&1 &
+server=$!
+trap 'kill $server 2>/dev/null; rm -rf "$home"' EXIT
+sleep 1
+
+# Begins a window and waits until it is there.
+begin() {
+    "$program" view --size "$size" "$@" &
+    window=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        id=$(xdotool search --name '^ppum' 2>/dev/null | tail -1) && [ -n "$id" ] && break
+        sleep 0.5
+    done
+    xdotool windowfocus "$id"
+    sleep 3
+}
+
+# Ends it as its user would.
+end() {
+    xdotool windowquit "$id" 2>/dev/null || kill "$window"
+    wait "$window" 2>/dev/null || true
+}
+
+picture() { sleep 1.5; import -window root "$folder/$1.png"; }
+press() { for key in "$@"; do xdotool key "$key"; sleep 0.4; done; }
+move() { xdotool mousemove "$1" "$2"; sleep 0.5; }
+wheel() { i=0; while [ "$i" -lt "$2" ]; do xdotool click "$1"; sleep 0.03; i=$((i + 1)); done; }
+drag() {
+    move "$1" "$2"; xdotool mousedown 1; sleep 0.2
+    xdotool mousemove "$((($1 + $3) / 2))" "$((($2 + $4) / 2))"; sleep 0.2
+    xdotool mousemove "$3" "$4"; sleep 0.2; xdotool mouseup 1; sleep 0.4
+}
+
+begin
+picture start
+end
+
+begin "$dataset"
+move 300 250
+picture plate
+press 2; sleep 2; move 420 330
+picture tip
+move 480 400; wheel 4 90; sleep 2
+picture deep
+press f; sleep 2; press i
+picture isolines
+press i d; sleep 2
+picture deformed
+press d c; sleep 2
+picture compared
+press c x; sleep 2
+picture opening
+press x; press 1; sleep 2; press k; sleep 2
+picture integral
+press k t; sleep 1
+picture tips
+press t f; sleep 2; press h
+picture keys
+press h ctrl+k; xdotool type tip; picture palette
+press Escape v; sleep 2
+picture two
+press v; drag 300 300 420 360; picture dragged
+press ctrl+z; picture undone
+end
