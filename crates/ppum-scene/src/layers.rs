@@ -64,10 +64,22 @@ pub enum LayersError {
     Deformed(Overlay),
     /// Isolines, or values that they are found from.
     #[error(transparent)]
-    Render(#[from] RenderError),
+    Render(Box<RenderError>),
     /// Places of the deformed plate.
     #[error(transparent)]
-    Deform(#[from] DeformError),
+    Deform(Box<DeformError>),
+}
+
+impl From<RenderError> for LayersError {
+    fn from(error: RenderError) -> Self {
+        Self::Render(Box::new(error))
+    }
+}
+
+impl From<DeformError> for LayersError {
+    fn from(error: DeformError) -> Self {
+        Self::Deform(Box::new(error))
+    }
 }
 
 /// Most levels that are chosen by the program.

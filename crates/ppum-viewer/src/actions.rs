@@ -2,9 +2,9 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::panels::export::What;
+use crate::export::What;
+use crate::reading::tool::Tool;
 use crate::session::Page;
-use crate::stage::tools::Tool;
 
 /// Something a person can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -26,6 +26,44 @@ pub enum Kind {
     Moving(Moving, f64),
 }
 
+/// The kinds of files that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// The picture alone.
+    Picture,
+    /// With axes, colour bar and title.
+    Figure,
+    /// The steps of a series.
+    Steps,
+    /// The deformed plate, its factor growing and falling.
+    Deformation,
+}
+
+impl What {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Picture, Self::Figure, Self::Steps, Self::Deformation];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "Picture",
+            Self::Figure => "Figure",
+            Self::Steps => "Animation of the steps",
+            Self::Deformation => "Animation of the deformation",
+        }
+    }
+
+    /// What the names of its files may end in, the usual one first.
+    #[must_use]
+    pub fn ends(self) -> &'static [&'static str] {
+        match self {
+            Self::Picture | Self::Figure => &["png", "svg", "pdf"],
+            Self::Steps | Self::Deformation => &["gif", "apng", "png"],
+        }
+    }
+}
+
 /// A picture that is to be written.
 #[derive(Clone, Debug)]
 pub struct Order {

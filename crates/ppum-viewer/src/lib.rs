@@ -6,7 +6,6 @@
 //! palette does is one [`Action`](actions::Action). Nothing here draws a field: the window is a loop around what
 //! `ppum render` does.
 
-mod acting;
 pub mod actions;
 pub mod app;
 pub mod controls;
@@ -21,19 +20,20 @@ pub mod job;
 #[cfg(feature = "solve")]
 pub mod offscreen;
 pub mod panels;
+pub mod plate;
 pub mod player;
 pub mod reading;
 pub mod session;
 pub mod shapes;
 #[cfg(feature = "solve")]
 pub mod solving;
+pub mod spot;
 pub mod stage;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod timing;
 pub mod undo;
+pub mod widgets;
 #[cfg(feature = "solve")]
 pub mod window;
-#[cfg(feature = "solve")]
-mod work;
 
 pub use app::Viewer;

@@ -9,7 +9,7 @@ use ppum_scene::profile::{Along, COUNT};
 use ppum_scene::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-use crate::reading::spot::Spot;
+use crate::spot::Spot;
 
 /// The state of the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -126,6 +126,11 @@ pub enum Page {
     Solver,
     /// The problem's text.
     Problem,
+}
+
+impl Page {
+    /// All of them, in their order.
+    pub const ALL: [Self; 5] = [Self::Plot, Self::Tips, Self::Series, Self::Solver, Self::Problem];
 }
 
 /// Colours of the window.

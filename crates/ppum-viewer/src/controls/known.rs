@@ -9,8 +9,8 @@ use ppum_render::cells;
 use ppum_scene::scene::OF_PATCHES;
 
 use crate::field::OwnedField;
-use crate::panels::chooser::Choice;
 use crate::shapes::plain;
+use crate::widgets::chooser::Choice;
 
 /// What a field can show.
 #[derive(Default)]

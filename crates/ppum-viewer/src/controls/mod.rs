@@ -1,8 +1,10 @@
 //! What the panels of one view remember while it is open, and what is not the session's: texts that are being written, lists that
 //! are open, work in the background, a factor that swings.
 
+pub mod draft;
 pub mod facts;
 pub mod known;
+pub mod range;
 pub mod swing;
 pub mod whole;
 
@@ -13,10 +15,10 @@ use ppum_scene::overlays::{Overlay, Overlays};
 use ppum_scene::scene::Scene;
 
 use crate::frames::Frames;
-use crate::panels::chooser::Chooser;
-use crate::panels::editor::Editor;
-use crate::panels::overlays::Draft;
 use crate::session::Pane;
+use crate::widgets::chooser::Chooser;
+use crate::widgets::editor::Editor;
+use draft::Draft;
 use facts::Facts;
 use known::Known;
 use swing::Swing;

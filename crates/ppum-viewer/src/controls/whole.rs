@@ -10,8 +10,7 @@ use ppum_scene::overlays::Overlays;
 use ppum_scene::scene::Scene;
 
 use crate::frames::{Frames, Wanted};
-use crate::session::Pane;
-use crate::stage;
+use crate::plate;
 
 /// A range that is looked for.
 pub struct Whole {
@@ -74,13 +73,13 @@ impl Whole {
             self.take();
         }
         let Some(&step) = self.steps.front() else { return self.end() };
-        let mut pane = Pane { scene: self.scene.clone(), ..Pane::default() };
-        pane.scene.subject.step = Some(step);
-        let Some(view) = stage::view(&pane, &self.dataset, PIXELS) else {
+        let mut scene = self.scene.clone();
+        scene.subject.step = Some(step);
+        let Some(view) = plate::view(None, self.dataset.domain.bounds, PIXELS) else {
             return Outcome::Failed("the plate has no size".into());
         };
         let dataset = Arc::clone(&self.dataset);
-        self.frames.want(Wanted::new(dataset, pane.scene, view));
+        self.frames.want(Wanted::new(dataset, scene, view));
         Outcome::Working
     }
 

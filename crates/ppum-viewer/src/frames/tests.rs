@@ -277,8 +277,7 @@ fn mistakes_are_told_where_they_are() {
         Some(Fault::Colors)
     );
     assert_eq!(
-        fault(&mut maker, &|w| w.scene.colors.range =
-            "3,2".parse().unwrap_or_else(|_| ppum_render::range::Range::Fixed(3.0, 2.0))),
+        fault(&mut maker, &|w| w.scene.colors.range = ppum_render::range::Range::Fixed(3.0, 2.0)),
         Some(Fault::Colors)
     );
     let crossed = |w: &mut Wanted| {

@@ -60,7 +60,7 @@ fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
         .smallest_positive(most / (DECADES * DECADES))
         .clamping(egui::SliderClamping::Never)
         .custom_formatter(|factor, _| trimmed_to(factor, 3))
-        .custom_parser(super::colors::range::parse);
+        .custom_parser(crate::controls::range::parse);
     if ui.add(slider).accessible_name("Factor of the deformation").changed() && factor.is_finite() {
         pane.scene.deformed = Some(Factor::Given(factor));
     }
@@ -76,7 +76,7 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
             None => ("▶", "Play the deformation"),
             Some(_) => ("■", "Stop the deformation"),
         };
-        if super::top::button(ui, sign, name).clicked() {
+        if crate::widgets::button(ui, sign, name).clicked() {
             let now = ui.input(|input| input.time);
             controls.swing = controls.swing.is_none().then(|| Swing::new(now));
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::{ComboBox, DragValue, Grid, TextEdit, Ui, Window};
 use ppum_scene::moving::Moving;
 
-use crate::export::{Kind, Order};
+use crate::export::{Kind, Order, What};
 use crate::frames::Frame;
 use crate::job::Job;
 use crate::session::Pane;
@@ -23,40 +23,6 @@ pub struct Exporter {
     count: usize,
     job: Option<Job<Result<String, String>>>,
     told: Option<Result<String, String>>,
-}
-
-/// The kinds of files that can be chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
-    /// The picture alone.
-    Picture,
-    /// With axes, colour bar and title.
-    Figure,
-    /// The steps of a series.
-    Steps,
-    /// The deformed plate, its factor growing and falling.
-    Deformation,
-}
-
-impl What {
-    const ALL: [Self; 4] = [Self::Picture, Self::Figure, Self::Steps, Self::Deformation];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Picture => "Picture",
-            Self::Figure => "Figure",
-            Self::Steps => "Animation of the steps",
-            Self::Deformation => "Animation of the deformation",
-        }
-    }
-
-    /// What the names of its files may end in, the usual one first.
-    fn ends(self) -> &'static [&'static str] {
-        match self {
-            Self::Picture | Self::Figure => &["png", "svg", "pdf"],
-            Self::Steps | Self::Deformation => &["gif", "apng", "png"],
-        }
-    }
 }
 
 /// Largest side of a page.

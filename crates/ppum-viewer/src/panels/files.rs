@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, Spinner, Ui};
 
-use super::top::button;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::files::examples::{self, Example};
 use crate::files::name;
 use crate::files::read::{Reading, Why};
 use crate::session::{Draft, Page};
+use crate::widgets::button;
 
 /// The menu.
 pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {

@@ -8,7 +8,6 @@ use ppum::quantity::{QuantityFormula, Vocabulary};
 use ppum::replace::weight_of;
 use std::sync::Arc;
 
-use super::editor::{Mistake, Subject};
 use super::quantity::version;
 use super::{back, failure, note};
 use crate::controls::Controls;
@@ -16,6 +15,7 @@ use crate::controls::facts::Stem;
 use crate::desk::Desk;
 use crate::frames::Fault;
 use crate::session::Pane;
+use crate::widgets::editor::{Mistake, Subject};
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

@@ -1,13 +1,9 @@
 //! What stands around the plate. Panels change the session and nothing else.
 
-pub mod chart;
-pub mod chooser;
 pub mod colors;
 pub mod compare;
 pub mod deformation;
 pub mod drawer;
-pub mod editor;
-pub mod entry;
 pub mod export;
 #[cfg(feature = "solve")]
 pub mod files;
@@ -23,11 +19,12 @@ pub mod quantity;
 pub mod start;
 pub mod top;
 
-use egui::{CollapsingHeader, Color32, RichText, ScrollArea, Ui};
+use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
 use crate::desk::Desk;
 use crate::frames::Fault;
 use crate::stage::Stage;
+pub(crate) use crate::widgets::{button, note, wrong};
 
 /// The panels on the right, one below the other, each of which folds.
 pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -59,23 +56,7 @@ fn failure(ui: &mut Ui, stage: &Stage, fault: Fault) {
     }
 }
 
-/// The colour of mistakes: red that is read on both grounds.
-pub(crate) fn wrong(ui: &Ui) -> Color32 {
-    match ui.visuals().dark_mode {
-        true => Color32::from_rgb(255, 120, 110),
-        false => Color32::from_rgb(185, 20, 20),
-    }
-}
-
-/// Words beside a control, smaller and paler.
-fn note(ui: &Ui, text: impl Into<String>) -> RichText {
-    RichText::new(text).size(NOTE).color(ui.visuals().text_color().gamma_multiply(0.75))
-}
-
-/// Size of notes \[points\].
-const NOTE: f32 = 11.5;
-
 /// A button that takes back what was changed; nothing where nothing was.
 fn back(ui: &mut Ui, name: &str, is_changed: bool) -> bool {
-    is_changed && top::button(ui, "↺", name).clicked()
+    is_changed && button(ui, "↺", name).clicked()
 }

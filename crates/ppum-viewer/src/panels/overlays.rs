@@ -6,6 +6,7 @@ use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
 use super::{failure, note, wrong};
 use crate::controls::Controls;
+use crate::controls::draft::Draft;
 use crate::desk::Desk;
 use crate::frames::Fault;
 use crate::session::Pane;
@@ -79,14 +80,6 @@ fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     {
         ui.label(RichText::new(mistake).color(wrong(ui)));
     }
-}
-
-/// Levels while they are written.
-#[derive(Clone, Debug, Default)]
-pub struct Draft {
-    text: String,
-    base: Option<Levels>,
-    mistake: Option<String>,
 }
 
 fn levels(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {

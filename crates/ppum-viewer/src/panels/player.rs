@@ -3,10 +3,10 @@
 use egui::{DragValue, Slider, Ui};
 use ppum::text::trimmed;
 
-use super::top::button;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::player::SPEEDS;
+use crate::widgets::button;
 
 /// Shows it, of a series.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

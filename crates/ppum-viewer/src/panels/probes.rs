@@ -6,12 +6,12 @@ use ppum_scene::table::{Column, Table};
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::panels::drawer::plot::outputs;
-use crate::panels::entry::entry;
-use crate::panels::top::button;
 use crate::reading::probe::Probed;
 use crate::reading::words;
 use crate::session::Place;
 use crate::stage::Stage;
+use crate::widgets::button;
+use crate::widgets::entry::entry;
 
 /// The list, what is read at each, and what can be done with it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

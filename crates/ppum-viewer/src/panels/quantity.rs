@@ -5,13 +5,13 @@ use ppum::quantity::Quantity;
 use ppum_scene::drawing::Shown;
 use ppum_scene::scene::{default_quantity, shown};
 
-use super::chooser::named;
-use super::editor::{Mistake, Subject};
 use super::failure;
 use crate::desk::Desk;
 use crate::field::OwnedField;
 use crate::frames::Fault;
 use crate::shapes::plain;
+use crate::widgets::chooser::named;
+use crate::widgets::editor::{Mistake, Subject};
 use std::sync::Arc;
 
 /// Shows it.

@@ -5,6 +5,7 @@ use egui::Ui;
 use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
+use crate::widgets::button;
 
 /// Title, and what one does all the time.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -29,11 +30,4 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
         player::show(ui, desk);
     });
-}
-
-/// A button with a sign, which has a name too.
-pub fn button(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
-    let response = ui.button(sign).on_hover_text(name);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
-    response
 }

@@ -9,20 +9,20 @@ pub mod job;
 pub mod output;
 pub mod plotted;
 pub mod probe;
-pub mod spot;
+pub mod tool;
 pub mod words;
 
 use std::sync::Arc;
 
 use crate::frames::Frame;
 use crate::session::Pane;
-use crate::stage::tools::{Grip, Tool};
+use crate::spot::Spot;
 use job::Job;
 use output::Output;
 use plotted::{Asked, Plotted};
 use ppum_scene::profile::Along;
 use probe::{Probed, Reader};
-use spot::Spot;
+use tool::{Grip, Tool};
 
 /// What is read of one view.
 #[derive(Default)]

@@ -13,9 +13,9 @@ use ppum_scene::profile::{
 use ppum_scene::scene::{default_quantity, parts};
 use ppum_scene::table::Table;
 
-use super::spot::Spot;
 use crate::field::OwnedField;
 use crate::session::Pane;
+use crate::spot::Spot;
 
 /// What is asked for.
 #[derive(Clone, Debug)]

@@ -10,9 +10,9 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_scene::drawing::Shown;
 use ppum_scene::scene::default_quantity;
 
-use super::spot::Spot;
 use crate::field::OwnedField;
 use crate::frames::Frame;
+use crate::spot::Spot;
 
 /// What is read at a point.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
 use super::probe::{Probed, Sided};
-use super::spot::Spot;
+use crate::spot::Spot;
 
 /// Views narrower than this part of the plate have their places told from a point near by.
 const DEEP: f64 = 1e-3;

@@ -19,11 +19,11 @@ use ppum_scene::colors::Colors;
 use ppum_scene::drawing::{Drawn, Values};
 use ppum_scene::range::{Telling, value};
 
+use crate::controls::range::{parse, set};
 use crate::frames::Frame;
-use crate::panels::colors::range::{parse, set};
-use crate::panels::wrong;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
+use crate::widgets::wrong;
 
 /// What is done to the bar just now.
 #[derive(Clone, Debug, Default)]

@@ -15,9 +15,9 @@ use super::sight::Sight;
 use super::tools::{handles, outline};
 use crate::frames::Frame;
 use crate::reading::probe::Probed;
-use crate::reading::spot::Spot;
 use crate::reading::words;
 use crate::session::Pane;
+use crate::spot::Spot;
 
 const INK: Color32 = Color32::from_rgb(214, 88, 0);
 const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);

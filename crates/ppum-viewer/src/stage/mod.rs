@@ -22,10 +22,12 @@ use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
+use ppum_scene::deformed::{self, Factor};
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
 use crate::frames::{Backend, Frames, Wanted};
+use crate::plate::{bounded, view};
 use crate::reading::Reading;
 use crate::session::{Pane, Place};
 use crate::shapes;
@@ -68,16 +70,22 @@ pub struct Stage {
     rest: Rest<Option<Place>>,
     /// The map of the plate, and the field that it was drawn of.
     locator: Option<(Arc<OwnedField>, Option<Locator>)>,
+    moved: Option<Moved>,
     /// True if someone wants to go deeper than doubles do.
     is_at_the_end: bool,
     now: f64,
 }
 
+/// A box around the deformed plate, and what it was found for.
+struct Moved {
+    field: Arc<OwnedField>,
+    /// The factor, and whether the border of the undeformed plate is drawn.
+    asked: (Factor, bool),
+    bounds: ppum::vec2::Rect,
+}
+
 /// Part of the picture that the keys move it by.
 const PAN: f64 = 0.125;
-/// The largest and the smallest width, in parts of the plate's size.
-const WIDEST: f64 = 20.0;
-const NARROWEST: f64 = 1e-12;
 
 impl Stage {
     /// A stage without a dataset.
@@ -98,6 +106,7 @@ impl Stage {
             flight: None,
             rest: Rest::new(None),
             locator: None,
+            moved: None,
             is_at_the_end: false,
             now: 0.0,
         }
@@ -115,12 +124,13 @@ impl Stage {
         let Some(opened) = self.opened.clone() else { return };
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
-        let Some(view) = view(pane, &opened.dataset, pixels) else { return };
+        let whole = self.whole(pane, &opened.dataset);
+        let Some(view) = view(pane.place, whole, pixels) else { return };
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         if !self.draw_by_mouse(ui, &response, &sight, pane) {
             self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
         }
-        let view = crate::stage::view(pane, &opened.dataset, pixels).unwrap_or(view);
+        let view = crate::plate::view(pane.place, whole, pixels).unwrap_or(view);
         self.view = Some(view);
         self.hover = response.hover_pos().map(|at| offset(&view, rect, at));
         match self.rest.until(&pane.place, self.now) {
@@ -187,11 +197,31 @@ impl Stage {
 
     /// Flies to a place, or to the whole plate.
     pub fn fly_to(&mut self, pane: &Pane, to: Option<Place>) {
-        let (Some(view), Some(opened)) = (self.view, &self.opened) else { return };
-        let mut target = pane.clone();
-        target.place = to;
-        let Some(end) = crate::stage::view(&target, &opened.dataset, view.pixels) else { return };
+        let (Some(view), Some(opened)) = (self.view, self.opened.clone()) else { return };
+        let whole = self.whole(pane, &opened.dataset);
+        let Some(end) = crate::plate::view(to, whole, view.pixels) else { return };
+        self.is_at_the_end = false;
         self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
+    }
+
+    /// A box around the plate as it is drawn, where it is deformed too.
+    fn whole(&mut self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
+        let bounds = dataset.domain.bounds;
+        let (Some(factor), Some(frame)) = (pane.scene.deformed, self.frames.newest()) else {
+            return bounds;
+        };
+        let (field, asked) = (Arc::clone(&frame.field), (factor, pane.scene.outline));
+        if let Some(known) = &self.moved
+            && Arc::ptr_eq(&known.field, &field)
+            && known.asked == asked
+        {
+            return known.bounds;
+        }
+        let found = factor.number(&[field.field()]);
+        let moved = found.and_then(|factor| deformed::bounds(field.field(), factor, asked.1));
+        let bounds = moved.map_or(bounds, |moved| moved);
+        self.moved = Some(Moved { field, asked, bounds });
+        bounds
     }
 
     /// The number of tips of the step that is looked at.
@@ -236,8 +266,8 @@ impl Stage {
         let (Some(view), Some(opened)) = (self.view, &self.opened) else { return };
         let shift = ppum::vec2::vec2(right * view.width, up * view.height()) * PAN;
         let moved = Place { center: (view.center + shift).into(), width: view.width / factor };
-        let (place, is_at_the_end) = bounded(moved, &opened.dataset);
-        self.is_at_the_end = is_at_the_end;
+        let place = bounded(moved, &opened.dataset.domain.bounds);
+        self.is_at_the_end = place.width > moved.width;
         pane.place = Some(place);
     }
 
@@ -274,7 +304,7 @@ impl Stage {
             let by = ppum::vec2::vec2(-f64::from(delta.x), f64::from(delta.y));
             let center = view.center + by * (scale * view.pixel_size());
             let place = Place { center: center.into(), width: view.width };
-            pane.place = Some(bounded(place, dataset).0);
+            pane.place = Some(bounded(place, &dataset.domain.bounds));
             self.flight = None;
         }
         if let Some(at) = response.hover_pos() {
@@ -287,9 +317,9 @@ impl Stage {
                 let shift = view.offset_at(pixel) * (1.0 - 1.0 / factor);
                 let place =
                     Place { center: (view.center + shift).into(), width: view.width / factor };
-                let (place, is_at_the_end) = bounded(place, dataset);
-                self.is_at_the_end = is_at_the_end;
-                pane.place = Some(place);
+                let moved = bounded(place, &dataset.domain.bounds);
+                self.is_at_the_end = moved.width > place.width;
+                pane.place = Some(moved);
                 self.flight = None;
             }
         }
@@ -313,40 +343,6 @@ fn ground(ui: &Ui) -> Color32 {
 const TIP: f64 = 0.05;
 /// Turns of the wheel, in points, that enlarge e times.
 const WHEEL: f64 = 240.0;
-
-/// The view of a pane on so many pixels; none of a plate without size.
-#[must_use]
-pub fn view(pane: &Pane, dataset: &Dataset, pixels: [u32; 2]) -> Option<View> {
-    match pane.place {
-        Some(place) => place.view(pixels).ok(),
-        None => {
-            let bounds = dataset.domain.bounds;
-            let room = bounds.size() * ROOM;
-            let whole = ppum::vec2::Rect::new(bounds.min - room, bounds.max + room);
-            View::fit(whole, pixels).ok()
-        }
-    }
-}
-
-/// Room around the whole plate, in parts of its size.
-const ROOM: f64 = 0.03;
-
-/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell pixels apart, never
-/// beside the plate; and whether it was narrower.
-#[must_use]
-pub fn bounded(place: Place, dataset: &Dataset) -> (Place, bool) {
-    let bounds = dataset.domain.bounds;
-    let size = bounds.size().x.max(bounds.size().y);
-    let far =
-        bounds.min.x.abs().max(bounds.max.x.abs()).max(bounds.min.y.abs()).max(bounds.max.y.abs());
-    let narrowest = (NARROWEST * size).max(COARSEST * f64::EPSILON * far);
-    let width = place.width.clamp(narrowest, (WIDEST * size).max(narrowest));
-    let center = place.center().max(bounds.min).min(bounds.max);
-    (Place { center: center.into(), width }, place.width < narrowest)
-}
-
-/// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
-const COARSEST: f64 = 2048.0;
 
 /// Says that it goes no deeper.
 fn end_of_doubles(ui: &Ui, rect: Rect) {

@@ -5,9 +5,9 @@ use ppum::vec2::Vec2;
 
 use super::Stage;
 use super::sight::Sight;
-use crate::reading::spot::Spot;
 use crate::reading::words::{self, Places};
 use crate::session::Pane;
+use crate::spot::Spot;
 
 /// Height of the line below the plate.
 pub(super) const HEIGHT: f32 = 24.0;

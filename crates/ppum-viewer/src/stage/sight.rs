@@ -9,7 +9,7 @@ use ppum_render::view::View;
 
 use crate::field::OwnedField;
 use crate::frames::Frame;
-use crate::reading::spot::Spot;
+use crate::spot::Spot;
 use crate::stage::material::material;
 
 /// A view in a rectangle of the window, of the plate as it was or deformed.

@@ -10,8 +10,8 @@ use ppum::vec2::vec2 as v;
 use ppum_scene::profile::Along;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::plotted::Values;
+use ppum_viewer::reading::tool::Tool;
 use ppum_viewer::session::{Page, Place};
-use ppum_viewer::stage::tools::Tool;
 
 use crate::kit::{at, plate, settle, window};
 

@@ -15,8 +15,8 @@ use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::probe::Probed;
-use ppum_viewer::reading::spot::Spot;
 use ppum_viewer::session::Place;
+use ppum_viewer::spot::Spot;
 
 use crate::kit::{at, hover, plate, settle, window};
 

@@ -10,8 +10,8 @@ use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_testkit::random::Random;
 use ppum_viewer::files::session_file::{parse, text};
-use ppum_viewer::reading::spot::Spot;
 use ppum_viewer::session::{Draft, Page, Pane, Place, Session, Theme};
+use ppum_viewer::spot::Spot;
 use ppum_viewer::window::Start;
 
 use crate::kit::plate;

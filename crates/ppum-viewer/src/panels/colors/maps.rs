@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 use egui::{Color32, FontId, Mesh, Painter, Rect, Response, Sense, Ui, pos2, vec2};
 use ppum_render::colormap::{Colormap, NAMES};
 
-use crate::panels::chooser::Choice;
 use crate::shapes::color;
+use crate::widgets::chooser::Choice;
 
 /// The built-in maps as choices.
 pub(super) static CHOICES: LazyLock<Vec<Choice>> = LazyLock::new(|| NAMES.map(choice).to_vec());

@@ -5,6 +5,7 @@ use ppum::text::trimmed_to;
 use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
 
+use crate::controls::range::{parse, set};
 use crate::controls::whole::Whole;
 use crate::panels::{note, wrong};
 use crate::session::Pane;
@@ -98,25 +99,6 @@ fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) 
     if let Some(refused) = &stage.controls.refused {
         ui.label(RichText::new(refused).color(wrong(ui)));
     }
-}
-
-/// A number as people and this program write it.
-pub(crate) fn parse(text: &str) -> Option<f64> {
-    text.trim().replace('−', "-").parse().ok().filter(|value: &f64| value.is_finite())
-}
-
-/// Fixes the range to two ends, of which one was changed.
-///
-/// # Errors
-/// A range that is none; nothing has changed then.
-pub(crate) fn set(colors: &mut Colors, ends: [f64; 2], changed: usize) -> Result<(), String> {
-    let [min, max] = match (colors.symmetric, ends[changed].abs()) {
-        (true, size) => [-size, size],
-        (false, _) => ends,
-    };
-    let range = format!("{min:?},{max:?}").parse().map_err(|error| format!("{error}"))?;
-    colors.range = range;
-    Ok(())
 }
 
 /// Makes a fixed range one around zero.

@@ -9,10 +9,9 @@ pub mod tips;
 
 use egui::{Panel, Ui};
 
-use super::top::button;
-use crate::app::PAGES;
 use crate::desk::Desk;
 use crate::session::Page;
+use crate::widgets::button;
 
 /// Shows the open page with the names of all others above it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -22,7 +21,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         Panel::bottom("drawer").resizable(true).default_size(280.0).size_range(120.0..=most);
     panel.show(ui, |ui| {
         ui.horizontal(|ui| {
-            for other in PAGES {
+            for other in Page::ALL {
                 if ui.selectable_label(other == page, name(other)).clicked() {
                     desk.session.drawer = Some(other);
                 }

@@ -10,15 +10,15 @@ use ppum_figure::plot::{Area, LEAST, Plot, plot};
 use ppum_scene::profile::Along;
 
 use crate::desk::Desk;
-use crate::panels::chart::darkened;
-use crate::panels::entry::entry;
-#[cfg(feature = "solve")]
-use crate::panels::top::button;
 use crate::reading::plotted::{Asked, Values};
+use crate::reading::tool::Tool;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
 use crate::stage::Stage;
-use crate::stage::tools::Tool;
+#[cfg(feature = "solve")]
+use crate::widgets::button;
+use crate::widgets::chart::darkened;
+use crate::widgets::entry::entry;
 
 /// Shows the page.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

@@ -6,12 +6,12 @@ use egui::text::{CCursor, CCursorRange};
 use egui::{FontId, ProgressBar, ScrollArea, TextEdit, TextStyle, Ui, vec2};
 use ppum::text::trimmed;
 
-use super::super::top::button;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::session::Draft;
 use crate::solving::marks::Look;
 use crate::solving::{Mark, Outcome, PHASES, Running, Solving};
+use crate::widgets::button;
 
 /// Longest text that is written in a window: every picture lays all of it out.
 pub const MAX_LENGTH: usize = 200_000;

@@ -6,7 +6,7 @@ use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
 
 use crate::desk::Desk;
-use crate::panels::chart::chart;
+use crate::widgets::chart::chart;
 
 /// Values of each step, as a curve.
 type Values = Vec<(String, Vec<[f64; 2]>)>;

@@ -9,8 +9,8 @@ use ppum_render::cells;
 use ppum_scene::scene::OF_PATCHES;
 
 use crate::desk::Desk;
-use crate::panels::chart::chart;
 use crate::session::Place;
+use crate::widgets::chart::chart;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

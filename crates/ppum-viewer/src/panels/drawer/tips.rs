@@ -8,8 +8,8 @@ use ppum_scene::tips::{Tip, stored, words};
 use super::plot::outputs;
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::panels::top::button;
 use crate::reading::words::number;
+use crate::widgets::button;
 
 /// Shows the table; a click on a line flies to its tip.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {

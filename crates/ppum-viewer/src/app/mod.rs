@@ -1,5 +1,9 @@
 //! The window as a whole: what is open, what is shown around the plate, what actions do.
 
+mod acting;
+#[cfg(feature = "solve")]
+mod work;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,7 +18,7 @@ use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
-use crate::session::{Page, Place, Session, Theme};
+use crate::session::{Place, Session, Theme};
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
 
@@ -252,6 +256,3 @@ impl eframe::App for Viewer {
         self.leave();
     }
 }
-
-/// Pages of the drawer, in their order.
-pub const PAGES: [Page; 5] = [Page::Plot, Page::Tips, Page::Series, Page::Solver, Page::Problem];

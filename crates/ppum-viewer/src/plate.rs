@@ -1,0 +1,67 @@
+//! Where a plate is in the window: all of it, or a place that can be shown.
+
+use ppum::vec2::Rect;
+use ppum_render::view::View;
+
+use crate::session::Place;
+
+/// Room around the whole plate, in parts of its size.
+const ROOM: f64 = 0.03;
+/// The largest and the smallest width, in parts of the plate's size.
+const WIDEST: f64 = 20.0;
+const NARROWEST: f64 = 1e-12;
+/// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
+const COARSEST: f64 = 2048.0;
+
+/// The view of a place, or of the whole plate, on so many pixels; none of a plate without size.
+#[must_use]
+pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2]) -> Option<View> {
+    match place {
+        Some(place) => place.view(pixels).ok(),
+        None => {
+            let room = whole.size() * ROOM;
+            View::fit(Rect::new(whole.min - room, whole.max + room), pixels).ok()
+        }
+    }
+}
+
+/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell pixels apart, never
+/// beside the plate.
+#[must_use]
+pub fn bounded(place: Place, bounds: &Rect) -> Place {
+    let size = bounds.size().x.max(bounds.size().y);
+    let ends = [bounds.min.x, bounds.max.x, bounds.min.y, bounds.max.y];
+    let far = ends.into_iter().map(f64::abs).fold(0.0, f64::max);
+    let narrowest = (NARROWEST * size).max(COARSEST * f64::EPSILON * far);
+    let width = place.width.clamp(narrowest, (WIDEST * size).max(narrowest));
+    let center = place.center().max(bounds.min).min(bounds.max);
+    Place { center: center.into(), width }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::vec2;
+    use ppum_testkit::random::Random;
+
+    #[test]
+    fn whatever_is_asked_for_can_be_shown() {
+        let mut random = Random(5);
+        for _ in 0..2000 {
+            let size = 10f64.powf(random.between(-12.0, 12.0));
+            let corner = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0))
+                * (size * 10f64.powf(random.between(-3.0, 8.0)));
+            let bounds = Rect::new(corner, corner + vec2(size, size * random.between(0.02, 1.0)));
+            let size = bounds.size();
+            if !(size.x > 0.0 && size.y > 0.0) {
+                continue;
+            }
+            let width = 10f64.powf(random.between(-300.0, 300.0));
+            let far = 10f64.powf(random.between(-10.0, 200.0));
+            let center = [random.between(-far, far), random.between(-far, far)];
+            let place = bounded(Place { center, width }, &bounds);
+            let view = view(Some(place), bounds, [1280, 800]);
+            assert!(view.is_some_and(|view| view.rect().overlaps(&bounds)), "{bounds:?} {place:?}");
+        }
+    }
+}

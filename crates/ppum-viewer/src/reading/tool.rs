@@ -1,0 +1,36 @@
+//! What the mouse draws over the plate, and what it holds.
+
+/// What a drag over the plate draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tool {
+    /// A line, from its start.
+    Line,
+    /// A circle, from its centre; around a tip if it begins at one.
+    Circle,
+    /// A ray from the nearest tip.
+    Ray,
+    /// The crack that is clicked.
+    Crack,
+}
+
+impl Tool {
+    /// What to do with it.
+    #[must_use]
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Line => "drag a line over the plate",
+            Self::Circle => "drag a circle from its centre; begin at a tip for K",
+            Self::Ray => "drag away from a tip",
+            Self::Crack => "click a crack",
+        }
+    }
+}
+
+/// A handle of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Grip {
+    From,
+    To,
+    Center,
+    Radius,
+}
