@@ -29,11 +29,16 @@ begin() {
 
 # Ends it as its user would.
 end() {
-    xdotool windowquit "$id" 2>/dev/null || kill "$window"
-    wait "$window" 2>/dev/null || true
+    xdotool key ctrl+q
+    wait "$window"
 }
 
-picture() { sleep 1.5; import -window root "$folder/$1.png"; }
+# Keeps a picture, which shows more than an empty window.
+picture() {
+    sleep 1.5
+    import -window root "$folder/$1.png"
+    [ "$(identify -format %k "$folder/$1.png")" -gt 30 ] || { echo "$1: an empty window" >&2; exit 1; }
+}
 press() { for key in "$@"; do xdotool key "$key"; sleep 0.4; done; }
 move() { xdotool mousemove "$1" "$2"; sleep 0.5; }
 wheel() { i=0; while [ "$i" -lt "$2" ]; do xdotool click "$1"; sleep 0.03; i=$((i + 1)); done; }
@@ -52,8 +57,10 @@ move 300 250
 picture plate
 press 2; sleep 2; move 420 330
 picture tip
-move 480 400; wheel 4 90; sleep 2
+i=0; while [ "$i" -lt 44 ]; do xdotool key plus; sleep 0.05; i=$((i + 1)); done; sleep 2
 picture deep
+move 480 400; wheel 4 60; sleep 2
+picture deepest
 press f; sleep 2; press i
 picture isolines
 press i d; sleep 2
@@ -68,7 +75,7 @@ press k t; sleep 1
 picture tips
 press t f; sleep 2; press h
 picture keys
-press h ctrl+k; xdotool type tip; picture palette
+press h ctrl+k; xdotool type tip; sleep 0.5; picture palette
 press Escape v; sleep 2
 picture two
 press v; drag 300 300 420 360; picture dragged

@@ -76,9 +76,6 @@ fn subject(scene: &Scene, words: &mut Words) {
     for (which, formula) in &subject.functions {
         words.add(format!("--function={which}={formula}"));
     }
-    for (name, formula) in &subject.quantities {
-        words.add(format!("--define={name}={formula}"));
-    }
     if let Some(weight) = &subject.weight {
         words.add(format!("--weight={weight}"));
     }
@@ -106,9 +103,6 @@ fn colors(scene: &Scene, words: &mut Words) {
     }
     if let Some(bands) = colors.bands {
         words.add(format!("--bands={bands}"));
-    }
-    if colors.symmetric {
-        words.add("--symmetric");
     }
 }
 

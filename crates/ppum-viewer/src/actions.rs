@@ -101,6 +101,8 @@ pub enum Action {
     Help,
     /// Find an action by its name.
     Palette,
+    /// Close the window.
+    Quit,
 }
 
 /// An action with its name and key.
@@ -230,6 +232,7 @@ pub const ALL: &[Entry] = &[
     entry(Action::Theme, "Light or dark", None, "Window"),
     entry(Action::Help, "Keys", key(Key::H), "Window"),
     entry(Action::Palette, "Find an action", control(Key::K), "Window"),
+    entry(Action::Quit, "Close the window", control(Key::Q), "Window"),
 ];
 
 /// The actions whose keys were pressed, unless someone writes.

@@ -37,3 +37,79 @@ pub mod widgets;
 pub mod window;
 
 pub use app::Viewer;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use ppum_testkit::rooms::{Floors, check, check_page};
+
+    const FLOORS: Floors<'_> = &[
+        &[
+            ("field", &[]),
+            ("fonts", &[]),
+            ("job", &[]),
+            ("shapes", &[]),
+            ("spot", &[]),
+            ("undo", &[]),
+        ],
+        &[
+            ("export", &["field"]),
+            ("frames", &["field"]),
+            ("session", &["spot"]),
+            ("widgets", &["shapes"]),
+        ],
+        &[
+            ("files", &["job", "session"]),
+            ("plate", &["session"]),
+            ("reading", &["field", "frames", "session", "spot"]),
+            ("solving", &["job", "session"]),
+        ],
+        &[
+            ("actions", &["export", "reading", "session"]),
+            ("controls", &["field", "frames", "plate", "session", "shapes", "widgets"]),
+        ],
+        &[(
+            "stage",
+            &[
+                "controls", "field", "frames", "plate", "reading", "session", "shapes", "spot",
+                "undo", "widgets",
+            ],
+        )],
+        &[("player", &["session", "stage"])],
+        &[("desk", &["actions", "files", "player", "session", "solving", "stage"])],
+        &[(
+            "panels",
+            &[
+                "actions", "controls", "desk", "export", "field", "files", "frames", "job",
+                "player", "reading", "session", "shapes", "solving", "stage", "widgets",
+            ],
+        )],
+        &[(
+            "app",
+            &[
+                "actions", "controls", "desk", "export", "files", "fonts", "frames", "panels",
+                "player", "session", "solving", "stage", "undo",
+            ],
+        )],
+        &[
+            ("timing", &["app", "frames", "session", "stage"]),
+            ("window", &["app", "files", "frames", "session", "stage"]),
+        ],
+        &[("offscreen", &["app", "window"])],
+    ];
+
+    #[test]
+    fn arrows_lead_down() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        check(&sources, FLOORS);
+        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
+    }
+
+    #[test]
+    #[cfg(feature = "solve")]
+    fn errors_cross_threads() {
+        fn check<E: std::error::Error + Send + Sync + 'static>() {}
+        check::<super::window::WindowError>();
+    }
+}

@@ -112,6 +112,13 @@ fn upload(delta: &mut TexturesDelta, RenderState { device, queue, renderer, .. }
     free.iter().for_each(|id| renderer.free_texture(id));
 }
 
+/// The colour around the plate, as the window has it.
+fn ground(ctx: &Context) -> wgpu::Color {
+    let color = ctx.style_of(ctx.theme()).visuals.extreme_bg_color;
+    let [r, g, b, a] = color.to_normalized_gamma_f32().map(f64::from);
+    wgpu::Color { r, g, b, a }
+}
+
 /// Draws an output on a texture, and reads it back.
 fn drawn(
     ctx: &Context,
@@ -130,7 +137,7 @@ fn drawn(
     let buffers = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
     {
         let ops = wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+            load: wgpu::LoadOp::Clear(ground(ctx)),
             store: wgpu::StoreOp::Store,
         };
         let target = wgpu::RenderPassColorAttachment {

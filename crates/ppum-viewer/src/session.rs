@@ -57,8 +57,6 @@ pub struct Pane {
     pub compare: Option<Compare>,
     /// How that is looked at.
     pub against: Against,
-    /// True if a range that was found stays as it is while one moves on.
-    pub keeps_range: bool,
     /// Points whose values are kept in sight.
     pub probes: Vec<Spot>,
     /// The curve that values are plotted along.

@@ -49,7 +49,7 @@ fn a_named_quantity() {
     assert_eq!(value("stretch", &define), value("uy", &[]) + 0.75);
     assert_eq!(value("2*stretch", &define), 2.0 * value("stretch", &define));
     for (definition, complaint) in [
-        ("strech=ux", "the dataset names no quantity `strech`; did you mean `stretch`?"),
+        ("strech=ux", "the dataset names no quantity `strech` (did you mean `stretch`?)"),
         ("stretch=ux + ", "--define stretch: line 1, column"),
         ("stretch=2*stretch", "unknown name `stretch`"),
     ] {

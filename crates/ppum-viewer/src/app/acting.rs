@@ -148,6 +148,7 @@ impl Viewer {
             Action::Theme => self.turn_theme(ctx),
             Action::Help => self.has_help = !self.has_help,
             Action::Palette => self.palette = Some(Palette::default()),
+            Action::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             _ => return false,
         }
         true

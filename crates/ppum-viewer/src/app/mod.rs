@@ -251,6 +251,11 @@ impl eframe::App for Viewer {
         self.show(ui);
     }
 
+    /// The ground around the plate. Nothing is drawn there: a software driver takes longer for that than for all the rest.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.extreme_bg_color.to_normalized_gamma_f32()
+    }
+
     #[cfg(feature = "solve")]
     fn on_exit(&mut self) {
         self.leave();

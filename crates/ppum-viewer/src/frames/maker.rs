@@ -109,7 +109,7 @@ impl Maker {
         let watcher = |_: Progress| Verdict::go_on_unless(is_stale());
         let (drawn, is_whole) = self.drawn(wish, &place, is_stale)?;
         let style = self.style(wanted, &place, &drawn)?;
-        let goal = self.goal(wanted, &place, (&drawn, is_whole), &style);
+        let goal = self.goal(&place, (&drawn, is_whole), &style);
         if let Some(goal) = &goal {
             // what cannot be used is refused before it is shown, or anything glides there
             goal.normalization(style.scale).map_err(Stop::at(Fault::Colors))?;
@@ -183,17 +183,12 @@ impl Maker {
     /// The range that belongs to the picture, if it is known: one that is found has to be looked for, at rest.
     fn goal(
         &self,
-        wanted: &Wanted,
         place: &Place,
         (drawn, is_whole): (&Arc<Drawn>, bool),
         style: &Style,
     ) -> Option<Span> {
         if place.subject.shown.0.quantity().is_none() || !style.range.is_found() {
             return Some(drawn.span(style, None));
-        }
-        let kept = self.eased.shown(&about(wanted, style)).filter(|_| wanted.keeps_range);
-        if let Some(kept) = kept {
-            return Some(kept.clone());
         }
         self.ranges.get(&ranged(drawn, style)).filter(|_| is_whole)
     }

@@ -50,15 +50,13 @@ pub struct Wanted {
     pub view: View,
     /// What resampling gives beside it, if that is asked for.
     pub compare: Option<Compare>,
-    /// True if a range that was found stays as it is, whatever is seen.
-    pub keeps_range: bool,
 }
 
 impl Wanted {
     /// A view of a scene, and nothing beside it.
     #[must_use]
     pub fn new(dataset: Arc<Dataset>, scene: Scene, view: View) -> Self {
-        Self { dataset, scene, view, compare: None, keeps_range: false }
+        Self { dataset, scene, view, compare: None }
     }
 
     /// True if another one differs in nothing but the place.
@@ -73,7 +71,6 @@ impl PartialEq for Wanted {
             && self.scene == other.scene
             && self.view == other.view
             && self.compare == other.compare
-            && self.keeps_range == other.keeps_range
     }
 }
 

@@ -57,8 +57,9 @@ impl Over {
             has_bar: true,
         };
         let scene = &wanted.scene;
-        let draw = || scene.overlays.layers(ground, seen, scene.outline, watcher).map(Arc::new);
-        let below = Below::new(wanted, place, picture);
-        self.layers.get_or(below, || draw().map_err(Stop::at(Fault::Overlays)))
+        self.layers.get_or(Below::new(wanted, place, picture), || {
+            let layers = scene.overlays.layers(ground, seen, scene.outline, watcher);
+            layers.map(Arc::new).map_err(Stop::at(Fault::Overlays))
+        })
     }
 }

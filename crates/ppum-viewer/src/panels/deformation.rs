@@ -54,7 +54,8 @@ fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
         Some(Factor::Given(factor)) => factor,
         _ => usual,
     };
-    let most = DECADES * usual.abs();
+    // a slider counts in logarithms, which factors of nearly no or of huge displacements leave
+    let most = DECADES * usual.abs().clamp(SMALLEST, 1.0 / SMALLEST);
     let slider = Slider::new(&mut factor, -most..=most)
         .logarithmic(true)
         .smallest_positive(most / (DECADES * DECADES))
@@ -66,6 +67,8 @@ fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
     }
 }
 
+/// The smallest automatic factor that a slider shows; the largest is one over it.
+const SMALLEST: f64 = 1e-100;
 /// The slider's ends are so many times the automatic factor, its smallest step one over that.
 const DECADES: f64 = 100.0;
 

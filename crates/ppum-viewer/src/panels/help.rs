@@ -1,22 +1,71 @@
 //! The list of keys.
 
-use egui::{Grid, Ui, Window};
+use egui::{Grid, ScrollArea, Ui, Window};
 
 use crate::actions::{ALL, GROUPS};
 
-/// Shows the keys while it is open.
+/// Columns of the list, where the window has room for them.
+const COLUMNS: usize = 3;
+/// Width of a column \[points\].
+const WIDTH: f32 = 330.0;
+
+/// Shows the keys while it is open, as many headings side by side as there is room for.
 pub fn show(ui: &Ui, is_open: &mut bool) {
-    Window::new("Keys").open(is_open).collapsible(false).show(ui.ctx(), |ui| {
-        for group in GROUPS {
-            ui.strong(group);
-            Grid::new(group).num_columns(2).show(ui, |ui| {
-                for entry in ALL.iter().filter(|entry| entry.group == group) {
-                    let Some(key) = &entry.key else { continue };
-                    ui.monospace(ui.ctx().format_shortcut(key));
-                    ui.label(entry.name);
-                    ui.end_row();
+    let room = ui.ctx().content_rect().size();
+    let columns = ((room.x / WIDTH) as usize).clamp(1, COLUMNS);
+    let window = Window::new("Keys").open(is_open).collapsible(false).default_pos([20.0, 40.0]);
+    let window = window.default_height(room.y - 90.0);
+    window.show(ui.ctx(), |ui| {
+        ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                for groups in columns_of(columns) {
+                    ui.vertical(|ui| groups.iter().for_each(|group| list(ui, group)));
                 }
             });
+        });
+    });
+}
+
+/// The headings by columns, about as many keys in each.
+fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
+    let keys = |group: &str| {
+        ALL.iter().filter(|entry| entry.group == group && entry.key.is_some()).count() + 2
+    };
+    let all: usize = GROUPS.iter().map(|group| keys(group)).sum();
+    let mut found = vec![Vec::new(); columns];
+    let mut before = 0;
+    for group in GROUPS {
+        // a heading belongs where its middle lies
+        let middle = before + keys(group) / 2;
+        found[(middle * columns / all).min(columns - 1)].push(group);
+        before += keys(group);
+    }
+    found
+}
+
+fn list(ui: &mut Ui, group: &str) {
+    ui.strong(group);
+    Grid::new(group).num_columns(2).show(ui, |ui| {
+        for entry in ALL.iter().filter(|entry| entry.group == group) {
+            let Some(key) = &entry.key else { continue };
+            ui.monospace(ui.ctx().format_shortcut(key));
+            ui.label(entry.name);
+            ui.end_row();
         }
     });
+    ui.add_space(8.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_heading_stands_in_one_column() {
+        for columns in 1..=COLUMNS {
+            let found = columns_of(columns);
+            assert_eq!(found.concat(), GROUPS);
+            assert!(found.iter().all(|groups| !groups.is_empty()), "{found:?}");
+        }
+    }
 }

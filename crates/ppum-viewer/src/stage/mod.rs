@@ -120,7 +120,6 @@ impl Stage {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plate"));
         let scale = ui.pixels_per_point();
         let pixels = [rect.width(), rect.height()].map(|n| ((n * scale).round() as u32).max(1));
-        ui.painter().rect_filled(rect, 0.0, ground(ui));
         let Some(opened) = self.opened.clone() else { return };
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
@@ -145,11 +144,10 @@ impl Stage {
         self.controls.facts.look_up(&opened.dataset, step);
         self.controls.advance(ui.ctx(), pane, &self.frames);
         let scene = self.controls.drawn(&pane.scene);
-        let keeps_range = pane.keeps_range;
         // grids are of the plate as it was
         let compare = pane.compare.filter(|_| scene.deformed.is_none());
         let dataset = Arc::clone(&opened.dataset);
-        self.frames.want(Wanted { dataset, scene, view, compare, keeps_range });
+        self.frames.want(Wanted { dataset, scene, view, compare });
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
             let hover = self.hover.map(|offset| (&view, offset));

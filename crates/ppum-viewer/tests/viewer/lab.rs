@@ -34,7 +34,9 @@ impl Lab {
 
     fn window(folder: &Path, start: Start) -> Harness<'static, Viewer> {
         let start = Start { folder: Some(folder.join("config")), ..start };
+        // names of files and what is written may have letters that no font has
         let builder = Harness::builder().with_size([1000.0, 700.0]).with_max_steps(1000);
+        let builder = builder.allow_missing_glyphs();
         builder.build_eframe(|cc| start.viewer(&cc.egui_ctx))
     }
 

@@ -76,7 +76,6 @@ fn pane(random: &mut Random) -> Pane {
     scene.outline = random.below(2) == 1;
     pane.place = some(random, |r| Place { center: [number(r), number(r)], width: number(r) });
     pane.extrema = random.below(2) == 1;
-    pane.keeps_range = random.below(2) == 1;
     let spot = |r: &mut Random| Spot {
         anchor: [number(r), number(r)],
         offset: [number(r), number(r)],

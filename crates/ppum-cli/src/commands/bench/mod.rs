@@ -69,6 +69,7 @@ struct Report {
     threads: usize,
     solver: Vec<Run>,
     renderer: Option<renderer::Report>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     window: Option<window::Report>,
 }
 

@@ -114,9 +114,12 @@ mod measure {
             for &level in levels {
                 let dataset = Arc::new(synthetic::dataset(level, level)?);
                 let patches = dataset.steps[0].partition.len();
-                let mut window = Measured::new(dataset, pixels, Backend::Auto)?;
+                let open = || Measured::new(dataset, pixels, Backend::Auto);
+                let mut window = crate::graphics::opening(open)?;
                 device = window.device();
-                rows.push(Row::new(patches, &mut window, frames)?);
+                // the pictures open devices of their own
+                let row = || Row::new(patches, &mut window, frames);
+                rows.push(crate::graphics::opening(row)?);
             }
             Ok(Self { pixels, frames, device, rows })
         }

@@ -8,7 +8,7 @@ use ppum::vec2::{Vec2, vec2};
 use crate::standard::{self, is_standard};
 use ppum_scene::profile::MOST;
 
-/// Longest file of points, in bytes: those of [`super::MOST`] points in all digits.
+/// Longest file of points, in bytes: those of [`MOST`] points in all digits.
 const LONGEST: u64 = 1 << 30;
 
 /// The points of a text file: lines with x and y apart by commas, semicolons or blanks; more columns are
