@@ -166,8 +166,8 @@ impl Exporter {
         if !ends.iter().any(|end| fits(&end)) {
             return Some(format!("The name must end in .{}.", ends.join(", .")));
         }
-        let is_input = dataset.is_some_and(|dataset| dataset == path);
-        is_input.then(|| "This file is the dataset itself.".into())
+        let is_input = dataset.is_some_and(|dataset| is_same(dataset, path));
+        is_input.then(|| "This file is the dataset itself; choose another name.".into())
     }
 
     fn start(&mut self, ui: &Ui, order: Order, path: PathBuf) {
@@ -215,6 +215,14 @@ fn automatic(frame: &Frame) -> Option<f64> {
 fn beside(dataset: Option<&Path>, end: &str) -> String {
     let path = dataset.map_or_else(|| PathBuf::from("picture"), Path::to_path_buf);
     path.with_extension(end).to_string_lossy().into_owned()
+}
+
+/// True if two names lead to one file.
+fn is_same(a: &Path, b: &Path) -> bool {
+    #[cfg(feature = "solve")]
+    return ppum_file::is_same(a, b);
+    #[cfg(not(feature = "solve"))]
+    return a == b;
 }
 
 #[cfg(feature = "solve")]

@@ -56,13 +56,6 @@ pub(crate) fn plate() -> Dataset {
     PLATE.clone()
 }
 
-/// Writes what the window shows to the folder that `PPUM_SHOTS` names; without it nothing.
-pub(crate) fn shot(harness: &mut Harness<'static, Viewer>, name: &str) {
-    let Ok(folder) = std::env::var("PPUM_SHOTS") else { return };
-    let image = harness.render().expect("it can be drawn");
-    image.save(Path::new(&folder).join(name).with_extension("png")).expect("it can be written");
-}
-
 /// The position of a point of the plate in the window.
 pub(crate) fn at(harness: &Harness<'static, Viewer>, point: Vec2) -> egui::Pos2 {
     let rect = harness.get_by_label("Plate").rect();

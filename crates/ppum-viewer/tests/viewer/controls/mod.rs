@@ -9,7 +9,6 @@ mod overlays;
 mod parts;
 mod quantity;
 mod random;
-mod shots;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
