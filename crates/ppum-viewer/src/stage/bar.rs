@@ -28,12 +28,23 @@ use crate::widgets::wrong;
 /// What is done to the bar just now.
 #[derive(Clone, Debug, Default)]
 pub struct Grip {
-    /// The range when it was grabbed, and the position that it was grabbed at.
-    grabbed: Option<(Normalization, f64)>,
+    /// The range when it was grabbed, and where.
+    grabbed: Option<Grabbed>,
     /// The end that is written, and what.
     edited: Option<Edited>,
     /// The extrema of values, which are looked for with ranges that are found and hold for those that are given.
     extrema: Option<(Arc<Drawn>, Extrema)>,
+}
+
+/// A bar as it was when it was grabbed. One that is dragged has other labels and other ends; what the hand does is measured on the one
+/// that it took.
+#[derive(Clone, Copy, Debug)]
+struct Grabbed {
+    norm: Normalization,
+    /// Heights of positions 0 and 1.
+    ends: [f32; 2],
+    /// The height at which the button went down.
+    from: f32,
 }
 
 #[derive(Clone, Debug)]
@@ -83,7 +94,7 @@ pub fn show(
     frame: &Frame,
     hover: Option<(&View, Vec2)>,
 ) {
-    let length = (PART * plate.height()).min(MOST);
+    let length = length(plate);
     if length < LEAST || plate.width() < LEAST {
         return;
     }
@@ -102,7 +113,7 @@ pub fn show(
 
 /// Shows the bar of the difference to a resampled picture, where that is seen: beside the other one, and nothing drags it.
 pub fn of_difference(ui: &Ui, plate: Rect, pane: &Pane, frame: &Frame) {
-    let length = (PART * plate.height()).min(MOST);
+    let length = length(plate);
     let is_compared = pane.compare.is_some() && pane.scene.deformed.is_none();
     let Some(other) = frame.other.as_ref().filter(|_| is_compared) else { return };
     if length < LEAST || plate.width() < 2.0 * LEAST || !pane.against.difference {
@@ -115,12 +126,25 @@ pub fn of_difference(ui: &Ui, plate: Rect, pane: &Pane, frame: &Frame) {
     standing.paint(ui);
 }
 
+/// The length of a plate's bar.
+fn length(plate: Rect) -> f32 {
+    (PART * plate.height()).min(MOST)
+}
+
 /// A bar in the window's colours.
 fn bar(ui: &Ui, picture: &Picture, labels: &Labels, length: f32) -> Bar {
     let mut design = Design::pixels([1024, 768]);
     design.font_size *= LETTERS;
     design.theme = if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light };
     Bar::new(picture, labels, &design, f64::from(length))
+}
+
+impl Grabbed {
+    /// How far a height is from where the button went down, in lengths of the bar.
+    fn by(&self, at: f32) -> f64 {
+        let [low, high] = self.ends;
+        f64::from(at - self.from) / f64::from(high - low)
+    }
 }
 
 impl Grip {
@@ -148,11 +172,11 @@ impl<'a> Standing<'a> {
 
     /// In the middle of a plate's height, on the left of something.
     fn at(plate: Rect, frame: &'a Frame, bar: Bar, right: f32) -> Self {
-        let [min, mut max] = bar.bounds().map(|p| vec2(p.x as f32, p.y as f32));
+        let mut width = bar.bounds()[1].x as f32;
         // one that is dragged has other labels and stays where it is
-        max.x = max.x.max(bar.width as f32 + if plate.width() < NARROW { 48.0 } else { 66.0 });
-        let top = plate.center().y - 0.5 * (max.y - min.y);
-        let corner = pos2((right - ROOM - max.x).round(), (top - min.y).round());
+        width = width.max(bar.width as f32 + if plate.width() < NARROW { 48.0 } else { 66.0 });
+        let top = plate.center().y - 0.5 * length(plate);
+        let corner = pos2((right - ROOM - width).round(), top.round());
         Self { frame, bar, corner, right }
     }
 
@@ -211,9 +235,8 @@ impl<'a> Standing<'a> {
         if self.has_classes() {
             return;
         }
-        if let Some((norm, from, at)) = self.grabbed(&response, grip) {
-            let ends = [0.0, 1.0].map(|end| norm.value(end - (at - from)));
-            shift(colors, ends);
+        if let Some((norm, by)) = self.grabbed(&response, grip) {
+            shift(colors, [0.0, 1.0].map(|end| norm.value(end - by)));
         }
         let wheel = ui.input(|input| f64::from(input.smooth_scroll_delta().y));
         if let Some(at) = response.hover_pos().filter(|_| wheel != 0.0) {
@@ -234,9 +257,9 @@ impl<'a> Standing<'a> {
             return;
         }
         let ends = [self.norm().min(), self.norm().max()];
-        if let Some((norm, from, at)) = self.grabbed(&response, grip) {
+        if let Some((norm, by)) = self.grabbed(&response, grip) {
             let mut ends = [norm.min(), norm.max()];
-            ends[end] = norm.value(end as f64 + (at - from));
+            ends[end] = norm.value(end as f64 + by);
             // an impossible end stays where it was
             let _ = set(colors, ends, end);
         } else if response.clicked() {
@@ -261,18 +284,19 @@ impl<'a> Standing<'a> {
         )
     }
 
-    /// While it is dragged: the range when that began, the position then and now.
-    fn grabbed(&self, response: &Response, grip: &mut Grip) -> Option<(Normalization, f64, f64)> {
-        let at = self.position(response.interact_pointer_pos()?.y);
+    /// While it is dragged: the range when that began, and by how many lengths of the bar.
+    fn grabbed(&self, response: &Response, grip: &mut Grip) -> Option<(Normalization, f64)> {
+        let at = response.interact_pointer_pos()?.y;
         if response.drag_started() {
             // where the button went down: a drag is known some points later
             let origin = response.ctx.input(|input| input.pointer.press_origin());
-            let from = origin.map_or(at, |origin| self.position(origin.y));
-            grip.grabbed = Some((*self.norm(), from));
+            let ends = [0.0, 1.0].map(|end| self.height(end));
+            let from = origin.map_or(at, |origin| origin.y);
+            grip.grabbed = Some(Grabbed { norm: *self.norm(), ends, from });
             grip.edited = None;
         }
         let dragged = response.dragged();
-        grip.grabbed.filter(|_| dragged).map(|(norm, from)| (norm, from, at))
+        grip.grabbed.filter(|_| dragged).map(|grabbed| (grabbed.norm, grabbed.by(at)))
     }
 
     fn automatic(&self, response: &Response, grip: &mut Grip, colors: &mut Colors) {
