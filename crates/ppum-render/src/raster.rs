@@ -106,9 +106,15 @@ impl<T: Sample> Raster<T> {
     /// The value that all pixels of a value have, but for rounding; none if they differ or are infinite.
     #[must_use]
     pub fn one_value(&self) -> Option<f64> {
-        let Statistics { finite, infinite, min, max, .. } = self.statistics();
-        let same = max - min <= T::SAME * min.abs().max(max.abs());
-        (finite > 0 && infinite == 0 && same).then_some(0.5 * min + 0.5 * max)
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in self.values.iter().map(|&v| v.into()).filter(|v: &f64| !v.is_nan()) {
+            (min, max) = (min.min(value), max.max(value));
+            // two that differ are enough: others only widen what lies between
+            if value.is_infinite() || max - min > T::SAME * min.abs().max(max.abs()) {
+                return None;
+            }
+        }
+        (min <= max).then_some(0.5 * min + 0.5 * max)
     }
 
     /// The different values, rising, if they are at most `most` whole numbers; none otherwise. NaN does not count.
@@ -189,6 +195,19 @@ mod tests {
             })
             .collect();
         assert!(found == expected && !found.is_empty());
+    }
+
+    #[test]
+    fn one_value_is_that_of_all_pixels_that_have_one() {
+        let of =
+            |values: &[f64]| Raster::new([values.len() as u32, 1], values.to_vec()).one_value();
+        let (nan, inf) = (f64::NAN, f64::INFINITY);
+        assert_eq!(of(&[nan, 3.0, 3.0 + 1e-12, nan]), Some(3.0 + 0.5e-12));
+        assert_eq!(of(&[0.0, -0.0]), Some(0.0));
+        assert_eq!(of(&[f64::MAX, f64::MAX]), Some(f64::MAX));
+        for values in [&[3.0, 3.0 + 1e-11][..], &[1.0, -1.0], &[2.0, inf], &[-inf], &[nan], &[]] {
+            assert_eq!(of(values), None, "{values:?}");
+        }
     }
 
     #[test]
