@@ -5,7 +5,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
-use std::thread;
 
 use ppum::progress::{Progress, Verdict, Watcher};
 
@@ -41,7 +40,7 @@ impl<T: Send + 'static> Job<T> {
         let (sender, receiver) = mpsc::channel();
         let stop = Stop::default();
         let (theirs, ctx) = (stop.clone(), ctx.clone());
-        thread::spawn(move || {
+        spawn(move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&theirs)));
             // nobody listens if the job was dropped
             let _ = sender.send(outcome.map_err(|panic| words(&*panic)));
@@ -77,6 +76,17 @@ impl<T> Drop for Job<T> {
     }
 }
 
+#[cfg(not(target_arch = "wasm32"))]
+fn spawn(work: impl FnOnce() + Send + 'static) {
+    std::thread::spawn(work);
+}
+
+/// Browsers have no threads of this kind: the work is done at once.
+#[cfg(target_arch = "wasm32")]
+fn spawn(work: impl FnOnce() + Send + 'static) {
+    work();
+}
+
 /// What a panic says.
 fn words(panic: &(dyn Any + Send)) -> String {
     let said = panic.downcast_ref::<&str>().copied();
@@ -86,6 +96,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::thread;
     use std::time::Duration;
 
     use super::*;

@@ -30,6 +30,8 @@ pub mod solving;
 pub mod spot;
 pub mod stage;
 #[cfg(not(target_arch = "wasm32"))]
+mod surface;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod timing;
 pub mod undo;
 pub mod widgets;
@@ -62,7 +64,7 @@ mod tests {
         &[
             ("files", &["job", "session"]),
             ("plate", &["session"]),
-            ("reading", &["field", "frames", "session", "spot"]),
+            ("reading", &["field", "frames", "job", "session", "spot"]),
             ("solving", &["job", "session"]),
         ],
         &[
@@ -92,11 +94,11 @@ mod tests {
                 "player", "session", "solving", "stage", "undo",
             ],
         )],
+        &[("surface", &["stage"]), ("window", &["app", "files", "frames", "session", "stage"])],
         &[
-            ("timing", &["app", "frames", "session", "stage"]),
-            ("window", &["app", "files", "frames", "session", "stage"]),
+            ("offscreen", &["app", "surface", "window"]),
+            ("timing", &["app", "frames", "session", "surface"]),
         ],
-        &[("offscreen", &["app", "window"])],
     ];
 
     #[test]

@@ -4,12 +4,12 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::egui_wgpu::{self, RenderState, RendererOptions, ScreenDescriptor, WgpuSetup, wgpu};
-use egui::{Context, FullOutput, RawInput, Rect, TexturesDelta, pos2, vec2};
-use pollster::block_on;
+use eframe::egui_wgpu::{RenderState, RendererOptions, wgpu};
+use egui::{Context, FullOutput, RawInput, Rect, pos2, vec2};
 use ppum_render::image::Image;
 
 use crate::app::Viewer;
+use crate::surface::{Surface, SurfaceError};
 use crate::window::{NO_DRIVER, SIZE, Start};
 
 /// A picture of the window that cannot be made.
@@ -43,27 +43,24 @@ const PATIENCE: Duration = Duration::from_secs(600);
 pub fn screenshot(start: Start) -> Result<Image, ScreenshotError> {
     let size = start.size.unwrap_or(SIZE).map(|n| n.round().max(1.0));
     let pixels = size.map(|n| n as u32);
-    let state = device()?;
-    let most = state.device.limits().max_texture_dimension_2d;
-    if pixels.iter().any(|n| *n > most) {
-        return Err(ScreenshotError::Size(pixels[0], pixels[1], most));
-    }
     let ctx = Context::default();
+    let surface = surface(&ctx, pixels)?;
     ctx.options_mut(|options| options.max_passes = 2.try_into().expect("two is not zero"));
     let mut viewer = start.viewer(&ctx);
     viewer.files.leave_no_trace();
-    let output = at_rest(&ctx, &mut viewer, size, &state)?;
-    drawn(&ctx, output, pixels, &state)
+    let output = at_rest(&ctx, &mut viewer, size, &surface)?;
+    let handed = surface.hand_over(&ctx, output);
+    surface.draw(handed, ground(&ctx));
+    let rgba = read_back(&surface, pixels)?;
+    Ok(Image { size: pixels, rgba })
 }
 
-/// A device, a graphics card or software.
-fn device() -> Result<RenderState, ScreenshotError> {
-    let setup = WgpuSetup::without_display_handle();
-    let instance = block_on(setup.new_instance());
-    let configuration = egui_wgpu::WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
+fn surface(ctx: &Context, [width, height]: [u32; 2]) -> Result<Surface, ScreenshotError> {
     let options = RendererOptions::PREDICTABLE;
-    block_on(RenderState::create(&configuration, &instance, None, options))
-        .map_err(|error| ScreenshotError::NoDriver(error.to_string()))
+    Surface::new(ctx, [width, height], options).map_err(|error| match error {
+        SurfaceError::NoDriver(error) => ScreenshotError::NoDriver(error.to_string()),
+        SurfaceError::Size(most) => ScreenshotError::Size(width, height, most),
+    })
 }
 
 /// Shows the window until nothing changes any more; the last output.
@@ -71,7 +68,7 @@ fn at_rest(
     ctx: &Context,
     viewer: &mut Viewer,
     size: [f32; 2],
-    state: &RenderState,
+    surface: &Surface,
 ) -> Result<FullOutput, ScreenshotError> {
     let start = Instant::now();
     let mut rest = 0;
@@ -80,7 +77,7 @@ fn at_rest(
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1])));
         let input = RawInput { screen_rect, time, ..RawInput::default() };
         let mut output = ctx.run_ui(input, |ui| viewer.show(ui));
-        upload(&mut output.textures_delta, state);
+        surface.send(&mut output.textures_delta);
         rest = if viewer.is_working() { 0 } else { rest + 1 };
         if let Some(note) = viewer.files.notes.iter().find(|note| note.is_error) {
             return Err(ScreenshotError::File(note.text.clone()));
@@ -98,20 +95,6 @@ fn at_rest(
 /// Pictures of a window at rest after which no panel moves any more: they fold and fade for a quarter of a second.
 const SETTLED: u32 = 20;
 
-fn upload(delta: &mut TexturesDelta, RenderState { device, queue, renderer, .. }: &RenderState) {
-    let mut renderer = renderer.write();
-    let mut set: Vec<_> = delta.set.drain().collect();
-    set.sort_by_key(|(id, _)| format!("{id:?}"));
-    for (id, images) in set {
-        for image in images {
-            renderer.update_texture(device, queue, id, &image);
-        }
-    }
-    let mut free: Vec<_> = delta.free.drain().collect();
-    free.sort_by_key(|id| format!("{id:?}"));
-    free.iter().for_each(|id| renderer.free_texture(id));
-}
-
 /// The colour around the plate, as the window has it.
 fn ground(ctx: &Context) -> wgpu::Color {
     let color = ctx.style_of(ctx.theme()).visuals.extreme_bg_color;
@@ -119,65 +102,9 @@ fn ground(ctx: &Context) -> wgpu::Color {
     wgpu::Color { r, g, b, a }
 }
 
-/// Draws an output on a texture, and reads it back.
-fn drawn(
-    ctx: &Context,
-    output: FullOutput,
-    pixels: [u32; 2],
-    state: &RenderState,
-) -> Result<Image, ScreenshotError> {
-    let RenderState { device, queue, target_format, .. } = state;
-    let shapes = ctx.tessellate(output.shapes, output.pixels_per_point);
-    let screen =
-        ScreenDescriptor { size_in_pixels: pixels, pixels_per_point: output.pixels_per_point };
-    let texture = texture(device, pixels, *target_format);
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let mut renderer = state.renderer.write();
-    let buffers = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
-    {
-        let ops = wgpu::Operations {
-            load: wgpu::LoadOp::Clear(ground(ctx)),
-            store: wgpu::StoreOp::Store,
-        };
-        let target = wgpu::RenderPassColorAttachment {
-            view: &view,
-            resolve_target: None,
-            ops,
-            depth_slice: None,
-        };
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(target)],
-            ..Default::default()
-        });
-        renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
-    }
-    queue.submit(buffers.into_iter().chain([encoder.finish()]));
-    let rgba = read_back(state, &texture, pixels)?;
-    Ok(Image { size: pixels, rgba })
-}
-
-fn texture(
-    device: &wgpu::Device,
-    [width, height]: [u32; 2],
-    format: wgpu::TextureFormat,
-) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
-}
-
 /// The pixels of a texture, opaque, row by row.
 fn read_back(
-    RenderState { device, queue, target_format, .. }: &RenderState,
-    texture: &wgpu::Texture,
+    Surface { state: RenderState { device, queue, target_format, .. }, texture, .. }: &Surface,
     [width, height]: [u32; 2],
 ) -> Result<Vec<u8>, ScreenshotError> {
     let failed = |error: &dyn std::fmt::Display| ScreenshotError::Device(error.to_string());

@@ -7,17 +7,16 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use eframe::egui_wgpu::{self, RenderState, RendererOptions, ScreenDescriptor, WgpuSetup, wgpu};
+use eframe::egui_wgpu::{RendererOptions, wgpu};
 use egui::{
     Context, Event, FullOutput, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2,
 };
-use pollster::block_on;
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
 use crate::frames::Backend;
 use crate::session::Session;
-use crate::stage::pixels;
+use crate::surface::{PATIENCE, Surface, SurfaceError};
 
 /// What a frame took \[s\].
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +43,7 @@ impl FrameTime {
 pub struct Measured {
     ctx: Context,
     viewer: Viewer,
-    state: RenderState,
-    target: wgpu::TextureView,
+    surface: Surface,
     woken: Receiver<()>,
     size: [u32; 2],
     start: Instant,
@@ -66,16 +64,16 @@ pub enum TimingError {
     /// The device has failed.
     #[error("the graphics device fails: {0}")]
     Device(String),
+    /// More pixels than the device draws.
+    #[error("the window has {0} × {1} pixels, and the graphics device draws at most {2} × {2}")]
+    Size(u32, u32, u32),
     /// No picture comes.
     #[error("no picture after {} s", PATIENCE.as_secs())]
     Late,
 }
 
-/// Nobody waits longer for a picture.
-const PATIENCE: Duration = Duration::from_secs(120);
-
 impl Measured {
-    /// A window without panels that shows a dataset.
+    /// A window that shows a dataset, with its panels.
     ///
     /// # Errors
     /// No graphics driver.
@@ -84,35 +82,23 @@ impl Measured {
         size: [u32; 2],
         backend: Backend,
     ) -> Result<Self, TimingError> {
-        let state = device()?;
-        let target = target(&state, size);
         let (ctx, (send, woken)) = (Context::default(), channel());
+        let surface = surface(&ctx, size)?;
         ctx.set_request_repaint_callback(move |_| {
             // nobody listens to the last ones
             let _ = send.send(());
         });
-        let session = Session { panels: false, ..Session::default() };
-        let mut viewer = Viewer::with_backend(&ctx, session, backend);
-        pixels::use_device(&ctx, state.target_format);
+        let mut viewer = Viewer::with_backend(&ctx, Session::default(), backend);
         viewer.open(None, dataset);
-        let mouse = pos2(size[0] as f32, size[1] as f32) / 2.0;
-        Ok(Self {
-            ctx,
-            viewer,
-            state,
-            target,
-            woken,
-            size,
-            start: Instant::now(),
-            mouse,
-            uploading: 0.0,
-        })
+        // left of the middle, away from panels and the colour bar
+        let mouse = pos2(size[0] as f32 / 3.0, size[1] as f32 / 2.0);
+        Ok(Self { ctx, viewer, surface, woken, size, start: Instant::now(), mouse, uploading: 0.0 })
     }
 
     /// The device that draws the window.
     #[must_use]
     pub fn device(&self) -> String {
-        self.state.adapter.get_info().name
+        self.surface.state.adapter.get_info().name
     }
 
     /// Shows the window until its first picture is on the screen \[s\].
@@ -208,15 +194,7 @@ impl Measured {
         let input = RawInput { screen_rect, time, events, ..RawInput::default() };
         let mut output = self.ctx.run_ui(input, |ui| self.viewer.show(ui));
         let start = Instant::now();
-        let mut textures: Vec<_> = output.textures_delta.set.drain().collect();
-        textures.sort_by_key(|(id, _)| format!("{id:?}"));
-        let RenderState { device, queue, renderer, .. } = &self.state;
-        for (id, image) in
-            textures.iter().flat_map(|(id, all)| all.iter().map(move |one| (id, one)))
-        {
-            renderer.write().update_texture(device, queue, *id, image);
-        }
-        output.textures_delta.free.drain().for_each(|id| renderer.write().free_texture(&id));
+        self.surface.send(&mut output.textures_delta);
         self.uploading = start.elapsed().as_secs_f64();
         output
     }
@@ -237,54 +215,18 @@ impl Measured {
     /// Draws an output and waits for it: seconds to hand it over, and to draw it.
     fn draw(&self, output: FullOutput) -> Result<[f64; 2], TimingError> {
         let start = Instant::now();
-        let shapes = self.ctx.tessellate(output.shapes, output.pixels_per_point);
-        let RenderState { device, queue, renderer, .. } = &self.state;
-        let mut renderer = renderer.write();
-        let screen = ScreenDescriptor {
-            size_in_pixels: self.size,
-            pixels_per_point: output.pixels_per_point,
-        };
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let buffers = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
-        let handed = start.elapsed().as_secs_f64();
-        let ops = wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-            store: wgpu::StoreOp::Store,
-        };
-        let view = &self.target;
-        let attachment =
-            wgpu::RenderPassColorAttachment { view, resolve_target: None, ops, depth_slice: None };
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(attachment)],
-            ..Default::default()
-        });
-        renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
-        queue.submit(buffers.into_iter().chain([encoder.finish()]));
-        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
-        device.poll(wait).map_err(|error| TimingError::Device(error.to_string()))?;
-        Ok([handed, start.elapsed().as_secs_f64() - handed])
+        let handed = self.surface.hand_over(&self.ctx, output);
+        let handing = start.elapsed().as_secs_f64();
+        self.surface.draw(handed, wgpu::Color::BLACK);
+        self.surface.wait().map_err(|error| TimingError::Device(error.to_string()))?;
+        Ok([handing, start.elapsed().as_secs_f64() - handing])
     }
 }
 
-/// A device as the window would take it.
-fn device() -> Result<RenderState, TimingError> {
-    let setup = WgpuSetup::without_display_handle();
-    let instance = block_on(setup.new_instance());
-    let configuration = egui_wgpu::WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
-    block_on(RenderState::create(&configuration, &instance, None, RendererOptions::default()))
-        .map_err(|error| TimingError::NoDriver(error.to_string()))
-}
-
-fn target(state: &RenderState, [width, height]: [u32; 2]) -> wgpu::TextureView {
-    let texture = state.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: state.target_format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+fn surface(ctx: &Context, [width, height]: [u32; 2]) -> Result<Surface, TimingError> {
+    let options = RendererOptions::default();
+    Surface::new(ctx, [width, height], options).map_err(|error| match error {
+        SurfaceError::NoDriver(error) => TimingError::NoDriver(error.to_string()),
+        SurfaceError::Size(most) => TimingError::Size(width, height, most),
+    })
 }

@@ -12,7 +12,7 @@ use ppum_solve::diagnostics::effort::check_effort;
 use ppum_solve::intensity::{CircleError, clearance, on_circle};
 use ppum_solve::problem::Problem;
 
-use super::job::Job;
+use super::question::Question;
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl PartialEq for Asked {
 /// The factors on a circle, found in the background.
 #[derive(Default)]
 pub struct Integral {
-    job: Job<Asked, Result<TipIntensity, String>>,
+    question: Question<Asked, TipIntensity>,
     asked: Option<Result<Asked, String>>,
 }
 
@@ -49,7 +49,7 @@ impl Integral {
         self.asked = along.and_then(|along| asked(along, dataset, step));
         if let Some(Ok(asked)) = &self.asked {
             let theirs = asked.clone();
-            self.job.ask(asked, true, wake, move |watcher| theirs.find(watcher));
+            self.question.ask(asked, true, wake, move |watcher| theirs.find(watcher));
         }
     }
 
@@ -59,14 +59,14 @@ impl Integral {
             Err(reason) => return Some(Err(reason.clone())),
             Ok(asked) => asked.clone(),
         };
-        let (key, answer) = self.job.newest()?;
+        let (key, answer) = self.question.newest()?;
         (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
     }
 
     /// True while it is on its way.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.job.is_working()
+        self.question.is_working()
     }
 
     /// True if the curve that is shown is a circle.

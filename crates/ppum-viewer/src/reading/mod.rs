@@ -5,10 +5,10 @@
 
 #[cfg(feature = "solve")]
 pub mod integral;
-pub mod job;
 pub mod output;
 pub mod plotted;
 pub mod probe;
+pub mod question;
 pub mod tool;
 pub mod words;
 
@@ -17,11 +17,11 @@ use std::sync::Arc;
 use crate::frames::Frame;
 use crate::session::Pane;
 use crate::spot::Spot;
-use job::Job;
 use output::Output;
-use plotted::{Asked, Plotted};
+use plotted::{Asked, Plotted, Values};
 use ppum_scene::profile::Along;
 use probe::{Probed, Reader};
+use question::Question;
 use tool::{Grip, Tool};
 
 /// What is read of one view.
@@ -42,7 +42,7 @@ pub struct Reading {
     /// A place that was clicked, and when: a probe, unless it becomes a double click.
     pub(crate) clicked: Option<(f64, Spot)>,
     /// Values along the curve.
-    pub plot: Job<Asked, Plotted>,
+    pub plot: Question<Asked, Values>,
     /// The last values along a curve that could be found.
     pub good: Option<(Along, Arc<Plotted>)>,
     /// K on the circle.

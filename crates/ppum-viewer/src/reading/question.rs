@@ -1,0 +1,117 @@
+//! Questions that are answered in the background, and of whose answers only the last one is wanted.
+
+use std::sync::Arc;
+
+use ppum::progress::Watcher;
+
+use crate::job::Job;
+
+/// One question at a time and its last answer, with what was asked.
+#[derive(Debug)]
+pub struct Question<K, V> {
+    running: Option<(K, Job<Answer<V>>)>,
+    newest: Option<(K, Arc<Result<V, String>>)>,
+}
+
+/// A value, or the reason why there is none; nothing of work that was stopped.
+type Answer<V> = Option<Result<V, String>>;
+
+impl<K, V> Default for Question<K, V> {
+    fn default() -> Self {
+        Self { running: None, newest: None }
+    }
+}
+
+impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
+    /// Asks for something unless that is known or on its way; what is asked for while other work runs has to be asked
+    /// for again, or stops that work if it is `urgent`.
+    pub fn ask(
+        &mut self,
+        key: &K,
+        urgent: bool,
+        wake: &egui::Context,
+        work: impl FnOnce(&dyn Watcher) -> Answer<V> + Send + 'static,
+    ) {
+        self.poll();
+        let is_running = self.running.as_ref().is_some_and(|(running, _)| running == key);
+        if is_running || (self.running.is_some() && !urgent) {
+            return;
+        }
+        self.running = None;
+        if self.newest.as_ref().is_none_or(|(known, _)| known != key) {
+            let job = Job::start(wake, move |stop| work(stop));
+            self.running = Some((key.clone(), job));
+        }
+    }
+
+    fn poll(&mut self) {
+        let Some(outcome) = self.running.as_ref().and_then(|(_, job)| job.poll()) else { return };
+        let Some((key, _)) = self.running.take() else { return };
+        if let Some(answer) = outcome.unwrap_or_else(|panic| Some(Err(panic))) {
+            self.newest = Some((key, Arc::new(answer)));
+        }
+    }
+
+    /// The last answer, to whatever was asked.
+    pub fn newest(&mut self) -> Option<&(K, Arc<Result<V, String>>)> {
+        self.poll();
+        self.newest.as_ref()
+    }
+
+    /// Forgets what is known and stops what runs.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+impl<K, V> Question<K, V> {
+    /// True while work runs.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        self.running.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use ppum::progress::{Phase, Progress};
+
+    use super::*;
+
+    fn answer<V: Send + 'static>(question: &mut Question<u32, V>) -> Arc<Result<V, String>> {
+        while question.newest().is_none() || question.is_working() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        question.newest().expect("it is answered").1.clone()
+    }
+
+    #[test]
+    fn the_last_question_is_answered_and_an_urgent_one_stops_what_runs() {
+        let (wake, mut question) = (egui::Context::default(), Question::default());
+        let endless = |watcher: &dyn Watcher| {
+            while watcher.report(Progress::start(Phase::Evaluation, 1)).is_ok() {
+                std::thread::yield_now();
+            }
+            None
+        };
+        question.ask(&1, false, &wake, endless);
+        question.ask(&2, false, &wake, |_| Some(Ok(2)));
+        assert!(question.is_working() && question.newest().is_none());
+        question.ask(&3, true, &wake, |_| Some(Ok(3)));
+        assert_eq!(*answer(&mut question), Ok(3));
+        // what is known is not asked again
+        question.ask(&3, true, &wake, |_| Some(Ok(4)));
+        assert_eq!(*answer(&mut question), Ok(3));
+    }
+
+    #[test]
+    fn a_panic_is_an_answer_and_not_asked_for_again() {
+        let (wake, mut question) = (egui::Context::default(), Question::<u32, ()>::default());
+        question.ask(&1, false, &wake, |_| panic!("seven"));
+        assert!(answer(&mut question).as_ref().as_ref().is_err_and(|e| e.contains("seven")));
+        question.ask(&1, false, &wake, |_| Some(Ok(())));
+        assert!(answer(&mut question).is_err());
+    }
+}
