@@ -19,7 +19,7 @@ use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
 use crate::session::{Place, Session, Theme};
-use crate::stage::{Opened, Stage};
+use crate::stage::{Opened, Stage, ground};
 use crate::undo::{Rest, Undo};
 
 /// The window.
@@ -103,11 +103,12 @@ impl Viewer {
             solving: &mut self.solving,
             actions: &mut actions,
         };
-        Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
+        ground::show(Panel::top("top"), ui, |ui| top::show(ui, &mut desk));
         panels::drawer::show(ui, &mut desk);
         let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
         if desk.session.panels && has_plate {
-            Panel::right("side").default_size(300.0).show(ui, |ui| panels::side(ui, &mut desk));
+            let side = Panel::right("side").default_size(300.0);
+            ground::show(side, ui, |ui| panels::side(ui, &mut desk));
         }
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
         #[cfg(feature = "solve")]

@@ -3,6 +3,7 @@
 pub mod against;
 pub mod bar;
 pub mod flight;
+pub mod ground;
 pub mod locator;
 mod marks;
 pub mod material;

@@ -18,6 +18,11 @@ pub fn use_device(ctx: &Context, target: wgpu::TextureFormat) {
     }
 }
 
+/// The format of what is drawn on, if our shaders can.
+pub(super) fn format(ctx: &Context) -> Option<wgpu::TextureFormat> {
+    ctx.data(|data| data.get_temp(id()))
+}
+
 fn id() -> Id {
     Id::unique("format of the window's pixels")
 }
@@ -33,8 +38,7 @@ pub(super) fn draw(
     picture: &Arc<Painted>,
     (target, is_smooth): (Rect, bool),
 ) -> bool {
-    let format: Option<wgpu::TextureFormat> = painter.ctx().data(|data| data.get_temp(id()));
-    let Some(format) = format else { return false };
+    let Some(format) = format(painter.ctx()) else { return false };
     let rect = painter.clip_rect();
     let relative = |x: f32, from: f32, size: f32| 2.0 * (x - from) / size - 1.0;
     let corner = |p: egui::Pos2| {
@@ -128,8 +132,9 @@ impl Kept {
             source: wgpu::ShaderSource::Wgsl(include_str!("pixels.wgsl").into()),
         });
         let layout = layout(device);
-        let pipelines =
-            ["exact", "smoothed"].map(|entry| pipeline(device, &shader, &layout, entry, format));
+        let kind = (format, wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let pipelines = ["exact", "smoothed"]
+            .map(|entry| pipeline(device, &shader, &layout, ["corner", entry], kind));
         let filter = wgpu::FilterMode::Linear;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: filter,
@@ -240,19 +245,20 @@ fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
     })
 }
 
-fn pipeline(
+/// Draws a rectangle's four corners, and its pixels on a format.
+pub(super) fn pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    entry: &str,
-    format: wgpu::TextureFormat,
+    [corner, pixel]: [&str; 2],
+    (format, blend): (wgpu::TextureFormat, wgpu::BlendState),
 ) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("picture"),
+        label: Some(pixel),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: shader,
-            entry_point: Some("corner"),
+            entry_point: Some(corner),
             buffers: &[],
             compilation_options: wgpu::PipelineCompilationOptions::default(),
         },
@@ -264,10 +270,10 @@ fn pipeline(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: shader,
-            entry_point: Some(entry),
+            entry_point: Some(pixel),
             targets: &[Some(wgpu::ColorTargetState {
                 format,
-                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                blend: Some(blend),
                 write_mask: wgpu::ColorWrites::ALL,
             })],
             compilation_options: wgpu::PipelineCompilationOptions::default(),
