@@ -23,6 +23,7 @@ pub mod panels;
 pub mod plate;
 pub mod player;
 pub mod reading;
+pub mod replacing;
 pub mod session;
 pub mod shapes;
 #[cfg(feature = "solve")]
@@ -51,6 +52,7 @@ mod tests {
             ("field", &[]),
             ("fonts", &[]),
             ("job", &[]),
+            ("replacing", &[]),
             ("shapes", &[]),
             ("spot", &[]),
             ("undo", &[]),
@@ -62,9 +64,9 @@ mod tests {
             ("widgets", &["shapes"]),
         ],
         &[
-            ("files", &["job", "session"]),
+            ("files", &["job", "replacing", "session"]),
             ("plate", &["session"]),
-            ("reading", &["field", "frames", "job", "session", "spot"]),
+            ("reading", &["field", "frames", "job", "replacing", "session", "spot"]),
             ("solving", &["job", "session"]),
         ],
         &[
@@ -83,8 +85,22 @@ mod tests {
         &[(
             "panels",
             &[
-                "actions", "controls", "desk", "export", "field", "files", "frames", "job",
-                "player", "reading", "session", "shapes", "solving", "stage", "widgets",
+                "actions",
+                "controls",
+                "desk",
+                "export",
+                "field",
+                "files",
+                "frames",
+                "job",
+                "player",
+                "reading",
+                "replacing",
+                "session",
+                "shapes",
+                "solving",
+                "stage",
+                "widgets",
             ],
         )],
         &[(

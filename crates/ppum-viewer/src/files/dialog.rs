@@ -9,6 +9,7 @@ use egui::{Align2, Key, Modifiers, ScrollArea, TextEdit, Ui, Window};
 use super::read::has_extension;
 use super::session_file;
 use crate::job::Job;
+use crate::replacing::{self, Replacing};
 
 /// What a file is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,8 +63,7 @@ pub struct Dialog {
     listing: Option<(PathBuf, Job<Vec<Entry>>)>,
     system: Option<Job<Option<PathBuf>>>,
     error: Option<String>,
-    /// The file that is there already, and is replaced if it is confirmed.
-    replaced: Option<PathBuf>,
+    replacing: Replacing,
 }
 
 /// Something in a folder: its name, and whether it is a folder too.
@@ -80,8 +80,9 @@ impl Dialog {
         if start.is_dir() && !text.ends_with(MAIN_SEPARATOR) {
             text.push(MAIN_SEPARATOR);
         }
-        let (listed, listing, system, error, replaced) = (None, None, None, None, None);
-        Self { purpose, text, chosen: None, listed, listing, system, error, replaced }
+        let (listed, listing, system, error) = (None, None, None, None);
+        let replacing = Replacing::default();
+        Self { purpose, text, chosen: None, listed, listing, system, error, replacing }
     }
 
     /// What the file is chosen for.
@@ -117,7 +118,8 @@ impl Dialog {
         let edit = edit.labelled_by(label.id);
         edit.request_focus();
         if edit.changed() {
-            (self.chosen, self.error, self.replaced) = (None, None, None);
+            (self.chosen, self.error) = (None, None);
+            self.replacing.forget();
         }
         // what is written now decides, not what stood there before
         let fitting = self.fitting();
@@ -171,10 +173,10 @@ impl Dialog {
             if ui.button("Browse…").on_hover_text("The dialog of the system").clicked() {
                 self.browse(ui);
             }
-            let word = match (&self.replaced, self.purpose.is_open()) {
-                (Some(_), _) => "Replace it",
-                (None, true) => "Open",
-                (None, false) => "Save",
+            let word = match (self.error.as_deref(), self.purpose.is_open()) {
+                (Some(replacing::ASK), _) => "Replace it",
+                (_, true) => "Open",
+                (_, false) => "Save",
             };
             ui.button(word).clicked()
         })
@@ -213,10 +215,7 @@ impl Dialog {
             false if !has_extension(&path, ends) => {
                 Some(format!("the name of this file ends with .{}", ends.join(" or .")))
             }
-            false if is_there && self.replaced.as_ref() != Some(&path) => {
-                self.replaced = Some(path.clone());
-                Some("this file is there already: once more replaces it".to_owned())
-            }
+            false if !self.replacing.allows(&path) => Some(replacing::ASK.to_owned()),
             false => ppum_file::check(&path).err().map(|e| format!("it cannot be written: {e}")),
         };
         self.error = error;

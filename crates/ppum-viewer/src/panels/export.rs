@@ -9,6 +9,7 @@ use ppum_scene::moving::Moving;
 use crate::export::{Kind, Order, What};
 use crate::frames::Frame;
 use crate::job::Job;
+use crate::replacing::{ASK, Replacing};
 use crate::session::Pane;
 use crate::stage::Stage;
 
@@ -23,6 +24,7 @@ pub struct Exporter {
     count: usize,
     job: Option<Job<Result<String, String>>>,
     told: Option<Result<String, String>>,
+    replacing: Replacing,
 }
 
 /// Largest side of a page.
@@ -37,7 +39,16 @@ impl Exporter {
             Some(opened) => beside(opened.path.as_deref(), what.ends()[0]),
             None => String::new(),
         };
-        Self { what, path, size, rate: 12.0, count: 36, job: None, told: None }
+        Self {
+            what,
+            path,
+            size,
+            rate: 12.0,
+            count: 36,
+            job: None,
+            told: None,
+            replacing: Replacing::default(),
+        }
     }
 
     /// Shows the choice; false once it is closed.
@@ -62,7 +73,7 @@ impl Exporter {
         ui.horizontal(|ui| {
             let is_ready = refused.is_none() && self.job.is_none();
             if ui.add_enabled(is_ready, egui::Button::new("Save file")).clicked() {
-                self.start(ui, order.clone(), path.clone());
+                self.save(ui, order.clone(), path.clone());
             }
             if let Some(job) = &self.job {
                 ui.spinner();
@@ -170,7 +181,11 @@ impl Exporter {
         is_input.then(|| "This file is the dataset itself; choose another name.".into())
     }
 
-    fn start(&mut self, ui: &Ui, order: Order, path: PathBuf) {
+    fn save(&mut self, ui: &Ui, order: Order, path: PathBuf) {
+        if !self.replacing.allows(&path) {
+            self.told = Some(Err(format!("{}: {ASK}", path.display())));
+            return;
+        }
         self.told = None;
         self.job = Some(Job::start(ui.ctx(), move |stop| {
             let bytes = order.bytes(&path, stop)?;

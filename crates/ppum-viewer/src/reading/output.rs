@@ -1,5 +1,7 @@
 //! Files that readings are written to.
 
+use crate::replacing::Replacing;
+
 /// The name of the next file, and what became of the last one.
 #[derive(Debug, Default)]
 pub struct Output {
@@ -7,6 +9,8 @@ pub struct Output {
     pub path: String,
     /// What became of the last file: its name, or the reason why there is none.
     pub told: Option<Result<String, String>>,
+    /// The file that was asked for last.
+    replacing: Replacing,
 }
 
 #[cfg(feature = "solve")]
@@ -15,6 +19,7 @@ mod files {
     use std::path::{Path, PathBuf};
 
     use super::Output;
+    use crate::replacing::ASK;
 
     /// A file that is not written.
     #[derive(Debug, thiserror::Error)]
@@ -23,12 +28,15 @@ mod files {
         NoName,
         #[error("{}: this is the dataset that is shown; choose another name", .0.display())]
         Input(PathBuf),
+        #[error("{}: {}", .0.display(), ASK)]
+        There(PathBuf),
         #[error("{}: {}", .0.display(), .1)]
         Write(PathBuf, #[source] io::Error),
     }
 
     impl Output {
-        /// Writes bytes to the file of the name with an end of its own, in one step, and tells it; never over an input.
+        /// Writes bytes to the file of the name with an end of its own, in one step, and tells it; never over an input, over
+        /// another file if that is asked for twice.
         pub fn save(&mut self, end: &str, bytes: &[u8], inputs: &[&Path]) {
             let saved = self.try_save(end, bytes, inputs);
             let told = saved.map(|path| path.display().to_string());
@@ -36,7 +44,7 @@ mod files {
         }
 
         fn try_save(
-            &self,
+            &mut self,
             end: &str,
             bytes: &[u8],
             inputs: &[&Path],
@@ -50,6 +58,9 @@ mod files {
             let path = PathBuf::from(name);
             if inputs.iter().any(|input| ppum_file::is_same(input, &path)) {
                 return Err(OutputError::Input(path));
+            }
+            if !self.replacing.allows(&path) {
+                return Err(OutputError::There(path));
             }
             ppum_file::replace(&path, |out| out.write_all(bytes))
                 .map_err(|error| OutputError::Write(path.clone(), error))?;

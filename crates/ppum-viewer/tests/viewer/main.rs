@@ -9,6 +9,7 @@ mod lab;
 mod moving;
 mod plotting;
 mod reading;
+mod saving;
 mod series;
 mod sessions;
 mod solving;

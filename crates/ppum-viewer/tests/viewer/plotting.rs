@@ -287,6 +287,12 @@ fn files_are_written_but_never_over_the_dataset() {
     assert_eq!(written, values.table.csv());
     window.state_mut().stages[0].reading.output.path =
         folder.path().join("table").display().to_string();
+    let mine = folder.path().join("table.svg");
+    std::fs::write(&mine, "mine").expect("written");
+    window.get_by_label("Save SVG").click();
+    settle(&mut window);
+    window.get_by_label_contains("once more replaces it");
+    assert_eq!(std::fs::read_to_string(&mine).expect("there"), "mine");
     for end in ["SVG", "PDF", "PNG"] {
         window.get_by_label(&format!("Save {end}")).click();
         settle(&mut window);

@@ -1,0 +1,125 @@
+//! Pictures, figures and animations that are saved.
+
+use std::path::Path;
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::kit::plate;
+use crate::lab::{Lab, shot};
+
+/// A window with a plate that was read from a file, and the window for saving it.
+fn asked(kind: &str) -> Lab {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &plate());
+    lab.open(&path);
+    // few pixels: animations have many pictures
+    lab.window.set_size(egui::vec2(640.0, 420.0));
+    lab.settle();
+    lab.window.key_press(Key::S);
+    lab.window.run_steps(3);
+    if kind != "Picture" {
+        lab.window.get_by_value("Picture").click();
+        lab.window.run_steps(3);
+        lab.window.get_by_label(kind).click();
+        lab.window.run_steps(3);
+    }
+    lab
+}
+
+fn named(lab: &mut Lab, path: &Path) {
+    lab.window.get_by_role_and_label(egui::accesskit::Role::TextInput, "File").click();
+    lab.window.step();
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    lab.window.step();
+    lab.window
+        .get_by_role_and_label(egui::accesskit::Role::TextInput, "File")
+        .type_text(&path.display().to_string());
+    lab.window.run_steps(3);
+}
+
+/// Saves it, and waits for what is told.
+fn saved(lab: &mut Lab) -> bool {
+    lab.window.get_by_label("Save file").click();
+    lab.window.run_steps(3);
+    for _ in 0..5000 {
+        if lab.window.query_by_label("Stop").is_none() {
+            return lab.window.query_by_label_contains("wrote ").is_some();
+        }
+        lab.window.step();
+        std::thread::sleep(std::time::Duration::from_millis(3));
+    }
+    panic!("it does not end");
+}
+
+fn pixels(path: &Path) -> ([u32; 2], Vec<u8>) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).expect("there"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG file");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("it has a size")];
+    let info = reader.next_frame(&mut bytes).expect("it is whole");
+    bytes.truncate(info.buffer_size());
+    ([info.width, info.height], bytes)
+}
+
+#[test]
+fn a_picture_has_the_pixels_that_are_seen() {
+    let mut lab = asked("Picture");
+    let path = lab.path("seen.png");
+    named(&mut lab, &path);
+    shot(&mut lab, "saving-picture");
+    assert!(saved(&mut lab), "{:?}", lab.notes());
+    let seen = lab.viewer().stages[0].frames.newest().expect("a picture").picture.clone();
+    let (size, bytes) = pixels(&path);
+    assert_eq!(size, seen.image.size);
+    let depth = bytes.len() / seen.image.rgba.len().div_ceil(4);
+    let opaque = seen.image.rgba.chunks(4).zip(bytes.chunks(depth)).filter(|(a, _)| a[3] == 255);
+    let (same, all) =
+        opaque.fold((0, 0), |(n, all), (a, b)| (n + u32::from(a[..3] == b[..3]), all + 1));
+    // over the colours there are cracks and tips
+    assert!(all > 10_000 && f64::from(same) > 0.97 * f64::from(all), "{same} of {all}");
+}
+
+#[test]
+fn figures_and_animations_are_what_their_names_say() {
+    for (kind, name, magic) in [
+        ("Figure", "a.svg", &b"<?xml"[..]),
+        ("Figure", "a.pdf", b"%PDF"),
+        ("Figure", "a.png", b"\x89PNG"),
+        ("Animation of the deformation", "a.gif", b"GIF89a"),
+    ] {
+        let mut lab = asked(kind);
+        let path = lab.path(name);
+        named(&mut lab, &path);
+        assert!(saved(&mut lab), "{kind} {name}");
+        let bytes = std::fs::read(&path).expect("there");
+        let start = &bytes[..magic.len()];
+        assert!(start == magic || (magic == b"<?xml" && start.starts_with(b"<svg")), "{name}");
+        assert!(bytes.len() > 2000, "{name}");
+    }
+}
+
+#[test]
+fn another_file_is_replaced_when_it_is_asked_for_twice_and_the_dataset_never() {
+    let mut lab = asked("Picture");
+    let path = lab.path("mine.png");
+    std::fs::write(&path, "a picture of mine").expect("written");
+    named(&mut lab, &path);
+    assert!(!saved(&mut lab));
+    lab.window.get_by_label_contains("once more replaces it");
+    assert_eq!(std::fs::read(&path).expect("there"), b"a picture of mine");
+    assert!(saved(&mut lab));
+    let first = std::fs::read(&path).expect("there");
+    assert!(first.starts_with(b"\x89PNG"));
+    // what was written here is written again without a question
+    assert!(saved(&mut lab));
+    // the dataset under the name of a picture
+    let (dataset, other) = (lab.path("plate.h5"), lab.path("plate.png"));
+    let before = std::fs::read(&dataset).expect("there");
+    std::fs::hard_link(&dataset, &other).expect("another name");
+    named(&mut lab, &other);
+    lab.window.get_by_label_contains("is the dataset itself");
+    lab.window.get_by_label("Save file").click();
+    lab.window.run_steps(3);
+    assert!(lab.window.query_by_label("Stop").is_none());
+    assert_eq!(std::fs::read(&other).expect("there"), before);
+}
