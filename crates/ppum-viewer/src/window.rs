@@ -1,8 +1,11 @@
 //! The window of a desktop.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
 
+use eframe::egui_wgpu::wgpu;
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
@@ -47,6 +50,12 @@ pub enum WindowError {
     /// Nothing to draw it with.
     #[error("{NO_DRIVER} ({0})")]
     NoDriver(String),
+    /// The device that draws it has failed.
+    #[error(
+        "the graphics device has failed ({0}), and the window with it. What was chosen is kept: `ppum view` opens as it was; \
+         if it fails again, draw into files with `ppum view --screenshot OUT.png` or `ppum render`"
+    )]
+    Lost(String),
     /// Anything else.
     #[error("the window cannot be opened: {0}")]
     Other(String),
@@ -122,11 +131,65 @@ pub fn run(start: Start) -> Result<(), WindowError> {
         .with_min_inner_size([480.0, 320.0])
         .with_drag_and_drop(true);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
+    let failure = Failure::default();
+    let heard = failure.clone();
     let create = move |cc: &eframe::CreationContext<'_>| {
         if let Some(state) = &cc.wgpu_render_state {
             pixels::use_device(&cc.egui_ctx, state.target_format);
+            heard.listen(&cc.egui_ctx, &state.device);
         }
         Ok(Box::new(start.viewer(&cc.egui_ctx)) as Box<dyn eframe::App>)
     };
-    Ok(eframe::run_native("ppum", options, Box::new(create))?)
+    let shown = || eframe::run_native("ppum", options, Box::new(create));
+    // egui panics on a device that has failed
+    let closed = catch_unwind(AssertUnwindSafe(shown));
+    match (failure.reason(), closed) {
+        (Some(reason), _) => Err(WindowError::Lost(reason)),
+        (None, Ok(closed)) => Ok(closed?),
+        (None, Err(panic)) => resume_unwind(panic),
+    }
+}
+
+/// A device that answers no sooner has failed.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Why the device draws no more.
+#[derive(Clone, Default)]
+struct Failure {
+    reason: Arc<Mutex<Option<String>>>,
+    device: Arc<OnceLock<wgpu::Device>>,
+}
+
+impl Failure {
+    /// Closes the window when its device fails, which would end the program otherwise.
+    fn listen(&self, ctx: &egui::Context, device: &wgpu::Device) {
+        self.device.get_or_init(|| device.clone());
+        let (told, wake) = (self.clone(), ctx.clone());
+        device.set_device_lost_callback(move |reason, words| {
+            // so it ends when the window is closed
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                told.tell(&wake, &words);
+            }
+        });
+        let (told, wake) = (self.clone(), ctx.clone());
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            told.tell(&wake, &error.to_string());
+        }));
+    }
+
+    /// The first reason is the one: others follow from it.
+    fn tell(&self, ctx: &egui::Context, words: &str) {
+        let mut reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
+        let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+        reason.get_or_insert(words);
+        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+
+    /// The reason, if there is one: the device is asked, which may not have told it yet.
+    fn reason(&self) -> Option<String> {
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+        let failed = self.device.get().and_then(|device| device.poll(wait).err());
+        let failed = failed.map(|error| error.to_string());
+        self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone().or(failed)
+    }
 }
