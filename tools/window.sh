@@ -78,6 +78,8 @@ picture keys
 press h ctrl+k; xdotool type tip; sleep 0.5; picture palette
 press Escape v; sleep 2
 picture two
-press v; drag 300 300 420 360; picture dragged
+press shift+v q; xdotool type tresca; sleep 0.5; press Return; move 560 300; sleep 2
+picture difference
+press shift+v v; drag 300 300 420 360; picture dragged
 press ctrl+z; picture undone
 end

@@ -12,6 +12,7 @@ pub mod compare;
 pub mod deformed;
 pub mod drawing;
 pub mod layers;
+pub mod minus;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
@@ -49,9 +50,13 @@ mod tests {
         ],
         &[
             ("layers", &["drawing", "notice", "overlays", "stations"]),
+            ("minus", &["colors", "drawing"]),
             ("scene", &["colors", "deformed", "drawing", "overlays"]),
         ],
-        &[("command", &["scene"]), ("shot", &["deformed", "drawing", "layers", "range", "scene"])],
+        &[
+            ("command", &["scene"]),
+            ("shot", &["deformed", "drawing", "layers", "minus", "range", "scene"]),
+        ],
         &[("moving", &["deformed", "scene", "shot"])],
     ];
 

@@ -87,7 +87,7 @@ impl Moving {
             scene.colors.range = self.range(dataset, &scene, view, watcher)?;
         }
         self.each(dataset, &scene, |dataset, field, scene| {
-            let (page, _) = page(dataset, field, scene, view, design, watcher)?;
+            let (page, _) = page(dataset, (field, None), scene, view, design, watcher)?;
             take(page.image());
             Ok(())
         })
@@ -107,7 +107,7 @@ impl Moving {
         let mut spans = Vec::new();
         let mut is_symmetric = false;
         self.each(dataset, scene, |dataset, field, scene| {
-            let shot = shot(dataset, field, scene, &small, false, watcher)?;
+            let shot = shot(dataset, (field, None), scene, &small, false, watcher)?;
             is_symmetric |= shot.picture.colormap.diverging;
             // a step that has one value everywhere, as before any load, says nothing of the range
             let has_range = shot.picture.has_values && shot.picture.one_value.is_none();

@@ -9,15 +9,16 @@ use ppum_render::RenderError;
 use ppum_render::cells;
 use ppum_render::colormap::ColormapError;
 use ppum_render::deform::{DeformError, Deformation};
-use ppum_render::picture::Picture;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
-use ppum_render::range::RangeError;
+use ppum_render::range::{RangeError, Span};
 use ppum_render::scatter::render;
 use ppum_render::view::{View, ViewError};
 
 use crate::deformed::{self, words};
 use crate::drawing::{Drawn, PROCESSOR, Seen, Shown};
 use crate::layers::{Ground, Layers, LayersError};
+use crate::minus::{self, Minus, Side};
 use crate::range;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
 
@@ -67,30 +68,31 @@ pub enum ShotError {
 }
 
 /// Draws a scene's picture from a view on the processor, in double precision. The field is that of the scene's subject, see
-/// [`Subject::apply`](crate::scene::Subject::apply). With `is_figure` the cracks are drawn whatever is asked for.
+/// [`Subject::apply`](crate::scene::Subject::apply). With something on the `left` that is subtracted, and the plate is as it was. With
+/// `is_figure` the cracks are drawn whatever is asked for.
 ///
 /// # Errors
 /// What the field does not have; a range that does not fit; a watcher that stops it.
 pub fn shot(
     dataset: &Dataset,
-    field: &Field<'_>,
+    (field, left): (&Field<'_>, Option<Side<'_>>),
     scene: &Scene,
     view: &View,
     is_figure: bool,
     watcher: &dyn Watcher,
 ) -> Result<Shot, ShotError> {
     let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
-    let factor = scene.deformed.map(|factor| factor.number(&[field])).transpose()?;
+    let minus = left.map(|left| Minus { right: Side { field, shown: &shown }, left });
+    let deformed = scene.deformed.filter(|_| minus.is_none());
+    let factor = deformed.map(|factor| factor.number(&[field])).transpose()?;
     let seen = seen(field, view, factor, watcher)?;
-    let drawn = drawn(field, &seen, &shown, watcher)?;
-    let colormap = scene.colors.built_in(shown.quantity())?;
-    let style = scene.colors.style_of([(&shown, &drawn.values)], colormap);
-    let span = match shown.quantity() {
-        Some(quantity) => range::found(field, &seen, quantity, &drawn, &style, watcher)?,
-        None => drawn.span(&style, None),
+    let (drawn, style, span) = match minus {
+        Some(minus) => subtracted(minus, scene, view, watcher)?,
+        None => colored(field, &seen, &shown, scene, watcher)?,
     };
     let picture = drawn.picture(&style, span)?;
-    let (quantity, values) = (shown.quantity(), &drawn.values);
+    // isolines are found of one field
+    let (quantity, values) = (shown.quantity().filter(|_| minus.is_none()), &drawn.values);
     let ground = Ground {
         dataset,
         field,
@@ -103,6 +105,37 @@ pub fn shot(
     let layers = scene.overlays.layers(ground, &seen, scene.outline, watcher).map_err(Box::new)?;
     drop(seen);
     Ok(Shot { shown, picture, layers, by: drawn.by, factor })
+}
+
+/// Values of a field with their colours.
+fn colored(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    shown: &Shown,
+    scene: &Scene,
+    watcher: &dyn Watcher,
+) -> Result<(Drawn, Style, Span), ShotError> {
+    let drawn = drawn(field, seen, shown, watcher)?;
+    let colormap = scene.colors.built_in(shown.quantity())?;
+    let style = scene.colors.style_of([(shown, &drawn.values)], colormap);
+    let span = match shown.quantity() {
+        Some(quantity) => range::found(field, seen, quantity, &drawn, &style, watcher)?,
+        None => drawn.span(&style, None),
+    };
+    Ok((drawn, style, span))
+}
+
+/// A difference with its colours.
+fn subtracted(
+    minus: Minus<'_>,
+    scene: &Scene,
+    view: &View,
+    watcher: &dyn Watcher,
+) -> Result<(Drawn, Style, Span), ShotError> {
+    let drawn = minus.draw(view, watcher)?.drawn;
+    let style = minus.style(&scene.colors)?;
+    let span = minus::span(&drawn, &style);
+    Ok((drawn, style, span))
 }
 
 fn seen<'f>(
@@ -160,24 +193,32 @@ pub fn view_in(
 /// As [`shot`]; a design without room.
 pub fn page(
     dataset: &Dataset,
-    field: &Field<'_>,
+    (field, left): (&Field<'_>, Option<Side<'_>>),
     scene: &Scene,
     view: &View,
     design: Option<&Design>,
     watcher: &dyn Watcher,
 ) -> Result<(Canvas, Shot), ShotError> {
     let Some(design) = design else {
-        let shot = shot(dataset, field, scene, view, false, watcher)?;
+        let shot = shot(dataset, (field, left), scene, view, false, watcher)?;
         return Ok((bare(&shot.picture, shot.layers.items.clone()), shot));
     };
     let view = view_in(dataset, field, scene, view, design)?;
     let title = title(dataset, field, scene)?;
-    let shot = shot(dataset, field, scene, &view, true, watcher)?;
+    let shot = shot(dataset, (field, left), scene, &view, true, watcher)?;
+    let labels = match left {
+        None => labels(&shot.shown, title, field),
+        Some(left) => {
+            let minus = Minus { right: Side { field, shown: &shot.shown }, left };
+            let [quantity, unit] = minus.words();
+            Labels { title, quantity, unit, ..Labels::default() }
+        }
+    };
     let panel = Panel {
         picture: &shot.picture,
         layers: shot.layers.items.clone(),
         legend: shot.layers.legend.clone(),
-        labels: labels(&shot.shown, title, field),
+        labels,
         cracks: &field.step.cracks,
         bar_of: None,
     };

@@ -89,6 +89,8 @@ pub enum Action {
     CloseProblem,
     /// One view, or two side by side.
     Split,
+    /// The difference of two views on and off.
+    Minus,
     /// Take back the last change of settings.
     Undo,
     /// Do it again.
@@ -226,6 +228,7 @@ pub const ALL: &[Entry] = &[
     ),
     entry(Action::CloseProblem, "Close the problem's text", None, "Files and problems"),
     entry(Action::Split, "Two views side by side", key(Key::V), "Window"),
+    entry(Action::Minus, "Difference of the two views", shift(Key::V), "Window"),
     entry(Action::Undo, "Undo", control(Key::Z), "Window"),
     entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),
     entry(Action::Panels, "Show or hide the panels", key(Key::Tab), "Window"),

@@ -9,6 +9,8 @@ use ppum_figure::form::Form;
 use ppum_render::animation;
 use ppum_render::view::View;
 use ppum_scene::command;
+use ppum_scene::drawing::Shown;
+use ppum_scene::minus::Side;
 use ppum_scene::moving::Moving;
 use ppum_scene::scene::Scene;
 use ppum_scene::shot::{page, reshaped, view_in};
@@ -71,6 +73,8 @@ pub struct Order {
     pub field: Arc<OwnedField>,
     /// The file of its dataset.
     pub file: Option<PathBuf>,
+    /// What is subtracted: a field, and what is shown of it.
+    pub left: Option<(Arc<OwnedField>, Arc<Shown>)>,
     /// What is shown, and how.
     pub scene: Scene,
     /// Where.
@@ -84,6 +88,12 @@ pub struct Order {
 /// Most pixels of an animation, all pictures together: they are kept until the file is written.
 const MOST: u64 = 400_000_000;
 
+/// Why there is no animation of a difference.
+const NOT_MOVING: &str =
+    "an animation is of one view; save pictures of the difference, or switch it off (Shift+V)";
+/// Why there is no command of a difference.
+pub const NO_COMMAND: &str = "no command draws the difference of two views; a session does: ppum view --session … --screenshot …";
+
 impl Order {
     fn design(&self) -> Option<Design> {
         (self.kind != Kind::Picture).then(|| Design::pixels(self.size))
@@ -95,6 +105,7 @@ impl Order {
     /// What keeps the picture from being drawn, or from being encoded, in words.
     pub fn bytes(&self, path: &Path, watcher: &dyn Watcher) -> Result<Vec<u8>, String> {
         match &self.kind {
+            Kind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
             Kind::Moving(moving, rate) => self.moving(moving, *rate, path, watcher),
             _ => self.still(path, watcher),
         }
@@ -104,10 +115,16 @@ impl Order {
         let (dataset, field) = (self.field.dataset(), self.field.field());
         let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
         let design = self.design();
-        let made = page(dataset, field, &self.scene, &view, design.as_ref(), watcher);
+        let left = self.left.as_ref();
+        let left = left.map(|(field, shown)| Side { field: field.field(), shown });
+        let made = page(dataset, (field, left), &self.scene, &view, design.as_ref(), watcher);
         let (page, shot) = made.map_err(|e| e.to_string())?;
         let file = name(self.file.as_deref());
-        let texts = shot.texts(&dataset.title, &file, &self.scene, &self.command(path)?);
+        let command = match self.left {
+            None => self.command(path)?,
+            Some(_) => NO_COMMAND.into(),
+        };
+        let texts = shot.texts(&dataset.title, &file, &self.scene, &command);
         Form::of(path).bytes(&page, None, &texts).map_err(|e| e.to_string())
     }
 
@@ -143,8 +160,11 @@ impl Order {
     /// The command that draws the same.
     ///
     /// # Errors
-    /// A size without room for a figure, in words.
+    /// A size without room for a figure, a difference, which no command draws; in words.
     pub fn command(&self, output: &Path) -> Result<String, String> {
+        if self.left.is_some() {
+            return Err(NO_COMMAND.into());
+        }
         let (dataset, field) = (self.field.dataset(), self.field.field());
         let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
         let (view, page) = match self.design() {

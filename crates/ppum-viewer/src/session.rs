@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
+use ppum_scene::colors::Colors;
 use ppum_scene::compare::Compare;
 use ppum_scene::profile::{Along, COUNT};
 use ppum_scene::scene::Scene;
@@ -21,6 +22,8 @@ pub struct Session {
     pub active: usize,
     /// True if both panes show the same place.
     pub linked: bool,
+    /// The difference of the two.
+    pub minus: Minus,
     /// True if the panels on the right are open.
     pub panels: bool,
     /// The page of the drawer below, if it is open.
@@ -29,6 +32,16 @@ pub struct Session {
     pub theme: Theme,
     /// The problem whose text is open.
     pub draft: Option<Draft>,
+}
+
+/// The difference of two views, which the second one shows: its values minus those of the first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Minus {
+    /// True if it is shown.
+    pub is_shown: bool,
+    /// The colours of the second view when it shows the other of the two, its own values or the difference.
+    pub colors: Colors,
 }
 
 /// The text of a problem while it is written.
@@ -150,6 +163,7 @@ impl Default for Session {
             panes: vec![Pane::default()],
             active: 0,
             linked: true,
+            minus: Minus::default(),
             panels: true,
             drawer: None,
             theme: Theme::default(),
@@ -168,6 +182,20 @@ impl Session {
     /// The same, to be changed.
     pub fn pane_mut(&mut self) -> &mut Pane {
         &mut self.panes[self.active]
+    }
+
+    /// Shows the difference of two views, or the second one's own values; with colours of its own each, and both views at
+    /// the same place.
+    pub fn subtract(&mut self, is_shown: bool) {
+        let [left, right] = &mut self.panes[..] else { return };
+        if self.minus.is_shown != is_shown {
+            self.minus.is_shown = is_shown;
+            std::mem::swap(&mut right.scene.colors, &mut self.minus.colors);
+        }
+        if is_shown {
+            self.linked = true;
+            left.place = right.place;
+        }
     }
 
     /// Takes what has a history of its own, or is no setting, from another state: places, files and the problem's text.
@@ -203,6 +231,7 @@ impl Session {
             self.panes.push(Pane::default());
         }
         self.active = self.active.min(self.panes.len() - 1);
+        self.minus.is_shown &= self.panes.len() == 2;
     }
 }
 

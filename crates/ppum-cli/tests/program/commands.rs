@@ -131,6 +131,6 @@ fn page(
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
     let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
     let design = size.map(Design::pixels);
-    let made = shot::page(&dataset, &field, scene, view, design.as_ref(), unwatched());
+    let made = shot::page(&dataset, (&field, None), scene, view, design.as_ref(), unwatched());
     made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
 }

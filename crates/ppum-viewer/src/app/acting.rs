@@ -14,7 +14,7 @@ use ppum_scene::overlays::Levels;
 use crate::actions::Action;
 use crate::app::Viewer;
 use crate::controls::swing::Swing;
-use crate::export::{Kind, Order};
+use crate::export::{Kind, Order, What};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::player;
@@ -76,7 +76,7 @@ impl Viewer {
             Action::NextScale => colors.scale = next_scale(colors.scale),
             Action::AutomaticRange => colors.range = Range::Auto,
             Action::FreezeRange => freeze(pane, stage),
-            Action::NextMap => next_map(colors),
+            Action::NextMap => next_map(colors, stage),
             Action::ReverseMap => reverse_map(colors, stage),
             Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
             Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
@@ -104,7 +104,12 @@ impl Viewer {
         let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
         match action {
             Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
-            Action::CopyCommand => copy_command(ctx, pane, stage),
+            Action::CopyCommand => {
+                if copy_command(ctx, pane, stage).is_err() {
+                    // it says why there is none
+                    self.exporter = Some(Exporter::new(What::Picture, stage));
+                }
+            }
             Action::Probe => {
                 if let Some(spot) = stage.spot() {
                     stage.pin(pane, spot);
@@ -142,6 +147,7 @@ impl Viewer {
                 self.session.drawer = Some(page);
             }
             Action::Split => self.split(ctx),
+            Action::Minus => self.minus(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),
             Action::Panels => self.session.panels = !self.session.panels,
@@ -172,33 +178,36 @@ fn next_scale(scale: Scale) -> Scale {
 }
 
 /// Copies the command that draws what is seen.
-fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) {
-    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return };
+fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), String> {
+    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return Ok(()) };
     let order = Order {
         field: Arc::clone(&frame.field),
         file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
+        left: frame.left(),
         scene: pane.scene.drawn(),
         view,
         size: view.pixels,
         kind: Kind::Picture,
     };
-    if let Ok(command) = order.command(Path::new("picture.png")) {
-        ctx.copy_text(command);
-    }
+    ctx.copy_text(order.command(Path::new("picture.png"))?);
+    Ok(())
 }
 
 /// The next map, reversed if this one is.
-fn next_map(colors: &mut Colors) {
-    let name = colors.colormap.as_deref().unwrap_or(NAMES[0]);
+fn next_map(colors: &mut Colors, stage: &Stage) {
+    let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
     let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
     let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
     colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
 }
 
+fn default_map(stage: &Stage) -> &'static str {
+    stage.frames.newest().map_or(NAMES[0], |frame| frame.default_map())
+}
+
 /// The map from its other end; that of the picture if none is chosen.
 fn reverse_map(colors: &mut Colors, stage: &Stage) {
-    let quantity = stage.frames.newest().and_then(|frame| frame.shown.quantity());
-    let name = colors.colormap.as_deref().unwrap_or(Colors::default_map(quantity));
+    let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
     let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
     colors.colormap = Some(reversed);
 }

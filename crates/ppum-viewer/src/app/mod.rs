@@ -13,12 +13,13 @@ use ppum::dataset::Dataset;
 use crate::actions;
 use crate::desk::Desk;
 use crate::fonts::fonts;
-use crate::frames::Backend;
+use crate::frames::{Backend, Minus};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
 use crate::session::{Place, Session, Theme};
+use crate::stage::difference::Pair;
 use crate::stage::{Opened, Stage, ground};
 use crate::undo::{Rest, Undo};
 
@@ -161,6 +162,7 @@ impl Viewer {
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
+            self.session.subtract(false);
             self.session.panes.truncate(1);
             self.stages.truncate(1);
             self.session.active = 0;
@@ -169,6 +171,18 @@ impl Viewer {
             let mut stage = Stage::new(ctx, self.backend);
             stage.opened.clone_from(&self.stages[0].opened);
             self.stages.push(stage);
+        }
+    }
+
+    /// The difference of two views, of which the second one is made if there is none, or its own values.
+    pub(crate) fn minus(&mut self, ctx: &egui::Context) {
+        if self.session.panes.len() < 2 {
+            self.split(ctx);
+        }
+        self.session.subtract(!self.session.minus.is_shown);
+        if self.session.minus.is_shown {
+            // its colours are chosen next
+            self.session.active = 1;
         }
     }
 
@@ -208,6 +222,7 @@ impl Viewer {
 /// The panes side by side.
 fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
     let count = desk.session.panes.len();
+    pair(desk);
     let before: Vec<_> = desk.session.panes.iter().map(|pane| pane.place).collect();
     ui.spacing_mut().item_spacing.x = 2.0;
     ui.columns(count, |columns| {
@@ -233,6 +248,23 @@ fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
     });
     link(desk.session, &before);
+}
+
+/// Tells the views whether one is subtracted from the other.
+fn pair(desk: &mut Desk<'_>) {
+    let is_shown = desk.session.minus.is_shown;
+    let pane = &desk.session.panes[0];
+    match &mut desk.stages[..] {
+        [left, right] if is_shown => {
+            right.pair = Pair::Right(left.opened.as_ref().map(|opened| Minus {
+                dataset: Arc::clone(&opened.dataset),
+                subject: pane.scene.subject.clone(),
+                quantity: pane.scene.quantity.clone(),
+            }));
+            left.pair = Pair::Left;
+        }
+        stages => stages.iter_mut().for_each(|stage| stage.pair = Pair::Alone),
+    }
 }
 
 /// Moves the other pane to where one has moved, if they are linked.

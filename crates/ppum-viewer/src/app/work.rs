@@ -165,6 +165,7 @@ impl Viewer {
     fn close(&mut self, pane: usize) {
         self.player.is_playing = false;
         if self.session.panes.len() > 1 {
+            self.session.subtract(false);
             self.session.panes.remove(pane);
             self.stages.remove(pane);
             self.session.active = 0;

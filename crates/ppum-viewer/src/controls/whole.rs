@@ -9,7 +9,7 @@ use ppum_render::range::Range;
 use ppum_scene::overlays::Overlays;
 use ppum_scene::scene::Scene;
 
-use crate::frames::{Frames, Wanted};
+use crate::frames::{Frames, Minus, Wanted};
 use crate::plate;
 
 /// A range that is looked for.
@@ -17,6 +17,7 @@ pub struct Whole {
     frames: Frames,
     scene: Scene,
     dataset: Arc<Dataset>,
+    minus: Option<Minus>,
     steps: VecDeque<usize>,
     total: usize,
     found: Option<[f64; 2]>,
@@ -37,12 +38,13 @@ pub enum Outcome {
 }
 
 impl Whole {
-    /// Looks for the range of a scene on the whole plate at some steps, whatever its range and its overlays are.
+    /// Looks for the range of a scene on the whole plate at some steps, or of its difference from another one, whatever its range
+    /// and its overlays are.
     #[must_use]
     pub fn new(
         ctx: &egui::Context,
         dataset: &Arc<Dataset>,
-        scene: &Scene,
+        (scene, minus): (&Scene, Option<Minus>),
         steps: Steps<usize>,
     ) -> Self {
         let ctx = ctx.clone();
@@ -52,6 +54,7 @@ impl Whole {
             frames: Frames::new(move || ctx.request_repaint()),
             scene,
             dataset: Arc::clone(dataset),
+            minus,
             total: steps.len(),
             steps: steps.collect(),
             found: None,
@@ -79,7 +82,8 @@ impl Whole {
             return Outcome::Failed("the plate has no size".into());
         };
         let dataset = Arc::clone(&self.dataset);
-        self.frames.want(Wanted::new(dataset, scene, view));
+        let minus = self.minus.clone();
+        self.frames.want(Wanted { minus, ..Wanted::new(dataset, scene, view) });
         Outcome::Working
     }
 

@@ -10,6 +10,7 @@ use ppum_render::range::Span;
 use ppum_render::scale::Scale;
 use ppum_scene::drawing::{Drawn, Shown};
 use ppum_scene::layers::Layers;
+use ppum_scene::minus;
 use ppum_scene::range;
 use web_time::Instant;
 
@@ -20,9 +21,9 @@ use super::paint::Painted;
 use super::renderer::{Backend, Renderer};
 use super::resampled::{Other, Resampling};
 use super::stop::Stop;
-use super::subject::{Place, Subjects};
+use super::subject::{Left, Place, Subject, Subjects};
 use super::values::Values;
-use super::{Fault, Frame, Wanted};
+use super::{Fault, Frame, Minus, Subtracted, Wanted};
 
 /// What is wanted, and when one who moves will be at rest.
 #[derive(Clone, Debug)]
@@ -62,8 +63,8 @@ const GLIDE: Duration = Duration::from_millis(16);
 
 /// What a range is found from.
 type Ranged = (Same<Drawn>, Scale, String, bool);
-/// What an eased range belongs to.
-type Quantity = (Same<Dataset>, Option<String>);
+/// What an eased range belongs to: a quantity of a dataset, and what is subtracted from it.
+type Quantity = (Same<Dataset>, Option<String>, Option<Minus>);
 
 /// Makes the pictures of one pane.
 pub(super) struct Maker {
@@ -114,7 +115,8 @@ impl Maker {
             // what cannot be used is refused before it is shown, or anything glides there
             goal.normalization(style.scale).map_err(Stop::at(Fault::Colors))?;
         }
-        let (span, is_there) = self.span(wanted, &drawn, &style, goal.as_ref(), now);
+        let (span, is_there) =
+            self.span(wanted, (&place.subject, &drawn), &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
         if self
             .newest
@@ -175,6 +177,9 @@ impl Maker {
     fn style(&mut self, wanted: &Wanted, place: &Place, drawn: &Arc<Drawn>) -> Result<Style, Stop> {
         let (colors, shown): (_, &Shown) = (&wanted.scene.colors, &place.subject.shown.0);
         self.styles.get_or((Same::of(drawn), colors.clone()), || {
+            if let Some(minus) = place.subject.minus() {
+                return minus.style(colors).map_err(Stop::at(Fault::Colors));
+            }
             let map = colors.built_in(shown.quantity()).map_err(Stop::at(Fault::Colors))?;
             Ok(colors.style_of([(shown, &drawn.values)], map))
         })
@@ -187,8 +192,14 @@ impl Maker {
         (drawn, is_whole): (&Arc<Drawn>, bool),
         style: &Style,
     ) -> Option<Span> {
-        if place.subject.shown.0.quantity().is_none() || !style.range.is_found() {
-            return Some(drawn.span(style, None));
+        let subject = &place.subject;
+        // the pixels are all that is known of a difference
+        let is_of_pixels = match subject.minus {
+            Some(_) => is_whole,
+            None => subject.shown.0.quantity().is_none(),
+        };
+        if is_of_pixels || !style.range.is_found() {
+            return Some(span_of(subject, drawn, style));
         }
         self.ranges.get(&ranged(drawn, style)).filter(|_| is_whole)
     }
@@ -197,7 +208,7 @@ impl Maker {
     fn span(
         &mut self,
         wanted: &Wanted,
-        drawn: &Drawn,
+        (subject, drawn): (&Subject, &Drawn),
         style: &Style,
         goal: Option<&Span>,
         now: Instant,
@@ -214,7 +225,7 @@ impl Maker {
             }
             None => {
                 let span = self.eased.shown(&about).cloned();
-                let span = span.unwrap_or_else(|| drawn.span(style, None));
+                let span = span.unwrap_or_else(|| span_of(subject, drawn, style));
                 self.eased.set(about, span.clone());
                 (span, true)
             }
@@ -290,6 +301,7 @@ impl Maker {
             wanted: wanted.clone(),
             field: Arc::clone(&subject.field.0),
             shown: Arc::clone(&subject.shown.0),
+            subtracted: self.subtracted(subject),
             drawn,
             picture,
             layers,
@@ -301,6 +313,12 @@ impl Maker {
             seconds: self.seconds,
         };
         self.publish(frame, next)
+    }
+
+    fn subtracted(&self, subject: &Subject) -> Option<Subtracted> {
+        let Left { field, shown } = subject.minus.as_ref()?;
+        let (field, shown) = (Arc::clone(&field.0), Arc::clone(&shown.0));
+        Some(Subtracted { field, shown, norms: self.values.norms(subject) })
     }
 
     /// What lies over the picture of before, and beside it, if that is of the same plate.
@@ -329,7 +347,16 @@ impl Maker {
 }
 
 fn about(wanted: &Wanted, style: &Style) -> (Quantity, Scale) {
-    ((Same::of(&wanted.dataset), wanted.scene.quantity.clone()), style.scale)
+    let quantity = wanted.scene.quantity.clone();
+    ((Same::of(&wanted.dataset), quantity, wanted.minus.clone()), style.scale)
+}
+
+/// The range of values as far as the pixels tell.
+fn span_of(subject: &Subject, drawn: &Drawn, style: &Style) -> Span {
+    match subject.minus {
+        Some(_) => minus::span(drawn, style),
+        None => drawn.span(style, None),
+    }
 }
 
 fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {

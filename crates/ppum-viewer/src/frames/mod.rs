@@ -9,6 +9,7 @@
 mod ease;
 mod maker;
 mod memo;
+mod minus;
 mod over;
 mod paint;
 mod renderer;
@@ -34,6 +35,7 @@ use web_time::Instant;
 
 use crate::field::OwnedField;
 use maker::Wish;
+pub use minus::{Minus, Subtracted};
 pub use paint::Painted;
 pub use renderer::Backend;
 pub use resampled::Other;
@@ -50,13 +52,15 @@ pub struct Wanted {
     pub view: View,
     /// What resampling gives beside it, if that is asked for.
     pub compare: Option<Compare>,
+    /// What is subtracted from it.
+    pub minus: Option<Minus>,
 }
 
 impl Wanted {
     /// A view of a scene, and nothing beside it.
     #[must_use]
     pub fn new(dataset: Arc<Dataset>, scene: Scene, view: View) -> Self {
-        Self { dataset, scene, view, compare: None }
+        Self { dataset, scene, view, compare: None, minus: None }
     }
 
     /// True if another one differs in nothing but the place.
@@ -71,6 +75,7 @@ impl PartialEq for Wanted {
             && self.scene == other.scene
             && self.view == other.view
             && self.compare == other.compare
+            && self.minus == other.minus
     }
 }
 
@@ -83,6 +88,8 @@ pub struct Frame {
     pub field: Arc<OwnedField>,
     /// What is shown.
     pub shown: Arc<Shown>,
+    /// What was subtracted from it.
+    pub subtracted: Option<Subtracted>,
     /// Its values; of a rough picture those of its own view.
     pub drawn: Arc<Drawn>,
     /// Their colours, and the view that they are of.
@@ -118,6 +125,8 @@ pub enum Fault {
     Overlays,
     /// The comparison with resampling.
     Compare,
+    /// What is subtracted.
+    Minus,
     /// The program itself.
     Program,
 }

@@ -50,7 +50,8 @@ impl Over {
         let ground = Ground {
             dataset: &wanted.dataset,
             field: place.subject.field.0.field(),
-            quantity: place.subject.shown.0.quantity(),
+            // isolines are found of one field
+            quantity: place.subject.shown.0.quantity().filter(|_| place.subject.minus.is_none()),
             picture,
             values: &drawn.values,
             is_figure: false,

@@ -92,6 +92,9 @@ impl Resampling {
         if subject.factor.is_some() {
             return Err(refused(DEFORMED));
         }
+        if subject.minus.is_some() {
+            return Err(refused(MINUS));
+        }
         let field = subject.field.0.field();
         self.samples.get_or((subject.clone(), compare.grid), || {
             let start = Instant::now();
@@ -105,6 +108,7 @@ impl Resampling {
 
 const OF_CELLS: &str = "values of cells are not resampled; choose a quantity to compare";
 const DEFORMED: &str = "the deformed plate is not resampled; compare without the deformation";
+const MINUS: &str = "the difference of two views is not resampled; compare each of them";
 
 fn refused(message: &str) -> Stop {
     Stop::failed(Fault::Compare, message)

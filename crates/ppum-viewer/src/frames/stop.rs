@@ -27,6 +27,16 @@ impl Stop {
         Self::Failed(Failure { fault, message: message.into() })
     }
 
+    /// The same mistake, told elsewhere behind some words.
+    pub(super) fn of(self, fault: Fault, words: &str) -> Self {
+        match self {
+            Self::Cancelled => self,
+            Self::Failed(Failure { message, .. }) => {
+                Self::failed(fault, format!("{words}{message}"))
+            }
+        }
+    }
+
     /// What an error means that arose in some place.
     pub(super) fn at<E: MayCancel>(fault: Fault) -> impl Fn(E) -> Self {
         move |error| match error.is_cancelled() {

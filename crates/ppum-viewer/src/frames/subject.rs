@@ -8,12 +8,13 @@ use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::view::View;
 use ppum_scene::deformed::Factor;
 use ppum_scene::drawing::{Seen, Shown};
+use ppum_scene::minus::{self, Side};
 use ppum_scene::scene::{self, default_quantity, shown};
 use self_cell::self_cell;
 
 use super::memo::{Memo, Same};
 use super::stop::Stop;
-use super::{Fault, Wanted};
+use super::{Fault, Minus, Wanted};
 use crate::field::OwnedField;
 
 /// What is looked at, wherever that is.
@@ -23,6 +24,25 @@ pub(super) struct Subject {
     pub(super) shown: Same<Shown>,
     /// How many times its displacement the plate is drawn with.
     pub(super) factor: Option<f64>,
+    /// What is subtracted.
+    pub(super) minus: Option<Left>,
+}
+
+/// What is shown of another field.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Left {
+    pub(super) field: Same<OwnedField>,
+    pub(super) shown: Same<Shown>,
+}
+
+impl Subject {
+    /// The two sides of a difference, if it is one.
+    pub(super) fn minus(&self) -> Option<minus::Minus<'_>> {
+        let left = self.minus.as_ref()?;
+        let right = Side { field: self.field.0.field(), shown: &self.shown.0 };
+        let left = Side { field: left.field.0.field(), shown: &left.shown.0 };
+        Some(minus::Minus { right, left })
+    }
 }
 
 /// A view of it.
@@ -32,32 +52,72 @@ pub(super) struct Place {
     pub(super) view: View,
 }
 
+/// Fields that are looked at, and what is shown of them.
+#[derive(Default)]
+pub(super) struct Fields {
+    pub(super) fields: Memo<(Same<Dataset>, scene::Subject), Arc<OwnedField>>,
+    shown: Memo<(Same<OwnedField>, Option<String>), Arc<Shown>>,
+}
+
+impl Fields {
+    /// What a quantity shows of a field.
+    fn shown(
+        &mut self,
+        field: &Arc<OwnedField>,
+        quantity: Option<&String>,
+    ) -> Result<Arc<Shown>, Stop> {
+        self.shown.get_or((Same::of(field), quantity.cloned()), || {
+            let field = field.field();
+            let text = quantity.map_or(default_quantity(field), String::as_str);
+            shown(text, field).map(Arc::new).map_err(Stop::at(Fault::Quantity))
+        })
+    }
+}
+
 /// Finds subjects.
 #[derive(Default)]
 pub(super) struct Subjects {
-    pub(super) fields: Memo<(Same<Dataset>, scene::Subject), Arc<OwnedField>>,
-    pub(super) shown: Memo<(Same<OwnedField>, Option<String>), Arc<Shown>>,
+    pub(super) own: Fields,
+    minus: Fields,
     factors: Memo<(Same<OwnedField>, Option<Factor>), Option<f64>>,
 }
+
+/// Why there is no difference on the deformed plate.
+const DEFORMED: &str = "of the deformed plate there is no difference; press d";
 
 impl Subjects {
     /// The subject of what is wanted.
     pub(super) fn find(&mut self, wanted: &Wanted) -> Result<Subject, Stop> {
         let scene = &wanted.scene;
         let key = (Same::of(&wanted.dataset), scene.subject.clone());
-        let field = self.fields.get_or(key, || field(&wanted.dataset, &scene.subject))?;
-        let key = (Same::of(&field), scene.quantity.clone());
-        let quantity = || {
-            let text = scene.quantity.as_deref().unwrap_or(default_quantity(field.field()));
-            shown(text, field.field()).map(Arc::new).map_err(Stop::at(Fault::Quantity))
-        };
-        let shown = self.shown.get_or(key, quantity)?;
+        let field = self.own.fields.get_or(key, || field(&wanted.dataset, &scene.subject))?;
+        let shown = self.own.shown(&field, scene.quantity.as_ref())?;
+        if wanted.minus.is_some() && scene.deformed.is_some() {
+            return Err(Stop::failed(Fault::Minus, DEFORMED));
+        }
         let number = || scene.deformed.map(|factor| factor.number(&[field.field()])).transpose();
         let key = (Same::of(&field), scene.deformed);
         let factor = self
             .factors
             .get_or(key, || number().map_err(Stop::at::<DeformError>(Fault::Deformed)))?;
-        Ok(Subject { field: Same(field), shown: Same(shown), factor })
+        if wanted.minus.is_none() {
+            // what was subtracted before may have been closed
+            self.minus = Fields::default();
+        }
+        let other = wanted.minus.as_ref().map(|minus| self.other(minus)).transpose();
+        let minus = other.map_err(|stop| stop.of(Fault::Minus, "on the left: "))?;
+        Ok(Subject { field: Same(field), shown: Same(shown), factor, minus })
+    }
+
+    /// What is subtracted; a field that is looked at anyway is not made twice.
+    fn other(&mut self, wanted: &Minus) -> Result<Left, Stop> {
+        let key = (Same::of(&wanted.dataset), wanted.subject.clone());
+        let field = match self.own.fields.get(&key) {
+            Some(field) => field,
+            None => self.minus.fields.get_or(key, || field(&wanted.dataset, &wanted.subject))?,
+        };
+        let shown = self.minus.shown(&field, wanted.quantity.as_ref())?;
+        Ok(Left { field: Same(field), shown: Same(shown) })
     }
 }
 

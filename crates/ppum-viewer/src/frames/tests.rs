@@ -22,7 +22,7 @@ use web_time::Instant;
 use super::maker::{Maker, Next, Wish};
 use super::stop::Stop;
 use super::worker::{self, Inline};
-use super::{Backend, Frame, Frames, Wanted};
+use super::{Backend, Frame, Frames, Minus, Wanted};
 
 const PIXELS: [u32; 2] = [243, 181];
 
@@ -119,7 +119,7 @@ fn only_what_has_changed_is_made_anew() {
     finished(&mut maker, &wanted);
     let made = |maker: &Maker| {
         let Maker { subjects, values, ranges, painted, over, .. } = maker;
-        [subjects.fields.made, values.whole.made, ranges.made, painted.made, over.layers.made]
+        [subjects.own.fields.made, values.whole.made, ranges.made, painted.made, over.layers.made]
     };
     let first = made(&maker);
     assert_eq!([first[0], first[1], first[2], first[4]], [1; 4]);
@@ -178,6 +178,53 @@ fn who_moves_sees_strips_of_what_was_uncovered() {
     // a place that shares little with it is drawn anew
     wanted = beside(&wanted, 200.0, 0.0);
     assert!(!moving(&mut maker, &wanted).drawn.by.ends_with("moved"));
+}
+
+/// Strips of a difference are of double precision: what cancels is not seen in single precision.
+#[test]
+fn who_moves_sees_strips_of_differences() {
+    let (dataset, mut maker) = (dataset(), maker());
+    let other = Arc::new(Recipe { seed: 7, level: 3, ..Recipe::default() }.dataset());
+    let subtracted = |quantity: Option<&str>| Minus {
+        dataset: Arc::clone(&other),
+        subject: ppum_scene::scene::Subject::default(),
+        quantity: quantity.map(str::to_owned),
+    };
+    let mut wanted = Wanted { minus: Some(subtracted(None)), ..wanted(&dataset) };
+    let exact = |frame: &Frame, view: &View| {
+        let minus = frame.minus().expect("it is a difference");
+        minus.draw(view, unwatched()).unwrap()
+    };
+    let whole = finished(&mut maker, &wanted);
+    let last = whole.last().unwrap();
+    let apart = exact(last, &wanted.view);
+    let is_same = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
+    assert!(values(&last.drawn).values.iter().zip(&values(&apart.drawn).values).all(is_same));
+    assert_eq!(last.subtracted.as_ref().unwrap().norms, Some(apart.norms));
+    assert!(last.is_final && apart.norms.absolute[2] > 0.0);
+
+    wanted = beside(&wanted, 5.0, -3.0);
+    let moved = moving(&mut maker, &wanted);
+    assert_eq!(moved.drawn.by, "cpu f64, moved");
+    let apart = exact(&moved, &moved.drawn.view);
+    let size = apart.norms.absolute[2];
+    assert!(difference(&values(&moved.drawn), &values(&apart.drawn), size) < 1e-7);
+    // far away it is coarse, or whole where that is soon done, and of both
+    wanted = beside(&wanted, 200.0, 0.0);
+    let far = moving(&mut maker, &wanted);
+    let apart = exact(&far, &far.drawn.view);
+    assert_eq!(difference(&values(&far.drawn), &values(&apart.drawn), 1.0), 0.0);
+
+    // what is subtracted is found anew, what is looked at is not
+    let fields = maker.subjects.own.fields.made;
+    wanted.minus = Some(subtracted(Some("uy")));
+    let last = finished(&mut maker, &wanted).pop().unwrap();
+    assert!(last.minus().is_some() && maker.subjects.own.fields.made == fields);
+    wanted.minus = None;
+    assert!(finished(&mut maker, &wanted).pop().unwrap().subtracted.is_none());
+    // nothing holds what was subtracted any more
+    drop((whole, moved, far, last));
+    assert_eq!(Arc::strong_count(&other), 1);
 }
 
 /// Deep at a tip single precision is as good as elsewhere, since offsets are formed in double precision; pixels that doubles

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use ppum::progress::Watcher;
-use ppum::quantity::Quantity;
 use ppum_render::RenderError;
+use ppum_render::resample::norms::Norms;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::deformed;
@@ -28,9 +28,11 @@ pub(super) struct Values {
     pub(super) renderer: Renderer,
     pub(super) whole: Memo<Place, Arc<Drawn>>,
     pub(super) rough: Memo<Place, Arc<Drawn>>,
-    /// Pixels that were drawn in single precision.
+    /// Pixels of rough pictures that were drawn.
     pub(super) pixels: usize,
     seen: Memo<Place, Arc<OwnedSeen>>,
+    /// How far the two sides of the last difference are from each other.
+    norms: Memo<Subject, Norms>,
     pace: Pace,
 }
 
@@ -50,6 +52,7 @@ impl Values {
             rough: Memo::default(),
             pixels: 0,
             seen: Memo::default(),
+            norms: Memo::default(),
             pace: Pace::default(),
         }
     }
@@ -58,7 +61,9 @@ impl Values {
     pub(super) fn needs_rough(&self, place: &Place, is_moving: bool) -> bool {
         let is_quick =
             self.pace.of(&place.subject).whole.is_some_and(|pace| is_quick(pace, &place.view));
-        !is_quick || is_moving && !self.renderer.has_card()
+        // differences are the processor's
+        let has_card = self.renderer.has_card() && place.subject.minus.is_none();
+        !is_quick || is_moving && !has_card
     }
 
     /// Draws all that is to be seen.
@@ -68,8 +73,12 @@ impl Values {
         watcher: &dyn Watcher,
     ) -> Result<Arc<Drawn>, Stop> {
         let start = Instant::now();
-        let Subject { field, shown, factor } = &place.subject;
+        if place.subject.minus.is_none() {
+            self.norms = Memo::default();
+        }
+        let Subject { field, shown, factor, .. } = &place.subject;
         let drawn = match (&*shown.0, factor) {
+            _ if place.subject.minus.is_some() => self.draw_minus(place, watcher)?,
             (shown, Some(_)) => {
                 let seen = self.seen(place, watcher)?;
                 deform(seen.seen(), shown, watcher)?
@@ -88,6 +97,18 @@ impl Values {
         Ok(drawn)
     }
 
+    fn draw_minus(&mut self, place: &Place, watcher: &dyn Watcher) -> Result<Drawn, Stop> {
+        let minus = place.subject.minus().expect("a subject with something to subtract");
+        let apart = minus.draw(&place.view, watcher).map_err(Stop::at(Fault::Minus))?;
+        self.norms.set(place.subject.clone(), apart.norms);
+        Ok(apart.drawn)
+    }
+
+    /// How far the two sides of a difference are from each other, in the view that was last drawn whole.
+    pub(super) fn norms(&self, subject: &Subject) -> Option<Norms> {
+        self.norms.get(subject)
+    }
+
     /// Draws what is soon done: strips beside what was seen before, all in single precision, or a coarse picture.
     pub(super) fn draw_rough(
         &mut self,
@@ -95,7 +116,15 @@ impl Values {
         watcher: &dyn Watcher,
     ) -> Result<Arc<Drawn>, Stop> {
         let drawn = match (&*place.subject.shown.0, place.subject.factor) {
-            (Shown::Quantity(quantity), None) => self.draw_single(place, quantity, watcher)?,
+            _ if place.subject.minus.is_some() => self.draw_soon(place, |subject, view| {
+                let minus = subject.minus().expect("a subject with something to subtract");
+                minus.draw(view, watcher).map(|apart| apart.drawn)
+            })?,
+            (Shown::Quantity(quantity), None) => self.draw_soon(place, |subject, view| {
+                let field = subject.field.0.field();
+                let raster = render::<f32>(field, view, quantity, watcher)?;
+                Ok(Drawn::new(raster, field, view, "cpu f32"))
+            })?,
             (Shown::Cells(_, values), None) => {
                 Drawn::of_cells(values, place.subject.field.0.field(), &coarse(&place.view))
             }
@@ -110,17 +139,16 @@ impl Values {
         Ok(drawn)
     }
 
-    fn draw_single(
+    /// Draws strips, all of it or a coarse picture, by what draws the pixels of a view.
+    fn draw_soon(
         &mut self,
         place: &Place,
-        quantity: &Quantity,
-        watcher: &dyn Watcher,
+        pixels_of: impl Fn(&Subject, &View) -> Result<Drawn, RenderError>,
     ) -> Result<Drawn, Stop> {
-        let field = place.subject.field.0.field();
         let mut pixels = 0;
         let mut draw = |view: &View| -> Result<Drawn, RenderError> {
             pixels += view.pixels.iter().map(|&n| n as usize).product::<usize>();
-            Ok(Drawn::new(render::<f32>(field, view, quantity, watcher)?, field, view, "cpu f32"))
+            pixels_of(&place.subject, view)
         };
         let (start, beside) = (Instant::now(), self.beside(place));
         let view = self.affordable(place);

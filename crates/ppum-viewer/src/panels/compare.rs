@@ -1,18 +1,80 @@
-//! The direct picture against a resampled one: the method, the grid, and what it costs.
+//! The direct picture against a resampled one: the method, the grid, and what it costs; and against the one on the left.
 
-use egui::{Grid, Slider, Ui};
+use egui::{Grid, RichText, Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::resample::Interpolation;
-use ppum_render::resample::norms::NAMES;
+use ppum_render::resample::norms::{NAMES, Norms};
 use ppum_scene::compare::Compare;
+use ppum_scene::range::Telling;
 
-use super::{failure, note};
+use super::{failure, note, wrong};
+use crate::actions::Action;
 use crate::desk::Desk;
-use crate::frames::{Fault, Other};
+use crate::frames::{Fault, Frame, Other};
+use crate::reading::words::value;
 use crate::session::Pane;
+use crate::stage::difference::rounded;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    against_left(ui, desk);
+    ui.separator();
+    against_resampled(ui, desk);
+}
+
+/// The difference of the two views, how large it is, and where.
+fn against_left(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let mut is_on = desk.session.minus.is_shown;
+    let text =
+        "On the right, the values minus those of the left: of two files, steps or quantities";
+    if ui.checkbox(&mut is_on, "right − left").on_hover_text(text).changed() {
+        desk.actions.push(Action::Minus);
+    }
+    if !desk.session.minus.is_shown {
+        return;
+    }
+    let Some(stage) = desk.stages.get(1) else { return };
+    let Some(frame) = stage.frames.newest() else { return };
+    if let (Some(minus), Some(left)) = (frame.minus(), &frame.subtracted) {
+        let [_, unit] = minus.words();
+        if let Some(norms) = &left.norms {
+            sizes(ui, norms, &unit);
+        }
+        extrema(ui, frame, &unit);
+        for warning in minus.warnings() {
+            ui.label(RichText::new(warning).color(wrong(ui)));
+        }
+    }
+    failure(ui, stage, Fault::Minus);
+}
+
+/// The norms of a difference, and what part of the left they are.
+fn sizes(ui: &mut Ui, norms: &Norms, unit: &str) {
+    Grid::new("difference").num_columns(3).spacing([14.0, 2.0]).show(ui, |ui| {
+        let all = NAMES.into_iter().zip(norms.absolute).zip(norms.relative());
+        for ((name, size), part) in all {
+            ui.label(format!("difference {name}"));
+            ui.label(value(rounded(size), unit));
+            ui.weak(percent(part));
+            ui.end_row();
+        }
+    });
+}
+
+/// The least and the largest difference, with their places.
+fn extrema(ui: &mut Ui, frame: &Frame, unit: &str) {
+    let Some(values) = &frame.picture.span.values else { return };
+    let telling = Telling::new(frame.field.dataset(), frame.field.field());
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    let names = ["smallest", "largest"].into_iter();
+    for (name, told) in names.zip(telling.extrema(values, &frame.picture.view)) {
+        ui.label(note(ui, format!("{name} {told}{unit}")));
+    }
+    let text = "Means over the pixels that are seen, and in parts of the left; the extrema are those of the pixels";
+    ui.label(note(ui, text));
+}
+
+fn against_resampled(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     let mut is_on = pane.compare.is_some();
     let text = "What a picture looks like that is interpolated between the points of a grid";
@@ -23,6 +85,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         chosen(ui, pane);
         let other = stage.frames.newest().and_then(|frame| frame.other.as_ref());
         match other {
+            _ if stage.pair.minus().is_some() => {
+                ui.label(note(ui, "A difference is not resampled: compare one of its sides"));
+            }
             _ if pane.scene.deformed.is_some() => {
                 ui.label(note(
                     ui,

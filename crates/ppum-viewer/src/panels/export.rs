@@ -153,6 +153,7 @@ impl Exporter {
         Order {
             field: Arc::clone(&frame.field),
             file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
+            left: frame.left(),
             scene: pane.scene.drawn(),
             view: stage.view.unwrap_or(frame.wanted.view),
             size: self.size,

@@ -31,6 +31,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     glyphs(ui, &mut overlays.arrows, arrows, None);
     let why = (!is_elastic).then_some("A potential has no stresses; arrows show its gradient");
     glyphs(ui, &mut overlays.crosses, "crosses of principal stresses", why);
+    if stage.pair.minus().is_some() && overlays.isolines.is_some() {
+        ui.label(note(ui, "A difference has no isolines: they are found of one field"));
+    }
     legend(ui, stage);
     failure(ui, stage, Fault::Overlays);
 }

@@ -83,6 +83,7 @@ fn names(stage: &mut Stage) -> Option<[String; 2]> {
 
 fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     let mut lines = vec![words::values(probed, name, unit)];
+    lines.extend(words::terms(probed));
     lines.extend(words::gradients(probed));
     let cell = [words::cell(probed), words::patches(probed)];
     lines.push(cell.into_iter().flatten().collect::<Vec<_>>().join("; "));
@@ -92,12 +93,17 @@ fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     }
 }
 
-/// The probes with all digits: places as anchor and offset, a row for each side of a crack.
+/// The probes with all digits: places as anchor and offset, a row for each side of a crack; of a difference also the values on the
+/// right and on the left.
 #[must_use]
 pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
     let plain = ["probe", "x", "y", "dx", "dy", "side"].map(|name| Column::new(name, ""));
     let slopes = ["dx", "dy"].map(|by| Column::new(&format!("d({name})/{by}"), ""));
-    let columns = plain.into_iter().chain([Column::new(name, unit)]).chain(slopes).collect();
+    let is_difference = probes.iter().flat_map(|probed| &probed.sides).any(|s| s.terms.is_some());
+    let terms = ["right", "left"].map(|name| Column::new(name, unit));
+    let terms = terms.into_iter().filter(|_| is_difference);
+    let all = plain.into_iter().chain([Column::new(name, unit)]).chain(slopes).chain(terms);
+    let columns = all.collect();
     let mut rows = Vec::new();
     for (k, probed) in probes.iter().enumerate() {
         let ([x, y], [dx, dy]) = (probed.spot.anchor, probed.spot.offset);
@@ -109,6 +115,7 @@ pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
             };
             let g = sided.gradient;
             rows.extend([(k + 1) as f64, x, y, dx, dy, side, sided.value, g.x, g.y]);
+            rows.extend(sided.terms.into_iter().flatten());
         }
     }
     Table::new(columns, rows)

@@ -40,6 +40,20 @@ pub struct Sided {
     pub value: f64,
     /// Its gradient; NaN where there is none.
     pub gradient: Vec2,
+    /// The values on the right and on the left whose difference it is, if it is one.
+    pub terms: Option<[f64; 2]>,
+}
+
+impl Sided {
+    /// The difference from what is read on the left.
+    fn minus(self, left: &Self) -> Self {
+        Self {
+            side: self.side.or(left.side),
+            value: self.value - left.value,
+            gradient: self.gradient - left.gradient,
+            terms: Some([self.value, left.value]),
+        }
+    }
 }
 
 impl Probed {
@@ -47,6 +61,15 @@ impl Probed {
     #[must_use]
     pub fn is_outside(&self) -> bool {
         self.cell.is_none()
+    }
+
+    /// The difference from what is read on the left. Where a crack runs on one side alone, the other has one value for both of
+    /// its faces.
+    fn minus(self, left: &Self) -> Self {
+        let count = self.sides.len().max(left.sides.len());
+        let of = |sides: &[Sided], k: usize| sides[k.min(sides.len() - 1)];
+        let sides = (0..count).map(|k| of(&self.sides, k).minus(&of(&left.sides, k))).collect();
+        Self { sides, crack: self.crack.or(left.crack), ..self }
     }
 
     /// The value above a crack minus that below.
@@ -59,11 +82,15 @@ impl Probed {
     }
 }
 
-/// What reads a quantity of a field.
+/// What reads a quantity of a field, or its difference from another one.
 pub struct Reader {
     field: Arc<OwnedField>,
     shown: Shown,
     gradient: Option<QuantityGradient>,
+    /// The text that the quantity was chosen by.
+    text: String,
+    /// What reads the values that are subtracted.
+    left: Option<Box<Reader>>,
     /// The quantity's name.
     pub name: String,
     /// Its unit; may be empty.
@@ -77,13 +104,30 @@ impl Reader {
     /// What reads the values that a picture shows.
     #[must_use]
     pub fn new(frame: &Frame) -> Self {
-        let field = frame.field.field();
-        let quantity = frame.shown.quantity();
+        let own = Self::of(&frame.field, &frame.shown, own_text(frame));
+        let left = frame.subtracted.as_ref().map(|left| {
+            let text = left_text(frame).unwrap_or_default();
+            Box::new(Self::of(&left.field, &left.shown, text))
+        });
+        match (frame.minus(), left) {
+            (Some(minus), Some(left)) => {
+                let name = short(&own.text, &left.text);
+                let [_, unit] = minus.words();
+                Self { name, unit, left: Some(left), ..own }
+            }
+            _ => own,
+        }
+    }
+
+    fn of(owned: &Arc<OwnedField>, shown: &Shown, text: &str) -> Self {
+        let (field, quantity) = (owned.field(), shown.quantity());
         Self {
-            field: Arc::clone(&frame.field),
-            shown: Shown::clone(&frame.shown),
+            field: Arc::clone(owned),
+            shown: shown.clone(),
             gradient: quantity.and_then(|quantity| QuantityGradient::new(quantity, field).ok()),
-            name: name(frame).to_owned(),
+            text: text.to_owned(),
+            left: None,
+            name: text.to_owned(),
             unit: quantity.map_or("", |quantity| quantity.unit(field)).to_owned(),
         }
     }
@@ -91,12 +135,46 @@ impl Reader {
     /// True if it reads what a picture shows.
     #[must_use]
     pub fn is_of(&self, frame: &Frame) -> bool {
-        Arc::ptr_eq(&self.field, &frame.field) && self.name == name(frame)
+        let is_same_left = match (&self.left, &frame.subtracted) {
+            (None, None) => true,
+            (Some(reader), Some(left)) => {
+                Arc::ptr_eq(&reader.field, &left.field)
+                    && left_text(frame) == Some(reader.text.as_str())
+            }
+            _ => false,
+        };
+        Arc::ptr_eq(&self.field, &frame.field) && self.text == own_text(frame) && is_same_left
     }
 
     /// The values at a point.
     #[must_use]
     pub fn read(&self, spot: &Spot) -> Probed {
+        let Some(left) = &self.left else { return self.read_own(spot) };
+        let [own, other] = [self, left].map(|reader| reader.own(spot));
+        let mut read = left.read_own(&other);
+        if let [Some(a), Some(b)] = [self.along(&own), left.along(&other)]
+            && a.dot(b) < 0.0
+        {
+            // the crack was drawn from its other end
+            read.sides.reverse();
+        }
+        Probed { spot: *spot, ..self.read_own(&own).minus(&read) }
+    }
+
+    /// A spot of another plate: on a crack of this one if that is the same.
+    fn own(&self, spot: &Spot) -> Spot {
+        let on = spot.on.filter(|_| self.segment_of(spot).is_some());
+        Spot { on, ..*spot }
+    }
+
+    /// The direction of the crack that a spot lies on.
+    fn along(&self, spot: &Spot) -> Option<Vec2> {
+        let SegmentId { crack, segment } = self.segment_of(spot)?;
+        let points = &self.field.field().step.cracks[crack as usize].points;
+        Some(points[segment as usize + 1] - points[segment as usize])
+    }
+
+    fn read_own(&self, spot: &Spot) -> Probed {
         let field = self.field.field();
         let tip = self.tip_at(spot);
         let on = if tip.is_some() { None } else { self.segment_of(spot) };
@@ -117,7 +195,7 @@ impl Reader {
         let sides = sides.iter().map(|&side| {
             let at = (spot.offset(), side.unwrap_or_default());
             let (value, gradient) = self.value(&mut local, at, cell);
-            Sided { side, value, gradient }
+            Sided { side, value, gradient, terms: None }
         });
         let sides = sides.collect();
         let phi = |patch: &u32| {
@@ -151,6 +229,14 @@ impl Reader {
     /// The spot itself, or the tip or the point of a crack that lies within reach of it.
     #[must_use]
     pub fn snapped(&self, spot: Spot, reach: f64) -> Spot {
+        let own = self.snapped_own(spot, reach);
+        match &self.left {
+            Some(left) if own == spot => left.snapped_own(spot, reach),
+            _ => own,
+        }
+    }
+
+    fn snapped_own(&self, spot: Spot, reach: f64) -> Spot {
         if let Some((_, tip)) = self.nearest_tip(&spot).filter(|(distance, _)| *distance <= reach) {
             let cracks = &self.field.field().step.cracks;
             return Spot::new(cracks[tip.crack as usize].end_point(tip.end), Vec2::ZERO);
@@ -237,9 +323,31 @@ impl Reader {
 
 const NOWHERE: Vec2 = vec2(f64::NAN, f64::NAN);
 
-fn name(frame: &Frame) -> &str {
-    let given = frame.wanted.scene.quantity.as_deref().map(str::trim);
-    given.unwrap_or_else(|| default_quantity(frame.field.field()))
+/// The name of a difference: `Δ uy`, `ux − (sxx - syy)`.
+fn short(right: &str, left: &str) -> String {
+    let part = |text: &str| match text.contains(' ') {
+        true => format!("({text})"),
+        false => text.to_owned(),
+    };
+    match right == left {
+        true => format!("Δ {}", part(right)),
+        false => format!("{} − {}", part(right), part(left)),
+    }
+}
+
+/// The text by which a quantity was chosen.
+fn own_text(frame: &Frame) -> &str {
+    text_of(frame.wanted.scene.quantity.as_deref(), &frame.field)
+}
+
+/// The same of what is subtracted.
+fn left_text(frame: &Frame) -> Option<&str> {
+    let (wanted, left) = (frame.wanted.minus.as_ref()?, frame.subtracted.as_ref()?);
+    Some(text_of(wanted.quantity.as_deref(), &left.field))
+}
+
+fn text_of<'a>(given: Option<&'a str>, field: &'a OwnedField) -> &'a str {
+    given.map_or_else(|| default_quantity(field.field()), str::trim)
 }
 
 /// The point of a segment nearest to a spot: its distance, the nearer end and the way from there.

@@ -11,8 +11,9 @@ use crate::spot::Spot;
 /// Views narrower than this part of the plate have their places told from a point near by.
 const DEEP: f64 = 1e-3;
 
-/// Digits of values.
+/// Digits of values, and of those that stand beside them.
 const DIGITS: usize = 7;
+const FEWER: usize = 5;
 
 /// How places of a view are told.
 pub struct Places<'a> {
@@ -88,7 +89,11 @@ pub fn number(value: f64, digits: usize) -> String {
 /// A value with its unit.
 #[must_use]
 pub fn value(value: f64, unit: &str) -> String {
-    let number = number(value, DIGITS);
+    with_unit(value, DIGITS, unit)
+}
+
+fn with_unit(value: f64, digits: usize, unit: &str) -> String {
+    let number = number(value, digits);
     if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
 }
 
@@ -98,10 +103,13 @@ pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
     if probed.is_outside() {
         return "outside the plate".into();
     }
-    let of = |sided: &Sided| value(sided.value, unit);
+    // beside its two terms a difference has less room
+    let digits = if probed.sides.iter().any(|s| s.terms.is_some()) { FEWER } else { DIGITS };
+    let value = |v: f64| with_unit(v, digits, unit);
+    let of = |sided: &Sided| value(sided.value);
     match &probed.sides[..] {
         [above, below] => {
-            let jump = value(above.value - below.value, unit);
+            let jump = value(above.value - below.value);
             let jump = if jump == "not defined" { "none".into() } else { jump };
             format!("{name} = {} above, {} below, jump {jump}", of(above), of(below))
         }
@@ -111,6 +119,19 @@ pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
         },
         _ => String::new(),
     }
+}
+
+/// The two values of a difference: `right 3.1, left 3`; of both sides one after the other. None of what is none.
+#[must_use]
+pub fn terms(probed: &Probed) -> Option<String> {
+    let of = |sided: &Sided| {
+        let [right, left] = sided.terms?;
+        let side = sided.side.map_or(String::new(), |side| format!("{} ", side.name()));
+        let [right, left] = [right, left].map(|value| number(value, FEWER));
+        Some(format!("{side}right {right}, left {left}"))
+    };
+    let all: Option<Vec<String>> = probed.sides.iter().map(of).collect();
+    all.filter(|_| !probed.is_outside()).map(|all| all.join("; "))
 }
 
 /// The gradient by its size and direction: `gradient 3.2 at 45°`; of both sides one after the other. None where
@@ -165,6 +186,9 @@ pub fn all(probed: &Probed, name: &str, unit: &str) -> String {
         let side = sided.side.map_or(String::new(), |side| format!(" {} the crack", side.name()));
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         lines.push(format!("  {name} = {:?}{unit}{side}", sided.value));
+        if let Some([right, left]) = sided.terms {
+            lines.push(format!("  right = {right:?}, left = {left:?}{side}"));
+        }
         let g = sided.gradient;
         if !g.x.is_nan() {
             lines.push(format!("  gradient = ({:?}, {:?}){side}", g.x, g.y));

@@ -30,8 +30,15 @@ const HOLD: f32 = 5.0;
 
 impl Against {
     /// Shows it, if it is asked for and there.
-    pub fn show(&mut self, ui: &Ui, rect: Rect, pane: &mut Pane, frame: &Frame, view: &View) {
-        if pane.compare.is_none() || pane.scene.deformed.is_some() {
+    pub fn show(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        (pane, is_compared): (&mut Pane, bool),
+        frame: &Frame,
+        view: &View,
+    ) {
+        if !is_compared {
             self.shown = None;
             return;
         }

@@ -112,9 +112,8 @@ pub fn show(
 }
 
 /// Shows the bar of the difference to a resampled picture, where that is seen: beside the other one, and nothing drags it.
-pub fn of_difference(ui: &Ui, plate: Rect, pane: &Pane, frame: &Frame) {
+pub fn of_difference(ui: &Ui, plate: Rect, (pane, is_compared): (&Pane, bool), frame: &Frame) {
     let length = length(plate);
-    let is_compared = pane.compare.is_some() && pane.scene.deformed.is_none();
     let Some(other) = frame.other.as_ref().filter(|_| is_compared) else { return };
     if length < LEAST || plate.width() < 2.0 * LEAST || !pane.against.difference {
         return;
@@ -160,7 +159,7 @@ impl Grip {
 
 impl<'a> Standing<'a> {
     fn new(ui: &Ui, plate: Rect, frame: &'a Frame, length: f32) -> Self {
-        let [quantity, unit] = frame.shown.words(frame.field.field());
+        let [quantity, unit] = frame.words();
         let mut labels = Labels { quantity, unit, ..Labels::default() };
         if plate.width() < NARROW {
             // the name stands in the panel, too

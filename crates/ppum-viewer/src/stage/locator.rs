@@ -32,11 +32,19 @@ impl Locator {
         Some(Self { map, items })
     }
 
+    /// The width from the left of the stage that the map takes; none where it is not shown.
+    #[must_use]
+    pub fn width(&self, rect: Rect, view: &View) -> f32 {
+        let width = self.map.pixels[0] as f32;
+        let is_shown = view.width <= PART * self.map.width && rect.width() >= 3.0 * width;
+        if is_shown { width + 24.0 } else { 0.0 }
+    }
+
     /// Shows the map in the upper left corner of the stage, if the view is a small part of the plate; tells the point of
     /// the plate that was clicked.
     pub fn show(&self, ui: &Ui, rect: Rect, view: &View) -> Option<Vec2> {
         let [width, height] = self.map.pixels.map(|n| n as f32);
-        if view.width > PART * self.map.width || rect.width() < 3.0 * width {
+        if self.width(rect, view) == 0.0 {
             return None;
         }
         let corner = rect.min + vec2(14.0, 14.0);

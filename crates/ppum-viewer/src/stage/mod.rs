@@ -2,6 +2,7 @@
 
 pub mod against;
 pub mod bar;
+pub mod difference;
 pub mod flight;
 pub mod ground;
 pub mod locator;
@@ -23,6 +24,7 @@ use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
+use ppum_scene::compare::Compare;
 use ppum_scene::deformed::{self, Factor};
 
 use crate::controls::Controls;
@@ -34,6 +36,7 @@ use crate::session::{Pane, Place};
 use crate::shapes;
 use crate::undo::{Rest, Undo};
 use against::Against;
+use difference::Pair;
 use flight::Flight;
 use locator::Locator;
 use sight::Sight;
@@ -64,6 +67,8 @@ pub struct Stage {
     pub controls: Controls,
     grip: bar::Grip,
     against: Against,
+    /// What the view is to the one beside it.
+    pub pair: Pair,
     /// What is read of it.
     pub reading: Reading,
     texture: Texture,
@@ -102,6 +107,7 @@ impl Stage {
             controls: Controls::default(),
             grip: bar::Grip::default(),
             against: Against::default(),
+            pair: Pair::default(),
             texture: Texture::default(),
             reading: Reading::default(),
             flight: None,
@@ -145,23 +151,31 @@ impl Stage {
         self.controls.facts.look_up(&opened.dataset, step);
         self.controls.advance(ui.ctx(), pane, &self.frames);
         let scene = self.controls.drawn(&pane.scene);
-        // grids are of the plate as it was
-        let compare = pane.compare.filter(|_| scene.deformed.is_none());
-        let dataset = Arc::clone(&opened.dataset);
-        self.frames.want(Wanted { dataset, scene, view, compare });
+        let compare = self.compared(pane);
+        let (dataset, minus) = (Arc::clone(&opened.dataset), self.pair.minus().cloned());
+        self.frames.want(Wanted { dataset, scene, view, compare, minus });
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
             let hover = self.hover.map(|offset| (&view, offset));
-            self.against.show(ui, rect, pane, frame, &view);
+            self.against.show(ui, rect, (pane, compare.is_some()), frame, &view);
             bar::show(ui, rect, &mut self.grip, &mut pane.scene.colors, frame, hover);
-            bar::of_difference(ui, rect, pane, frame);
+            bar::of_difference(ui, rect, (pane, compare.is_some()), frame);
         }
         self.furnish(ui, rect, pane, &view);
+        let map = self.locator.as_ref().and_then(|(_, locator)| locator.as_ref());
+        let taken = map.map_or(0.0, |map| map.width(rect, &view));
+        difference::show(ui, (rect, taken), &self.pair, &self.frames);
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         self.read(ui, &response, &sight, pane);
         self.pick(&response, pane, &opened.dataset);
         self.marks(ui, &sight, pane);
         self.line(ui, pane);
+    }
+
+    /// The way of resampling that is looked at: grids are of one field, and of the plate as it was.
+    #[must_use]
+    pub fn compared(&self, pane: &Pane) -> Option<Compare> {
+        pane.compare.filter(|_| pane.scene.deformed.is_none() && self.pair.minus().is_none())
     }
 
     /// Chooses the patch that is clicked on, if one is to be chosen.

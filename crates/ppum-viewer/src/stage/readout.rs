@@ -135,6 +135,7 @@ impl Stage {
         let reader = self.reading.reader(&frame);
         let mut parts = vec![places.show(&probed.spot)];
         parts.push(words::values(&probed, &reader.name, &reader.unit));
+        parts.extend(words::terms(&probed));
         let more = [words::gradients(&probed), words::cell(&probed), words::patches(&probed)];
         parts.extend(more.into_iter().flatten());
         parts

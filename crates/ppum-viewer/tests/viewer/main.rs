@@ -6,6 +6,7 @@ mod frames;
 mod hands;
 mod kit;
 mod lab;
+mod minus;
 mod moving;
 mod plotting;
 mod reading;

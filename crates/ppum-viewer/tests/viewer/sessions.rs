@@ -10,7 +10,7 @@ use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_testkit::random::Random;
 use ppum_viewer::files::session_file::{parse, text};
-use ppum_viewer::session::{Draft, Page, Pane, Place, Session, Theme};
+use ppum_viewer::session::{Draft, Minus, Page, Pane, Place, Session, Theme};
 use ppum_viewer::spot::Spot;
 use ppum_viewer::window::Start;
 
@@ -88,6 +88,7 @@ fn pane(random: &mut Random) -> Pane {
 
 fn session(random: &mut Random) -> Session {
     let panes: Vec<Pane> = (0..=random.below(2)).map(|_| pane(random)).collect();
+    let two = panes.len() == 2;
     let draft = |r: &mut Random| Draft {
         path: some(r, |r| format!("/data/deep/{}.toml", r.below(9)).into()),
         folder: some(r, |_| "/elsewhere".into()),
@@ -97,6 +98,7 @@ fn session(random: &mut Random) -> Session {
         active: random.below(panes.len()),
         panes,
         linked: random.below(2) == 1,
+        minus: Minus { is_shown: two && random.below(2) == 1, colors: pane(random).scene.colors },
         panels: random.below(2) == 1,
         drawer: some(random, |r| r.pick(&[Page::Plot, Page::Series, Page::Problem])),
         theme: random.pick(&[Theme::System, Theme::Light, Theme::Dark]),

@@ -18,8 +18,8 @@ use crate::stage::Stage;
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
-    let default = stage.frames.newest().map(|frame| frame.shown.quantity());
-    let default = Colors::default_map(default.flatten());
+    let default = stage.frames.newest().map(|frame| frame.default_map());
+    let default = default.unwrap_or(Colors::default_map(None));
     let colors = &mut pane.scene.colors;
     map(ui, colors, &mut stage.controls, default);
     scale(ui, colors);

@@ -126,7 +126,8 @@ fn whole(ui: &mut Ui, pane: &Pane, stage: &mut Stage) {
     let all = ("all steps", "Finds the range of the plate at all steps and fixes it", 0..count);
     for (name, meaning, steps) in [here, all].into_iter().take(count.min(2)) {
         if ui.button(name).on_hover_text(meaning).clicked() {
-            let whole = Whole::new(ui.ctx(), &opened.dataset, &pane.scene, steps);
+            let shown = (&pane.scene, stage.pair.minus().cloned());
+            let whole = Whole::new(ui.ctx(), &opened.dataset, shown, steps);
             controls.whole = Some(whole);
             controls.refused = None;
         }

@@ -26,6 +26,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| chooser(ui, pane, stage));
     stage.reading.marked = None;
     let Some(frame) = stage.frames.newest().cloned() else { return };
+    if frame.subtracted.is_some() {
+        ui.weak("Of the view on the right alone: a curve is of one field.");
+    }
     let Some(asked) = Asked::of(pane, &frame.field) else {
         ui.weak("Draw a line or a circle over the plate, or choose a crack or a tip.");
         return;

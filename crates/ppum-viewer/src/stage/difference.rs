@@ -1,0 +1,114 @@
+//! The difference of two views: which is taken from which, how large it is, and why there is none.
+
+use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
+use ppum::text::trimmed_to;
+use ppum_render::resample::norms::{NAMES, Norms};
+
+use crate::frames::{Fault, Frames, Minus};
+use crate::reading::words::value;
+use crate::widgets::wrong;
+
+/// What a view is to the one beside it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Pair {
+    /// Nothing: it shows its own values.
+    #[default]
+    Alone,
+    /// Its values are subtracted on the right.
+    Left,
+    /// It shows its values minus those of the left, if a dataset is open there.
+    Right(Option<Minus>),
+}
+
+impl Pair {
+    /// What is subtracted here.
+    #[must_use]
+    pub fn minus(&self) -> Option<&Minus> {
+        match self {
+            Self::Right(minus) => minus.as_ref(),
+            _ => None,
+        }
+    }
+}
+
+/// Digits of norms.
+const DIGITS: usize = 3;
+/// From the plate's border, and around the words.
+const MARGIN: f32 = 10.0;
+const ROOM: f32 = 5.0;
+/// Widest words.
+const WIDEST: f32 = 440.0;
+/// Size of all but the first line \[points\].
+const SMALL: f32 = 11.5;
+/// Where there is less room one norm stands alone.
+const NARROW: f32 = 400.0;
+
+/// Says on both plates what they are to each other, in the upper right corner; something on the left takes some of the width.
+pub fn show(ui: &mut Ui, (plate, taken): (Rect, f32), pair: &Pair, frames: &Frames) {
+    let space = plate.width() - taken - 2.0 * (MARGIN + ROOM);
+    let (title, lines) = match pair {
+        Pair::Alone => return,
+        Pair::Left => ("left", Vec::new()),
+        Pair::Right(None) => ("right", vec![("nothing is open on the left".to_owned(), true)]),
+        Pair::Right(Some(_)) => ("right − left", told(frames, space < NARROW)),
+    };
+    let corner = plate.right_top() + vec2(-MARGIN - ROOM, MARGIN + ROOM);
+    let left = corner.x - space.clamp(1.0, WIDEST);
+    let room = Rect::from_x_y_ranges(left..=corner.x, corner.y..=plate.bottom().max(corner.y));
+    let ground = ui.painter().add(egui::Shape::Noop);
+    let builder = UiBuilder::new().max_rect(room).layout(Layout::top_down(Align::Max));
+    let mut child = ui.new_child(builder);
+    child.set_clip_rect(plate);
+    child.spacing_mut().item_spacing.y = 1.0;
+    child.add(egui::Label::new(RichText::new(title).strong()).selectable(false));
+    for (line, is_wrong) in lines {
+        let color = if is_wrong { wrong(ui) } else { ui.visuals().text_color() };
+        let text = RichText::new(line).size(SMALL).color(color);
+        child.add(egui::Label::new(text).selectable(false).wrap());
+    }
+    let color = ui.visuals().panel_fill.gamma_multiply(0.88);
+    let shape = egui::Shape::rect_filled(child.min_rect().expand(ROOM), 4.0, color);
+    ui.painter_at(plate).set(ground, shape);
+}
+
+/// What is told of a difference, in short by one norm alone; true for what is wrong with it.
+fn told(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
+    let failure = frames.failure().filter(|failure| failure.fault == Fault::Minus);
+    if let Some(failure) = failure {
+        return vec![(failure.message.clone(), true)];
+    }
+    let mut lines = Vec::new();
+    if let Some(frame) = frames.newest()
+        && let (Some(minus), Some(subtracted)) = (frame.minus(), &frame.subtracted)
+    {
+        let [_, unit] = minus.words();
+        lines.extend(subtracted.norms.map(|norms| (words(&norms, &unit, is_short), false)));
+        lines.extend(minus.warnings().into_iter().map(|warning| (warning, true)));
+    }
+    lines
+}
+
+/// The means and the largest of the differences in the view, also in parts of the left's own; in short L2 alone.
+fn words(norms: &Norms, unit: &str, is_short: bool) -> String {
+    match norms.absolute {
+        _ if norms.compared == 0 => return "no point of this view has both values".into(),
+        [.., 0.0] => return "no difference in this view".into(),
+        _ => {}
+    }
+    let all = NAMES.into_iter().zip(norms.absolute).zip(norms.relative());
+    let words = all.map(|((name, size), part)| {
+        let size = value(rounded(size), unit);
+        match part.is_finite() {
+            true => format!("{name} {size} ({} %)", trimmed_to(100.0 * part, DIGITS)),
+            false => format!("{name} {size}"),
+        }
+    });
+    let wanted = if is_short { 1..2 } else { 0..3 };
+    words.skip(wanted.start).take(wanted.len()).collect::<Vec<_>>().join(" · ")
+}
+
+/// The size of a difference with the digits that are shown.
+#[must_use]
+pub fn rounded(size: f64) -> f64 {
+    trimmed_to(size, DIGITS).parse().unwrap_or(size)
+}
