@@ -1,14 +1,10 @@
 //! The direct picture against a resampled one: on the left of a divider what is exact, on its right what a grid makes of it.
 
-use std::sync::Arc;
-
-use egui::{
-    Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureHandle,
-    TextureOptions, Ui, pos2, vec2,
-};
+use egui::{Align2, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2};
 use ppum_render::view::View;
 
-use super::{ground, placed};
+use super::ground;
+use super::texture::{Texture, placed};
 use crate::frames::{Frame, Other};
 use crate::session::Pane;
 use crate::shapes;
@@ -16,13 +12,7 @@ use crate::shapes;
 /// The resampled picture on its way to the screen.
 #[derive(Default)]
 pub struct Against {
-    shown: Option<Shown>,
-}
-
-struct Shown {
-    other: Arc<Other>,
-    is_difference: bool,
-    handle: TextureHandle,
+    texture: Texture,
 }
 
 /// Half of the width at which the divider is taken hold of.
@@ -39,38 +29,20 @@ impl Against {
         view: &View,
     ) {
         if !is_compared {
-            self.shown = None;
+            self.texture = Texture::default();
             return;
         }
         let at = divider(ui, rect, pane);
         let Some(other) = &frame.other else { return };
-        self.load(ui, other, pane.against.difference);
-        let Some(shown) = &self.shown else { return };
+        let is_difference = pane.against.difference;
+        let picture = if is_difference { &other.difference } else { &other.picture };
         let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
+        ground::fill(ui, right, ground::around(ui));
         let painter = ui.painter_at(right);
-        let place = placed(&other.picture.view, view, rect);
-        let size = other.picture.image.size.map(|n| n as f32 * place.scale);
-        let target = Rect::from_min_size(place.corner, vec2(size[0], size[1]));
-        painter.rect_filled(target, 0.0, ground(ui));
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        painter.image(shown.handle.id(), target, whole, Color32::WHITE);
+        self.texture.show(&painter, picture, view, rect);
         let layers = placed(&frame.layers_view, view, rect);
         shapes::draw(&painter, layers, &frame.layers.items);
-        words(ui, rect, at, other, pane.against.difference);
-    }
-
-    fn load(&mut self, ui: &Ui, other: &Arc<Other>, is_difference: bool) {
-        let is_there = |shown: &Shown| {
-            Arc::ptr_eq(&shown.other, other) && shown.is_difference == is_difference
-        };
-        if self.shown.as_ref().is_some_and(is_there) {
-            return;
-        }
-        let picture = if is_difference { &other.difference } else { &other.picture };
-        let size = picture.image.size.map(|n| n as usize);
-        let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.image.rgba);
-        let handle = ui.ctx().load_texture("resampled", image, TextureOptions::NEAREST);
-        self.shown = Some(Shown { other: Arc::clone(other), is_difference, handle });
+        words(ui, rect, at, other, is_difference);
     }
 }
 

@@ -17,6 +17,11 @@ pub fn show<R>(panel: Panel, ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
     panel.frame(frame.fill(Color32::TRANSPARENT)).show(ui, add).inner
 }
 
+/// The colour around the plate.
+pub(super) fn around(ui: &Ui) -> Color32 {
+    ui.visuals().extreme_bg_color
+}
+
 /// Fills a rectangle.
 pub fn fill(ui: &Ui, rect: Rect, color: Color32) {
     match pixels::format(ui.ctx()) {

@@ -347,11 +347,6 @@ impl Stage {
     }
 }
 
-/// The colour outside of the plate.
-fn ground(ui: &Ui) -> Color32 {
-    ui.visuals().extreme_bg_color
-}
-
 /// Width of the view around a tip that one flies to, in parts of the plate's size.
 const TIP: f64 = 0.05;
 /// Turns of the wheel, in points, that enlarge e times.
