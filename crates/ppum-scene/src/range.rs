@@ -72,9 +72,14 @@ impl<'a> Telling<'a> {
     /// What is known of the places of a field.
     #[must_use]
     pub fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
+        Self::with(places(dataset), field)
+    }
+
+    /// The same with what is known of how places of the dataset are written, which takes long where there are many cracks.
+    #[must_use]
+    pub fn with(places: Places, field: &'a Field<'_>) -> Self {
         let size = field.domain.bounds.size();
-        let size = size.x.max(size.y);
-        Self { places: places(dataset), cracks: &field.step.cracks, size }
+        Self { places, cracks: &field.step.cracks, size: size.x.max(size.y) }
     }
 
     /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust); values from 0.1 at

@@ -1,5 +1,7 @@
 //! The crack tips of a step with their stress intensity factors, as tables show them.
 
+use std::collections::BTreeMap;
+
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Step, TipIntensity};
 use ppum::text::{beside, short};
@@ -43,8 +45,10 @@ impl Tip {
 /// The tips of a step in their order, with the factors that the solver stored.
 #[must_use]
 pub fn stored(step: &Step) -> Vec<Tip> {
-    let factors = |id: TipId| step.intensities.iter().find(|known| known.tip == id);
-    tips(&step.cracks).map(|id| Tip::new(step, id, factors(id))).collect()
+    // of several factors of a tip the first ones count
+    let all = step.intensities.iter().rev();
+    let known: BTreeMap<TipId, &TipIntensity> = all.map(|factors| (factors.tip, factors)).collect();
+    tips(&step.cracks).map(|id| Tip::new(step, id, known.get(&id).copied())).collect()
 }
 
 /// K_I, K_II and their spread in words: the one of K_I and K_II that is rounding of the other is zero, and what is not

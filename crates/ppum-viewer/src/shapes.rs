@@ -110,9 +110,17 @@ fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
 fn fill(painter: &egui::Painter, placed: Placed, outline: &Path, fill: Rgba) {
     for piece in &outline.pieces {
         let points: Vec<_> = piece.iter().map(|p| placed.at(*p)).collect();
+        // what has no extent has no sides, and its soft border would lie nowhere
+        let extent = Rect::from_points(&points).size();
+        if extent.max_elem() < NOTHING {
+            continue;
+        }
         painter.add(Shape::convex_polygon(points, color(fill), Stroke::NONE));
     }
 }
+
+/// What is smaller is not seen \[points\].
+const NOTHING: f32 = 1e-3;
 
 fn text(painter: &egui::Painter, placed: Placed, lettering: &Lettering) {
     let font = FontId::proportional(placed.length(lettering.size).max(1.0));

@@ -7,7 +7,7 @@ mod work;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{CentralPanel, Panel, Ui};
+use egui::{CentralPanel, Panel, Rect, Ui, UiBuilder, vec2};
 use ppum::dataset::Dataset;
 
 use crate::actions;
@@ -107,7 +107,8 @@ impl Viewer {
         ground::show(Panel::top("top"), ui, |ui| top::show(ui, &mut desk));
         panels::drawer::show(ui, &mut desk);
         let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
-        if desk.session.panels && has_plate {
+        let has_room = ui.available_width() > LEAST;
+        if desk.session.panels && has_plate && has_room {
             let side = Panel::right("side").default_size(300.0);
             ground::show(side, ui, |ui| panels::side(ui, &mut desk));
         }
@@ -219,34 +220,28 @@ impl Viewer {
     }
 }
 
+/// Windows that are narrower have no room for panels \[points\].
+const LEAST: f32 = 240.0;
+
 /// The panes side by side.
 fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
     let count = desk.session.panes.len();
     pair(desk);
     let before: Vec<_> = desk.session.panes.iter().map(|pane| pane.place).collect();
-    ui.spacing_mut().item_spacing.x = 2.0;
-    ui.columns(count, |columns| {
-        for (number, ui) in columns.iter_mut().enumerate() {
-            let rect = ui.max_rect();
-            let is_pressed =
-                ui.rect_contains_pointer(rect) && ui.input(|i| i.pointer.any_pressed());
-            if is_pressed {
-                desk.session.active = number;
-            }
-            ui.push_id(number, |ui| {
-                #[cfg(feature = "solve")]
-                if desk.stages[number].opened.is_none() {
-                    panels::start::show(ui, desk);
-                    return;
-                }
-                desk.stages[number].show(ui, &mut desk.session.panes[number]);
-            });
-            if count > 1 && desk.session.active == number {
-                let stroke = ui.visuals().selection.stroke;
-                ui.painter().rect_stroke(rect, 0.0, stroke, egui::StrokeKind::Inside);
-            }
+    let room = ui.available_rect_before_wrap();
+    for number in 0..count {
+        let rect = part(room, number, count);
+        let is_pressed = ui.rect_contains_pointer(rect) && ui.input(|i| i.pointer.any_pressed());
+        if is_pressed {
+            desk.session.active = number;
         }
-    });
+        let ui = &mut ui.new_child(UiBuilder::new().max_rect(rect).id_salt(number));
+        show_pane(ui, desk, number);
+        if count > 1 && desk.session.active == number {
+            let stroke = ui.visuals().selection.stroke;
+            ui.painter().rect_stroke(rect, 0.0, stroke, egui::StrokeKind::Inside);
+        }
+    }
     link(desk.session, &before);
 }
 
@@ -266,6 +261,25 @@ fn pair(desk: &mut Desk<'_>) {
         stages => stages.iter_mut().for_each(|stage| stage.pair = Pair::Alone),
     }
 }
+
+fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
+    #[cfg(feature = "solve")]
+    if desk.stages[number].opened.is_none() {
+        panels::start::show(ui, desk);
+        return;
+    }
+    desk.stages[number].show(ui, &mut desk.session.panes[number]);
+}
+
+/// One of some equal parts of a room, side by side; without width where the room has none.
+fn part(room: Rect, number: usize, count: usize) -> Rect {
+    let width = (room.width() - GAP * (count - 1) as f32) / count as f32;
+    let size = vec2(width, room.height()).max(vec2(0.0, 0.0));
+    Rect::from_min_size(room.min + vec2((size.x + GAP) * number as f32, 0.0), size)
+}
+
+/// Between two views \[points\].
+const GAP: f32 = 2.0;
 
 /// Moves the other pane to where one has moved, if they are linked.
 fn link(session: &mut Session, before: &[Option<Place>]) {

@@ -53,7 +53,7 @@ impl Viewer {
     /// True while something is read, written, solved or drawn.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        let is_drawing = self.stages.iter().any(|stage| stage.frames.is_working());
+        let is_drawing = self.stages.iter().any(Stage::is_drawing);
         is_drawing || self.files.is_working() || self.solving.is_working()
     }
 

@@ -1,12 +1,16 @@
 //! What a dataset has at a step: looked up once, not in every frame.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use ppum::dataset::{Dataset, FieldData, Step};
 use ppum::decompose::{KINDS, Part};
 use ppum::function::{Function, FunctionKind};
+use ppum::text::Places;
 use ppum::weight::WeightFunction;
 use ppum_scene::overlays::Overlay;
+use ppum_scene::range::places;
+use ppum_scene::tips::{Tip, stored};
 
 /// What a dataset has at a step.
 #[derive(Default)]
@@ -24,6 +28,10 @@ pub struct Facts {
     pub patches: usize,
     /// Overlays that it has nothing for, and why.
     pub without: Vec<(Overlay, &'static str)>,
+    /// The crack tips with their factors.
+    pub tips: Vec<Tip>,
+    /// How places of the dataset are written.
+    pub places: Option<Places>,
     /// True for plates that have stresses and displacements.
     pub is_elastic: bool,
 }
@@ -52,8 +60,10 @@ impl Facts {
             return;
         }
         *self = Self { of: Some((Arc::clone(dataset), step)), ..Self::default() };
+        self.places = Some(places(dataset));
         let Some(step) = dataset.steps.get(step) else { return };
         self.is_elastic = dataset.equation.elastic().is_some();
+        self.tips = stored(step);
         self.patches = step.partition.len();
         self.weight = weight(&step.partition.weight);
         self.without = without(dataset, step);
@@ -89,8 +99,10 @@ fn counts(field: &FieldData, functions: usize) -> Vec<usize> {
 
 fn stems(functions: &[Function], counts: &[usize]) -> Vec<Stem> {
     let mut stems: Vec<Stem> = Vec::new();
+    let mut known = BTreeMap::new();
     for (function, &patches) in functions.iter().zip(counts) {
-        match stems.iter_mut().find(|stem| stem.name == function.stem()) {
+        let number = *known.entry(function.stem()).or_insert(stems.len());
+        match stems.get_mut(number) {
             Some(stem) => {
                 stem.patches += patches;
                 stem.places += 1;

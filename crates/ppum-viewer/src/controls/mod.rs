@@ -9,12 +9,15 @@ pub mod swing;
 pub mod whole;
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Weak};
 
+use ppum::dataset::Dataset;
+use ppum_figure::plot::Plot;
 use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Overlay, Overlays};
 use ppum_scene::scene::Scene;
 
-use crate::frames::Frames;
+use crate::frames::{Frame, Frames};
 use crate::session::Pane;
 use crate::widgets::chooser::Chooser;
 use crate::widgets::editor::Editor;
@@ -23,6 +26,9 @@ use facts::Facts;
 use known::Known;
 use swing::Swing;
 use whole::{Outcome, Whole};
+
+/// Plots over the steps, with their names.
+type Courses = Vec<(&'static str, Plot)>;
 
 /// What the panels of one view remember.
 #[derive(Default)]
@@ -51,6 +57,10 @@ pub struct Controls {
     pub is_picking: bool,
     /// True if the panel of the quantities is to be opened.
     pub wants_quantity: bool,
+    /// What is told of the colours of a picture.
+    pub colors_told: Option<(Weak<Frame>, String)>,
+    /// Values over the steps of a dataset, with the names of their plots.
+    pub courses: Option<(Arc<Dataset>, Courses)>,
     /// The automatic factor of the deformation, once it is known.
     pub factor: Option<f64>,
 }

@@ -9,12 +9,12 @@ use ppum_render::picture::Style;
 use ppum_render::range::Span;
 use ppum_render::scale::Scale;
 use ppum_scene::drawing::{Drawn, Shown};
-use ppum_scene::layers::Layers;
 use ppum_scene::minus;
 use ppum_scene::range;
 use web_time::Instant;
 
 use super::ease::Eased;
+use super::laid::Laid;
 use super::memo::{Memo, Same};
 use super::over::Over;
 use super::paint::Painted;
@@ -326,7 +326,7 @@ impl Maker {
         &self,
         wanted: &Wanted,
         place: &Place,
-    ) -> (Arc<Layers>, ppum_render::view::View, Option<Arc<Other>>) {
+    ) -> (Arc<Laid>, ppum_render::view::View, Option<Arc<Other>>) {
         let subject = &place.subject;
         let is_same = |frame: &&Arc<Frame>| {
             Arc::ptr_eq(&frame.field, &subject.field.0) && frame.factor == subject.factor

@@ -7,6 +7,7 @@
 //! is that of `ppum render`, to the last bit.
 
 mod ease;
+mod laid;
 mod maker;
 mod memo;
 mod minus;
@@ -29,11 +30,11 @@ use ppum::dataset::Dataset;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::drawing::{Drawn, Shown};
-use ppum_scene::layers::Layers;
 use ppum_scene::scene::Scene;
 use web_time::Instant;
 
 use crate::field::OwnedField;
+pub use laid::Laid;
 use maker::Wish;
 pub use minus::{Minus, Subtracted};
 pub use paint::Painted;
@@ -95,7 +96,7 @@ pub struct Frame {
     /// Their colours, and the view that they are of.
     pub picture: Arc<Painted>,
     /// What lies over them; of an older view until it is drawn anew.
-    pub layers: Arc<Layers>,
+    pub layers: Arc<Laid>,
     /// The view in whose pixels the layers are.
     pub layers_view: View,
     /// How many times its displacement the plate is drawn with, if it is deformed.

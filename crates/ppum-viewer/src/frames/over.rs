@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use ppum::progress::Watcher;
 use ppum_scene::drawing::{Drawn, Seen};
-use ppum_scene::layers::{Ground, Layers};
+use ppum_scene::layers::Ground;
 use ppum_scene::overlays::Overlays;
 
+use super::laid::Laid;
 use super::memo::{Memo, Same};
 use super::paint::Painted;
 use super::stop::Stop;
@@ -35,7 +36,7 @@ impl Below {
 /// Draws layers, and keeps the last ones.
 #[derive(Default)]
 pub(super) struct Over {
-    pub(super) layers: Memo<Below, Arc<Layers>>,
+    pub(super) layers: Memo<Below, Arc<Laid>>,
 }
 
 impl Over {
@@ -46,7 +47,7 @@ impl Over {
         place: &Place,
         (drawn, picture, seen): (&Drawn, &Arc<Painted>, &Seen<'_>),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Layers>, Stop> {
+    ) -> Result<Arc<Laid>, Stop> {
         let ground = Ground {
             dataset: &wanted.dataset,
             field: place.subject.field.0.field(),
@@ -60,7 +61,9 @@ impl Over {
         let scene = &wanted.scene;
         self.layers.get_or(Below::new(wanted, place, picture), || {
             let layers = scene.overlays.layers(ground, seen, scene.outline, watcher);
-            layers.map(Arc::new).map_err(Stop::at(Fault::Overlays))
+            let size = picture.view.pixels;
+            let laid = layers.map(|layers| Arc::new(Laid::new(layers, size)));
+            laid.map_err(Stop::at(Fault::Overlays))
         })
     }
 }

@@ -7,6 +7,7 @@ use egui::{ComboBox, DragValue, Grid, TextEdit, Ui, Window};
 use ppum_scene::moving::Moving;
 
 use crate::export::{Kind, Order, What};
+use crate::field::OwnedField;
 use crate::frames::Frame;
 use crate::job::Job;
 use crate::replacing::{ASK, Replacing};
@@ -73,7 +74,7 @@ impl Exporter {
         ui.horizontal(|ui| {
             let is_ready = refused.is_none() && self.job.is_none();
             if ui.add_enabled(is_ready, egui::Button::new("Save file")).clicked() {
-                self.save(ui, order.clone(), path.clone());
+                self.save(ui, (order.clone(), frame.factor), path.clone());
             }
             if let Some(job) = &self.job {
                 ui.spinner();
@@ -149,7 +150,6 @@ impl Exporter {
 
     fn order(&self, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) -> Order {
         let steps = (0..frame.field.dataset().steps.len()).collect();
-        let factor = frame.factor.or_else(|| automatic(frame));
         Order {
             field: Arc::clone(&frame.field),
             file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
@@ -162,7 +162,7 @@ impl Exporter {
                 What::Figure => Kind::Figure,
                 What::Steps => Kind::Moving(Moving::Steps(steps), self.rate),
                 What::Deformation => {
-                    Kind::Moving(Moving::Factor(factor.unwrap_or(1.0), self.count), self.rate)
+                    Kind::Moving(Moving::Factor(frame.factor.unwrap_or(1.0), self.count), self.rate)
                 }
             },
         }
@@ -182,13 +182,17 @@ impl Exporter {
         is_input.then(|| "This file is the dataset itself; choose another name.".into())
     }
 
-    fn save(&mut self, ui: &Ui, order: Order, path: PathBuf) {
+    /// Begins to write; the factor of a plate that is not deformed is looked for then.
+    fn save(&mut self, ui: &Ui, (mut order, factor): (Order, Option<f64>), path: PathBuf) {
         if !self.replacing.allows(&path) {
             self.told = Some(Err(format!("{}: {ASK}", path.display())));
             return;
         }
         self.told = None;
         self.job = Some(Job::start(ui.ctx(), move |stop| {
+            if let (Kind::Moving(Moving::Factor(unknown, _), _), None) = (&mut order.kind, factor) {
+                *unknown = automatic(&order.field).unwrap_or(1.0);
+            }
             let bytes = order.bytes(&path, stop)?;
             write(&path, &bytes)?;
             Ok(format!("wrote {}", path.display()))
@@ -223,8 +227,8 @@ pub fn command(ui: &mut Ui, command: &Result<String, String>) {
 }
 
 /// The factor that shows the largest displacement as some 5 % of the plate.
-fn automatic(frame: &Frame) -> Option<f64> {
-    ppum_scene::deformed::Factor::Auto.number(&[frame.field.field()]).ok()
+fn automatic(field: &OwnedField) -> Option<f64> {
+    ppum_scene::deformed::Factor::Auto.number(&[field.field()]).ok()
 }
 
 /// A name beside the dataset's.

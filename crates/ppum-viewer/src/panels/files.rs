@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, Spinner, Ui};
+use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, ScrollArea, Spinner, Ui};
 
 use crate::actions::Action;
 use crate::desk::Desk;
@@ -86,9 +86,13 @@ pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
     let area = area.anchor(Align2::CENTER_TOP, [0.0, 36.0]).fade_in(false);
     area.show(ui.ctx(), |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_max_width((ui.ctx().content_rect().width() - 60.0).min(640.0));
-            readings(ui, desk);
-            told(ui, desk);
+            let room = ui.ctx().content_rect().size();
+            ui.set_max_width((room.x - 60.0).clamp(80.0, 640.0));
+            let most = (0.5 * room.y).max(40.0);
+            ScrollArea::vertical().max_height(most).show(ui, |ui| {
+                readings(ui, desk);
+                told(ui, desk);
+            });
         });
     });
 }

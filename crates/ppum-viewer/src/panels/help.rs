@@ -7,12 +7,14 @@ use crate::actions::{ALL, GROUPS};
 /// Columns of the list, where the window has room for them.
 const COLUMNS: usize = 3;
 /// Width of a column \[points\].
-const WIDTH: f32 = 330.0;
+const WIDTH: f32 = 345.0;
+/// Around the columns \[points\].
+const MARGIN: f32 = 60.0;
 
 /// Shows the keys while it is open, as many headings side by side as there is room for.
 pub fn show(ui: &Ui, is_open: &mut bool) {
     let room = ui.ctx().content_rect().size();
-    let columns = ((room.x / WIDTH) as usize).clamp(1, COLUMNS);
+    let columns = (((room.x - MARGIN) / WIDTH) as usize).clamp(1, COLUMNS);
     let window = Window::new("Keys").open(is_open).collapsible(false).default_pos([20.0, 40.0]);
     let window = window.default_height(room.y - 90.0);
     window.show(ui.ctx(), |ui| {

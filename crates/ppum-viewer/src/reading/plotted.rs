@@ -90,7 +90,7 @@ impl Asked {
         let field = self.field.field();
         let named = named(field, &self.quantities)?;
         let table = self.along.table(field, &named, self.count, watcher)?.table;
-        let drawn = self.along.drawn(field, &named, self.count, watcher)?;
+        let drawn = self.along.drawn(field, &named, self.count.min(DRAWN), watcher)?;
         let (variable, jumps) = (self.along.variable(), self.quantities.is_empty());
         let curves = columns(&drawn.table, variable, jumps);
         let label = if jumps { "displacement jump".into() } else { value_label(&named, field) };
@@ -99,6 +99,8 @@ impl Asked {
     }
 }
 
+/// Points of a curve that are drawn at most; no window has more pixels side by side.
+const DRAWN: usize = 4000;
 /// Most points along a curve of the window.
 const MOST: usize = 100_000;
 

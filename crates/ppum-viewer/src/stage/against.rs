@@ -4,10 +4,9 @@ use egui::{Align2, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, p
 use ppum_render::view::View;
 
 use super::ground;
-use super::texture::{Texture, placed};
+use super::texture::{Sheet, Texture};
 use crate::frames::{Frame, Other};
 use crate::session::Pane;
-use crate::shapes;
 
 /// The resampled picture on its way to the screen.
 #[derive(Default)]
@@ -25,7 +24,7 @@ impl Against {
         ui: &Ui,
         rect: Rect,
         (pane, is_compared): (&mut Pane, bool),
-        frame: &Frame,
+        (frame, sheet): (&Frame, &mut Sheet),
         view: &View,
     ) {
         if !is_compared {
@@ -40,8 +39,7 @@ impl Against {
         ground::fill(ui, right, ground::around(ui));
         let painter = ui.painter_at(right);
         self.texture.show(&painter, picture, view, rect);
-        let layers = placed(&frame.layers_view, view, rect);
-        shapes::draw(&painter, layers, &frame.layers.items);
+        sheet.show(&painter, frame, view, rect);
         words(ui, rect, at, other, is_difference);
     }
 }

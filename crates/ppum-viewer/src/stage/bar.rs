@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Area, Color32, CursorIcon, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke,
+    Align2, Area, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Sense, Shape, Stroke,
     TextEdit, Ui, pos2, vec2,
 };
 use ppum::text::{exact, trimmed_to};
@@ -369,7 +369,8 @@ impl<'a> Standing<'a> {
         let Some(mut edited) = grip.edited.take() else { return };
         let end = edited.end;
         let place = pos2(self.whole().left() - 112.0, self.height(end as f64) - 12.0);
-        let id = Id::unique("an end of the colours");
+        // each of two views has its own
+        let id = ui.scope_id().with("an end of the colours, written");
         let area = Area::new(id).fixed_pos(place).order(egui::Order::Foreground);
         let is_done = area.show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| field(ui, &mut edited))

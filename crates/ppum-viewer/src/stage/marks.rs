@@ -26,14 +26,15 @@ impl Stage {
     /// Marks over the plate: the patches at the pointer, the curve with its handles, probes, extrema.
     pub(super) fn marks(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane) {
         let painter = ui.painter_at(sight.rect);
-        let cracks = self.cracks(pane).unwrap_or_default();
+        let cracks = self.cracks(pane);
+        let cracks = cracks.as_deref().unwrap_or_default();
         if let (Some(probed), Some(frame)) = (&self.reading.hover, self.frames.newest()) {
             patches(&painter, sight, probed, frame);
             ring(&painter, sight, probed);
         }
         if let Some(along) = &pane.curve {
-            curve(&painter, sight, &outline(along, &cracks));
-            for (_, spot) in handles(along, &cracks) {
+            curve(&painter, sight, &outline(along, cracks));
+            for (_, spot) in handles(along, cracks) {
                 if let Some(at) = sight.position(&spot) {
                     painter.circle(at, 4.5, Color32::WHITE, Stroke::new(2.0, INK));
                 }
@@ -55,7 +56,7 @@ impl Stage {
             extrema(&painter, sight, frame);
         }
         #[cfg(feature = "solve")]
-        self.told_integral(ui, sight, pane, &cracks);
+        self.told_integral(ui, sight, pane, cracks);
     }
 
     /// The factors that the solver stored in the step that is shown.

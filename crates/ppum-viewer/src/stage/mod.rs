@@ -23,6 +23,7 @@ use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::vec2::Vec2;
+use ppum_render::deform::DeformError;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::deformed::{self, Factor};
@@ -32,15 +33,15 @@ use crate::field::OwnedField;
 use crate::frames::{Backend, Frames, Wanted};
 use crate::plate::{bounded, view};
 use crate::reading::Reading;
+use crate::reading::question::Question;
 use crate::session::{Pane, Place};
-use crate::shapes;
 use crate::undo::{Rest, Undo};
 use against::Against;
 use difference::Pair;
 use flight::Flight;
 use locator::Locator;
 use sight::Sight;
-use texture::{Texture, placed};
+use texture::{Sheet, Texture};
 
 /// A dataset that is open.
 #[derive(Clone, Debug)]
@@ -72,22 +73,37 @@ pub struct Stage {
     /// What is read of it.
     pub reading: Reading,
     texture: Texture,
+    sheet: Sheet,
     flight: Option<Flight>,
     rest: Rest<Option<Place>>,
     /// The map of the plate, and the field that it was drawn of.
     locator: Option<(Arc<OwnedField>, Option<Locator>)>,
-    moved: Option<Moved>,
+    moved: Question<Moved, ppum::vec2::Rect>,
     /// True if someone wants to go deeper than doubles do.
     is_at_the_end: bool,
     now: f64,
 }
 
-/// A box around the deformed plate, and what it was found for.
+/// What a box is looked for around: the deformed plate, and its border as it was if that is drawn too.
+#[derive(Clone)]
 struct Moved {
     field: Arc<OwnedField>,
-    /// The factor, and whether the border of the undeformed plate is drawn.
-    asked: (Factor, bool),
-    bounds: ppum::vec2::Rect,
+    factor: Factor,
+    outline: bool,
+}
+
+impl PartialEq for Moved {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.field, &other.field)
+            && (self.factor, self.outline) == (other.factor, other.outline)
+    }
+}
+
+impl Moved {
+    fn bounds(&self) -> Result<ppum::vec2::Rect, DeformError> {
+        let field = self.field.field();
+        deformed::bounds(field, self.factor.number(&[field])?, self.outline)
+    }
 }
 
 /// Part of the picture that the keys move it by.
@@ -109,11 +125,12 @@ impl Stage {
             against: Against::default(),
             pair: Pair::default(),
             texture: Texture::default(),
+            sheet: Sheet::default(),
             reading: Reading::default(),
             flight: None,
             rest: Rest::new(None),
             locator: None,
-            moved: None,
+            moved: Question::default(),
             is_at_the_end: false,
             now: 0.0,
         }
@@ -130,7 +147,7 @@ impl Stage {
         let Some(opened) = self.opened.clone() else { return };
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
-        let whole = self.whole(pane, &opened.dataset);
+        let whole = self.whole(ui.ctx(), pane, &opened.dataset);
         let Some(view) = view(pane.place, whole, pixels) else { return };
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         if !self.draw_by_mouse(ui, &response, &sight, pane) {
@@ -157,7 +174,8 @@ impl Stage {
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
             let hover = self.hover.map(|offset| (&view, offset));
-            self.against.show(ui, rect, (pane, compare.is_some()), frame, &view);
+            let (sheet, is_compared) = (&mut self.sheet, compare.is_some());
+            self.against.show(ui, rect, (pane, is_compared), (frame, sheet), &view);
             bar::show(ui, rect, &mut self.grip, &mut pane.scene.colors, frame, hover);
             bar::of_difference(ui, rect, (pane, compare.is_some()), frame);
         }
@@ -211,30 +229,41 @@ impl Stage {
     /// Flies to a place, or to the whole plate.
     pub fn fly_to(&mut self, pane: &Pane, to: Option<Place>) {
         let (Some(view), Some(opened)) = (self.view, self.opened.clone()) else { return };
-        let whole = self.whole(pane, &opened.dataset);
+        let whole = self.known_whole(pane, &opened.dataset);
         let Some(end) = crate::plate::view(to, whole, view.pixels) else { return };
         self.is_at_the_end = false;
         self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
     }
 
-    /// A box around the plate as it is drawn, where it is deformed too.
-    fn whole(&mut self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
-        let bounds = dataset.domain.bounds;
-        let (Some(factor), Some(frame)) = (pane.scene.deformed, self.frames.newest()) else {
-            return bounds;
-        };
-        let (field, asked) = (Arc::clone(&frame.field), (factor, pane.scene.outline));
-        if let Some(known) = &self.moved
-            && Arc::ptr_eq(&known.field, &field)
-            && known.asked == asked
-        {
-            return known.bounds;
+    /// A box around the plate as it is drawn, where it is deformed too; that is looked for in the background.
+    fn whole(&mut self, ctx: &egui::Context, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
+        match (pane.scene.deformed, self.frames.newest()) {
+            (Some(factor), Some(frame)) => {
+                let (field, outline) = (Arc::clone(&frame.field), pane.scene.outline);
+                let asked = Moved { field, factor, outline };
+                let theirs = asked.clone();
+                self.moved.ask(&asked, false, ctx, move |_| {
+                    Some(theirs.bounds().map_err(|error| error.to_string()))
+                });
+            }
+            _ => self.moved.forget(),
         }
-        let found = factor.number(&[field.field()]);
-        let moved = found.and_then(|factor| deformed::bounds(field.field(), factor, asked.1));
-        let bounds = moved.map_or(bounds, |moved| moved);
-        self.moved = Some(Moved { field, asked, bounds });
-        bounds
+        self.known_whole(pane, dataset)
+    }
+
+    /// The same as far as it is known: while a factor is dragged that of the last one.
+    fn known_whole(&mut self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
+        let known = pane.scene.deformed.and(self.moved.newest());
+        let known =
+            known.filter(|(moved, _)| moved.field.dataset().domain.bounds == dataset.domain.bounds);
+        let bounds = known.and_then(|(_, bounds)| bounds.as_ref().as_ref().ok());
+        bounds.copied().unwrap_or(dataset.domain.bounds)
+    }
+
+    /// True while a picture is on its way, or where it is to be.
+    #[must_use]
+    pub fn is_drawing(&self) -> bool {
+        self.frames.is_working() || self.moved.is_working()
     }
 
     /// The number of tips of the step that is looked at.
@@ -343,7 +372,7 @@ impl Stage {
         let Some(frame) = self.frames.newest() else { return };
         let painter = ui.painter_at(rect);
         self.texture.show(&painter, &frame.picture, view, rect);
-        shapes::draw(&painter, placed(&frame.layers_view, view, rect), &frame.layers.items);
+        self.sheet.show(&painter, frame, view, rect);
     }
 }
 

@@ -130,8 +130,9 @@ impl Stage {
         let (Some(probed), Some(view)) = (self.reading.hover.clone(), self.view) else {
             return Vec::new();
         };
-        let (size, cracks) = (self.plate_size(), self.cracks(pane).unwrap_or_default());
-        let places = Places { view: &view, size, cracks: &cracks };
+        let (size, cracks) = (self.plate_size(), self.cracks(pane));
+        let cracks = cracks.as_deref().unwrap_or_default();
+        let places = Places { view: &view, size, cracks };
         let reader = self.reading.reader(&frame);
         let mut parts = vec![places.show(&probed.spot)];
         parts.push(words::values(&probed, &reader.name, &reader.unit));

@@ -6,8 +6,8 @@ use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, po
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
-use crate::frames::Painted;
-use crate::shapes::Placed;
+use crate::frames::{Frame, Painted};
+use crate::shapes::{self, Placed};
 use crate::stage::pixels::{self, Place};
 
 /// A picture on its way to the screen; it is sent there once.
@@ -40,14 +40,57 @@ impl Texture {
         is_coarse: bool,
     ) -> &TextureHandle {
         let options = if is_coarse { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
+        let fitting = || fitting(painter.ctx(), image);
         let (sent, handle) = self.sent.get_or_insert_with(|| {
-            (Arc::clone(image), painter.ctx().load_texture("plate", Arc::clone(image), options))
+            (Arc::clone(image), painter.ctx().load_texture("plate", fitting(), options))
         });
         if !Arc::ptr_eq(sent, image) {
-            handle.set(Arc::clone(image), options);
+            handle.set(fitting(), options);
             *sent = Arc::clone(image);
         }
         handle
+    }
+}
+
+/// A picture as it fits onto the device: of one that is larger than textures may be every second pixel, or third.
+fn fitting(ctx: &egui::Context, image: &Arc<ColorImage>) -> Arc<ColorImage> {
+    let most = ctx.input(|input| input.max_texture_side).max(1);
+    let [columns, rows] = image.size;
+    let step = columns.max(rows).div_ceil(most);
+    if step <= 1 {
+        return Arc::clone(image);
+    }
+    let size = [columns, rows].map(|n| n.div_ceil(step));
+    let row = |j: usize| image.pixels[j * columns..][..columns].iter().step_by(step).copied();
+    let pixels = (0..rows).step_by(step).flat_map(row).collect();
+    Arc::new(ColorImage::new(size, pixels))
+}
+
+/// Layers on their way to the screen.
+#[derive(Default)]
+pub struct Sheet {
+    sent: Option<(Arc<ColorImage>, TextureHandle)>,
+}
+
+impl Sheet {
+    /// Draws the layers of a frame in a rectangle that shows a view.
+    pub fn show(&mut self, painter: &Painter, frame: &Frame, view: &View, rect: Rect) {
+        let placed = placed(&frame.layers_view, view, rect);
+        let Some(image) = &frame.layers.pixels else {
+            self.sent = None;
+            return shapes::draw(painter, placed, &frame.layers.items);
+        };
+        if self.sent.as_ref().is_none_or(|(sent, _)| !Arc::ptr_eq(sent, image)) {
+            let options = TextureOptions::NEAREST;
+            let handle =
+                painter.ctx().load_texture("layers", fitting(painter.ctx(), image), options);
+            self.sent = Some((Arc::clone(image), handle));
+        }
+        let Some((_, handle)) = &self.sent else { return };
+        let size = image.size.map(|n| n as f32 * placed.scale);
+        let target = Rect::from_min_size(placed.corner, vec2(size[0], size[1]));
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        painter.image(handle.id(), target, whole, Color32::WHITE);
     }
 }
 

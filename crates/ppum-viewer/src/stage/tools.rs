@@ -1,7 +1,11 @@
 //! Curves drawn over the plate by the mouse, and their handles.
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use egui::{CursorIcon, Key, Modifiers, PointerButton, Response, Ui};
 use ppum::crack::{Crack, TipId, tips};
+use ppum::dataset::Dataset;
 use ppum::vec2::Vec2;
 use ppum_scene::profile::Along;
 
@@ -137,16 +141,31 @@ impl Stage {
     }
 
     /// The cracks of the step that is shown.
-    pub(crate) fn cracks(&self, pane: &Pane) -> Option<Vec<Crack>> {
+    pub(crate) fn cracks(&self, pane: &Pane) -> Option<Cracks> {
         let dataset = &self.opened.as_ref()?.dataset;
-        let step = dataset.steps.get(pane.scene.subject.step_of(dataset))?;
-        Some(step.cracks.clone())
+        let step = pane.scene.subject.step_of(dataset);
+        let cracks = Cracks { dataset: Arc::clone(dataset), step };
+        dataset.steps.get(step).map(|_| cracks)
     }
 
     /// The larger side of the plate's box.
     pub(crate) fn plate_size(&self) -> f64 {
         let size = self.opened.as_ref().map(|opened| opened.dataset.domain.bounds.size());
         size.map_or(1.0, |size| size.x.max(size.y))
+    }
+}
+
+/// The cracks of a step, kept with their dataset: in every picture of the window they are asked for, and there may be many.
+pub(crate) struct Cracks {
+    dataset: Arc<Dataset>,
+    step: usize,
+}
+
+impl Deref for Cracks {
+    type Target = [Crack];
+
+    fn deref(&self) -> &[Crack] {
+        &self.dataset.steps[self.step].cracks
     }
 }
 

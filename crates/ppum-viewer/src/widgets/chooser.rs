@@ -27,6 +27,8 @@ pub struct Chooser {
     at: usize,
 }
 
+/// Rows that are shown; who looks for others writes more of the name.
+const MOST: usize = 200;
 /// Height of the open list \[points\].
 const HEIGHT: f32 = 260.0;
 
@@ -73,7 +75,7 @@ impl Chooser {
         let area = ScrollArea::vertical().max_height(HEIGHT).auto_shrink([false, true]);
         area.id_salt(name).show(ui, |ui| {
             let mut group = "";
-            for (number, choice) in found.iter().copied().enumerate() {
+            for (number, choice) in found.iter().copied().enumerate().take(MOST.max(self.at + 1)) {
                 if choice.group != group {
                     group = choice.group;
                     ui.label(note(ui, group));
@@ -85,6 +87,12 @@ impl Chooser {
                 if response.clicked() {
                     chosen = Some(choice);
                 }
+            }
+            if found.len() > MOST {
+                ui.label(note(
+                    ui,
+                    format!("and {} more: write more of the name", found.len() - MOST),
+                ));
             }
             if found.is_empty() {
                 ui.weak("nothing has this name; formulas are written below");

@@ -14,6 +14,14 @@ pub fn button(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
     response
 }
 
+/// A text that is cut off after so many letters.
+pub(crate) fn elided(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// The colour of mistakes: red that is read on both grounds.
 pub(crate) fn wrong(ui: &Ui) -> Color32 {
     match ui.visuals().dark_mode {

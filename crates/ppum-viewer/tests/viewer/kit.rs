@@ -33,9 +33,8 @@ pub(crate) fn window(dataset: Dataset, size: [f32; 2]) -> Harness<'static, Viewe
 pub(crate) fn settle(harness: &mut Harness<'static, Viewer>) {
     for _ in 0..2000 {
         harness.step();
-        let is_working = |stage: &ppum_viewer::stage::Stage| {
-            stage.frames.is_working() || stage.reading.is_working()
-        };
+        let is_working =
+            |stage: &ppum_viewer::stage::Stage| stage.is_drawing() || stage.reading.is_working();
         if !harness.state().stages.iter().any(is_working) {
             harness.step();
             return;

@@ -42,9 +42,14 @@ impl Lab {
 
     /// Closes the window and opens it again, as on the next day.
     pub(crate) fn reopen(&mut self, start: Start) {
+        self.begin_again(start);
+        self.settle();
+    }
+
+    /// The same, without waiting for what it shows.
+    pub(crate) fn begin_again(&mut self, start: Start) {
         self.state().leave();
         self.window = Self::window(self.folder.path(), start);
-        self.settle();
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {

@@ -3,6 +3,8 @@
 mod maps;
 pub(crate) mod range;
 
+use std::sync::{Arc, Weak};
+
 use egui::{DragValue, Ui};
 use ppum_render::colormap::Colormap;
 use ppum_render::scale::Scale;
@@ -11,8 +13,9 @@ use ppum_scene::range::Telling;
 
 use super::{failure, note};
 use crate::controls::Controls;
+use crate::controls::facts::Facts;
 use crate::desk::Desk;
-use crate::frames::Fault;
+use crate::frames::{Fault, Frame};
 use crate::stage::Stage;
 
 /// Shows it.
@@ -85,13 +88,28 @@ fn beyond(ui: &mut Ui, colors: &mut Colors) {
 }
 
 /// What the colours mean, and between which values all others lie.
-fn told(ui: &mut Ui, stage: &Stage) {
+fn told(ui: &mut Ui, stage: &mut Stage) {
     let Some(frame) = stage.frames.newest() else { return };
-    let telling = Telling::new(frame.field.dataset(), frame.field.field());
-    let mut text = telling.colors(&frame.picture);
-    let [without, all] = frame.drawn.undefined();
-    if without > 0 {
-        text = format!("{text}; hatched: no value at {without} of {all} pixels");
+    let Controls { colors_told, facts, .. } = &mut stage.controls;
+    let is_told = |(of, _): &(Weak<Frame>, _)| of.as_ptr() == Arc::as_ptr(frame);
+    if !colors_told.as_ref().is_some_and(is_told) {
+        *colors_told = Some((Arc::downgrade(frame), words(frame, facts)));
     }
-    ui.label(note(ui, text));
+    if let Some((_, text)) = colors_told {
+        ui.label(note(ui, text.as_str()));
+    }
+}
+
+/// Pixels are counted for it.
+fn words(frame: &Frame, facts: &Facts) -> String {
+    let (dataset, field) = (frame.field.dataset(), frame.field.field());
+    let telling = match facts.places {
+        Some(places) => Telling::with(places, field),
+        None => Telling::new(dataset, field),
+    };
+    let text = telling.colors(&frame.picture);
+    match frame.drawn.undefined() {
+        [0, _] => text,
+        [without, all] => format!("{text}; hatched: no value at {without} of {all} pixels"),
+    }
 }

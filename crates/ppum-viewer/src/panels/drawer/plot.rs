@@ -81,12 +81,13 @@ const PAGE: [u32; 2] = [900, 600];
 
 /// Which curve.
 fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
-    let cracks = stage.cracks(pane).unwrap_or_default();
+    let cracks = stage.cracks(pane);
+    let cracks = cracks.as_deref().unwrap_or_default();
     let chosen = pane.curve.as_ref().map_or("no curve".into(), name);
     let list = ComboBox::from_id_salt("curve").selected_text(chosen).width(150.0);
     let list = list.show_ui(ui, |ui| {
         let before = pane.curve;
-        for (along, name) in choices(&cracks, stage) {
+        for (along, name) in choices(cracks, stage) {
             ui.selectable_value(&mut pane.curve, along, name);
         }
         if pane.curve != before {

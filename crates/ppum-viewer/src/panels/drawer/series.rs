@@ -1,5 +1,7 @@
 //! Stress intensity factors and lengths of cracks against the steps of a series.
 
+use std::sync::Arc;
+
 use egui::{ScrollArea, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
@@ -14,12 +16,17 @@ type Values = Vec<(String, Vec<[f64; 2]>)>;
 /// Shows it; a click goes to the step.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
-    let Some(dataset) = stage.opened.as_ref().map(|opened| &opened.dataset) else { return };
+    let Some(opened) = &stage.opened else { return };
+    let dataset = &opened.dataset;
     if dataset.steps.len() < 2 {
         ui.label("This dataset has one step. A series shows its course here.");
         return;
     }
-    let plots = plots(dataset);
+    let known = &mut stage.controls.courses;
+    if known.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, dataset)) {
+        *known = Some((Arc::clone(dataset), plots(dataset)));
+    }
+    let plots = known.clone().map(|(_, plots)| plots).unwrap_or_default();
     let step = pane.scene.subject.step_of(dataset);
     let range = [-0.5, dataset.steps.len() as f64 - 0.5];
     let room = ui.available_size() - vec2(0.0, 14.0);
@@ -41,6 +48,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
+/// Curves of a plot: of more tips or cracks the first ones are drawn, since nobody could tell them apart.
+const MOST: usize = 24;
 /// The least width of a plot that can be read \[points\].
 const LEAST: f32 = 210.0;
 
@@ -87,6 +96,7 @@ fn course(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
 /// A value of each tip in the steps that have it; broken where it is missing.
 fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Values {
     let count = dataset.steps.iter().map(|step| tips(&step.cracks).count()).max().unwrap_or(0);
+    let count = count.min(MOST);
     let curve = |number: usize| {
         let points = course(dataset, |step| value(step, number).unwrap_or(f64::NAN));
         let is_known = points.iter().any(|[_, v]| v.is_finite());
@@ -98,6 +108,7 @@ fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Val
 /// The length of each crack in the steps that have it.
 fn by_crack(dataset: &Dataset) -> Values {
     let count = dataset.steps.iter().map(|step| step.cracks.len()).max().unwrap_or(0);
+    let count = count.min(MOST);
     let curve = |number: usize| {
         let length = |step: &Step| step.cracks.get(number).map_or(f64::NAN, |c| c.length());
         (format!("crack {number}"), course(dataset, length))

@@ -11,6 +11,7 @@ use ppum_scene::scene::OF_PATCHES;
 use crate::desk::Desk;
 use crate::session::Place;
 use crate::widgets::chart::chart;
+use crate::widgets::{elided, note};
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -33,6 +34,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
+/// Values of patches that have a button of their own, and letters of their names.
+const MOST: usize = 30;
+const LETTERS: usize = 30;
+
 /// Buttons that colour the patches by one of their values.
 fn patches(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
@@ -40,14 +45,18 @@ fn patches(ui: &mut Ui, desk: &mut Desk<'_>) {
     let field = frame.field.field();
     ui.horizontal_wrapped(|ui| {
         ui.label("Colour the patches by");
-        for name in cells::names(field) {
+        let names = cells::names(field);
+        for name in names.iter().take(MOST) {
             // a quantity of this name goes before, unless it is said that patches are meant
-            let has_quantity = Quantity::parse(&name, field).is_ok();
+            let has_quantity = Quantity::parse(name, field).is_ok();
             let text = if has_quantity { format!("{OF_PATCHES}{name}") } else { name.clone() };
             let is_shown = pane.scene.quantity.as_ref() == Some(&text);
-            if ui.selectable_label(is_shown, &name).clicked() {
+            if ui.selectable_label(is_shown, elided(name, LETTERS)).clicked() {
                 pane.scene.quantity = (!is_shown).then_some(text);
             }
+        }
+        if names.len() > MOST {
+            ui.label(note(ui, format!("and {} more among the quantities", names.len() - MOST)));
         }
     });
 }

@@ -1,9 +1,10 @@
 //! The table of the crack tips of the step: one line per tip, as `ppum sif` prints it.
 
 use egui::{Grid, RichText, ScrollArea, Ui};
+use ppum::text::Places;
 use ppum_scene::range::places;
 use ppum_scene::table::{Column, Table};
-use ppum_scene::tips::{Tip, stored, words};
+use ppum_scene::tips::{Tip, words};
 
 use super::plot::outputs;
 use crate::actions::Action;
@@ -15,25 +16,39 @@ use crate::widgets::button;
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     let Some(opened) = stage.opened.clone() else { return };
-    let Some(step) = opened.dataset.steps.get(pane.scene.subject.step_of(&opened.dataset)) else {
-        return;
-    };
-    let tips = stored(step);
+    stage.controls.facts.look_up(&opened.dataset, pane.scene.subject.step_of(&opened.dataset));
+    let tips = std::mem::take(&mut stage.controls.facts.tips);
+    let places = stage.controls.facts.places.unwrap_or_else(|| places(&opened.dataset));
+    rows(ui, desk, &places, &tips);
+    desk.active().1.controls.facts.tips = tips;
+}
+
+/// The rows that are seen: there may be thousands.
+fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
     if tips.is_empty() {
         ui.label("This step has no crack tips.");
         return;
     }
-    let table = table(&tips);
-    let csv = || table.csv().into_bytes();
-    ui.horizontal_wrapped(|ui| outputs(ui, stage, &[("csv", &csv)], &|| table.csv()));
-    let places = places(&opened.dataset);
-    ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-        Grid::new("tips").striped(true).spacing([18.0, 4.0]).show(ui, |ui| {
+    let csv = || table(tips).csv();
+    let bytes = || csv().into_bytes();
+    let (_, stage) = desk.active();
+    ui.horizontal_wrapped(|ui| outputs(ui, stage, &[("csv", &bytes)], &csv));
+    let area = ScrollArea::both().auto_shrink([false, false]);
+    // the heads go along
+    let (height, all) = (ui.spacing().interact_size.y, tips.len() + 1);
+    let gap = ui.spacing().item_spacing.y;
+    area.show_rows(ui, height, all, |ui, seen| {
+        let grid = Grid::new("tips").with_row_color(move |row, style| {
+            let is_odd = (seen.start + row) % 2 == 1;
+            is_odd.then_some(style.visuals.faint_bg_color)
+        });
+        let last = seen.end.saturating_sub(1).min(tips.len());
+        grid.min_row_height(height).spacing([18.0, gap]).show(ui, |ui| {
             for head in ["tip", "crack", "position", "direction", "K_I", "K_II", "spread"] {
                 ui.strong(head);
             }
             ui.end_row();
-            for (number, tip) in tips.iter().enumerate() {
+            for (number, tip) in tips.iter().enumerate().take(last).skip(seen.start) {
                 let name = format!("Fly to tip {number}");
                 if button(ui, &number.to_string(), &name).clicked() {
                     desk.actions.push(Action::Tip(number));
