@@ -1,5 +1,6 @@
 //! Files that readings are written to.
 
+#[cfg(feature = "solve")]
 use crate::replacing::Replacing;
 
 /// The name of the next file, and what became of the last one.
@@ -10,6 +11,7 @@ pub struct Output {
     /// What became of the last file: its name, or the reason why there is none.
     pub told: Option<Result<String, String>>,
     /// The file that was asked for last.
+    #[cfg(feature = "solve")]
     replacing: Replacing,
 }
 
