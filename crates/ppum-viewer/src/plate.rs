@@ -1,6 +1,6 @@
 //! Where a plate is in the window: all of it, or a place that can be shown.
 
-use ppum::vec2::Rect;
+use ppum::vec2::{Rect, vec2};
 use ppum_render::view::View;
 
 use crate::session::Place;
@@ -13,16 +13,23 @@ const NARROWEST: f64 = 1e-12;
 /// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
 const COARSEST: f64 = 2048.0;
 
-/// The view of a place, or of the whole plate, on so many pixels; none of a plate without size.
+/// The view of a place, or of the whole plate beside the last `taken` columns; none of a plate without size.
 #[must_use]
-pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2]) -> Option<View> {
-    match place {
-        Some(place) => place.view(pixels).ok(),
-        None => {
-            let room = whole.size() * ROOM;
-            View::fit(Rect::new(whole.min - room, whole.max + room), pixels).ok()
-        }
+pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2], taken: u32) -> Option<View> {
+    if let Some(place) = place {
+        return place.view(pixels).ok();
     }
+    let room = whole.size() * ROOM;
+    let all = Rect::new(whole.min - room, whole.max + room);
+    let middle = View::fit(all, pixels).ok()?;
+    let free = 0.5 * (middle.width - all.size().x) / middle.pixel_size();
+    if free >= f64::from(taken) || 2 * taken > pixels[0] {
+        return Some(middle);
+    }
+    let beside = View::fit(all, [pixels[0] - taken, pixels[1]]).ok()?;
+    let pixel = beside.pixel_size();
+    let center = beside.center + vec2(0.5 * f64::from(taken) * pixel, 0.0);
+    View::new(center, f64::from(pixels[0]) * pixel, pixels).ok()
 }
 
 /// A place that can be shown: no wider than the plate many times, no narrower than doubles tell pixels apart, never
@@ -41,7 +48,6 @@ pub fn bounded(place: Place, bounds: &Rect) -> Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::vec2::vec2;
     use ppum_testkit::random::Random;
 
     #[test]
@@ -60,8 +66,27 @@ mod tests {
             let far = 10f64.powf(random.between(-10.0, 200.0));
             let center = [random.between(-far, far), random.between(-far, far)];
             let place = bounded(Place { center, width }, &bounds);
-            let view = view(Some(place), bounds, [1280, 800]);
+            let view = view(Some(place), bounds, [1280, 800], 0);
             assert!(view.is_some_and(|view| view.rect().overlaps(&bounds)), "{bounds:?} {place:?}");
+        }
+    }
+
+    #[test]
+    fn the_whole_plate_is_seen_beside_what_is_taken() {
+        let mut random = Random(6);
+        for _ in 0..500 {
+            let size = vec2(random.between(0.01, 1.0), random.between(0.01, 1.0));
+            let corner = vec2(random.between(-3.0, 3.0), random.between(-3.0, 3.0));
+            let (whole, pixels) =
+                (Rect::new(corner, corner + size), [200 + random.below(900) as u32, 300]);
+            let taken = random.below(100) as u32;
+            let view = view(None, whole, pixels, taken).unwrap();
+            let [low, high] = [whole.min, whole.max].map(|corner| view.pixel(corner));
+            let right = f64::from(pixels[0] - taken);
+            assert!(
+                low.x > 0.0 && high.x < right && high.y > 0.0 && low.y < 300.0,
+                "{whole:?} {pixels:?}"
+            );
         }
     }
 }

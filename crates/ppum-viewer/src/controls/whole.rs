@@ -78,7 +78,7 @@ impl Whole {
         let Some(&step) = self.steps.front() else { return self.end() };
         let mut scene = self.scene.clone();
         scene.subject.step = Some(step);
-        let Some(view) = plate::view(None, self.dataset.domain.bounds, PIXELS) else {
+        let Some(view) = plate::view(None, self.dataset.domain.bounds, PIXELS, 0) else {
             return Outcome::Failed("the plate has no size".into());
         };
         let dataset = Arc::clone(&self.dataset);

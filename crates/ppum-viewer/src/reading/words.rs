@@ -12,7 +12,7 @@ use crate::spot::Spot;
 const DEEP: f64 = 1e-3;
 
 /// Digits of values, and of those that stand beside them.
-const DIGITS: usize = 7;
+pub const DIGITS: usize = 7;
 const FEWER: usize = 5;
 
 /// How places of a view are told.
@@ -97,14 +97,21 @@ fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
 }
 
-/// What is read of a quantity: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`, `syy = ∞ at tip 1`.
+/// What is read of a quantity, with as many digits as suit a whole plate.
 #[must_use]
 pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
+    values_to(probed, name, unit, DIGITS)
+}
+
+/// The same with so many digits: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`, `syy = ∞ at tip 1`.
+#[must_use]
+pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> String {
     if probed.is_outside() {
         return "outside the plate".into();
     }
     // beside its two terms a difference has less room
-    let digits = if probed.sides.iter().any(|s| s.terms.is_some()) { FEWER } else { DIGITS };
+    let has_terms = probed.sides.iter().any(|s| s.terms.is_some());
+    let digits = if has_terms { digits - (DIGITS - FEWER) } else { digits };
     let value = |v: f64| with_unit(v, digits, unit);
     let of = |sided: &Sided| value(sided.value);
     match &probed.sides[..] {

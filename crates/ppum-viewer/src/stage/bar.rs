@@ -7,20 +7,20 @@ use egui::{
     Align2, Area, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Sense, Shape, Stroke,
     TextEdit, Ui, pos2, vec2,
 };
-use ppum::text::{exact, trimmed_to};
-use ppum::vec2::Vec2;
+use ppum::text::exact;
 use ppum_figure::figure::{Bar, Design, Labels, Theme};
 use ppum_render::extrema::{Extrema, Extremum};
 use ppum_render::picture::Picture;
 use ppum_render::range::Range;
 use ppum_render::scale::Normalization;
-use ppum_render::view::View;
 use ppum_scene::colors::Colors;
-use ppum_scene::drawing::{Drawn, Values};
-use ppum_scene::range::{Telling, value};
+use ppum_scene::drawing::Drawn;
+use ppum_scene::range::Telling;
 
-use crate::controls::range::{parse, set};
+use crate::controls::range::{digits, parse, set};
 use crate::frames::Frame;
+use crate::reading::probe::Probed;
+use crate::reading::words::number;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
 use crate::widgets::wrong;
@@ -62,6 +62,8 @@ const LEAST: f32 = 140.0;
 /// From the plate's border, and around the bar.
 const MARGIN: f32 = 10.0;
 const ROOM: f32 = 8.0;
+/// Width of its colours.
+const BODY: f32 = 22.0;
 /// Length of the marks of extrema.
 const MARK: f32 = 8.0;
 /// Height of what counts as an end.
@@ -84,15 +86,14 @@ struct Standing<'a> {
     right: f32,
 }
 
-/// Shows the bar of a picture on a plate. `hover` is the place of the pointer as an offset from the view's centre. Returns true while
-/// the pointer is on it.
+/// Shows the bar of a picture on a plate, with ticks at what is read at the pointer.
 pub fn show(
     ui: &mut Ui,
     plate: Rect,
     grip: &mut Grip,
     colors: &mut Colors,
     frame: &Frame,
-    hover: Option<(&View, Vec2)>,
+    hover: Option<&Probed>,
 ) {
     let length = length(plate);
     if length < LEAST || plate.width() < LEAST {
@@ -106,8 +107,8 @@ pub fn show(
     }
     standing.extrema(ui, grip.extrema(frame));
     standing.edit(ui, grip, colors);
-    if let Some(value) = hover.and_then(|(view, offset)| value_at(frame, view, offset)) {
-        standing.follow(ui, value);
+    for sided in hover.iter().flat_map(|probed| &probed.sides) {
+        standing.follow(ui, sided.value);
     }
 }
 
@@ -128,6 +129,13 @@ pub fn of_difference(ui: &Ui, plate: Rect, (pane, is_compared): (&Pane, bool), f
 /// The length of a plate's bar.
 fn length(plate: Rect) -> f32 {
     (PART * plate.height()).min(MOST)
+}
+
+/// The width that a plate's bar usually takes of it; none where there is no bar.
+pub(super) fn width(plate: Rect) -> f32 {
+    let is_there = length(plate) >= LEAST && plate.width() >= LEAST;
+    let labels = if plate.width() < NARROW { 48.0 } else { 66.0 };
+    if is_there { BODY + labels + 2.0 * ROOM + MARGIN } else { 0.0 }
 }
 
 /// A bar in the window's colours.
@@ -350,8 +358,8 @@ impl<'a> Standing<'a> {
             return;
         }
         let at = self.height(self.norm().position(found).clamp(0.0, 1.0));
-        let size = self.norm().min().abs().max(self.norm().max().abs());
-        let text = value(rounded(found, 4), size);
+        let ends = [self.norm().min(), self.norm().max()];
+        let text = number(found, digits(ends, 4));
         let ink = ui.visuals().strong_text_color();
         let font = FontId::proportional(12.0);
         let galley = ui.painter().layout_no_wrap(text, font, ink);
@@ -446,26 +454,4 @@ fn short(end: f64, [min, max]: [f64; 2]) -> f64 {
     let step = 10f64.powi(((max - min) / 1000.0).log10().floor() as i32);
     let rounded = format!("{:.12e}", (end / step).round() * step).parse().unwrap_or(end);
     if f64::is_finite(rounded) { rounded } else { end }
-}
-
-/// A value with so many digits.
-fn rounded(value: f64, digits: usize) -> f64 {
-    trimmed_to(value, digits).parse().unwrap_or(value)
-}
-
-/// The value of a picture below a place of the view.
-fn value_at(frame: &Frame, view: &View, offset: Vec2) -> Option<f64> {
-    // of a rough picture that of its own pixels
-    let made = &frame.drawn.view;
-    let pixel = made.pixel_of_offset(offset + (view.center - made.center));
-    let [columns, rows] = made.pixels;
-    let is_inside = pixel.x >= 0.0
-        && pixel.y >= 0.0
-        && pixel.x < f64::from(columns)
-        && pixel.y < f64::from(rows);
-    let (i, j) = (pixel.x as u32, pixel.y as u32);
-    is_inside.then(|| match &frame.drawn.values {
-        Values::Double(raster) => raster.value(i, j),
-        Values::Single(raster) => f64::from(raster.value(i, j)),
-    })
 }

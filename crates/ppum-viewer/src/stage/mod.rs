@@ -64,6 +64,8 @@ pub struct Stage {
     pub view: Option<View>,
     /// The position of the mouse, as an offset from the view's centre.
     pub hover: Option<Vec2>,
+    /// Columns of pixels on the right that belong to the colour bar where there is room beside it.
+    taken: u32,
     /// What the panels of this view remember.
     pub controls: Controls,
     grip: bar::Grip,
@@ -120,6 +122,7 @@ impl Stage {
             trail: Undo::new(None),
             view: None,
             hover: None,
+            taken: 0,
             controls: Controls::default(),
             grip: bar::Grip::default(),
             against: Against::default(),
@@ -148,12 +151,13 @@ impl Stage {
         self.now = ui.input(|input| input.time);
         self.fly(ui, pane);
         let whole = self.whole(ui.ctx(), pane, &opened.dataset);
-        let Some(view) = view(pane.place, whole, pixels) else { return };
+        self.taken = (bar::width(rect) * scale).round() as u32;
+        let Some(view) = view(pane.place, whole, pixels, self.taken) else { return };
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         if !self.draw_by_mouse(ui, &response, &sight, pane) {
             self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
         }
-        let view = crate::plate::view(pane.place, whole, pixels).unwrap_or(view);
+        let view = crate::plate::view(pane.place, whole, pixels, self.taken).unwrap_or(view);
         self.view = Some(view);
         self.hover = response.hover_pos().map(|at| offset(&view, rect, at));
         match self.rest.until(&pane.place, self.now) {
@@ -173,7 +177,7 @@ impl Stage {
         self.frames.want(Wanted { dataset, scene, view, compare, minus });
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
-            let hover = self.hover.map(|offset| (&view, offset));
+            let hover = self.reading.hover.as_ref();
             let (sheet, is_compared) = (&mut self.sheet, compare.is_some());
             self.against.show(ui, rect, (pane, is_compared), (frame, sheet), &view);
             bar::show(ui, rect, &mut self.grip, &mut pane.scene.colors, frame, hover);
@@ -230,7 +234,7 @@ impl Stage {
     pub fn fly_to(&mut self, pane: &Pane, to: Option<Place>) {
         let (Some(view), Some(opened)) = (self.view, self.opened.clone()) else { return };
         let whole = self.known_whole(pane, &opened.dataset);
-        let Some(end) = crate::plate::view(to, whole, view.pixels) else { return };
+        let Some(end) = crate::plate::view(to, whole, view.pixels, self.taken) else { return };
         self.is_at_the_end = false;
         self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
     }

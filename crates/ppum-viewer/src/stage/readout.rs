@@ -5,6 +5,8 @@ use ppum::vec2::Vec2;
 
 use super::Stage;
 use super::{ground, sight::Sight};
+use crate::controls::range::digits;
+use crate::frames::Frame;
 use crate::reading::words::{self, Places};
 use crate::session::Pane;
 use crate::spot::Spot;
@@ -34,15 +36,16 @@ impl Stage {
         self.click(ui, response, sight, pane);
         self.reading.refresh(&frame, pane);
         #[cfg(feature = "solve")]
-        self.ask_integral(ui, pane);
+        self.ask_integral(ui, pane, &frame);
     }
 
+    /// Asks for K of what is shown, with all that is replaced in it.
     #[cfg(feature = "solve")]
-    fn ask_integral(&mut self, ui: &Ui, pane: &Pane) {
-        let Some(opened) = &self.opened else { return };
-        let step = pane.scene.subject.step_of(&opened.dataset);
+    fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &Frame) {
+        let dataset = frame.field.dataset();
+        let step = frame.wanted.scene.subject.step_of(dataset);
         if self.reading.grip.is_none() {
-            self.reading.integral.ask(pane.curve, &opened.dataset, step, ui.ctx());
+            self.reading.integral.ask(pane.curve, dataset, step, ui.ctx());
         }
     }
 
@@ -135,7 +138,9 @@ impl Stage {
         let places = Places { view: &view, size, cracks };
         let reader = self.reading.reader(&frame);
         let mut parts = vec![places.show(&probed.spot)];
-        parts.push(words::values(&probed, &reader.name, &reader.unit));
+        let norm = &frame.picture.normalization;
+        let digits = digits([norm.min(), norm.max()], words::DIGITS);
+        parts.push(words::values_to(&probed, &reader.name, &reader.unit, digits));
         parts.extend(words::terms(&probed));
         let more = [words::gradients(&probed), words::cell(&probed), words::patches(&probed)];
         parts.extend(more.into_iter().flatten());

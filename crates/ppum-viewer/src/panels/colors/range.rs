@@ -5,13 +5,13 @@ use ppum::text::trimmed_to;
 use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
 
-use crate::controls::range::{parse, set};
+use crate::controls::range::{digits, parse, set};
 use crate::controls::whole::Whole;
 use crate::panels::{note, wrong};
 use crate::session::Pane;
 use crate::stage::Stage;
 
-/// Digits of a bound that is shown: all that a range has that was found are not read.
+/// Digits of a bound that is shown, at least: all that a range has that was found are not read.
 const DIGITS: usize = 5;
 
 /// Shows it.
@@ -83,12 +83,13 @@ fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) 
         _ => bounds,
     };
     let speed = ((ends[1] - ends[0]).abs() / 300.0).max(f64::MIN_POSITIVE);
+    let shown = digits(ends, DIGITS);
     let mut changed = None;
     ui.horizontal(|ui| {
         for (end, name, word) in [(0, "Lower end", "from"), (1, "Upper end", "to")] {
             ui.label(note(ui, word));
             let value = DragValue::new(&mut ends[end]).speed(speed).update_while_editing(false);
-            let value = value.custom_formatter(|value, _| trimmed_to(value, DIGITS));
+            let value = value.custom_formatter(|value, _| trimmed_to(value, shown));
             let response = ui.add(value.custom_parser(parse)).accessible_name(name);
             changed = changed.or(response.changed().then_some(end));
         }
