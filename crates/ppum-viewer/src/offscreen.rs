@@ -22,6 +22,9 @@ pub enum ScreenshotError {
     /// A file that cannot be shown.
     #[error("{0}")]
     File(String),
+    /// A plate that cannot be drawn as it was chosen.
+    #[error("{0}")]
+    Picture(String),
     /// It does not come to rest.
     #[error("the window was not complete after {0} s")]
     Late(u64),
@@ -83,7 +86,11 @@ fn at_rest(
             return Err(ScreenshotError::File(note.text.clone()));
         }
         if rest > SETTLED {
-            return Ok(output);
+            let failure = viewer.stages.iter().find_map(|stage| stage.frames.failure());
+            return match failure {
+                Some(failure) => Err(ScreenshotError::Picture(failure.message.clone())),
+                None => Ok(output),
+            };
         }
         if start.elapsed() > PATIENCE {
             return Err(ScreenshotError::Late(PATIENCE.as_secs()));

@@ -45,6 +45,18 @@ pub fn bounded(place: Place, bounds: &Rect) -> Place {
     Place { center: center.into(), width }
 }
 
+/// True if a place is one of this plate: something of it may be seen there, and pixels are told apart.
+#[must_use]
+pub fn is_of(place: Place, bounds: &Rect) -> bool {
+    let nearest = bounded(place, bounds);
+    let is_near = (place.center() - nearest.center()).length() <= WIDEST * bounds.size().length();
+    let is_wide = (SLACK.recip()..=SLACK).contains(&(place.width / nearest.width));
+    is_near && is_wide
+}
+
+/// How far beyond what can be shown a width may lie: the plate may have been written anew, a little larger.
+const SLACK: f64 = 100.0;
+
 #[cfg(test)]
 mod tests {
     use super::*;

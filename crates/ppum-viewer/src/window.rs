@@ -8,7 +8,7 @@ use std::time::Duration;
 use eframe::egui_wgpu::wgpu;
 use ppum::dataset::Dataset;
 
-use crate::app::Viewer;
+use crate::app::{Viewer, parting};
 use crate::files::{Files, kept};
 use crate::frames::Backend;
 use crate::session::Session;
@@ -182,7 +182,7 @@ impl Failure {
         let mut reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
         let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
         reason.get_or_insert(words);
-        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        parting::let_go(ctx);
     }
 
     /// The reason, if there is one: the device is asked, which may not have told it yet.

@@ -179,7 +179,7 @@ fn next_scale(scale: Scale) -> Scale {
 
 /// Copies the command that draws what is seen.
 fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), String> {
-    let (Some(frame), Some(view)) = (stage.frames.newest(), stage.view) else { return Ok(()) };
+    let (Some(frame), Some(view)) = (stage.frame(), stage.view) else { return Ok(()) };
     let order = Order {
         field: Arc::clone(&frame.field),
         file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),

@@ -2,6 +2,8 @@
 
 mod acting;
 #[cfg(feature = "solve")]
+pub mod parting;
+#[cfg(feature = "solve")]
 mod work;
 
 use std::path::PathBuf;
@@ -39,6 +41,9 @@ pub struct Viewer {
     /// The problem that is written and solved.
     #[cfg(feature = "solve")]
     pub solving: crate::solving::Solving,
+    /// What is about to be closed with a solution that is not saved.
+    #[cfg(feature = "solve")]
+    parting: parting::Question,
     pub(crate) palette: Option<Palette>,
     pub(crate) exporter: Option<Exporter>,
     pub(crate) has_help: bool,
@@ -72,6 +77,8 @@ impl Viewer {
             files: crate::files::Files::new(ctx, None),
             #[cfg(feature = "solve")]
             solving: crate::solving::Solving::new(ctx),
+            #[cfg(feature = "solve")]
+            parting: parting::Question::default(),
             palette: None,
             exporter: None,
             has_help: false,
@@ -129,6 +136,8 @@ impl Viewer {
         {
             self.exporter = None;
         }
+        #[cfg(feature = "solve")]
+        self.ask_before_parting(ui);
         self.copy(ui.ctx());
         for action in actions {
             self.act(ui.ctx(), action);

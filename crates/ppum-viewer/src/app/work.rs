@@ -8,11 +8,13 @@ use ppum::dataset::Dataset;
 
 use crate::actions::Action;
 use crate::app::Viewer;
+use crate::app::parting::Parting;
 use crate::files::dialog::Purpose;
 use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
-use crate::files::{What, Written, name, session_file};
+use crate::files::{What, Written, examples, name, session_file};
 use crate::panels::drawer::problem::editor_id;
+use crate::plate;
 use crate::player;
 use crate::session::{Draft, Page, Pane, Session};
 use crate::solving::Solved;
@@ -47,6 +49,21 @@ impl Viewer {
         }
         if let Some((purpose, path)) = self.files.show(ui) {
             self.chosen(&ctx, purpose, path);
+        }
+        self.tell_fallbacks();
+        self.leave_when_saved(&ctx);
+    }
+
+    /// Tells what the plates show otherwise than it was chosen.
+    fn tell_fallbacks(&mut self) {
+        for stage in &mut self.stages {
+            let path = stage.opened.as_ref().and_then(|opened| opened.path.clone());
+            let path = path.unwrap_or_default();
+            for text in stage.told.drain(..) {
+                let name = name(&path);
+                let name = if name.is_empty() { "the solution" } else { &name };
+                self.files.tell_too(&path, &format!("{name}: {text}"));
+            }
         }
     }
 
@@ -97,8 +114,8 @@ impl Viewer {
         match action {
             Action::Open => self.files.ask(Purpose::Open(active), file.as_deref()),
             Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
-            Action::Close => self.close(active),
-            Action::SaveDataset => self.files.ask(Purpose::SaveDataset(active), file.as_deref()),
+            Action::Close => self.part(ctx, Parting::Pane(active)),
+            Action::SaveDataset => self.ask_dataset(active),
             // who writes the problem means the problem
             Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
             Action::SaveSession => match self.files.session.clone() {
@@ -117,6 +134,25 @@ impl Viewer {
             }
             _ => {}
         }
+    }
+
+    /// Asks for the name of a dataset's file: its own, or that of the problem.
+    pub(crate) fn ask_dataset(&mut self, pane: usize) {
+        let file = self.session.panes[pane].file.clone();
+        let near = file.or_else(|| self.name_of_solution(pane));
+        self.files.ask(Purpose::SaveDataset(pane), near.as_deref());
+    }
+
+    /// The name of the file that a solution may have: that of its problem, beside it.
+    fn name_of_solution(&self, pane: usize) -> Option<PathBuf> {
+        let dataset = &self.stages[pane].opened.as_ref()?.dataset;
+        let text = dataset.problem.as_deref()?;
+        let draft = self.session.draft.as_ref().and_then(|draft| draft.path.clone());
+        let example = examples::ALL.iter().find(|example| example.text == text);
+        let title = || plain_name(&dataset.title).map(PathBuf::from);
+        let name = draft.or(example.map(|example| example.name.into())).or_else(title)?;
+        let name = name.with_extension("h5");
+        Some(self.files.folder_near(None).join(name))
     }
 
     fn ask_session(&mut self) {
@@ -162,7 +198,7 @@ impl Viewer {
     }
 
     /// Closes a dataset; of two panes the one.
-    fn close(&mut self, pane: usize) {
+    pub(crate) fn close(&mut self, pane: usize) {
         self.player.is_playing = false;
         if self.session.panes.len() > 1 {
             self.session.subtract(false);
@@ -208,13 +244,14 @@ impl Viewer {
     /// Something was written: it has a file now.
     fn wrote(&mut self, Written { path, what }: Written) {
         match what {
-            What::Dataset(pane) => {
-                if let (Some(pane), Some(stage)) =
-                    (self.session.panes.get_mut(pane), self.stages.get_mut(pane))
-                {
-                    pane.file = Some(path.clone());
-                    if let Some(opened) = &mut stage.opened {
-                        opened.path = Some(path.clone());
+            What::Dataset(number, dataset) => {
+                let panes = self.session.panes.iter_mut().zip(&mut self.stages).enumerate();
+                for (other, (pane, stage)) in panes {
+                    let Some(opened) = &mut stage.opened else { continue };
+                    // what was solved meanwhile has no file
+                    let is_it = Arc::ptr_eq(&opened.dataset, &dataset);
+                    if is_it && (other == number || opened.path.is_none()) {
+                        (pane.file, opened.path) = (Some(path.clone()), Some(path.clone()));
                     }
                 }
             }
@@ -232,7 +269,9 @@ impl Viewer {
     /// Shows what was read; what cannot be read is told beside its name, and harms nothing.
     fn arrive(&mut self, ctx: &egui::Context, arrived: Arrived) {
         let Arrived { path, pane, why, stamp, content } = arrived;
-        let pane = pane.min(self.session.panes.len() - 1);
+        // it may have been closed since, and another one taken its place
+        let Some(pane) = self.place_of(&path, pane, why) else { return };
+        let content = content.and_then(|content| self.expected(&path, why, content));
         if content.is_ok() || why != Why::Opened {
             self.files.follow(&path, stamp);
         }
@@ -255,6 +294,35 @@ impl Viewer {
         }
     }
 
+    fn is_of_pane(&self, path: &Path, pane: usize) -> bool {
+        self.session.panes.get(pane).is_some_and(|pane| pane.file.as_deref() == Some(path))
+    }
+
+    /// The pane that a file is for; none if it is no longer open.
+    fn place_of(&self, path: &Path, pane: usize, why: Why) -> Option<usize> {
+        let last = self.session.panes.len() - 1;
+        if why == Why::Opened || self.is_of_pane(path, pane) {
+            return Some(pane.min(last));
+        }
+        let is_text = self.session.draft.as_ref().is_some_and(|d| d.path.as_deref() == Some(path));
+        (0..=last).find(|pane| self.is_of_pane(path, *pane)).or(is_text.then_some(0))
+    }
+
+    /// What a file is read for that is open already, or that a session names; an error if something else is in it.
+    fn expected(&self, path: &Path, why: Why, content: Content) -> Result<Content, String> {
+        let is_dataset = (0..self.session.panes.len()).any(|pane| self.is_of_pane(path, pane));
+        let (is, wanted) = match &content {
+            _ if why == Why::Opened => return Ok(content),
+            Content::Dataset(_) if is_dataset => return Ok(content),
+            Content::Problem(_) if !is_dataset => return Ok(content),
+            Content::Dataset(_) => ("a dataset", "a problem"),
+            Content::Problem(_) => ("the text of a problem", "a dataset"),
+            Content::Session(_) if is_dataset => ("a session", "a dataset"),
+            Content::Session(_) => ("a session", "a problem"),
+        };
+        Err(format!("it is {is}, where {wanted} should be; open it by itself"))
+    }
+
     fn tell_unreadable(&mut self, path: &Path, why: Why, stamp: Stamp, error: &str) {
         let name = name(path);
         let text = match (why, stamp) {
@@ -264,7 +332,10 @@ impl Viewer {
             (Why::Changed, _) => format!(
                 "{name} has changed and cannot be read: {error}. What was read before is still shown"
             ),
-            (Why::Restored, _) => format!("{name} of the session cannot be read: {error}"),
+            // a session may lie far from its files
+            (Why::Restored, _) => {
+                format!("{} of the session cannot be read: {error}", path.display())
+            }
             (Why::Opened, _) => format!("{name} cannot be read: {error}"),
         };
         self.files.tell(path, text, true);
@@ -275,10 +346,16 @@ impl Viewer {
         if why == Why::Opened && !is_same {
             self.session.panes[pane] = Pane::default();
         }
-        let place = &mut self.session.panes[pane];
-        place.file = Some(path.clone());
-        player::mend(place, &dataset);
-        self.stages[pane].opened = Some(Opened { path: Some(path), dataset });
+        let is_linked = self.session.linked && self.session.panes.len() > 1;
+        let (pane, stage) = (&mut self.session.panes[pane], &mut self.stages[pane]);
+        pane.file = Some(path.clone());
+        // linked views show a place that may be one of the other plate alone
+        let is_elsewhere = |place| !is_linked && !plate::is_of(place, &dataset.domain.bounds);
+        if stage.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
+            stage.show_whole(pane);
+        }
+        player::mend(pane, &dataset);
+        stage.take(pane, Opened { path: Some(path), dataset });
     }
 
     /// The text of a problem that was opened, or has changed on disk.
@@ -331,13 +408,9 @@ impl Viewer {
     fn show_solved(&mut self, Solved { pane, dataset }: Solved) {
         let number = pane.min(self.session.panes.len() - 1);
         let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
-        let before = stage.opened.as_ref().map(|opened| opened.dataset.domain.bounds);
-        if before != Some(dataset.domain.bounds) {
-            pane.place = None;
-        }
         pane.file = None;
         player::mend(pane, &dataset);
-        stage.opened = Some(Opened { path: None, dataset });
+        stage.take(pane, Opened { path: None, dataset });
     }
 
     /// Files that were dropped: the first in the active pane, another one beside it.
@@ -352,6 +425,13 @@ impl Viewer {
             hint(ui);
         }
     }
+}
+
+/// A name for a file: the letters and digits of a title.
+fn plain_name(title: &str) -> Option<String> {
+    let words = title.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let name: String = words.collect::<Vec<_>>().join("-").chars().take(60).collect();
+    (!name.is_empty()).then_some(name)
 }
 
 /// Words over the whole window while a file is dragged over it.

@@ -47,8 +47,10 @@ pub struct Files {
     readings: Vec<Reading>,
     writings: Vec<Writing>,
     /// What is remembered, on its way to its file; true if all of it is on the way.
-    keeping: Option<Job<()>>,
+    keeping: Option<Job<std::io::Result<()>>>,
     is_kept: bool,
+    /// True once it was told that nothing can be kept: once is enough.
+    is_forgetful: bool,
     /// The session that was kept last, and when.
     last: Option<Session>,
     since: Instant,
@@ -66,10 +68,10 @@ struct Writing {
 }
 
 /// What is written to a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum What {
     /// The dataset of a pane.
-    Dataset(usize),
+    Dataset(usize, Arc<Dataset>),
     /// The session.
     Session,
     /// The problem's text.
@@ -102,6 +104,7 @@ impl Files {
             writings: Vec::new(),
             keeping: None,
             is_kept: true,
+            is_forgetful: false,
             last: None,
             since: Instant::now(),
             dialog: None,
@@ -160,10 +163,12 @@ impl Files {
     }
 
     /// Keeps what is remembered, in the background and one writing after the other: recent files at once, the session a
-    /// while after it has changed. A disk that is full is no reason to disturb anybody.
+    /// while after it has changed. A disk that is full is told once.
     pub fn keep(&mut self, session: &Session) {
-        if self.keeping.as_ref().is_some_and(|job| job.poll().is_some()) {
+        if let Some(outcome) = self.keeping.as_ref().and_then(Job::poll) {
             self.keeping = None;
+            let outcome = outcome.and_then(|kept| kept.map_err(|error| error.to_string()));
+            self.tell_forgetful(outcome.err());
         }
         let is_same = self.is_kept && self.last.as_ref() == Some(session);
         if is_same || self.keeping.is_some() || self.folder.is_none() {
@@ -180,9 +185,29 @@ impl Files {
         (self.is_kept, self.last, self.since) = (true, Some(session.clone()), Instant::now());
         let (kept, session) = (self.kept.clone(), session.clone());
         self.keeping = Some(Job::start(&self.ctx, move |_| {
-            let _ = kept.write(&folder);
-            let _ = kept::keep_session(&session, &folder);
+            let written = kept.write(&folder);
+            written.and(kept::keep_session(&session, &folder))
         }));
+    }
+
+    /// Tells that nothing can be kept, once; and no longer where it can be again.
+    fn tell_forgetful(&mut self, error: Option<String>) {
+        let Some(folder) = self.folder.clone() else { return };
+        match error {
+            Some(error) if !self.is_forgetful => {
+                let folder_name = folder.display();
+                let text = format!(
+                    "recent files and what is open cannot be kept in {folder_name} for the next time: {error}"
+                );
+                self.tell(&folder, text, true);
+                self.is_forgetful = true;
+            }
+            None if self.is_forgetful => {
+                self.settle(&folder);
+                self.is_forgetful = false;
+            }
+            _ => {}
+        }
     }
 
     /// Waits until everything is written, and all that is remembered too: the window is about to close.
@@ -213,6 +238,16 @@ impl Files {
         self.notes.push(Note { path, text: text.into(), is_error, since });
     }
 
+    /// Tells something that is wrong with a file beside what was told of it before.
+    pub fn tell_too(&mut self, path: &Path, text: &str) {
+        let before = self.notes.iter().find(|note| note.path == path && note.is_error);
+        let text = match before {
+            Some(before) => format!("{}\n{text}", before.text),
+            None => text.to_owned(),
+        };
+        self.tell(path, text, true);
+    }
+
     /// Nothing is to be told about a file any more.
     pub fn settle(&mut self, path: &Path) {
         self.notes.retain(|note| note.path != path);
@@ -232,15 +267,25 @@ impl Files {
 
     /// Asks for the name of a file, beginning near another one.
     pub fn ask(&mut self, purpose: Purpose, near: Option<&Path>) {
-        let recent = self.kept.recent.first();
-        let folder = near.or(recent.map(PathBuf::as_path)).and_then(Path::parent);
-        let here = std::env::current_dir().unwrap_or_default();
-        let folder = folder.filter(|folder| folder.is_dir()).unwrap_or(&here);
         let start = match (&purpose, near) {
-            (Purpose::Open(_), _) | (_, None) => folder.to_owned(),
+            (Purpose::Open(_), _) | (_, None) => self.folder_near(near),
             (_, Some(near)) => near.to_owned(),
         };
         self.dialog = Some(Dialog::new(purpose, &start));
+    }
+
+    /// The folder of a file, or of the last one that was opened; the one that the program was started in if that is gone.
+    #[must_use]
+    pub fn folder_near(&self, near: Option<&Path>) -> PathBuf {
+        let recent = self.kept.recent.first().map(PathBuf::as_path);
+        let folder = near.or(recent).and_then(Path::parent).filter(|folder| folder.is_dir());
+        folder.map_or_else(|| std::env::current_dir().unwrap_or_default(), Path::to_owned)
+    }
+
+    /// True while a file is chosen or written.
+    #[must_use]
+    pub fn is_saving(&self) -> bool {
+        self.dialog.is_some() || !self.writings.is_empty()
     }
 
     /// Shows the field for a name while it is open; what it is for and the file, once one is chosen.
@@ -274,7 +319,7 @@ impl Files {
 
     /// Writes a dataset in the background.
     pub fn write_dataset(&mut self, path: PathBuf, pane: usize, dataset: Arc<Dataset>) {
-        self.write(path, What::Dataset(pane), move |path| {
+        self.write(path, What::Dataset(pane, Arc::clone(&dataset)), move |path| {
             ppum_format::write(&dataset, path).map_err(|error| error.to_string())
         });
     }
@@ -284,7 +329,7 @@ impl Files {
         let mut done = Vec::new();
         self.writings.retain(|writing| match writing.job.poll() {
             Some(outcome) => {
-                done.push((writing.path.clone(), writing.what, outcome.flatten()));
+                done.push((writing.path.clone(), writing.what.clone(), outcome.flatten()));
                 false
             }
             None => true,

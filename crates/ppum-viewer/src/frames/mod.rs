@@ -64,6 +64,21 @@ impl Wanted {
         Self { dataset, scene, view, compare: None, minus: None }
     }
 
+    /// True if another one is of the same datasets.
+    fn is_of_same(&self, other: &Self) -> bool {
+        let is_same_left = match (&self.minus, &other.minus) {
+            (Some(minus), Some(other)) => Arc::ptr_eq(&minus.dataset, &other.dataset),
+            _ => true,
+        };
+        Arc::ptr_eq(&self.dataset, &other.dataset) && is_same_left
+    }
+
+    /// True if another one is of a plate of the same shape and kind: of a file that was written again, for instance.
+    fn is_alike(&self, other: &Self) -> bool {
+        let (dataset, other) = (&self.dataset, &other.dataset);
+        dataset.domain == other.domain && dataset.equation == other.equation
+    }
+
     /// True if another one differs in nothing but the place.
     fn differs_in_place(&self, other: &Self) -> bool {
         *self != *other && *self == Self { view: self.view, ..other.clone() }
@@ -187,8 +202,12 @@ impl Frames {
             let since = at.duration_since(*then);
             let is_moving = since < MOVING && wanted.differs_in_place(before);
             rests_at = is_moving.then(|| at + REST.max(since * 3 / 2));
+            if !wanted.is_of_same(before) {
+                self.failure = None;
+            }
         }
         self.asked = Some((wanted.clone(), at));
+        self.drop_foreign();
         self.worker.want(Wish { wanted, rests_at });
     }
 
@@ -206,7 +225,20 @@ impl Frames {
                 Err(failure) => self.failure = Some(failure),
             }
         }
+        self.drop_foreign();
         is_new
+    }
+
+    /// Forgets a picture of another dataset where it would stand for the one that is wanted: once that has none, or at
+    /// once if the plate is another one.
+    fn drop_foreign(&mut self) {
+        let (Some((asked, _)), Some(newest)) = (&self.asked, &self.newest) else { return };
+        let is_without =
+            self.failure.as_ref().is_some_and(|failure| !failure.fault.leaves_picture());
+        let is_near = !is_without && newest.wanted.is_alike(asked);
+        if !newest.wanted.is_of_same(asked) && !is_near {
+            self.newest = None;
+        }
     }
 
     /// The newest picture, of whatever was wanted then.

@@ -118,6 +118,8 @@ mod threaded {
             let mut state = self.0.state();
             state.wish = Some(wish);
             state.wishes += 1;
+            // why something else had no picture is no news
+            state.outcomes.retain(Result::is_ok);
             drop(state);
             self.0.changed.notify_all();
         }
@@ -147,8 +149,10 @@ mod threaded {
             number = newest;
             let outcome;
             (outcome, next) = step(&mut maker, backend, &wish, &|| shared.is_stale(number));
-            let has_news = outcome.is_some();
             let mut state = shared.state();
+            let is_stale = state.wishes != number;
+            let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
+            let has_news = outcome.is_some();
             add(&mut state.outcomes, outcome);
             if next == Next::Rest {
                 state.fulfilled = number;

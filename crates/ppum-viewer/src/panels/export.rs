@@ -57,7 +57,7 @@ impl Exporter {
         self.finish();
         let mut is_open = true;
         let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
-        window.show(ui.ctx(), |ui| match stage.frames.newest() {
+        window.show(ui.ctx(), |ui| match stage.frame() {
             Some(frame) => self.choose(ui, pane, stage, frame),
             None => {
                 ui.label("There is no picture yet.");

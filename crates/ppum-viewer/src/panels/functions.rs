@@ -69,12 +69,17 @@ fn weight(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Datas
     let subject =
         Subject { name: "Formula of the weight", current: &current, names: &names, version: 0 };
     let check = |text: &str| match weight_of(text, &dataset.tables) {
+        _ if text.trim().is_empty() => Ok(()),
         Ok(_) => Ok(()),
         Err(error) => Err(Mistake::of_replacement(&error, text)),
     };
     chosen = chosen.or(controls.editor("weight").show(ui, &subject, check));
     if let Some(text) = chosen {
-        pane.scene.subject.weight = (text != own).then_some(text);
+        let is_empty = text.trim().is_empty();
+        if is_empty {
+            controls.editor("weight").stay_empty(&own);
+        }
+        pane.scene.subject.weight = (text != own && !is_empty).then_some(text);
     }
 }
 

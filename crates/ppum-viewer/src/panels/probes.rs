@@ -76,7 +76,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 
 /// The quantity's name and unit.
 fn names(stage: &mut Stage) -> Option<[String; 2]> {
-    let frame = stage.frames.newest().cloned()?;
+    let frame = stage.frame().cloned()?;
     let reader = stage.reading.reader(&frame);
     Some([reader.name.clone(), reader.unit.clone()])
 }

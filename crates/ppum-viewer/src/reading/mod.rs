@@ -63,6 +63,12 @@ impl Reading {
         self.reader.get_or_insert_with(|| Reader::new(frame))
     }
 
+    /// Forgets what was read: there is no picture of what is open.
+    pub fn forget(&mut self) {
+        (self.hover, self.read) = (None, None);
+        self.probes.clear();
+    }
+
     /// Reads all probes anew if they or the picture have changed.
     pub fn refresh(&mut self, frame: &Arc<Frame>, pane: &Pane) {
         let is_known = self

@@ -311,7 +311,10 @@ fn solve(
     let plan = Plan::new(&problem, memory, follower)?;
     follower.tell(plan.estimate().to_string());
     ppum_format::check(plan.dataset()).map_err(|error| Stopped::Failed(error.to_string()))?;
-    Ok(plan.solve(follower)?)
+    let dataset = plan.solve(follower)?;
+    // what no file can hold is no solution: a load that is too large leaves numbers that are not finite
+    ppum_format::check(&dataset).map_err(|error| Stopped::Failed(error.to_string()))?;
+    Ok(dataset)
 }
 
 fn parse(text: &str, source: &Source) -> Result<Problem, ProblemError> {

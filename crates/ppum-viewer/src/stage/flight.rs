@@ -40,7 +40,10 @@ impl Flight {
         }
         // slow at both ends
         let eased = part * part * (3.0 - 2.0 * part);
-        Some(Path::new(self.from, self.to).at(eased))
+        let place = Path::new(self.from, self.to).at(eased);
+        // between places that are too far apart there is no way
+        let is_finite = place.width > 0.0 && place.width.is_finite() && place.center().is_finite();
+        is_finite.then_some(place)
     }
 }
 

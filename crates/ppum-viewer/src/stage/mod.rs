@@ -3,6 +3,7 @@
 pub mod against;
 pub mod bar;
 pub mod difference;
+mod fallback;
 pub mod flight;
 pub mod ground;
 pub mod locator;
@@ -30,7 +31,7 @@ use ppum_scene::deformed::{self, Factor};
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
-use crate::frames::{Backend, Frames, Wanted};
+use crate::frames::{Backend, Frame, Frames, Wanted};
 use crate::plate::{bounded, view};
 use crate::reading::Reading;
 use crate::reading::question::Question;
@@ -83,6 +84,8 @@ pub struct Stage {
     moved: Question<Moved, ppum::vec2::Rect>,
     /// True if someone wants to go deeper than doubles do.
     is_at_the_end: bool,
+    /// What cannot be shown as it was chosen and is shown otherwise, for whoever tells it.
+    pub told: Vec<String>,
     now: f64,
 }
 
@@ -135,6 +138,7 @@ impl Stage {
             locator: None,
             moved: Question::default(),
             is_at_the_end: false,
+            told: Vec::new(),
             now: 0.0,
         }
     }
@@ -152,6 +156,9 @@ impl Stage {
         self.fly(ui, pane);
         let whole = self.whole(ui.ctx(), pane, &opened.dataset);
         self.taken = (bar::width(rect) * scale).round() as u32;
+        if pane.place.is_some_and(|place| place.view(pixels).is_err()) {
+            self.show_whole(pane);
+        }
         let Some(view) = view(pane.place, whole, pixels, self.taken) else { return };
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         if !self.draw_by_mouse(ui, &response, &sight, pane) {
@@ -167,6 +174,7 @@ impl Stage {
         if self.frames.poll() {
             // panels have been shown, from the picture before
             ui.ctx().request_repaint();
+            self.fall_back(pane);
         }
         let step = pane.scene.subject.step_of(&opened.dataset);
         self.controls.facts.look_up(&opened.dataset, step);
@@ -183,6 +191,7 @@ impl Stage {
             bar::show(ui, rect, &mut self.grip, &mut pane.scene.colors, frame, hover);
             bar::of_difference(ui, rect, (pane, compare.is_some()), frame);
         }
+        fallback::show(ui, rect, &self.frames);
         self.furnish(ui, rect, pane, &view);
         let map = self.locator.as_ref().and_then(|(_, locator)| locator.as_ref());
         let taken = map.map_or(0.0, |map| map.width(rect, &view));
@@ -369,6 +378,23 @@ impl Stage {
                 self.flight = None;
             }
         }
+    }
+
+    /// The newest picture of the dataset that is open: not of the one before, which may still be seen.
+    #[must_use]
+    pub fn frame(&self) -> Option<&Arc<Frame>> {
+        let dataset = &self.opened.as_ref()?.dataset;
+        self.frames.newest().filter(|frame| Arc::ptr_eq(&frame.wanted.dataset, dataset))
+    }
+
+    /// Shows a dataset from now on: where another plate was, if it has the same place, and else the whole of it.
+    pub fn take(&mut self, pane: &mut Pane, opened: Opened) {
+        let bounds = |opened: &Opened| opened.dataset.domain.bounds;
+        if self.opened.as_ref().is_some_and(|before| bounds(before) != bounds(&opened)) {
+            pane.place = None;
+            self.flight = None;
+        }
+        self.opened = Some(opened);
     }
 
     /// Draws the newest picture, and what lies over it.

@@ -20,8 +20,8 @@ const MARK: f32 = 9.0;
 impl Stage {
     /// Reads the values at the pointer and at the probes.
     pub(super) fn read(&mut self, ui: &Ui, response: &Response, sight: &Sight, pane: &mut Pane) {
-        let Some(frame) = self.frames.newest().cloned() else {
-            self.reading.hover = None;
+        let Some(frame) = self.frame().cloned() else {
+            self.reading.forget();
             return;
         };
         let at = response.hover_pos().filter(|_| self.reading.grip.is_none());
@@ -96,7 +96,7 @@ impl Stage {
     /// What is read at the pointer, else at the selected probe, as a text to be copied.
     #[must_use]
     pub fn copied(&mut self) -> Option<String> {
-        let frame = self.frames.newest().cloned()?;
+        let frame = self.frame().cloned()?;
         let selected = self.reading.selected.and_then(|k| self.reading.probes.get(k));
         let probed = self.reading.hover.as_ref().or(selected)?.clone();
         let reader = self.reading.reader(&frame);
@@ -129,7 +129,7 @@ impl Stage {
         if let Some(tool) = self.reading.tool {
             return vec![format!("{}; Escape leaves it", tool.hint())];
         }
-        let Some(frame) = self.frames.newest().cloned() else { return Vec::new() };
+        let Some(frame) = self.frame().cloned() else { return Vec::new() };
         let (Some(probed), Some(view)) = (self.reading.hover.clone(), self.view) else {
             return Vec::new();
         };

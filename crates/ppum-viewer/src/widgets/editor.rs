@@ -82,6 +82,11 @@ impl Editor {
         Some(self.draft.clone())
     }
 
+    /// Shows nothing where the session has a text of its own for that, until something is written.
+    pub fn stay_empty(&mut self, own: &str) {
+        self.base = Some(own.to_owned());
+    }
+
     /// Forgets what is written: the session's text is shown again.
     pub fn forget(&mut self) {
         *self = Self::default();
@@ -102,6 +107,7 @@ impl Editor {
         let edit = TextEdit::multiline(&mut self.draft)
             .desired_rows(rows)
             .desired_width(f32::INFINITY)
+            .hint_text(subject.current)
             .layouter(&mut layouter);
         let popup = CompletionPopup::new(ui.make_persistent_id(("editor", subject.name)))
             .word_boundary(|c| !is_of_names(c))

@@ -212,3 +212,103 @@ fn damaged_settings_harm_nothing() {
         assert!(viewer.files.notes.iter().all(|note| note.text.contains("is lost")), "{text}");
     }
 }
+
+/// A plate of another size with another equation, solved coarsely.
+fn other() -> ppum::dataset::Dataset {
+    let text = include_str!("../../../../examples/poisson-slit.toml");
+    let text =
+        text.replace("level = 4", "level = 2").replace("max = [1.0, 1.0]", "max = [1.0, 2.0]");
+    let problem = ppum_solve::problem::Problem::parse(&text, "slit", Path::new("."));
+    let problem = problem.expect("it is a problem");
+    let solved = ppum_solve::solve::solve(&problem, ppum::progress::unwatched());
+    solved.expect("it can be solved")
+}
+
+/// A picture of one dataset never stands for another one: neither while that is drawn, nor where it cannot be.
+#[test]
+fn a_file_that_has_become_another_plate_is_shown_as_that() {
+    for quantity in ["syy", "syy + sxx*2", "uy"] {
+        let mut lab = Lab::new();
+        let path = lab.write("plate.h5", &named("First"));
+        lab.open(&path);
+        let pane = &mut lab.state().session.panes[0];
+        pane.scene.quantity = Some(quantity.into());
+        pane.scene.deformed = Some(ppum_scene::deformed::Factor::Auto);
+        pane.place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+        lab.settle();
+        let slit = other();
+        let name = slit.title.clone();
+        lab.write("plate.h5", &slit);
+        lab.until("it is read and drawn", |viewer| {
+            let stage = &viewer.stages[0];
+            let newest = stage.frames.newest();
+            let is_new = title(viewer) == name;
+            if let Some(frame) = newest.filter(|_| is_new) {
+                assert_eq!(frame.wanted.dataset.title, name, "{quantity}");
+            }
+            is_new && newest.is_some() && !viewer.is_working()
+        });
+        lab.settle();
+        let viewer = lab.viewer();
+        assert_eq!(viewer.stages[0].frames.failure(), None);
+        let pane = &viewer.session.panes[0];
+        let scene = &pane.scene;
+        assert_eq!(
+            (&scene.quantity, scene.deformed, pane.place),
+            (&None, None, None),
+            "{quantity}"
+        );
+        let told = format!("plate.h5: {quantity} cannot be shown: ");
+        assert!(lab.notes().contains(&told), "{}", lab.notes());
+        assert!(lab.notes().contains("cannot be deformed"), "{}", lab.notes());
+    }
+}
+
+/// The same plate, whose file no longer names what is looked at: that is told, and can be had back.
+#[test]
+fn a_quantity_that_a_file_no_longer_has_is_left() {
+    let mut lab = Lab::new();
+    let mut first = named("First");
+    let (name, text, unit) = ("mine".into(), "sxx - syy".into(), String::new());
+    first.quantities.push(ppum::dataset::NamedQuantity { name, text, unit });
+    let path = lab.write("plate.h5", &first);
+    lab.open(&path);
+    lab.state().session.panes[0].scene.quantity = Some("mine".into());
+    lab.state().session.panes[0].scene.colors.colormap = Some("cividis".into());
+    lab.settle();
+    assert_eq!(lab.viewer().stages[0].frames.failure(), None);
+    let place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+    lab.state().session.panes[0].place = place;
+    lab.write("plate.h5", &named("Second"));
+    lab.until("the new file is read", |viewer| title(viewer) == "Second");
+    lab.settle();
+    let (stage, pane) = (&lab.viewer().stages[0], &lab.viewer().session.panes[0]);
+    let frame = stage.frames.newest().expect("a picture");
+    assert_eq!((frame.wanted.dataset.title.as_str(), stage.frames.failure()), ("Second", None));
+    assert_eq!((&pane.scene.quantity, pane.place), (&None, place));
+    assert_eq!(pane.scene.colors.colormap.as_deref(), Some("cividis"));
+    assert!(lab.notes().contains("mine cannot be shown: "), "{}", lab.notes());
+    // a mistake in what is written now leaves the picture of the same dataset
+    lab.state().session.panes[0].scene.quantity = Some("nonsense".into());
+    lab.settle();
+    let stage = &lab.viewer().stages[0];
+    assert!(stage.frames.failure().is_some() && stage.frames.newest().is_some());
+}
+
+/// A folder that cannot be written is told once, not never and not always.
+#[test]
+fn what_cannot_be_remembered_is_told_once() {
+    let mut lab = Lab::with(|folder| {
+        fs::write(folder.join("config"), "no folder").expect("written");
+        ppum_viewer::window::Start::default()
+    });
+    let path = lab.write("plate.h5", &named("First"));
+    lab.open(&path);
+    lab.until("it is told", |viewer| !viewer.files.notes.is_empty());
+    assert!(lab.notes().contains("cannot be kept in "), "{}", lab.notes());
+    lab.window.get_by_label("Close the note").click();
+    lab.window.run_steps(2);
+    lab.state().files.remember(&path);
+    lab.settle();
+    assert_eq!(lab.notes(), "");
+}

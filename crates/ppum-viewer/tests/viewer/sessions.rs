@@ -9,7 +9,9 @@ use ppum_render::scale::Scale;
 use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_testkit::random::Random;
+use ppum_testkit::skipped::skipped;
 use ppum_viewer::files::session_file::{parse, text};
+use ppum_viewer::offscreen::{ScreenshotError, screenshot};
 use ppum_viewer::session::{Draft, Minus, Page, Pane, Place, Session, Theme};
 use ppum_viewer::spot::Spot;
 use ppum_viewer::window::Start;
@@ -216,4 +218,117 @@ fn the_window_reopens_as_it_was() {
     assert_eq!(lab.state().session.theme, Theme::Dark);
     assert_eq!(lab.state().session.panes[0].file, Some(other));
     assert_eq!(lab.state().session.panes[0].scene.quantity, None);
+}
+
+/// A session in a file, which has two values of a pane.
+fn written(lab: &Lab, name: &str, file: &str, rest: &str) -> std::path::PathBuf {
+    let path = lab.path(name);
+    let text =
+        format!(r#"{{"ppum-session": 1, "panels": false, "panes": [{{"file": "{file}"{rest}}}]}}"#);
+    fs::write(&path, text).expect("written");
+    path
+}
+
+/// Files of another kind than is meant: a session within itself would be read for ever.
+#[test]
+fn a_session_names_datasets_alone() {
+    let mut lab = Lab::new();
+    lab.write("plate.h5", &plate());
+    fs::write(lab.path("plate.toml"), "title = \"none\"\n").expect("written");
+    written(&lab, "other.ppum-session", "plate.h5", "");
+    for (file, is) in [
+        ("itself.ppum-session", "a session"),
+        ("other.ppum-session", "a session"),
+        ("plate.toml", "the text of a problem"),
+    ] {
+        let path = written(&lab, "itself.ppum-session", file, "");
+        lab.reopen(Start { files: vec![path.clone()], ..Start::default() });
+        let told = format!("it is {is}, where a dataset should be");
+        assert!(lab.notes().contains(&told), "{file}: {}", lab.notes());
+        assert!(lab.notes().contains(&lab.path(file).display().to_string()), "{}", lab.notes());
+        assert!(lab.dataset(0).is_none() && lab.viewer().session.draft.is_none());
+        refused(Start { files: vec![path], ..Start::default() }, &told);
+    }
+    let draft = Some(Draft { path: Some("plate.h5".into()), ..Draft::default() });
+    let session = Session { draft, ..Session::default() };
+    let path = lab.path("draft.ppum-session");
+    fs::write(&path, text(&session, lab.folder.path()).expect("a text")).expect("written");
+    lab.reopen(Start { files: vec![path], ..Start::default() });
+    assert!(lab.notes().contains("it is a dataset, where a problem"), "{}", lab.notes());
+    assert!(lab.dataset(0).is_none());
+}
+
+/// There is no picture of a window that does not show what was chosen.
+fn refused(start: Start, reason: &str) {
+    match screenshot(start) {
+        Err(ScreenshotError::NoDriver(words)) => skipped(&words),
+        Err(error) => assert!(error.to_string().contains(reason), "{error}"),
+        Ok(_) => panic!("a picture where there should be: {reason}"),
+    }
+}
+
+/// Whatever place a session names, a plate is seen, and F shows all of it.
+#[test]
+fn places_that_nothing_can_show_are_the_whole_plate() {
+    let mut lab = Lab::new();
+    lab.write("plate.h5", &plate());
+    for place in [
+        r#""center": [0, 0], "width": 0"#,
+        r#""center": [0, 0], "width": -1"#,
+        r#""center": [0, 0], "width": 1e-300"#,
+        r#""center": [0, 0], "width": 1e308"#,
+        r#""center": [1e308, -1e308], "width": 1"#,
+        r#""center": [1e9, 0], "width": 1"#,
+    ] {
+        let rest = format!(r#", "place": {{{place}}}"#);
+        let path = written(&lab, "a.ppum-session", "plate.h5", &rest);
+        lab.reopen(Start { files: vec![path], ..Start::default() });
+        assert_eq!(lab.viewer().session.panes[0].place, None, "{place}");
+        assert!(lab.notes().contains("the whole plate is"), "{place}: {}", lab.notes());
+        let is_final = |lab: &Lab| lab.viewer().stages[0].frames.newest().map(|f| f.is_final);
+        assert_eq!(is_final(&lab), Some(true), "{place}");
+    }
+    for (center, width) in [
+        ([0.0; 2], 0.0),
+        ([0.0; 2], f64::NAN),
+        ([0.0; 2], 1e-300),
+        ([0.0; 2], 1e308),
+        ([f64::INFINITY, 0.0], 1.0),
+        ([1e300; 2], 1e-3),
+    ] {
+        lab.state().session.panes[0].place = Some(Place { center, width });
+        lab.settle();
+        lab.window.key_press(Key::F);
+        lab.window.step();
+        lab.until("all of it is shown", |viewer| viewer.session.panes[0].place.is_none());
+        lab.settle();
+        let stage = &lab.viewer().stages[0];
+        assert!(stage.view.is_some_and(|view| view.width > 1.0 && view.width < 10.0));
+    }
+}
+
+/// Colours, quantities, functions and parts that are not there: the window shows the plate without and tells it, a
+/// picture of it is refused.
+#[test]
+fn what_a_session_asks_in_vain_is_told() {
+    let mut lab = Lab::new();
+    lab.write("plate.h5", &plate());
+    for (scene, reason) in [
+        (r#""quantity": "nonsense""#, "nonsense cannot be shown"),
+        (r#""colors": {"colormap": "nonsense"}"#, "the colours cannot be those chosen"),
+        (r#""subject": {"part": "nonsense"}"#, "what was replaced cannot be"),
+        (r#""subject": {"weight": "nonsense("}"#, "what was replaced cannot be"),
+    ] {
+        let rest = format!(r#", "scene": {{{scene}}}"#);
+        let path = written(&lab, "a.ppum-session", "plate.h5", &rest);
+        lab.reopen(Start { files: vec![path.clone()], ..Start::default() });
+        assert!(lab.notes().contains(reason), "{scene}: {}", lab.notes());
+        let stage = &lab.viewer().stages[0];
+        assert!(stage.frames.newest().is_some() && stage.frames.failure().is_none(), "{scene}");
+        refused(Start { files: vec![path], ..Start::default() }, reason);
+    }
+    // what leaves a picture in the window, but not the one that was chosen
+    let rest = r#", "scene": {"overlays": {"arrows": -1.0}}"#;
+    let path = written(&lab, "a.ppum-session", "plate.h5", rest);
+    refused(Start { files: vec![path], ..Start::default() }, "");
 }

@@ -253,3 +253,131 @@ fn a_problem_has_room_in_a_small_window() {
         );
     }
 }
+
+/// Loads whose solution no number holds: the words are those of `ppum solve`, and what was solved before can be saved.
+#[test]
+fn a_solution_that_is_not_finite_is_none() {
+    let mut lab = lab(&text(2));
+    let solve = |lab: &mut Lab| {
+        lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+        lab.window.step();
+        lab.settle();
+    };
+    solve(&mut lab);
+    let before = lab.dataset(0).expect("it is solved");
+    *draft(&mut lab) = text(2).replace("traction = [0.0, 1.0]", "traction = [0.0, 1e308]");
+    solve(&mut lab);
+    match &lab.viewer().solving.outcome {
+        Some(Outcome::Failed(error)) => {
+            assert!(error.contains("is not a finite number"), "{error}")
+        }
+        other => panic!("{other:?}"),
+    }
+    assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
+    lab.window.get_by_label("What is shown is not saved.");
+    lab.window.get_by_label("Save the dataset…").click();
+    lab.window.run_steps(3);
+    // under the name of its problem
+    lab.window.key_press(Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let saved = ppum_format::read(&lab.path("plate.h5")).expect("a dataset");
+    assert_eq!(saved, *before, "{}", lab.notes());
+    assert!(lab.window.query_by_label("What is shown is not saved.").is_none());
+}
+
+const UNSAVED: &str = "The solution is not saved.";
+
+/// Asks the window to close, as its cross does; true if it does.
+fn closes(lab: &mut Lab) -> bool {
+    let viewports = &mut lab.window.input_mut().viewports;
+    let viewport = viewports.entry(egui::ViewportId::ROOT).or_default();
+    viewport.events.push(egui::ViewportEvent::Close);
+    lab.window.step();
+    !commands(lab).contains(&egui::ViewportCommand::CancelClose)
+}
+
+fn commands(lab: &Lab) -> Vec<egui::ViewportCommand> {
+    lab.window.output().viewport_output[&egui::ViewportId::ROOT].commands.clone()
+}
+
+fn click(lab: &mut Lab, label: &str) {
+    lab.window.run_steps(2);
+    lab.window.get_by_label(label).click();
+    lab.window.run_steps(1);
+}
+
+#[test]
+fn no_solution_is_lost_without_a_word() {
+    let mut lab = lab(&text(2));
+    assert!(closes(&mut lab), "nothing is lost");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let solved = lab.dataset(0).expect("it is solved");
+    // the cross
+    assert!(!closes(&mut lab));
+    lab.window.run_steps(2);
+    shot(&mut lab, "solving-unsaved");
+    lab.window.get_by_label(UNSAVED);
+    click(&mut lab, "Back");
+    lab.window.run_steps(2);
+    assert!(lab.window.query_by_label(UNSAVED).is_none());
+    // the dataset alone, not closed and then saved
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+    lab.window.run_steps(2);
+    lab.window.get_by_label(UNSAVED);
+    lab.window.key_press(Key::Escape);
+    lab.window.run_steps(2);
+    assert!(lab.window.query_by_label(UNSAVED).is_none());
+    assert!(Arc::ptr_eq(&solved, &lab.dataset(0).expect("it stays")));
+    // given up in the middle of saving
+    assert!(!closes(&mut lab));
+    click(&mut lab, "Save…");
+    lab.window.run_steps(2);
+    lab.window.key_press(Key::Escape);
+    lab.window.run_steps(3);
+    assert!(lab.window.query_by_label(UNSAVED).is_none() && lab.dataset(0).is_some());
+    // saved, then closed
+    assert!(!closes(&mut lab));
+    click(&mut lab, "Save…");
+    lab.window.run_steps(3);
+    lab.window.key_press(Key::Enter);
+    let mut is_closed = false;
+    for _ in 0..500 {
+        lab.window.step();
+        is_closed |= commands(&lab).contains(&egui::ViewportCommand::Close);
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(is_closed, "{}", lab.notes());
+    assert!(closes(&mut lab));
+    assert_eq!(ppum_format::read(&lab.path("plate.h5")).expect("a dataset"), *solved);
+}
+
+#[test]
+fn who_wants_to_lose_a_solution_may() {
+    let mut lab = lab(&text(2));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    // the second view has it too
+    lab.window.key_press(Key::V);
+    lab.window.step();
+    lab.settle();
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+    lab.window.run_steps(2);
+    assert!(lab.window.query_by_label(UNSAVED).is_none());
+    assert_eq!(lab.viewer().stages.len(), 1);
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+    click(&mut lab, "Close without saving");
+    assert!(lab.dataset(0).is_none());
+    assert!(closes(&mut lab));
+    // an example is solved again whenever one wants it
+    lab.window.run_steps(2);
+    lab.state().session.drawer = None;
+    lab.window.run_steps(2);
+    lab.window.get_by_label("Smooth manufactured field").click();
+    lab.window.step();
+    lab.settle();
+    assert!(lab.dataset(0).is_some() && closes(&mut lab));
+}

@@ -160,6 +160,9 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     if let Some(checked) = desk.solving.checked().cloned() {
         mistakes(ui, &checked.marks, desk.solving);
     }
+    let is_solved = matches!(desk.solving.outcome, Some(Outcome::Solved(..)));
+    let opened = &desk.active().1.opened;
+    let is_unsaved = opened.as_ref().is_some_and(|opened| opened.path.is_none());
     match &desk.solving.outcome {
         None => {}
         Some(Outcome::Cancelled) => {
@@ -171,14 +174,24 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
         Some(Outcome::Solved(seconds, warnings)) => {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
-                if ui.button("Save the dataset…").clicked() {
-                    desk.actions.push(Action::SaveDataset);
-                }
+                save(ui, desk.actions);
             });
             for warning in warnings {
                 ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
             }
         }
+    }
+    if is_unsaved && !is_solved {
+        ui.horizontal_wrapped(|ui| {
+            ui.label("What is shown is not saved.");
+            save(ui, desk.actions);
+        });
+    }
+}
+
+fn save(ui: &mut Ui, actions: &mut Vec<Action>) {
+    if ui.button("Save the dataset…").clicked() {
+        actions.push(Action::SaveDataset);
     }
 }
 

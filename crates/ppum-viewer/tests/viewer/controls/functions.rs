@@ -9,6 +9,7 @@ use ppum::replace::Replacements;
 
 use super::{click, frame, open, plate_window, scene, write};
 use crate::kit::plate;
+use crate::kit::settle;
 
 /// The quantity of the picture beside a tip, and that of the plate with something replaced.
 fn both(window: &super::Window, replacements: &Replacements) -> [f64; 2] {
@@ -65,6 +66,16 @@ fn the_weight_is_one_of_the_library_or_a_formula() {
     write(&mut window, "Formula of the weight", "(1 - t)^3");
     let own = both(&window, &with("(1 - t)^3"));
     assert!(is_near(own) && own[0] != bump[0], "{own:?}");
+    // without any text it is the file's, and the field waits for another one
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.step();
+    window.key_press(egui::Key::Backspace);
+    settle(&mut window);
+    assert!(scene(&window).subject.is_whole());
+    window.run_steps(2);
+    window.get_by_label("Formula of the weight").type_text("(1 - t)^5");
+    settle(&mut window);
+    assert_eq!(scene(&window).subject.weight.as_deref(), Some("(1 - t)^5"));
     click(&mut window, "Back to the file's, all of them");
     assert!(scene(&window).subject.is_whole());
 }

@@ -1,0 +1,160 @@
+//! Closing a dataset or the window: not without a word where a solution would be lost that no file has.
+
+use std::sync::Arc;
+
+use egui::{Context, Id, Key, Modal, Modifiers, Ui, ViewportCommand};
+
+use crate::app::Viewer;
+use crate::files::examples;
+use crate::stage::Opened;
+
+/// What is closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parting {
+    /// The dataset of a pane.
+    Pane(usize),
+    /// The window.
+    Window,
+}
+
+/// How far one has come with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Question {
+    /// Nothing is to be closed.
+    #[default]
+    None,
+    /// What becomes of a pane's solution is asked.
+    Asked(Parting, usize),
+    /// It is being saved; what was to be closed is closed then.
+    Saving(Parting, usize),
+    /// The window closes, whatever is lost.
+    LetGo,
+}
+
+/// What is answered.
+enum Answer {
+    Save,
+    Close,
+    Back,
+}
+
+/// Closes the window without a question: nobody would see it.
+pub(crate) fn let_go(ctx: &Context) {
+    ctx.data_mut(|data| data.insert_temp(is_let_go(), true));
+    ctx.send_viewport_cmd(ViewportCommand::Close);
+}
+
+fn is_let_go() -> Id {
+    Id::unique("let go")
+}
+
+impl Viewer {
+    /// Closes something, or asks first.
+    pub(crate) fn part(&mut self, ctx: &Context, parting: Parting) {
+        match (self.lost_with(parting), parting) {
+            (Some(pane), _) => self.parting = Question::Asked(parting, pane),
+            (None, _) => self.close_at_last(ctx, parting),
+        }
+    }
+
+    fn close_at_last(&mut self, ctx: &Context, parting: Parting) {
+        self.parting = Question::None;
+        match parting {
+            Parting::Pane(pane) if pane < self.session.panes.len() => self.close(pane),
+            Parting::Pane(_) => {}
+            Parting::Window => {
+                self.parting = Question::LetGo;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    /// A pane whose solution would be lost.
+    fn lost_with(&self, parting: Parting) -> Option<usize> {
+        let is_unsaved = |pane: &usize| {
+            let opened = self.stages.get(*pane).and_then(|stage| stage.opened.as_ref());
+            opened.is_some_and(is_unsaved)
+        };
+        match parting {
+            Parting::Window => (0..self.stages.len()).find(is_unsaved),
+            Parting::Pane(pane) => {
+                Some(pane).filter(is_unsaved).filter(|pane| !self.is_twice(*pane))
+            }
+        }
+    }
+
+    /// True if the other view has the same dataset.
+    fn is_twice(&self, pane: usize) -> bool {
+        let dataset = |pane: usize| {
+            let opened = self.stages.get(pane)?.opened.as_ref()?;
+            Some(Arc::as_ptr(&opened.dataset))
+        };
+        (0..self.stages.len()).any(|other| other != pane && dataset(other) == dataset(pane))
+    }
+
+    /// Keeps a window open that is about to close where a solution would be lost, and shows the question.
+    pub(super) fn ask_before_parting(&mut self, ui: &Ui) {
+        let ctx = ui.ctx();
+        let is_closing = ctx.input(|input| input.viewport().close_requested());
+        let is_free = self.parting == Question::LetGo
+            || ctx.data(|data| data.get_temp(is_let_go())).unwrap_or(false);
+        if is_closing
+            && !is_free
+            && let Some(pane) = self.lost_with(Parting::Window)
+        {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.parting = Question::Asked(Parting::Window, pane);
+        }
+        let Question::Asked(parting, pane) = self.parting else { return };
+        match ask(ui) {
+            Some(Answer::Save) => {
+                self.parting = Question::Saving(parting, pane);
+                self.ask_dataset(pane);
+            }
+            Some(Answer::Close) => self.close_at_last(ctx, parting),
+            Some(Answer::Back) => self.parting = Question::None,
+            None => {}
+        }
+    }
+
+    /// Closes what was to be closed once its solution is saved; if it was not after all, everything stays.
+    pub(super) fn leave_when_saved(&mut self, ctx: &Context) {
+        let Question::Saving(parting, pane) = self.parting else { return };
+        if self.files.is_saving() {
+            return;
+        }
+        self.parting = Question::None;
+        if self.lost_with(parting) != Some(pane) {
+            self.part(ctx, parting);
+        }
+    }
+}
+
+/// True if no file has a dataset, and it is none of the examples either, which can be had again.
+fn is_unsaved(opened: &Opened) -> bool {
+    let text = opened.dataset.problem.as_deref();
+    let is_example = examples::ALL.iter().any(|example| Some(example.text) == text);
+    opened.path.is_none() && !is_example
+}
+
+/// Shows the question; what is answered.
+fn ask(ui: &Ui) -> Option<Answer> {
+    let mut answer = None;
+    let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {
+        ui.label("The solution is not saved.");
+        ui.add_space(8.0);
+        ui.horizontal_wrapped(|ui| {
+            for (name, meant) in [
+                ("Save…", Answer::Save),
+                ("Close without saving", Answer::Close),
+                ("Back", Answer::Back),
+            ] {
+                if ui.button(name).clicked() {
+                    answer = Some(meant);
+                }
+            }
+        });
+    });
+    let escape = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+    answer.or_else(|| (escape || shown.should_close()).then_some(Answer::Back))
+}
