@@ -1,6 +1,6 @@
 //! What a person can do, by a key, a menu or the palette: one list for all three, and for the help sheet.
 
-use egui::{Key, KeyboardShortcut, Modifiers};
+use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
 use crate::export::What;
 use crate::reading::tool::Tool;
@@ -153,15 +153,15 @@ pub const GROUPS: [&str; 6] =
 pub const ALL: &[Entry] = &[
     entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
     entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
-    entry(Action::Tip(0), "Fly to tip 0", key(Key::Num1), "Moving"),
-    entry(Action::Tip(1), "Fly to tip 1", key(Key::Num2), "Moving"),
-    entry(Action::Tip(2), "Fly to tip 2", key(Key::Num3), "Moving"),
-    entry(Action::Tip(3), "Fly to tip 3", key(Key::Num4), "Moving"),
-    entry(Action::Tip(4), "Fly to tip 4", key(Key::Num5), "Moving"),
-    entry(Action::Tip(5), "Fly to tip 5", key(Key::Num6), "Moving"),
-    entry(Action::Tip(6), "Fly to tip 6", key(Key::Num7), "Moving"),
-    entry(Action::Tip(7), "Fly to tip 7", key(Key::Num8), "Moving"),
-    entry(Action::Tip(8), "Fly to tip 8", key(Key::Num9), "Moving"),
+    entry(Action::Tip(0), "Fly to the 1st tip: tip 0", key(Key::Num1), "Moving"),
+    entry(Action::Tip(1), "Fly to the 2nd tip: tip 1", key(Key::Num2), "Moving"),
+    entry(Action::Tip(2), "Fly to the 3rd tip: tip 2", key(Key::Num3), "Moving"),
+    entry(Action::Tip(3), "Fly to the 4th tip: tip 3", key(Key::Num4), "Moving"),
+    entry(Action::Tip(4), "Fly to the 5th tip: tip 4", key(Key::Num5), "Moving"),
+    entry(Action::Tip(5), "Fly to the 6th tip: tip 5", key(Key::Num6), "Moving"),
+    entry(Action::Tip(6), "Fly to the 7th tip: tip 6", key(Key::Num7), "Moving"),
+    entry(Action::Tip(7), "Fly to the 8th tip: tip 7", key(Key::Num8), "Moving"),
+    entry(Action::Tip(8), "Fly to the 9th tip: tip 8", key(Key::Num9), "Moving"),
     entry(Action::ZoomIn, "Enlarge", key(Key::Plus), "Moving"),
     entry(Action::ZoomOut, "Reduce", key(Key::Minus), "Moving"),
     entry(Action::Pan(-1, 0), "Move left", key(Key::ArrowLeft), "Moving"),
@@ -238,8 +238,67 @@ pub const ALL: &[Entry] = &[
     entry(Action::Quit, "Close the window", control(Key::Q), "Window"),
 ];
 
+/// What the mouse does, and keys that are no actions: what is done by hand, what comes of it, and the heading that it stands
+/// below on the help sheet.
+pub const GESTURES: &[(&str, &str, &str)] = &[
+    ("Drag", "Move the plate", "Moving"),
+    ("Wheel", "Enlarge at the pointer, or reduce", "Moving"),
+    ("Double click", "Show the whole plate", "Moving"),
+    ("Drag the bar", "Move the range, or an end of it", "Colours"),
+    ("Wheel on it", "Widen or narrow the range", "Colours"),
+    ("Click its end", "Write the end of the range", "Colours"),
+    ("Double click it", "Automatic range", "Colours"),
+    ("Click", "Pin a probe, or select one", "Reading"),
+    ("Shift+Drag", "Draw a line, and plot along it", "Reading"),
+    ("Ctrl+Drag", "Draw a circle, at a tip around it", "Reading"),
+    ("Shift", "Read exactly at the pointer", "Reading"),
+    ("Ctrl+C", "Copy what is read, with all digits", "Reading"),
+    ("Escape", "Close what is open, leave a tool", "Window"),
+    ("Shift+Tab", "Walk through buttons and fields", "Window"),
+];
+
+/// A shortcut as people write it: with the signs of keys that have one.
+#[must_use]
+pub fn spelled(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
+    const SIGNS: [(&str, &str); 4] =
+        [("OpenBracket", "["), ("CloseBracket", "]"), ("Plus", "+"), ("Minus", "−")];
+    let text = ctx.format_shortcut(key);
+    let found = SIGNS.iter().find_map(|(name, sign)| Some((text.strip_suffix(name)?, sign)));
+    found.map_or_else(|| text.clone(), |(modifiers, sign)| format!("{modifiers}{sign}"))
+}
+
+/// Takes Tab, which shows and hides the panels, before it moves the focus of the keyboard; whoever writes, or walks through
+/// widgets, has it.
+#[derive(Default)]
+pub(crate) struct Tab {
+    is_pressed: bool,
+}
+
+impl egui::Plugin for Tab {
+    fn debug_name(&self) -> &'static str {
+        "Tab"
+    }
+
+    fn input_hook(&mut self, ctx: &egui::Context, input: &mut RawInput) {
+        if ctx.memory(|memory| memory.focused().is_some()) {
+            return;
+        }
+        let is_tab = |event: &Event| matches!(event, Event::Key { key: Key::Tab, modifiers, .. } if !modifiers.any());
+        let is_press = |event: &Event| matches!(event, Event::Key { pressed: true, .. });
+        self.is_pressed |= input.events.iter().any(|event| is_tab(event) && is_press(event));
+        input.events.retain(|event| !is_tab(event));
+    }
+}
+
 /// The actions whose keys were pressed, unless someone writes.
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
+    let mut all = by_shortcuts(ctx);
+    let tab = ctx.with_plugin(|tab: &mut Tab| std::mem::take(&mut tab.is_pressed));
+    all.extend(tab.filter(|is_pressed| *is_pressed).map(|_| Action::Panels));
+    all
+}
+
+fn by_shortcuts(ctx: &egui::Context) -> Vec<Action> {
     let is_writing = ctx.egui_wants_keyboard_input();
     let mut all: Vec<&Entry> = ALL.iter().collect();
     // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not take Ctrl+Shift+Z
@@ -248,7 +307,9 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     });
     ctx.input_mut(|input| {
         let is_pressed = |entry: &&&Entry| {
-            let Some(key) = entry.key else { return false };
+            let Some(key) = entry.key.filter(|_| entry.action != Action::Panels) else {
+                return false;
+            };
             // a text takes back its own changes
             let is_of_texts = matches!(entry.action, Action::Undo | Action::Redo);
             let is_free = !is_writing || (key.modifiers.command && !is_of_texts);

@@ -107,7 +107,7 @@ mod tests {
             "app",
             &[
                 "actions", "controls", "desk", "export", "files", "fonts", "frames", "panels",
-                "plate", "player", "session", "solving", "stage", "undo",
+                "plate", "player", "session", "solving", "stage", "undo", "widgets",
             ],
         )],
         &[("surface", &["stage"]), ("window", &["app", "files", "frames", "session", "stage"])],

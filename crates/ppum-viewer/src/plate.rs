@@ -1,6 +1,6 @@
 //! Where a plate is in the window: all of it, or a place that can be shown.
 
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::session::Place;
@@ -57,10 +57,55 @@ pub fn is_of(place: Place, bounds: &Rect) -> bool {
 /// How far beyond what can be shown a width may lie: the plate may have been written anew, a little larger.
 const SLACK: f64 = 100.0;
 
+/// The place after a zoom at an offset from the view's centre, which stays where it is: by the factor, or by what the limits
+/// leave of it. True if they have left less of an enlargement.
+#[must_use]
+pub fn zoomed(view: &View, offset: Vec2, factor: f64, bounds: &Rect) -> (Place, bool) {
+    let at = |center: Vec2, width: f64| bounded(Place { center: center.into(), width }, bounds);
+    let width = at(view.center, view.width / factor).width;
+    if width == view.width {
+        return (Place { center: view.center.into(), width }, width > view.width / factor);
+    }
+    let shift = offset * (1.0 - width / view.width);
+    (at(view.center + shift, width), width > view.width / factor)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use ppum_testkit::random::Random;
+
+    #[test]
+    fn whatever_notches_are_turned_the_point_below_the_pointer_stays() {
+        let mut random = Random(11);
+        let bounds = Rect::new(vec2(-1.0, -0.5), vec2(1.0, 0.5));
+        let mut clipped = [0; 2];
+        for _ in 0..200 {
+            let mut view = view(None, bounds, [900, 600], 0).expect("a plate with a size");
+            let pixel = vec2(random.between(300.0, 600.0), random.between(200.0, 400.0));
+            let down = if random.unit() < 0.5 { 1.0 } else { -1.0 };
+            for _ in 0..60 {
+                let factor = (down * random.between(-0.5, 2.0)).exp();
+                let offset = view.offset_at(pixel);
+                let below = view.center + offset;
+                let (place, _) = zoomed(&view, offset, factor, &bounds);
+                let refused = (place.width * factor / view.width - 1.0).abs() > 1e-9;
+                clipped[usize::from(down > 0.0)] += usize::from(refused);
+                let after = super::view(Some(place), bounds, view.pixels, 0).expect("a place");
+                let shift = below - (after.center + after.offset_at(pixel));
+                // only the plate's border may hold the middle back
+                let is_free = bounds.contains(below + offset * (-after.width / view.width));
+                if is_free {
+                    assert!(shift.length() <= 1.1 * after.pixel_size(), "{shift:?} {place:?}");
+                }
+                if refused && after.width == view.width && is_free {
+                    assert_eq!(after.center, view.center);
+                }
+                view = after;
+            }
+        }
+        assert!(clipped.into_iter().all(|count| count > 100), "{clipped:?}");
+    }
 
     #[test]
     fn whatever_is_asked_for_can_be_shown() {

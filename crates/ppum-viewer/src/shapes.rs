@@ -11,9 +11,17 @@ pub struct Placed {
     pub corner: Pos2,
     /// Points of the window per pixel of the picture.
     pub scale: f32,
+    /// The same of widths of lines and sizes of letters.
+    pub pen: f32,
 }
 
 impl Placed {
+    /// Pixels with all that is drawn in them.
+    #[must_use]
+    pub fn new(corner: Pos2, scale: f32) -> Self {
+        Self { corner, scale, pen: scale }
+    }
+
     /// A position in pixels of the picture.
     #[must_use]
     pub fn at(&self, point: ppum::vec2::Vec2) -> Pos2 {
@@ -21,7 +29,31 @@ impl Placed {
     }
 
     fn length(&self, pixels: f64) -> f32 {
-        pixels as f32 * self.scale
+        pixels as f32 * self.pen
+    }
+}
+
+/// Longest side of what is a sign and no line of the plate \[pixels\].
+const SIGN: f64 = 64.0;
+
+/// Draws the long lines of items that were made for quite another magnification: signs would be as large as the window, or
+/// specks.
+pub fn draw_lines(painter: &egui::Painter, placed: Placed, items: &[Item]) {
+    let is_long = |piece: &Vec<ppum::vec2::Vec2>| {
+        let extent = |of: fn(&ppum::vec2::Vec2) -> f64| {
+            let [lo, hi] = piece
+                .iter()
+                .map(of)
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |e, v| [e[0].min(v), e[1].max(v)]);
+            hi - lo
+        };
+        extent(|p| p.x).max(extent(|p| p.y)) > SIGN
+    };
+    for item in items {
+        if let Item::Line { path, pen } = item {
+            let pieces = path.pieces.iter().filter(|piece| is_long(piece)).cloned().collect();
+            lines(painter, placed, &Path { pieces }, pen);
+        }
     }
 }
 
@@ -144,5 +176,59 @@ fn text(painter: &egui::Painter, placed: Placed, lettering: &Lettering) {
 
 /// A text of figures without the signs of subscripts, which labels have no room for.
 pub(crate) fn plain(text: &str) -> String {
-    text.replace("_{", "").replace('}', "")
+    // factors are written as everywhere in the window
+    text.replace("K_{", "K_").replace("_{", "").replace('}', "")
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::vec2::vec2;
+
+    use super::*;
+
+    /// What is drawn of items.
+    fn drawn(
+        placed: Placed,
+        items: &[Item],
+        how: fn(&egui::Painter, Placed, &[Item]),
+    ) -> Vec<Shape> {
+        let mut shapes = Vec::new();
+        egui::__run_test_ui(|ui| {
+            let painter = ui.painter().with_clip_rect(Rect::EVERYTHING);
+            how(&painter, placed, items);
+            shapes = painter.ctx().graphics(|graphics| {
+                let list = graphics.get(painter.layer_id());
+                list.map_or(Vec::new(), |list| {
+                    list.all_entries().map(|s| s.shape.clone()).collect()
+                })
+            });
+        });
+        shapes
+    }
+
+    fn widths(shapes: &[Shape]) -> Vec<f32> {
+        let width = |shape: &Shape| match shape {
+            Shape::LineSegment { stroke, .. } => Some(stroke.width),
+            Shape::Path(path) if path.fill == Color32::TRANSPARENT => Some(path.stroke.width),
+            _ => None,
+        };
+        shapes.iter().filter_map(width).collect()
+    }
+
+    #[test]
+    fn lines_are_no_wider_where_a_picture_is_enlarged_and_signs_are_left_out() {
+        let line = |length: f64| vec![vec2(3.0, 5.0), vec2(3.0 + length, 5.0)];
+        let path = Path { pieces: vec![line(400.0), line(10.0)] };
+        let head = Path { pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]] };
+        let items = [
+            Item::Line { path, pen: Pen::new([0, 0, 0, 255], 1.5) },
+            Item::Fill { outline: head, color: [0, 0, 0, 255] },
+        ];
+        let near = Placed { corner: pos2(0.0, 0.0), scale: 1.8, pen: 1.0 };
+        let shapes = drawn(near, &items, draw);
+        assert_eq!((widths(&shapes), shapes.len()), (vec![1.5, 1.5], 3));
+        let far = Placed { scale: 50.0, ..near };
+        let shapes = drawn(far, &items, draw_lines);
+        assert_eq!((widths(&shapes), shapes.len()), (vec![1.5], 1));
+    }
 }

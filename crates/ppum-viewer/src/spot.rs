@@ -54,6 +54,12 @@ impl Spot {
         (self.anchor() - origin) + self.offset()
     }
 
+    /// True for the same point, whatever it is counted from.
+    #[must_use]
+    pub fn is_at(&self, other: &Self) -> bool {
+        self.from(other.anchor()) == other.offset()
+    }
+
     /// Each coordinate as a text: `0.5`, or `0.5 + 1e-12` where both parts count.
     #[must_use]
     pub fn texts(&self) -> [String; 2] {

@@ -80,17 +80,23 @@ impl Viewer {
             Action::ReverseMap => reverse_map(colors, stage),
             Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
             Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
+            Action::Deform | Action::Swing if stage.is_rigid() && pane.scene.deformed.is_none() => {
+                stage.tell("Nothing is deformed: a potential has no displacements");
+            }
             Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
             Action::Swing => {
                 let now = ctx.input(|input| input.time);
                 stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
                 pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
             }
-            Action::Compare => toggle(&mut pane.compare, Compare::default()),
+            Action::Compare => {
+                toggle(&mut pane.compare, Compare::default());
+                stage.controls.wants = pane.compare.map(|_| "Compare");
+            }
             Action::Extrema => pane.extrema = !pane.extrema,
             Action::Quantity => {
                 stage.controls.quantities.open();
-                stage.controls.wants_quantity = true;
+                stage.controls.wants = Some("Quantity");
                 self.session.panels = true;
             }
             _ => return false,
@@ -110,14 +116,16 @@ impl Viewer {
                     self.exporter = Some(Exporter::new(What::Picture, stage));
                 }
             }
-            Action::Probe => {
-                if let Some(spot) = stage.spot() {
-                    stage.pin(pane, spot);
-                }
-            }
+            Action::Probe => match stage.hovered() {
+                Some(spot) => stage.pin(pane, spot),
+                None => stage.tell("No probe is pinned: the pointer is not over the plate"),
+            },
             Action::CircleForK => {
-                stage.circle_nearest_tip(pane);
-                self.session.drawer = Some(Page::Plot);
+                if stage.circle_nearest_tip(pane) {
+                    self.session.drawer = Some(Page::Plot);
+                } else {
+                    stage.tell("No circle for K: this step has no crack tip");
+                }
             }
             Action::Draw(tool) => stage.reading.tool = Some(tool),
             Action::Step(by) => {

@@ -20,10 +20,11 @@ use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
-use crate::session::{Place, Session, Theme};
+use crate::session::{Page, Place, Session, Theme};
 use crate::stage::difference::Pair;
 use crate::stage::{Opened, Stage, ground};
 use crate::undo::{Rest, Undo};
+use crate::widgets::red;
 
 /// The window.
 pub struct Viewer {
@@ -65,6 +66,12 @@ impl Viewer {
         ctx.set_fonts(fonts());
         // a cursor that blinks would have the window drawn for ever
         ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+        ctx.add_plugin(actions::Tab::default());
+        for theme in [egui::Theme::Dark, egui::Theme::Light] {
+            ctx.style_mut_of(theme, |style| {
+                style.visuals.error_fg_color = red(style.visuals.dark_mode);
+            });
+        }
         session.mend();
         let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
         Self {
@@ -99,6 +106,7 @@ impl Viewer {
         #[cfg(feature = "solve")]
         self.work(ui);
         let mut actions = actions::pressed(ui.ctx());
+        help::take(ui.ctx(), &mut self.has_help, &mut actions);
         let active = self.session.active;
         self.player.advance(ui.ctx(), &mut self.session.panes[active], &self.stages[active]);
         let mut desk = Desk {
@@ -236,6 +244,7 @@ const LEAST: f32 = 240.0;
 fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
     let count = desk.session.panes.len();
     pair(desk);
+    caption(desk);
     let before: Vec<_> = desk.session.panes.iter().map(|pane| pane.place).collect();
     let room = ui.available_rect_before_wrap();
     for number in 0..count {
@@ -271,6 +280,14 @@ fn pair(desk: &mut Desk<'_>) {
     }
 }
 
+/// Names what each of two views shows: the file, of a series the step, and the quantity.
+fn caption(desk: &mut Desk<'_>) {
+    let are_two = desk.session.panes.len() > 1;
+    for (pane, stage) in desk.session.panes.iter().zip(desk.stages.iter_mut()) {
+        stage.caption = if are_two { stage.named(pane) } else { None };
+    }
+}
+
 fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     #[cfg(feature = "solve")]
     if desk.stages[number].opened.is_none() {
@@ -278,6 +295,9 @@ fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
         return;
     }
     desk.stages[number].show(ui, &mut desk.session.panes[number]);
+    if std::mem::take(&mut desk.stages[number].reading.wants_plot) {
+        desk.session.drawer = Some(Page::Plot);
+    }
 }
 
 /// One of some equal parts of a room, side by side; without width where the room has none.

@@ -55,8 +55,8 @@ pub struct Controls {
     pub hidden: Option<Overlays>,
     /// True while the next click on the plate chooses a patch.
     pub is_picking: bool,
-    /// True if the panel of the quantities is to be opened.
-    pub wants_quantity: bool,
+    /// The panel that is to be opened.
+    pub wants: Option<&'static str>,
     /// What is told of the colours of a picture.
     pub colors_told: Option<(Weak<Frame>, String)>,
     /// Values over the steps of a dataset, with the names of their plots.
@@ -105,7 +105,9 @@ impl Controls {
     /// Hides all overlays, or shows those that were there before.
     pub fn toggle_overlays(&mut self, overlays: &mut Overlays) {
         if *overlays == Overlays::default() {
-            let usual = || Overlays { shown: vec![Overlay::Cracks], ..Overlays::default() };
+            let has_cracks = self.facts.without.iter().all(|(other, _)| *other != Overlay::Cracks);
+            let first = if has_cracks { Overlay::Cracks } else { Overlay::Cells };
+            let usual = || Overlays { shown: vec![first], ..Overlays::default() };
             *overlays = self.hidden.take().unwrap_or_else(usual);
         } else {
             self.hidden = Some(std::mem::take(overlays));

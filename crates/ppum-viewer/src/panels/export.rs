@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{ComboBox, DragValue, Grid, TextEdit, Ui, Window};
+use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::moving::Moving;
 
 use crate::export::{Kind, Order, What};
@@ -56,6 +56,7 @@ impl Exporter {
     pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &Stage) -> bool {
         self.finish();
         let mut is_open = true;
+        let has_list = egui::Popup::is_any_open(ui.ctx());
         let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
         window.show(ui.ctx(), |ui| match stage.frame() {
             Some(frame) => self.choose(ui, pane, stage, frame),
@@ -63,17 +64,22 @@ impl Exporter {
                 ui.label("There is no picture yet.");
             }
         });
-        is_open
+        // Escape closes a list first
+        let is_closed =
+            !has_list && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        is_open && !is_closed
     }
 
     fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) {
-        Grid::new("save").num_columns(2).show(ui, |ui| self.fields(ui, frame));
+        let grid = Grid::new("save").num_columns(2);
+        let is_entered = grid.show(ui, |ui| self.fields(ui, frame)).inner;
         let order = self.order(pane, stage, frame);
         let path = PathBuf::from(self.path.trim());
         let refused = self.refused(&path, order.file.as_deref());
         ui.horizontal(|ui| {
             let is_ready = refused.is_none() && self.job.is_none();
-            if ui.add_enabled(is_ready, egui::Button::new("Save file")).clicked() {
+            let button = ui.add_enabled(is_ready, egui::Button::new("Save file"));
+            if button.clicked() || (is_entered && is_ready) {
                 self.save(ui, (order.clone(), frame.factor), path.clone());
             }
             if let Some(job) = &self.job {
@@ -101,7 +107,8 @@ impl Exporter {
         }
     }
 
-    fn fields(&mut self, ui: &mut Ui, frame: &Frame) {
+    /// The fields; true if Enter has finished the name.
+    fn fields(&mut self, ui: &mut Ui, frame: &Frame) -> bool {
         let before = self.what;
         ui.label("Kind");
         ComboBox::from_id_salt("kind").selected_text(self.what.name()).show_ui(ui, |ui| {
@@ -127,7 +134,9 @@ impl Exporter {
             }
         }
         let label = ui.label("File");
-        ui.add(TextEdit::singleline(&mut self.path).desired_width(340.0)).labelled_by(label.id);
+        let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(340.0));
+        let name = name.labelled_by(label.id);
+        let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
         ui.label("Pixels");
         ui.horizontal(|ui| {
@@ -146,6 +155,7 @@ impl Exporter {
             ui.add(DragValue::new(&mut self.count).range(2..=600));
             ui.end_row();
         }
+        is_entered
     }
 
     fn order(&self, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) -> Order {

@@ -1,8 +1,8 @@
 //! The list of keys.
 
-use egui::{Grid, ScrollArea, Ui, Window};
+use egui::{Grid, Key, Modifiers, ScrollArea, Ui, Window};
 
-use crate::actions::{ALL, GROUPS};
+use crate::actions::{ALL, Action, GESTURES, GROUPS, spelled};
 
 /// Columns of the list, where the window has room for them.
 const COLUMNS: usize = 3;
@@ -10,6 +10,15 @@ const COLUMNS: usize = 3;
 const WIDTH: f32 = 345.0;
 /// Around the columns \[points\].
 const MARGIN: f32 = 60.0;
+
+/// What is pressed while the sheet is open is not done behind it; its own key closes it, and so does Escape.
+pub fn take(ctx: &egui::Context, is_open: &mut bool, actions: &mut Vec<Action>) {
+    if *is_open {
+        actions.retain(|action| *action == Action::Help);
+        let escape = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        *is_open = !escape;
+    }
+}
 
 /// Shows the keys while it is open, as many headings side by side as there is room for.
 pub fn show(ui: &Ui, is_open: &mut bool) {
@@ -31,7 +40,9 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
 /// The headings by columns, about as many keys in each.
 fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     let keys = |group: &str| {
-        ALL.iter().filter(|entry| entry.group == group && entry.key.is_some()).count() + 2
+        let by_key = ALL.iter().filter(|entry| entry.group == group && entry.key.is_some());
+        let by_hand = GESTURES.iter().filter(|(.., of)| *of == group);
+        by_key.count() + by_hand.count() + 2
     };
     let all: usize = GROUPS.iter().map(|group| keys(group)).sum();
     let mut found = vec![Vec::new(); columns];
@@ -50,8 +61,13 @@ fn list(ui: &mut Ui, group: &str) {
     Grid::new(group).num_columns(2).show(ui, |ui| {
         for entry in ALL.iter().filter(|entry| entry.group == group) {
             let Some(key) = &entry.key else { continue };
-            ui.monospace(ui.ctx().format_shortcut(key));
+            ui.monospace(spelled(ui.ctx(), key));
             ui.label(entry.name);
+            ui.end_row();
+        }
+        for (hand, meaning, _) in GESTURES.iter().filter(|(.., of)| *of == group) {
+            ui.label(*hand);
+            ui.label(*meaning);
             ui.end_row();
         }
     });

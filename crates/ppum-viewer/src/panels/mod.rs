@@ -39,10 +39,10 @@ pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
         ("Compare", compare::show, false),
         ("Functions", functions::show, false),
     ];
-    let wants_quantity = std::mem::take(&mut desk.active().1.controls.wants_quantity);
+    let wanted = desk.active().1.controls.wants.take();
     ScrollArea::vertical().show(ui, |ui| {
         for (name, show, is_open) in ALL {
-            let opened = (wants_quantity && name == "Quantity").then_some(true);
+            let opened = (wanted == Some(name)).then_some(true);
             let header = CollapsingHeader::new(name).default_open(is_open).open(opened);
             header.show_unindented(ui, |ui| show(ui, desk));
         }

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Key, ScrollArea, TextEdit, Ui, Window};
 
-use crate::actions::{ALL, Action, Entry};
+use crate::actions::{ALL, Action, Entry, spelled};
 
 /// What is looked for.
 #[derive(Clone, Debug, Default)]
@@ -31,8 +31,7 @@ impl Palette {
             ScrollArea::vertical().max_height(280.0).show(ui, |ui| {
                 for (number, entry) in found.iter().enumerate() {
                     let is_chosen = number == self.chosen;
-                    let key =
-                        entry.key.map(|key| ui.ctx().format_shortcut(&key)).unwrap_or_default();
+                    let key = entry.key.map(|key| spelled(ui.ctx(), &key)).unwrap_or_default();
                     let button = egui::Button::selectable(is_chosen, entry.name).shortcut_text(key);
                     if ui.add(button).clicked() {
                         action = Some(entry.action);

@@ -39,6 +39,12 @@ pub struct Reading {
     pub tool: Option<Tool>,
     /// The handle that is dragged.
     pub(crate) grip: Option<Grip>,
+    /// True from the beginning of a new curve to its end.
+    pub(crate) is_new: bool,
+    /// True once a curve was drawn that is to be plotted.
+    pub(crate) wants_plot: bool,
+    /// Why the numbers of a curve were refused.
+    pub refused: Option<String>,
     /// A place that was clicked, and when: a probe, unless it becomes a double click.
     pub(crate) clicked: Option<(f64, Spot)>,
     /// Values along the curve.

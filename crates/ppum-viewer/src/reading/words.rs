@@ -170,11 +170,26 @@ pub fn cell(probed: &Probed) -> Option<String> {
 /// The patches with their φ, the largest first: `φ 0.61 of 12, 0.39 of 13`.
 #[must_use]
 pub fn patches(probed: &Probed) -> Option<String> {
+    let all = listed(probed, 3);
+    (!all.is_empty()).then(|| format!("φ {}", all.join(", ")))
+}
+
+/// The patches with their φ in ever fewer words: all of them, with fewer digits, then the largest alone and `…`.
+#[must_use]
+pub fn shorter(probed: &Probed) -> Vec<String> {
+    let (long, short) = (listed(probed, 3), listed(probed, 2));
+    if long.is_empty() {
+        return Vec::new();
+    }
+    let few = (1..short.len()).rev().map(|count| format!("φ {}, …", short[..count].join(", ")));
+    let all = [long, short.clone()].map(|all| format!("φ {}", all.join(", ")));
+    all.into_iter().chain(few).collect()
+}
+
+fn listed(probed: &Probed, digits: usize) -> Vec<String> {
     let mut all = probed.patches.clone();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let words = |(patch, phi): &(u32, f64)| format!("{} of {patch}", number(*phi, 3));
-    let all: Vec<_> = all.iter().map(words).collect();
-    (!all.is_empty()).then(|| format!("φ {}", all.join(", ")))
+    all.iter().map(|(patch, phi)| format!("{} of {patch}", number(*phi, digits))).collect()
 }
 
 /// All that is read at a point, as a text to be copied: the place and the values with all their digits.

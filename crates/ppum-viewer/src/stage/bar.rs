@@ -225,7 +225,7 @@ impl<'a> Standing<'a> {
     fn paint(&self, ui: &Ui) {
         let ground = ui.visuals().panel_fill.gamma_multiply(0.88);
         ui.painter().rect_filled(self.whole(), 6.0, ground);
-        let placed = Placed { corner: self.corner, scale: 1.0 };
+        let placed = Placed::new(self.corner, 1.0);
         shapes::draw(ui.painter(), placed, &self.bar.items);
     }
 

@@ -1,4 +1,4 @@
-//! The difference of two views: which is taken from which, how large it is, and why there is none.
+//! Two views side by side: what each shows, which is taken from which, how large the difference is, and why there is none.
 
 use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 use ppum::text::trimmed_to;
@@ -44,10 +44,16 @@ const SMALL: f32 = 11.5;
 const NARROW: f32 = 400.0;
 
 /// Says on both plates what they are to each other, in the upper right corner; something on the left takes some of the width.
-pub fn show(ui: &mut Ui, (plate, taken): (Rect, f32), pair: &Pair, frames: &Frames) {
+pub fn show(
+    ui: &mut Ui,
+    (plate, taken): (Rect, f32),
+    (pair, caption): (&Pair, Option<&str>),
+    frames: &Frames,
+) {
     let space = plate.width() - taken - 2.0 * (MARGIN + ROOM);
     let (title, lines) = match pair {
-        Pair::Alone => return,
+        Pair::Alone if caption.is_none() => return,
+        Pair::Alone => ("", Vec::new()),
         Pair::Left => ("left", Vec::new()),
         Pair::Right(None) => ("right", vec![("nothing is open on the left".to_owned(), true)]),
         Pair::Right(Some(_)) => ("right − left", told(frames, space < NARROW)),
@@ -60,7 +66,13 @@ pub fn show(ui: &mut Ui, (plate, taken): (Rect, f32), pair: &Pair, frames: &Fram
     let mut child = ui.new_child(builder);
     child.set_clip_rect(plate);
     child.spacing_mut().item_spacing.y = 1.0;
-    child.add(egui::Label::new(RichText::new(title).strong()).selectable(false));
+    if let Some(caption) = caption {
+        let text = RichText::new(caption).size(SMALL).color(ui.visuals().strong_text_color());
+        child.add(egui::Label::new(text).selectable(false).truncate());
+    }
+    if !title.is_empty() {
+        child.add(egui::Label::new(RichText::new(title).strong()).selectable(false));
+    }
     for (line, is_wrong) in lines {
         let color = if is_wrong { wrong(ui) } else { ui.visuals().text_color() };
         let text = RichText::new(line).size(SMALL).color(color);

@@ -52,7 +52,7 @@ impl Locator {
         let painter = ui.painter_at(rect);
         painter.rect_filled(whole.expand(4.0), 4.0, Color32::from_black_alpha(150));
         painter.rect_filled(whole, 0.0, Color32::from_gray(230));
-        shapes::draw(&painter.with_clip_rect(whole), Placed { corner, scale: 1.0 }, &self.items);
+        shapes::draw(&painter.with_clip_rect(whole), Placed::new(corner, 1.0), &self.items);
         self.mark(&painter, whole, view);
         let zoom = format!("×{}", magnification(self.map.width / view.width));
         let font = egui::FontId::proportional(12.0);

@@ -28,15 +28,17 @@ use ppum_render::deform::DeformError;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::deformed::{self, Factor};
+use ppum_scene::scene::default_quantity;
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
 use crate::frames::{Backend, Frame, Frames, Wanted};
-use crate::plate::{bounded, view};
+use crate::plate::{bounded, view, zoomed};
 use crate::reading::Reading;
 use crate::reading::question::Question;
 use crate::session::{Pane, Place};
 use crate::undo::{Rest, Undo};
+use crate::widgets::elided;
 use against::Against;
 use difference::Pair;
 use flight::Flight;
@@ -86,6 +88,10 @@ pub struct Stage {
     is_at_the_end: bool,
     /// What cannot be shown as it was chosen and is shown otherwise, for whoever tells it.
     pub told: Vec<String>,
+    /// What is shown, where another view stands beside it.
+    pub caption: Option<String>,
+    /// Why a key did nothing, and when.
+    unheeded: Option<(String, f64)>,
     now: f64,
 }
 
@@ -110,6 +116,9 @@ impl Moved {
         deformed::bounds(field, self.factor.number(&[field])?, self.outline)
     }
 }
+
+/// Letters of a name above one of two views.
+const LONGEST: usize = 40;
 
 /// Part of the picture that the keys move it by.
 const PAN: f64 = 0.125;
@@ -139,6 +148,8 @@ impl Stage {
             moved: Question::default(),
             is_at_the_end: false,
             told: Vec::new(),
+            caption: None,
+            unheeded: None,
             now: 0.0,
         }
     }
@@ -195,7 +206,8 @@ impl Stage {
         self.furnish(ui, rect, pane, &view);
         let map = self.locator.as_ref().and_then(|(_, locator)| locator.as_ref());
         let taken = map.map_or(0.0, |map| map.width(rect, &view));
-        difference::show(ui, (rect, taken), &self.pair, &self.frames);
+        let caption = self.caption.as_deref();
+        difference::show(ui, (rect, taken), (&self.pair, caption), &self.frames);
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         self.read(ui, &response, &sight, pane);
         self.pick(&response, pane, &opened.dataset);
@@ -277,6 +289,33 @@ impl Stage {
     #[must_use]
     pub fn is_drawing(&self) -> bool {
         self.frames.is_working() || self.moved.is_working()
+    }
+
+    /// What is shown in a few words: `plate.h5 · step 3 · syy`.
+    #[must_use]
+    pub fn named(&self, pane: &Pane) -> Option<String> {
+        let Opened { path, dataset } = self.opened.as_ref()?;
+        let file = path.as_deref().and_then(std::path::Path::file_name);
+        let name = file.map_or(dataset.title.clone(), |name| name.to_string_lossy().into_owned());
+        let step = pane.scene.subject.step_of(dataset);
+        let step = (dataset.steps.len() > 1).then(|| format!("step {step}"));
+        let known = self.controls.known.field();
+        let usual = || known.map(|field| default_quantity(field.field()).to_owned());
+        let quantity = pane.scene.quantity.clone().or_else(usual);
+        let quantity = quantity.map(|text| elided(&text, LONGEST));
+        let name = Some(elided(&name, LONGEST)).filter(|name| !name.is_empty());
+        Some([name, step, quantity].into_iter().flatten().collect::<Vec<_>>().join(" · "))
+    }
+
+    /// True for a dataset without displacements.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.opened.as_ref().is_some_and(|opened| opened.dataset.equation.elastic().is_none())
+    }
+
+    /// Says for a few seconds, on the line below the plate, why a key did nothing.
+    pub fn tell(&mut self, text: impl Into<String>) {
+        self.unheeded = Some((text.into(), self.now));
     }
 
     /// The number of tips of the step that is looked at.
@@ -369,12 +408,9 @@ impl Stage {
                 let pixel =
                     ppum::vec2::vec2(f64::from(at.x - rect.min.x), f64::from(at.y - rect.min.y))
                         * scale;
-                let shift = view.offset_at(pixel) * (1.0 - 1.0 / factor);
-                let place =
-                    Place { center: (view.center + shift).into(), width: view.width / factor };
-                let moved = bounded(place, &dataset.domain.bounds);
-                self.is_at_the_end = moved.width > place.width;
-                pane.place = Some(moved);
+                let offset = view.offset_at(pixel);
+                let (place, is_at_the_end) = zoomed(view, offset, factor, &dataset.domain.bounds);
+                (pane.place, self.is_at_the_end) = (Some(place), is_at_the_end);
                 self.flight = None;
             }
         }

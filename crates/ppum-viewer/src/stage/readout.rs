@@ -11,6 +11,8 @@ use crate::reading::words::{self, Places};
 use crate::session::Pane;
 use crate::spot::Spot;
 
+/// Seconds for which it is told why a key did nothing.
+const TOLD: f64 = 4.0;
 /// Height of the line below the plate.
 pub(super) const HEIGHT: f32 = 24.0;
 /// Distance in points of the window within which a tip or a crack is meant.
@@ -80,17 +82,26 @@ impl Stage {
         }
     }
 
-    /// Pins a probe.
+    /// Pins a probe; one that is there already is selected.
     pub fn pin(&mut self, pane: &mut Pane, spot: Spot) {
-        pane.probes.push(spot);
-        self.reading.selected = Some(pane.probes.len() - 1);
+        let known = pane.probes.iter().position(|probe| probe.is_at(&spot));
+        if known.is_none() {
+            pane.probes.push(spot);
+        }
+        self.reading.selected = known.or(Some(pane.probes.len() - 1));
+    }
+
+    /// The point of the plate at the pointer.
+    #[must_use]
+    pub fn hovered(&self) -> Option<Spot> {
+        let hover = self.reading.hover.as_ref().filter(|probed| !probed.is_outside());
+        hover.map(|probed| probed.spot)
     }
 
     /// The point that is read: that of the plate at the pointer, else the middle of the view.
     #[must_use]
     pub fn spot(&self) -> Option<Spot> {
-        let hover = self.reading.hover.as_ref().filter(|probed| !probed.is_outside());
-        hover.map(|probed| probed.spot).or_else(|| Some(Spot::new(self.view?.center, Vec2::ZERO)))
+        self.hovered().or_else(|| Some(Spot::new(self.view?.center, Vec2::ZERO)))
     }
 
     /// What is read at the pointer, else at the selected probe, as a text to be copied.
@@ -105,7 +116,7 @@ impl Stage {
 
     /// The line below the plate: what has no room is left out, the least important first.
     pub(super) fn line(&mut self, ui: &mut Ui, pane: &Pane) {
-        let parts = self.words(pane);
+        let (parts, patches) = self.words(pane);
         let (rect, _) =
             ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
         ground::fill(ui, rect, ui.visuals().panel_fill);
@@ -114,7 +125,12 @@ impl Stage {
             .layout(egui::Layout::left_to_right(egui::Align::Center));
         ui.scope_builder(builder, |ui| {
             ui.set_clip_rect(rect);
-            for (k, text) in fitting(ui, parts).into_iter().enumerate() {
+            if let Some(text) = self.unheeded(ui) {
+                let text = RichText::new(text).color(ui.visuals().warn_fg_color);
+                ui.add(egui::Label::new(text).truncate().selectable(false));
+                return;
+            }
+            for (k, text) in fitting(ui, parts, &patches).into_iter().enumerate() {
                 if k > 0 {
                     ui.separator();
                 }
@@ -124,14 +140,26 @@ impl Stage {
         });
     }
 
-    /// The parts of the line, the most important first.
-    fn words(&mut self, pane: &Pane) -> Vec<String> {
-        if let Some(tool) = self.reading.tool {
-            return vec![format!("{}; Escape leaves it", tool.hint())];
+    /// Why a key did nothing, while that is told.
+    fn unheeded(&mut self, ui: &Ui) -> Option<String> {
+        let (text, since) = self.unheeded.clone()?;
+        let rest = TOLD - (self.now - since);
+        if rest <= 0.0 {
+            self.unheeded = None;
+            return None;
         }
-        let Some(frame) = self.frame().cloned() else { return Vec::new() };
+        ui.ctx().request_repaint_after_secs(rest as f32);
+        Some(text)
+    }
+
+    /// The parts of the line, the most important first, and the patches in words, the longest first.
+    fn words(&mut self, pane: &Pane) -> (Vec<String>, Vec<String>) {
+        if let Some(tool) = self.reading.tool {
+            return (vec![format!("{}; Escape leaves it", tool.hint())], Vec::new());
+        }
+        let Some(frame) = self.frame().cloned() else { return Default::default() };
         let (Some(probed), Some(view)) = (self.reading.hover.clone(), self.view) else {
-            return Vec::new();
+            return Default::default();
         };
         let (size, cracks) = (self.plate_size(), self.cracks(pane));
         let cracks = cracks.as_deref().unwrap_or_default();
@@ -142,26 +170,37 @@ impl Stage {
         let digits = digits([norm.min(), norm.max()], words::DIGITS);
         parts.push(words::values_to(&probed, &reader.name, &reader.unit, digits));
         parts.extend(words::terms(&probed));
-        let more = [words::gradients(&probed), words::cell(&probed), words::patches(&probed)];
-        parts.extend(more.into_iter().flatten());
-        parts
+        parts.extend([words::gradients(&probed), words::cell(&probed)].into_iter().flatten());
+        (parts, words::shorter(&probed))
     }
 }
 
-/// The parts that have room beside each other.
-fn fitting(ui: &Ui, parts: Vec<String>) -> Vec<String> {
+/// The parts that have room beside each other, and as many of the patches as there is room for then; `…` where something
+/// was left out.
+fn fitting(ui: &Ui, parts: Vec<String>, patches: &[String]) -> Vec<String> {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let width = |text: &String| {
         let galley = ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
         galley.size().x + 2.0 * ui.spacing().item_spacing.x + 8.0
     };
+    let end = width(&"…".into());
     let mut rest = ui.available_width();
     let has_room = |(k, part): &(usize, String)| {
         rest -= width(part);
         // the value is told in any case, cut off if it has to be
-        *k < 2 || rest >= 0.0
+        *k < 2 || rest >= end
     };
-    parts.into_iter().enumerate().take_while(has_room).map(|(_, part)| part).collect()
+    let all = parts.len();
+    let mut shown: Vec<String> =
+        parts.into_iter().enumerate().take_while(has_room).map(|(_, part)| part).collect();
+    let is_cut = shown.len() < all;
+    let last = if is_cut { None } else { patches.iter().find(|text| width(text) <= rest) };
+    match last {
+        Some(text) => shown.push(text.clone()),
+        None if is_cut || !patches.is_empty() => shown.push("…".into()),
+        None => {}
+    }
+    shown
 }
 
 /// The number of the probe whose mark lies at a position.

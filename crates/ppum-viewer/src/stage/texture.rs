@@ -66,6 +66,9 @@ fn fitting(ctx: &egui::Context, image: &Arc<ColorImage>) -> Arc<ColorImage> {
     Arc::new(ColorImage::new(size, pixels))
 }
 
+/// Layers made for a view so many times larger or smaller are no longer shown with their signs.
+const FAR: f32 = 2.0;
+
 /// Layers on their way to the screen.
 #[derive(Default)]
 pub struct Sheet {
@@ -76,10 +79,16 @@ impl Sheet {
     /// Draws the layers of a frame in a rectangle that shows a view.
     pub fn show(&mut self, painter: &Painter, frame: &Frame, view: &View, rect: Rect) {
         let placed = placed(&frame.layers_view, view, rect);
+        let enlarged = placed.scale / placed.pen;
+        let is_near = (1.0 / FAR..=FAR).contains(&enlarged);
         let Some(image) = &frame.layers.pixels else {
             self.sent = None;
-            return shapes::draw(painter, placed, &frame.layers.items);
+            let draw = if is_near { shapes::draw } else { shapes::draw_lines };
+            return draw(painter, placed, &frame.layers.items);
         };
+        if !is_near {
+            return;
+        }
         if self.sent.as_ref().is_none_or(|(sent, _)| !Arc::ptr_eq(sent, image)) {
             let options = TextureOptions::NEAREST;
             let handle =
@@ -103,5 +112,6 @@ pub fn placed(picture: &View, view: &View, rect: Rect) -> Placed {
     Placed {
         corner: rect.min + vec2(corner.x as f32, corner.y as f32),
         scale: (picture.pixel_size() / view.pixel_size() * points) as f32,
+        pen: points as f32,
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::{CursorIcon, Key, Modifiers, PointerButton, Response, Ui};
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
 use ppum_scene::profile::Along;
 
 use super::Stage;
@@ -47,6 +47,8 @@ impl Stage {
         }
         if response.drag_started_by(PointerButton::Primary) {
             self.reading.grip = self.gripped(ui, &pen, pane);
+            self.reading.refused =
+                self.reading.refused.take().filter(|_| self.reading.grip.is_none());
         }
         let Some(grip) = self.reading.grip else { return false };
         let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
@@ -55,6 +57,9 @@ impl Stage {
         }
         if response.drag_stopped() || !response.dragged() {
             (self.reading.grip, self.reading.tool) = (None, None);
+            // a circle has its words beside it
+            let is_plotted = matches!(pane.curve, Some(Along::Line { .. } | Along::Ray { .. }));
+            self.reading.wants_plot = std::mem::take(&mut self.reading.is_new) && is_plotted;
         }
         true
     }
@@ -74,7 +79,7 @@ impl Stage {
     }
 
     /// The handle that a drag has begun at; that of a new curve if a tool is chosen, by itself or by a key that is held.
-    fn gripped(&self, ui: &Ui, pen: &Pen<'_>, pane: &mut Pane) -> Option<Grip> {
+    fn gripped(&mut self, ui: &Ui, pen: &Pen<'_>, pane: &mut Pane) -> Option<Grip> {
         let at = ui.input(|input| input.pointer.press_origin())?;
         let modifiers = ui.input(|input| input.modifiers);
         let by_key = match () {
@@ -88,26 +93,30 @@ impl Stage {
         let tool = self.reading.tool.or(by_key)?;
         let (along, grip) = pen.begun(tool, &pen.sight.spot(at)?)?;
         pane.curve = Some(along);
+        self.reading.is_new = true;
         Some(grip)
     }
 
-    /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one that is.
-    pub fn circle_nearest_tip(&mut self, pane: &mut Pane) {
+    /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one that is. False where
+    /// there is no tip.
+    pub fn circle_nearest_tip(&mut self, pane: &mut Pane) -> bool {
         let (Some(cracks), Some(spot), Some(view)) = (self.cracks(pane), self.spot(), self.view)
         else {
-            return;
+            return false;
         };
         let end = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
         let distance = |tip: TipId| spot.from(end(tip)).length();
         let all = tips(&cracks).enumerate();
         let Some((tip, id)) = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) else {
-            return;
+            return false;
         };
         let places = Places { view: &view, size: self.plate_size(), cracks: &cracks };
         let seen = places.rounded(SEEN * view.width.min(view.height()));
         let radius = self.usual_radius(pane, id).map_or(seen, |usual| usual.min(seen));
         pane.curve = Some(Along::Around { tip, radius: Some(radius) });
         pane.plot.log = [false; 2];
+        self.reading.refused = None;
+        true
     }
 
     #[cfg(feature = "solve")]
@@ -130,6 +139,32 @@ impl Stage {
             let crack = nearest_crack(&cracks, &spot).map(|index| Along::Crack { index });
             pane.curve = crack.or_else(|| self.middle());
         }
+    }
+
+    /// The reason why there is nothing of a curve on the plate: a radius or a length that leaves it, or is none.
+    #[must_use]
+    pub fn refusal(&self, pane: &Pane, along: &Along) -> Option<String> {
+        let bounds = self.opened.as_ref()?.dataset.domain.bounds;
+        let cracks = self.cracks(pane)?;
+        let tip = |number: usize| {
+            tips(&cracks).nth(number).map(|tip| cracks[tip.crack as usize].end_point(tip.end))
+        };
+        let (center, length, name) = match *along {
+            Along::Circle { center, radius } => (center.into(), radius, "radius"),
+            Along::Around { tip: number, radius } => (tip(number)?, radius?, "radius"),
+            Along::Ray { tip: number, far, .. } => (tip(number)?, far?, "length"),
+            Along::Line { .. } | Along::Crack { .. } => return None,
+        };
+        let Rect { min, max } = bounds;
+        let corners = [min, max, Vec2 { x: min.x, y: max.y }, Vec2 { x: max.x, y: min.y }];
+        let most = corners.into_iter().map(|corner| (corner - center).length()).fold(0.0, f64::max);
+        if length <= 0.0 {
+            return Some(format!("a {name} must be larger than 0"));
+        }
+        (length > most).then(|| {
+            let most = ppum::text::trimmed_to(most, 4);
+            format!("a {name} of {length:?} leaves the plate: from there it ends at {most}")
+        })
     }
 
     /// The line through the middle of the plate, from border to border.

@@ -30,7 +30,7 @@ pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> Chart 
     }
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, shapes::color(canvas.paper));
-    let placed = Placed { corner: rect.min, scale };
+    let placed = Placed::new(rect.min, scale);
     shapes::draw(&painter, placed, &canvas.items);
     Chart { response, placed, area: Area::new(figure, pixels) }
 }

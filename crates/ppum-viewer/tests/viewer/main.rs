@@ -6,6 +6,7 @@ mod frames;
 mod hands;
 mod kit;
 mod lab;
+mod manners;
 mod minus;
 mod moving;
 mod plotting;

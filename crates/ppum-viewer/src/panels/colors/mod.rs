@@ -11,12 +11,13 @@ use ppum_render::scale::Scale;
 use ppum_scene::colors::{Colors, MOST_BANDS};
 use ppum_scene::range::Telling;
 
-use super::{failure, note};
+use super::failure;
 use crate::controls::Controls;
 use crate::controls::facts::Facts;
 use crate::desk::Desk;
 use crate::frames::{Fault, Frame};
 use crate::stage::Stage;
+use crate::widgets::note_of;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -96,9 +97,12 @@ fn told(ui: &mut Ui, stage: &mut Stage) {
         *colors_told = Some((Arc::downgrade(frame), words(frame, facts)));
     }
     if let Some((_, text)) = colors_told {
-        ui.label(note(ui, text.as_str()));
+        note_of(ui, text, LINES);
     }
 }
+
+/// Lines of what is told.
+const LINES: usize = 4;
 
 /// Pixels are counted for it.
 fn words(frame: &Frame, facts: &Facts) -> String {

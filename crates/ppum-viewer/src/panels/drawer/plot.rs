@@ -19,6 +19,7 @@ use crate::stage::Stage;
 use crate::widgets::button;
 use crate::widgets::chart::darkened;
 use crate::widgets::entry::entry;
+use crate::widgets::wrong;
 
 /// Shows the page.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -91,6 +92,7 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
             ui.selectable_value(&mut pane.curve, along, name);
         }
         if pane.curve != before {
+            stage.reading.refused = None;
             let is_ray = matches!(pane.curve, Some(Along::Ray { .. }));
             pane.plot.log = [is_ray; 2];
         }
@@ -112,7 +114,7 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
             }
         }
     }
-    numbers(ui, pane);
+    numbers(ui, pane, stage);
 }
 
 /// The curves of a step that need no drawing.
@@ -143,7 +145,7 @@ fn name(along: &Along) -> String {
 }
 
 /// The numbers of the curve, to be edited.
-fn numbers(ui: &mut Ui, pane: &mut Pane) {
+fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
     let Some(along) = pane.curve else { return };
     let (hint, values): (&str, Vec<f64>) = match along {
         Along::Line { from, to, .. } => ("x, y to x, y", [from, to].concat()),
@@ -154,23 +156,41 @@ fn numbers(ui: &mut Ui, pane: &mut Pane) {
         }
         Along::Crack { .. } => return,
     };
-    let texts: Vec<String> = values.iter().map(|v| ppum::text::exact(*v)).collect();
+    let texts: Vec<String> = values.iter().map(|v| told(*v)).collect();
     if let Along::Line { anchor, .. } = along
         && anchor != [0.0; 2]
     {
         ui.label(format!("({}, {}) +", ppum::text::exact(anchor[0]), ppum::text::exact(anchor[1])));
     }
-    if let Some(text) = entry(ui, "Numbers of the curve", &texts.join(", "), hint, 190.0)
-        && let Some(changed) = with_numbers(along, &text)
-    {
-        pane.curve = Some(changed);
+    if let Some(text) = entry(ui, "Numbers of the curve", &texts.join(", "), hint, 190.0) {
+        let changed = with_numbers(along, &text, &values)
+            .ok_or_else(|| format!("“{}” is not what is needed: {hint}", text.trim()));
+        match changed.and_then(|along| stage.refusal(pane, &along).map_or(Ok(along), Err)) {
+            Ok(changed) => (pane.curve, stage.reading.refused) = (Some(changed), None),
+            Err(reason) => stage.reading.refused = Some(reason),
+        }
+    }
+    if let Some(reason) = &stage.reading.refused {
+        ui.colored_label(wrong(ui), reason);
     }
 }
 
-/// A curve with the numbers of a text; none if these are not the ones that it needs.
-fn with_numbers(along: Along, text: &str) -> Option<Along> {
-    let parsed: Result<Vec<f64>, _> =
-        text.split(',').map(|part| part.trim().replace('−', "-").parse()).collect();
+/// Digits of numbers that are edited: with one more 0.1 + 0.2 would not be 0.3.
+const DIGITS: usize = 15;
+
+fn told(value: f64) -> String {
+    ppum::text::trimmed_to(value, DIGITS)
+}
+
+/// A curve with the numbers of a text, of which those that stand as they did are what they were; none if these are not the
+/// ones that it needs.
+fn with_numbers(along: Along, text: &str, before: &[f64]) -> Option<Along> {
+    let read = |(k, part): (usize, &str)| {
+        let part = part.trim().replace('−', "-");
+        let same = before.get(k).filter(|value| told(**value) == part);
+        same.map_or_else(|| part.parse(), |value| Ok(*value))
+    };
+    let parsed: Result<Vec<f64>, _> = text.split(',').enumerate().map(read).collect();
     let numbers = parsed.ok().filter(|all| all.iter().all(|v: &f64| v.is_finite()))?;
     match (along, &numbers[..]) {
         (Along::Line { anchor, .. }, &[x0, y0, x1, y1]) => {
@@ -246,7 +266,7 @@ fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values, drawn: &P
     let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plotted curves"));
     let size = [rect.width(), rect.height()].map(|points| ((points / SMALLER) as u32).max(1));
-    let placed = Placed { corner: rect.min, scale: SMALLER };
+    let placed = Placed::new(rect.min, SMALLER);
     let painter = ui.painter_at(rect);
     let mut page = plot(drawn, size);
     if ui.visuals().dark_mode {
