@@ -327,8 +327,4 @@ fn what_a_session_asks_in_vain_is_told() {
         assert!(stage.frames.newest().is_some() && stage.frames.failure().is_none(), "{scene}");
         refused(Start { files: vec![path], ..Start::default() }, reason);
     }
-    // what leaves a picture in the window, but not the one that was chosen
-    let rest = r#", "scene": {"overlays": {"arrows": -1.0}}"#;
-    let path = written(&lab, "a.ppum-session", "plate.h5", rest);
-    refused(Start { files: vec![path], ..Start::default() }, "");
 }

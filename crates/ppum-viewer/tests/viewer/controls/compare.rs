@@ -7,7 +7,7 @@ use ppum_render::resample::{Grid, Interpolation};
 use ppum_scene::compare::Compare;
 use ppum_scene::drawing::Values;
 
-use super::{click, frame, open, plate_window};
+use super::{click, frame, plate_window};
 use crate::kit::settle;
 
 #[test]
@@ -15,9 +15,11 @@ fn c_compares_and_the_panel_says_how_far_it_is() {
     let mut window = plate_window();
     window.key_press(Key::C);
     settle(&mut window);
+    // until its panel has unfolded
+    window.run_steps(30);
+    settle(&mut window);
     let pane = window.state().session.pane().clone();
     assert_eq!(pane.compare, Some(Compare::default()));
-    open(&mut window, "Compare");
     click(&mut window, "bicubic");
     window.get_by_label("Points of the grid").set_value_accesskit(5.0);
     settle(&mut window);
@@ -43,6 +45,9 @@ fn the_divider_is_dragged_and_the_plate_stays() {
     let mut window = plate_window();
     window.key_press(Key::C);
     settle(&mut window);
+    // until its panel has unfolded
+    window.run_steps(30);
+    settle(&mut window);
     let [plate, divider] = ["Plate", "Divider"].map(|name| window.get_by_label(name).rect());
     let from = divider.center() + vec2(0.0, 0.3 * plate.height());
     window.hover_at(from);
@@ -56,10 +61,12 @@ fn the_divider_is_dragged_and_the_plate_stays() {
     let pane = window.state().session.pane().clone();
     assert!((pane.against.divider - 0.25).abs() < 1e-3, "{:?}", pane.against);
     assert_eq!(pane.place, None);
-    open(&mut window, "Compare");
     click(&mut window, "difference");
     assert!(window.state().session.pane().against.difference);
     window.key_press(Key::C);
+    settle(&mut window);
+    // until its panel has unfolded
+    window.run_steps(30);
     settle(&mut window);
     assert!(window.query_by_label("Divider").is_none());
 }

@@ -16,7 +16,8 @@ fn both(window: &super::Window, replacements: &Replacements) -> [f64; 2] {
     let frame = frame(window);
     let view = frame.wanted.view;
     let tip = view.pixel_of_offset(ppum::vec2::vec2(0.5, 0.0) - view.center);
-    let [i, j] = [tip.x as u32 + 20, tip.y as u32 - 30];
+    // close to the border of two cells, where patches overlap and the weight matters
+    let [i, j] = [tip.x as u32 + 8, tip.y as u32 - 30];
     let ppum_scene::drawing::Values::Double(raster) = &frame.drawn.values else {
         panic!("pictures are of double precision")
     };
