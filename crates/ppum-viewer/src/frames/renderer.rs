@@ -92,6 +92,7 @@ impl Renderer {
 #[cfg(not(target_arch = "wasm32"))]
 mod cards {
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     use ppum::quantity::{Quantity, Source};
     use ppum_gpu::{Choice, GpuError, Method, Program, RenderError, Renderer, Values};
@@ -129,9 +130,17 @@ mod cards {
         None,
     }
 
+    /// True once it is known that this machine has no card: each look for one keeps some megabytes of the drivers for good.
+    static HAS_NO_CARD: AtomicBool = AtomicBool::new(false);
+
     impl Cards {
         pub(super) fn new(backend: Backend) -> Self {
-            let card = if backend == Backend::Cpu { Card::None } else { Card::Unopened };
+            let none = match backend {
+                Backend::Cpu => true,
+                Backend::Auto => HAS_NO_CARD.load(Ordering::Relaxed),
+                Backend::Gpu | Backend::Splat => false,
+            };
+            let card = if none { Card::None } else { Card::Unopened };
             Self { backend, card, compiled: None, note: None }
         }
 
@@ -194,6 +203,7 @@ mod cards {
         fn give_up(&mut self, subject: &Subject, error: &RenderError) {
             let is_missing = matches!(error, RenderError::Gpu(GpuError::NoAdapter { .. }));
             let is_normal = self.backend == Backend::Auto && is_missing;
+            HAS_NO_CARD.fetch_or(is_normal, Ordering::Relaxed);
             if !is_normal && !matches!(error, RenderError::Quantity(_)) {
                 let lines: Vec<_> =
                     error.to_string().lines().map(|line| line.trim().to_owned()).collect();
