@@ -151,3 +151,74 @@ fn read_back(
     }
     Ok(rgba)
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::{Color32, Stroke, Window};
+    use ppum_testkit::random::Random;
+    use ppum_testkit::skipped::skipped;
+
+    use super::*;
+    use crate::stage::pixels;
+
+    const PIXELS: [u32; 2] = [420, 300];
+
+    /// Widgets, a window above them, and shapes that overlap.
+    fn widgets(ui: &mut egui::Ui, random: &mut Random) {
+        ui.heading("Letters over grounds");
+        let (mut is_on, mut value) = (true, 0.3);
+        ui.horizontal(|ui| {
+            let _ = ui.button("button");
+            ui.checkbox(&mut is_on, "checked");
+            let _ = ui.radio(true, "radio");
+        });
+        ui.add(egui::Slider::new(&mut value, 0.0..=1.0));
+        ui.add(egui::ProgressBar::new(0.4).text("progress"));
+        ui.collapsing("folded", |ui| ui.label("nothing"));
+        Window::new("above").fixed_pos([150.0, 60.0]).show(ui.ctx(), |ui| ui.label("all of it"));
+        for _ in 0..40 {
+            let mut number = |most: f64| (most * random.unit()) as f32;
+            let (at, to) = (pos2(number(420.0), number(300.0)), pos2(number(420.0), number(300.0)));
+            let color = Color32::from_rgba_unmultiplied(200, 80, number(255.0) as u8, 120);
+            let (size, stroke) = (number(30.0), Stroke::new(0.5 + number(3.0), color));
+            ui.painter().circle(at, size, color, stroke);
+            ui.painter().line_segment([at, to], stroke);
+            let label = (egui::Align2::LEFT_TOP, egui::FontId::proportional(9.0 + 0.3 * size));
+            ui.painter().text(to, label.0, "words", label.1, Color32::WHITE);
+        }
+    }
+
+    /// The pixels of what our shader draws as far as it can, and of what egui draws alone.
+    #[test]
+    fn our_shader_draws_what_egui_would_draw() {
+        let picture = |is_ours: bool| {
+            let ctx = Context::default();
+            let surface = surface(&ctx, PIXELS).ok()?;
+            if !is_ours {
+                pixels::use_none(&ctx);
+            }
+            let [width, height] = PIXELS.map(|n| n as f32);
+            let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height)));
+            let show = |time| {
+                let input = RawInput { screen_rect, time: Some(time), ..RawInput::default() };
+                let mut output = ctx.run_ui(input, |ui| widgets(ui, &mut Random(3)));
+                surface.send(&mut output.textures_delta);
+                output
+            };
+            (0..4).for_each(|k| drop(show(f64::from(k))));
+            let handed = surface.hand_over(&ctx, show(9.0));
+            surface.draw(handed, ground(&ctx));
+            Some(read_back(&surface, PIXELS).expect("it can be read"))
+        };
+        let (Some(ours), Some(theirs)) = (picture(true), picture(false)) else {
+            return skipped("there is no graphics driver");
+        };
+        let (least, most) = (ours.iter().min(), ours.iter().max());
+        assert!(most > least, "nothing is drawn");
+        // egui's circles come from a texture, and their rims are softer
+        let differences = || ours.iter().zip(&theirs).map(|(a, b)| a.abs_diff(*b));
+        let off = differences().filter(|by| *by > 2).count();
+        assert!(off < ours.len() / 500, "{off} of {} differ", ours.len());
+        assert!(differences().max() < Some(40), "{:?}", differences().max());
+    }
+}

@@ -22,7 +22,7 @@ use crate::panels::{self, help, top};
 use crate::player::Player;
 use crate::session::{Page, Place, Session, Theme};
 use crate::stage::difference::Pair;
-use crate::stage::{Opened, Stage, ground};
+use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
 use crate::widgets::red;
 
@@ -119,13 +119,13 @@ impl Viewer {
             solving: &mut self.solving,
             actions: &mut actions,
         };
-        ground::show(Panel::top("top"), ui, |ui| top::show(ui, &mut desk));
+        Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
         panels::drawer::show(ui, &mut desk);
         let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
         let has_room = ui.available_width() > LEAST;
         if desk.session.panels && has_plate && has_room {
             let side = Panel::right("side").default_size(300.0);
-            ground::show(side, ui, |ui| panels::side(ui, &mut desk));
+            side.show(ui, |ui| panels::side(ui, &mut desk));
         }
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
         #[cfg(feature = "solve")]

@@ -6,12 +6,11 @@ use super::files;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::files::examples;
-use crate::stage::ground;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let room = ui.available_width();
-    ground::fill(ui, ui.max_rect(), ui.visuals().panel_fill);
+    ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
     ScrollArea::vertical().id_salt("start").auto_shrink([false; 2]).show(ui, |ui| {
         let width = (room - 32.0).clamp(200.0, 760.0);
         ui.add_space(16.0);

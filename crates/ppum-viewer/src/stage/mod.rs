@@ -5,7 +5,6 @@ pub mod bar;
 pub mod difference;
 mod fallback;
 pub mod flight;
-pub mod ground;
 pub mod locator;
 mod marks;
 pub mod material;
@@ -13,6 +12,7 @@ pub mod pixels;
 pub mod readout;
 pub mod scale_bar;
 pub mod sight;
+mod solids;
 pub mod texture;
 pub mod tools;
 
@@ -53,6 +53,11 @@ pub struct Opened {
     pub path: Option<PathBuf>,
     /// The dataset.
     pub dataset: Arc<Dataset>,
+}
+
+/// The colour around the plate.
+fn around(ui: &Ui) -> Color32 {
+    ui.visuals().extreme_bg_color
 }
 
 /// One view: its dataset, its pictures, and what the mouse does in it.

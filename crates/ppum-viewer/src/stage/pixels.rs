@@ -9,13 +9,21 @@ use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescri
 use egui::{Context, Id, PaintCallbackInfo, Painter, Rect};
 use ppum_render::image::Image;
 
+use super::solids::Solids;
 use crate::frames::Painted;
 
 /// Lets pictures be drawn by the shader on a device of wgpu; elsewhere egui draws them.
 pub fn use_device(ctx: &Context, target: wgpu::TextureFormat) {
     if !target.is_srgb() {
         ctx.data_mut(|data| data.insert_temp(id(), target));
+        ctx.add_plugin(Solids);
     }
+}
+
+/// Lets egui draw everything.
+#[cfg(test)]
+pub(crate) fn use_none(ctx: &Context) {
+    ctx.data_mut(|data| data.remove::<wgpu::TextureFormat>(id()));
 }
 
 /// The format of what is drawn on, if our shaders can.
@@ -134,7 +142,7 @@ impl Kept {
         let layout = layout(device);
         let kind = (format, wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let pipelines = ["exact", "smoothed"]
-            .map(|entry| pipeline(device, &shader, &layout, ["corner", entry], kind));
+            .map(|entry| pipeline(device, &shader, &layout, ["corner", entry], kind, None));
         let filter = wgpu::FilterMode::Linear;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: filter,
@@ -245,27 +253,30 @@ fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
     })
 }
 
-/// Draws a rectangle's four corners, and its pixels on a format.
+/// Draws triangles of vertices on a format, or the four corners of a rectangle.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
     [corner, pixel]: [&str; 2],
     (format, blend): (wgpu::TextureFormat, wgpu::BlendState),
+    vertex: Option<wgpu::VertexBufferLayout<'_>>,
 ) -> wgpu::RenderPipeline {
+    let buffers: Vec<_> = vertex.iter().cloned().map(Some).collect();
+    let topology = match vertex {
+        Some(_) => wgpu::PrimitiveTopology::TriangleList,
+        None => wgpu::PrimitiveTopology::TriangleStrip,
+    };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(pixel),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: shader,
             entry_point: Some(corner),
-            buffers: &[],
+            buffers: &buffers,
             compilation_options: wgpu::PipelineCompilationOptions::default(),
         },
-        primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            ..Default::default()
-        },
+        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
         depth_stencil: None,
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {

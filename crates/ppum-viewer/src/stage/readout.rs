@@ -4,7 +4,7 @@ use egui::{Color32, Pos2, Response, RichText, Ui, vec2};
 use ppum::vec2::Vec2;
 
 use super::Stage;
-use super::{ground, sight::Sight};
+use super::sight::Sight;
 use crate::controls::range::digits;
 use crate::frames::Frame;
 use crate::reading::words::{self, Places};
@@ -119,7 +119,7 @@ impl Stage {
         let (parts, patches) = self.words(pane);
         let (rect, _) =
             ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
-        ground::fill(ui, rect, ui.visuals().panel_fill);
+        ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
         let builder = egui::UiBuilder::new()
             .max_rect(rect.shrink2(vec2(8.0, 0.0)))
             .layout(egui::Layout::left_to_right(egui::Align::Center));

@@ -11,7 +11,6 @@ use egui::{Panel, Ui};
 
 use crate::desk::Desk;
 use crate::session::Page;
-use crate::stage::ground;
 use crate::widgets::button;
 
 /// Shows the open page with the names of all others above it.
@@ -20,7 +19,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let most = (0.7 * ui.available_height()).max(120.0);
     let panel =
         Panel::bottom("drawer").resizable(true).default_size(280.0).size_range(120.0..=most);
-    ground::show(panel, ui, |ui| {
+    panel.show(ui, |ui| {
         ui.horizontal(|ui| {
             for other in Page::ALL {
                 if ui.selectable_label(other == page, name(other)).clicked() {
