@@ -113,8 +113,7 @@ pub fn color([r, g, b, a]: Rgba) -> Color32 {
 }
 
 fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
-    let pieces =
-        || path.pieces.iter().map(|piece| piece.iter().map(|p| placed.at(*p)).collect::<Vec<_>>());
+    let pieces = || path.pieces.iter().map(|piece| apart(piece.iter().map(|p| placed.at(*p))));
     if let Some(halo) = pen.halo {
         let stroke = Stroke::new(placed.length(pen.width + 2.0 * halo.width), color(halo.color));
         pieces().for_each(|piece| {
@@ -141,14 +140,52 @@ fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
 
 fn fill(painter: &egui::Painter, placed: Placed, outline: &Path, fill: Rgba) {
     for piece in &outline.pieces {
-        let points: Vec<_> = piece.iter().map(|p| placed.at(*p)).collect();
-        // what has no extent has no sides, and its soft border would lie nowhere
-        let extent = Rect::from_points(&points).size();
-        if extent.max_elem() < NOTHING {
-            continue;
+        let points = corners(piece.iter().map(|p| placed.at(*p)));
+        if can_be_filled(&points) {
+            painter.add(Shape::convex_polygon(points, color(fill), Stroke::NONE));
         }
-        painter.add(Shape::convex_polygon(points, color(fill), Stroke::NONE));
     }
+}
+
+/// Points of a line that lie apart from those before: where several are one, egui knows no direction.
+fn apart(points: impl Iterator<Item = Pos2>) -> Vec<Pos2> {
+    let mut kept: Vec<Pos2> = Vec::new();
+    for point in points {
+        if kept.last().is_none_or(|last| is_apart(point, *last)) {
+            kept.push(point);
+        }
+    }
+    kept
+}
+
+/// True of points whose distance can be seen.
+fn is_apart(p: Pos2, q: Pos2) -> bool {
+    p.distance(q) > nothing(p)
+}
+
+/// What is smaller is not seen, or rounding of single precision \[points\].
+fn nothing(at: Pos2) -> f32 {
+    NOTHING.max(16.0 * f32::EPSILON * at.x.abs().max(at.y.abs()))
+}
+
+/// The corners of an outline.
+fn corners(points: impl Iterator<Item = Pos2>) -> Vec<Pos2> {
+    let mut kept = apart(points);
+    while kept.len() > 1 && !is_apart(kept[0], kept[kept.len() - 1]) {
+        kept.pop();
+    }
+    kept
+}
+
+/// True if an outline has an inside that is seen; the soft border of one that turns back on itself would lie nowhere.
+fn can_be_filled(points: &[Pos2]) -> bool {
+    let cross = |pair: &[Pos2]| {
+        let [p, q] = [pair[0] - points[0], pair[1] - points[0]];
+        p.x * q.y - p.y * q.x
+    };
+    let area = 0.5 * points.windows(2).map(cross).sum::<f32>();
+    let extent = Rect::from_points(points).size().max_elem();
+    points.first().is_some_and(|first| area.abs() > nothing(*first) * extent)
 }
 
 /// What is smaller is not seen \[points\].
@@ -183,6 +220,7 @@ pub(crate) fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use ppum::vec2::vec2;
+    use ppum_testkit::random::Random;
 
     use super::*;
 
@@ -213,6 +251,38 @@ mod tests {
             _ => None,
         };
         shapes.iter().filter_map(width).collect()
+    }
+
+    /// However small an outline is and wherever it lies, also where it turns back on itself.
+    #[test]
+    fn whatever_is_drawn_lies_somewhere() {
+        let mut random = Random(5);
+        for _ in 0..4000 {
+            let size = 10f64.powf(7.0 * random.unit() - 5.0);
+            let corner = vec2(random.unit(), random.unit()) * 10f64.powf(6.0 * random.unit());
+            let flat = if random.below(3) == 0 { 0.0 } else { random.unit() };
+            let count = 1 + random.below(70);
+            let point = |k: usize| {
+                let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+                corner + vec2(cos, flat * sin) * size
+            };
+            let outline = Path { pieces: vec![(0..count).map(point).collect()] };
+            let mut pen = Pen::new([0, 0, 0, 255], 1.5);
+            pen.dashes = (random.below(2) == 0).then_some([4.0, 2.0]);
+            let path = outline.clone();
+            let items = [Item::Fill { outline, color: [0, 0, 0, 255] }, Item::Line { path, pen }];
+            let placed = Placed { corner: pos2(0.0, 0.0), scale: 1.0, pen: 1.0 };
+            let mut mesh = Mesh::default();
+            let options = egui::epaint::TessellationOptions::default();
+            let mut tessellator = egui::epaint::Tessellator::new(1.0, options, [1, 1], Vec::new());
+            for shape in drawn(placed, &items, draw) {
+                tessellator.tessellate_shape(shape, &mut mesh);
+            }
+            let is_there = mesh.vertices.iter().all(|vertex| vertex.pos.is_finite());
+            assert!(is_there, "{count} corners of {size} at {corner:?}, {flat}");
+            let is_seen = count > 2 && flat > 0.1 && size > 0.1 && corner.length() < 1e3;
+            assert!(!is_seen || !mesh.is_empty(), "{count} corners of {size} at {corner:?}");
+        }
     }
 
     #[test]
