@@ -2,12 +2,13 @@
 
 use ppum::crack::Side;
 use ppum::domain::{Hole, LocalDomain};
-use ppum::progress::{Phase, Progress, Watcher};
+use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::map::{Image, Map};
 use super::{DeformError, DeformedView};
+use crate::parts::Parts;
 use crate::pieces::{INSET, Piece, Pieces};
 
 /// Squares are halved that often before it is asked what is seen of them: displacements vary little enough from one to the next.
@@ -42,7 +43,10 @@ pub(super) struct Leaf {
     pub(super) at_rim: bool,
 }
 
-/// All pieces of the plate that may be seen. The watcher is asked at every halving.
+/// Squares that are looked at before the watcher is asked.
+const BLOCK: usize = 32;
+
+/// All pieces of the plate that may be seen.
 pub(super) fn leaves(
     view: &DeformedView<'_>,
     watcher: &dyn Watcher,
@@ -56,13 +60,17 @@ pub(super) fn leaves(
         squares = squares.iter().flat_map(quarters).collect();
     }
     while !squares.is_empty() {
-        watcher.report(Progress::start(Phase::Evaluation, 1))?;
-        let looked_at: Vec<Looked> = squares
-            .par_iter()
-            .map_init(|| Map::new(field, view.anchor), |map, square| cutter.look(map, square))
-            .collect();
+        let parts = Parts::start(watcher, squares.len().div_ceil(BLOCK))?;
+        let blocks = squares.par_chunks(BLOCK).map_init(
+            || Map::new(field, view.anchor),
+            |map, block| {
+                let seen: Vec<_> = block.iter().map(|square| cutter.look(map, square)).collect();
+                parts.finish_one().map(|()| seen)
+            },
+        );
+        let blocks: Vec<Vec<Looked>> = blocks.collect::<Result<_, _>>()?;
         squares.clear();
-        for seen in looked_at {
+        for seen in blocks.into_iter().flatten() {
             match seen {
                 Looked::Leaves(leaves) => found.extend(leaves),
                 Looked::Quarters(quarters) => squares.extend(quarters),

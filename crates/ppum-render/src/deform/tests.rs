@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{Dataset, Equation, FieldData, Material, Step, StressState};
 use ppum::domain::{Domain, Hole};
@@ -507,6 +509,14 @@ fn factors_and_fields_that_do_not_deform() {
     let deformation = Deformation::new(&field, 1.0).unwrap();
     let stopped = deformation.seen(&view).points(&|_: Progress| Verdict::Stop);
     assert!(matches!(stopped, Err(DeformError::Cancelled(_))));
+    // also in the midst of many squares of one size: few are looked at any more
+    let heard = AtomicUsize::new(0);
+    let impatient = |_: Progress| Verdict::go_on_unless(heard.fetch_add(1, Ordering::Relaxed) >= 9);
+    let fine = View::fit(dataset.domain.bounds, [400, 400]).unwrap();
+    let stopped = deformation.seen(&fine).points(&impatient);
+    assert!(matches!(stopped, Err(DeformError::Cancelled(_))));
+    let threads = rayon::current_num_threads();
+    assert!((10..=10 + threads).contains(&heard.into_inner()));
     // a factor that throws the plate out of the picture leaves it empty
     let far = Deformation::new(&field, 1e9).unwrap().seen(&view);
     assert!(far.points(unwatched()).is_ok_and(|points| points.points.len() < 1600));

@@ -20,7 +20,7 @@ use super::over::Over;
 use super::paint::Painted;
 use super::renderer::{Backend, Renderer};
 use super::resampled::{Other, Resampling};
-use super::stop::Stop;
+use super::stop::{Ask, Claim, Stop};
 use super::subject::{Left, Place, Subject, Subjects};
 use super::values::Values;
 use super::{Fault, Frame, Minus, Subtracted, Wanted};
@@ -98,17 +98,12 @@ impl Maker {
         }
     }
 
-    /// Does the first thing that is left to do. `is_stale` says whether something else is wanted by now.
-    pub(super) fn step(
-        &mut self,
-        wish: &Wish,
-        now: Instant,
-        is_stale: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Step, Stop> {
+    /// Does the first thing that is left to do. `claim` says whether it is still wanted.
+    pub(super) fn step(&mut self, wish: &Wish, now: Instant, claim: Ask<'_>) -> Result<Step, Stop> {
         let wanted = &wish.wanted;
         let place = Place { subject: self.subjects.find(wanted)?, view: wanted.view };
-        let watcher = |_: Progress| Verdict::go_on_unless(is_stale());
-        let (drawn, is_whole) = self.drawn(wish, &place, is_stale)?;
+        let watcher = |_: Progress| Verdict::go_on_unless(claim() != Claim::Wanted);
+        let (drawn, is_whole) = self.drawn(wish, &place, claim)?;
         let style = self.style(wanted, &place, &drawn)?;
         let goal = self.goal(&place, (&drawn, is_whole), &style);
         if let Some(goal) = &goal {
@@ -144,7 +139,7 @@ impl Maker {
         &mut self,
         wish: &Wish,
         place: &Place,
-        is_stale: &(dyn Fn() -> bool + Sync),
+        claim: Ask<'_>,
     ) -> Result<(Arc<Drawn>, bool), Stop> {
         if let Some(whole) = self.values.whole.get(place) {
             return Ok((whole, true));
@@ -155,12 +150,8 @@ impl Maker {
         let start = Instant::now();
         let is_rough = self.values.needs_rough(place, wish.rests_at.is_some());
         let drawn = match is_rough {
-            true => {
-                self.patience.with(is_stale, |watcher| self.values.draw_rough(place, watcher))?
-            }
-            false => {
-                self.patience.with(is_stale, |watcher| self.values.draw_whole(place, watcher))?
-            }
+            true => self.patience.with(claim, |watcher| self.values.draw_rough(place, watcher))?,
+            false => self.patience.with(claim, |watcher| self.values.draw_whole(place, watcher))?,
         };
         self.seconds = start.elapsed().as_secs_f64();
         Ok((drawn, !is_rough))
@@ -379,11 +370,15 @@ impl Default for Patience {
 impl Patience {
     fn with<T>(
         &mut self,
-        is_stale: &(dyn Fn() -> bool + Sync),
+        claim: Ask<'_>,
         work: impl FnOnce(&dyn Watcher) -> Result<T, Stop>,
     ) -> Result<T, Stop> {
         let (start, most) = (Instant::now(), self.0);
-        let is_over = || start.elapsed() > most && is_stale();
+        let is_over = || match claim() {
+            Claim::Wanted => false,
+            Claim::Replaced => start.elapsed() > most,
+            Claim::Gone => true,
+        };
         let done = work(&|_: Progress| Verdict::go_on_unless(is_over()));
         self.0 = match &done {
             Err(Stop::Cancelled) => most.saturating_mul(2),

@@ -8,7 +8,6 @@ use ppum_render::image::Image;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{RangeError, Span};
 use ppum_scene::drawing::Drawn;
-use rayon::prelude::*;
 
 /// A picture, and its pixels as egui takes them.
 #[derive(Debug)]
@@ -44,11 +43,9 @@ impl Deref for Painted {
     }
 }
 
-/// Pixels for which it is worth to ask another thread.
-const WORTH: usize = 1 << 14;
-
+/// By this thread alone: it may be that of the window, which must not wait for long work of the pool.
 fn texture(image: &Image) -> ColorImage {
     let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
-    let pixels = image.rgba.as_chunks::<4>().0.par_iter().with_min_len(WORTH).map(color);
+    let pixels = image.rgba.as_chunks::<4>().0.iter().map(color);
     ColorImage::new(image.size.map(|n| n as usize), pixels.collect())
 }

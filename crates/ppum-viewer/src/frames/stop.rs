@@ -21,6 +21,19 @@ pub(super) enum Stop {
     Failed(Failure),
 }
 
+/// Whether what is being made is still wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Claim {
+    Wanted,
+    /// Something else is wanted by now.
+    Replaced,
+    /// Nobody wants anything any more.
+    Gone,
+}
+
+/// Asks for it, from any thread.
+pub(super) type Ask<'a> = &'a (dyn Fn() -> Claim + Sync);
+
 impl Stop {
     /// A mistake, in words.
     pub(super) fn failed(fault: Fault, message: impl Into<String>) -> Self {

@@ -20,7 +20,7 @@ use ppum_testkit::synthetic::Recipe;
 use web_time::Instant;
 
 use super::maker::{Maker, Next, Wish};
-use super::stop::Stop;
+use super::stop::{Ask, Claim, Stop};
 use super::worker::{self, Inline};
 use super::{Backend, Frame, Frames, Minus, Wanted};
 
@@ -50,7 +50,7 @@ fn finished(maker: &mut Maker, wanted: &Wanted) -> Vec<Arc<Frame>> {
     let (wish, mut now) = (Wish { wanted: wanted.clone(), rests_at: None }, Instant::now());
     let mut frames = Vec::new();
     loop {
-        let step = maker.step(&wish, now, &|| false).unwrap();
+        let step = maker.step(&wish, now, &|| Claim::Wanted).unwrap();
         frames.extend(step.frame);
         match step.next {
             Next::More => {}
@@ -64,7 +64,7 @@ fn finished(maker: &mut Maker, wanted: &Wanted) -> Vec<Arc<Frame>> {
 fn moving(maker: &mut Maker, wanted: &Wanted) -> Arc<Frame> {
     let now = Instant::now();
     let wish = Wish { wanted: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
-    maker.step(&wish, now, &|| false).unwrap().frame.expect("a frame comes at once")
+    maker.step(&wish, now, &|| Claim::Wanted).unwrap().frame.expect("a frame comes at once")
 }
 
 fn values(drawn: &Drawn) -> Raster {
@@ -278,10 +278,15 @@ fn ranges_stay_while_one_moves_and_glide_to_the_true_one() {
 fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
     let (dataset, mut maker) = (dataset(), maker());
     let wish = Wish { wanted: wanted(&dataset), rests_at: None };
-    let rough =
-        maker.step(&wish, Instant::now(), &|| true).unwrap().frame.expect("a rough picture");
+    let gone = maker.step(&wish, Instant::now(), &|| Claim::Gone);
+    assert!(matches!(gone, Err(Stop::Cancelled)), "nobody waits for a rough picture either");
+    let rough = maker
+        .step(&wish, Instant::now(), &|| Claim::Replaced)
+        .unwrap()
+        .frame
+        .expect("a rough picture");
     assert!(rough.drawn.view.pixels[0] < PIXELS[0]);
-    let stopped = maker.step(&wish, Instant::now(), &|| true);
+    let stopped = maker.step(&wish, Instant::now(), &|| Claim::Replaced);
     assert!(matches!(stopped, Err(Stop::Cancelled)));
     assert_eq!(maker.values.whole.made, 0);
     assert!(finished(&mut maker, &wish.wanted).last().unwrap().is_final);
@@ -297,7 +302,7 @@ fn mistakes_are_told_where_they_are() {
         let (wish, mut now) = (Wish { wanted, rests_at: None }, Instant::now());
         loop {
             now += Duration::from_millis(16);
-            match maker.step(&wish, now, &|| false) {
+            match maker.step(&wish, now, &|| Claim::Wanted) {
                 Ok(step) if step.next == Next::Rest => return None,
                 Ok(_) => {}
                 Err(Stop::Failed(failure)) => return Some(failure.fault),
@@ -416,8 +421,8 @@ fn a_graphics_device_draws_what_the_processor_draws() {
 fn a_panic_is_told_and_does_no_harm() {
     let (dataset, mut maker) = (dataset(), maker());
     let wish = Wish { wanted: wanted(&dataset), rests_at: None };
-    let run = |maker: &mut Maker, is_stale: &(dyn Fn() -> bool + Sync)| loop {
-        match worker::step(maker, Backend::Cpu, &wish, is_stale) {
+    let run = |maker: &mut Maker, claim: Ask<'_>| loop {
+        match worker::step(maker, Backend::Cpu, &wish, claim) {
             (Some(Err(failure)), next) => return (Some(failure.fault), next),
             (_, Next::Rest) => return (None, Next::Rest),
             _ => {}
@@ -425,6 +430,6 @@ fn a_panic_is_told_and_does_no_harm() {
     };
     let broken = || panic!("a mistake of the program, made by a test");
     assert_eq!(run(&mut maker, &broken), (Some(super::Fault::Program), Next::Rest));
-    assert_eq!(run(&mut maker, &|| false), (None, Next::Rest));
+    assert_eq!(run(&mut maker, &|| Claim::Wanted), (None, Next::Rest));
     assert_eq!(maker.values.whole.made, 1);
 }

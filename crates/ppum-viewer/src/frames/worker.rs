@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use super::maker::{Maker, Next, Step, Wish};
 use super::renderer::Backend;
-use super::stop::Stop;
+use super::stop::{Ask, Stop};
 use super::{Failure, Fault, Outcome};
 
 #[cfg(test)]
@@ -24,9 +24,9 @@ pub(super) fn step(
     maker: &mut Maker,
     backend: Backend,
     wish: &Wish,
-    is_stale: &(dyn Fn() -> bool + Sync),
+    claim: Ask<'_>,
 ) -> (Option<Outcome>, Next) {
-    let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), is_stale)));
+    let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), claim)));
     match made {
         Ok(Ok(Step { frame, next })) => (frame.map(Ok), next),
         Ok(Err(Stop::Cancelled)) => (None, Next::More),
@@ -55,6 +55,7 @@ mod threaded {
     use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
     use std::thread;
 
+    use super::super::stop::Claim;
     use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
 
     /// A thread that makes pictures.
@@ -100,9 +101,13 @@ mod threaded {
             Some((wish, state.wishes))
         }
 
-        fn is_stale(&self, number: usize) -> bool {
+        fn claim(&self, number: usize) -> Claim {
             let state = self.state();
-            state.wishes != number || state.is_closed
+            match () {
+                () if state.is_closed => Claim::Gone,
+                () if state.wishes != number => Claim::Replaced,
+                () => Claim::Wanted,
+            }
         }
     }
 
@@ -148,7 +153,7 @@ mod threaded {
         while let Some((wish, newest)) = shared.next(number, next) {
             number = newest;
             let outcome;
-            (outcome, next) = step(&mut maker, backend, &wish, &|| shared.is_stale(number));
+            (outcome, next) = step(&mut maker, backend, &wish, &|| shared.claim(number));
             let mut state = shared.state();
             let is_stale = state.wishes != number;
             let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
@@ -167,6 +172,7 @@ mod threaded {
 
 #[cfg(any(target_arch = "wasm32", test))]
 mod inline {
+    use super::super::stop::Claim;
     use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
 
     /// Makes pictures while the window is shown.
@@ -193,7 +199,7 @@ mod inline {
             let mut outcomes = Vec::new();
             if let Some(wish) = self.wish.as_ref().filter(|_| self.next != Next::Rest) {
                 let outcome;
-                (outcome, self.next) = step(&mut self.maker, self.backend, wish, &|| false);
+                (outcome, self.next) = step(&mut self.maker, self.backend, wish, &|| Claim::Wanted);
                 add(&mut outcomes, outcome);
                 (self.wake)();
             }

@@ -23,8 +23,9 @@ impl<K, V> Default for Question<K, V> {
 }
 
 impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
-    /// Asks for something unless that is known or on its way; what is asked for while other work runs has to be asked
-    /// for again, or stops that work if it is `urgent`.
+    /// Asks for something unless that is known or on its way. What is asked for while other work runs has to be asked
+    /// for again; if it is `urgent` that work is stopped. So no two threads ever work for one question, however long the
+    /// first takes to stop.
     pub fn ask(
         &mut self,
         key: &K,
@@ -33,11 +34,12 @@ impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
         work: impl FnOnce(&dyn Watcher) -> Answer<V> + Send + 'static,
     ) {
         self.poll();
-        let is_running = self.running.as_ref().is_some_and(|(running, _)| running == key);
-        if is_running || (self.running.is_some() && !urgent) {
+        if let Some((running, job)) = &self.running {
+            if running != key && urgent {
+                job.cancel();
+            }
             return;
         }
-        self.running = None;
         if self.newest.as_ref().is_none_or(|(known, _)| known != key) {
             let job = Job::start(wake, move |stop| work(stop));
             self.running = Some((key.clone(), job));
@@ -99,6 +101,9 @@ mod tests {
         question.ask(&1, false, &wake, endless);
         question.ask(&2, false, &wake, |_| Some(Ok(2)));
         assert!(question.is_working() && question.newest().is_none());
+        while question.is_working() {
+            question.ask(&3, true, &wake, |_| Some(Ok(3)));
+        }
         question.ask(&3, true, &wake, |_| Some(Ok(3)));
         assert_eq!(*answer(&mut question), Ok(3));
         // what is known is not asked again
