@@ -1,13 +1,13 @@
 //! The list of keys.
 
-use egui::{Grid, Key, Modifiers, ScrollArea, Ui, Window};
+use egui::{Grid, Key, KeyboardShortcut, Modifiers, ScrollArea, Ui, Window};
 
-use crate::actions::{ALL, Action, GESTURES, GROUPS, spelled};
+use crate::actions::{ALL, Action, Entry, GESTURES, GROUPS, spelled};
 
 /// Columns of the list, where the window has room for them.
 const COLUMNS: usize = 3;
 /// Width of a column \[points\].
-const WIDTH: f32 = 345.0;
+const WIDTH: f32 = 380.0;
 /// Around the columns \[points\].
 const MARGIN: f32 = 60.0;
 
@@ -25,7 +25,7 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
     let room = ui.ctx().content_rect().size();
     let columns = (((room.x - MARGIN) / WIDTH) as usize).clamp(1, COLUMNS);
     let window = Window::new("Keys").open(is_open).collapsible(false).default_pos([20.0, 40.0]);
-    let window = window.default_height(room.y - 90.0);
+    let window = window.default_size([columns as f32 * WIDTH, room.y - 90.0]);
     window.show(ui.ctx(), |ui| {
         ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
             ui.horizontal_top(|ui| {
@@ -40,9 +40,8 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
 /// The headings by columns, about as many keys in each.
 fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     let keys = |group: &str| {
-        let by_key = ALL.iter().filter(|entry| entry.group == group && entry.key.is_some());
         let by_hand = GESTURES.iter().filter(|(.., of)| *of == group);
-        by_key.count() + by_hand.count() + 2
+        by_key(group).count() + by_hand.count() + 2
     };
     let all: usize = GROUPS.iter().map(|group| keys(group)).sum();
     let mut found = vec![Vec::new(); columns];
@@ -56,13 +55,21 @@ fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     found
 }
 
+/// What keys of a heading do; the nine tips in one line.
+fn by_key(group: &str) -> impl Iterator<Item = (&'static Entry, &'static KeyboardShortcut)> {
+    let is_one = |entry: &&Entry| !matches!(entry.action, Action::Tip(1..));
+    let of = ALL.iter().filter(move |entry| entry.group == group).filter(is_one);
+    of.filter_map(|entry| Some((entry, entry.key.as_ref()?)))
+}
+
 fn list(ui: &mut Ui, group: &str) {
     ui.strong(group);
     Grid::new(group).num_columns(2).show(ui, |ui| {
-        for entry in ALL.iter().filter(|entry| entry.group == group) {
-            let Some(key) = &entry.key else { continue };
-            ui.monospace(spelled(ui.ctx(), key));
-            ui.label(entry.name);
+        for (entry, key) in by_key(group) {
+            let is_first = entry.action == Action::Tip(0);
+            let key = spelled(ui.ctx(), key);
+            ui.monospace(if is_first { "1 … 9".into() } else { key });
+            ui.label(if is_first { "Fly to tip 0 … 8" } else { entry.name });
             ui.end_row();
         }
         for (hand, meaning, _) in GESTURES.iter().filter(|(.., of)| *of == group) {
