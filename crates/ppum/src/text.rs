@@ -56,8 +56,7 @@ pub fn trimmed(value: f64) -> String {
 /// The same with other digits.
 #[must_use]
 pub fn trimmed_to(value: f64, digits: usize) -> String {
-    // f64 holds every whole number up to 2^53
-    if value.fract() == 0.0 && value.abs() < 9e15 {
+    if is_counted(value, digits) {
         return (value as i64).to_string();
     }
     let text = with_digits(value, digits);
@@ -66,6 +65,13 @@ pub fn trimmed_to(value: f64, digits: usize) -> String {
     let kept =
         if has_point { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
     format!("{kept}{exponent}")
+}
+
+/// True for whole numbers that are whole on purpose; a large measured value is whole because f64 has no more digits.
+fn is_counted(value: f64, digits: usize) -> bool {
+    let is_whole = value.fract() == 0.0 && value.abs() < 9e15; // f64 holds every whole number up to 2^53
+    let has_few = || format!("{value:.*e}", digits.saturating_sub(1)).parse() == Ok(value);
+    is_whole && (value.abs() < 1e9 || has_few())
 }
 
 /// The value, or zero where it is rounding beside numbers of some size.
@@ -155,6 +161,19 @@ mod tests {
         }
         assert_eq!([-0.0, 1_234_567.0, 1.5].map(trimmed), ["0", "1234567", "1.5"]);
         assert_eq!(trimmed_to(0.049_951, 2), "0.05");
+    }
+
+    #[test]
+    fn whole_numbers_are_written_in_full_if_they_are_whole_on_purpose() {
+        for (value, text) in [
+            (123_456_789.0, "123456789"),
+            (2.1e11, "210000000000"),
+            (-4e15, "-4000000000000000"),
+            // doubles of this size have no digits after the point
+            (7_141_602_316_710_889.0, "7.1416e15"),
+        ] {
+            assert_eq!(trimmed_to(value, 5), text);
+        }
     }
 
     #[test]
