@@ -40,6 +40,11 @@ use std::process::ExitCode;
 
 use output::{Output, show, tell};
 
+/// A window is open for days, and gives memory back.
+#[cfg(feature = "window")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     signals::watch();
     match cli::Cli::understood(std::env::args_os()) {

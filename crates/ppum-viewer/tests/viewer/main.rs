@@ -1,5 +1,10 @@
 //! The window, driven by its labels, keys and the mouse.
 
+/// As in the program.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+mod busy;
 mod controls;
 mod files;
 mod frames;
