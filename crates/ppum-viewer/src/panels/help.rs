@@ -31,6 +31,7 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
             ui.horizontal_top(|ui| {
                 for groups in columns_of(columns) {
                     ui.vertical(|ui| groups.iter().for_each(|group| list(ui, group)));
+                    ui.add_space(12.0);
                 }
             });
         });

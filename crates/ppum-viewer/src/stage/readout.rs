@@ -6,7 +6,6 @@ use ppum::vec2::Vec2;
 use super::Stage;
 use super::sight::Sight;
 use crate::controls::range::digits;
-use crate::frames::Frame;
 use crate::reading::words::{self, Places};
 use crate::session::Pane;
 use crate::spot::Spot;
@@ -43,7 +42,7 @@ impl Stage {
 
     /// Asks for K of what is shown, with all that is replaced in it.
     #[cfg(feature = "solve")]
-    fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &Frame) {
+    fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &crate::frames::Frame) {
         let dataset = frame.field.dataset();
         let step = frame.wanted.scene.subject.step_of(dataset);
         if self.reading.grip.is_none() {
