@@ -146,9 +146,13 @@ pub fn run(start: Start) -> Result<(), WindowError> {
     match (failure.reason(), closed) {
         (Some(reason), _) => Err(WindowError::Lost(reason)),
         (None, Ok(closed)) => Ok(closed?),
+        (None, Err(_)) if !failure.has_memory() => Err(WindowError::Lost(SILENT.into())),
         (None, Err(panic)) => resume_unwind(panic),
     }
 }
+
+/// Of a device that tells nothing.
+const SILENT: &str = "it has no memory any more";
 
 /// A device that answers no sooner has failed.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -183,6 +187,19 @@ impl Failure {
         let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
         reason.get_or_insert(words);
         parting::let_go(ctx);
+    }
+
+    /// True if the device still gives memory: one that was lost may tell nothing at all.
+    fn has_memory(&self) -> bool {
+        let Some(device) = self.device.get() else { return true };
+        let some = wgpu::BufferDescriptor {
+            label: None,
+            size: 4,
+            usage: wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: true,
+        };
+        let gives = || device.create_buffer(&some).slice(..).get_mapped_range().is_ok();
+        catch_unwind(AssertUnwindSafe(gives)).unwrap_or(false)
     }
 
     /// The reason, if there is one: the device is asked, which may not have told it yet.
