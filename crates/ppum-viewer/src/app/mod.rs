@@ -45,6 +45,9 @@ pub struct Viewer {
     /// What is about to be closed with a solution that is not saved.
     #[cfg(feature = "solve")]
     parting: parting::Question,
+    /// Files that were read and are not shown yet.
+    #[cfg(feature = "solve")]
+    waiting: std::collections::VecDeque<crate::files::read::Arrived>,
     pub(crate) palette: Option<Palette>,
     pub(crate) exporter: Option<Exporter>,
     pub(crate) has_help: bool,
@@ -86,6 +89,8 @@ impl Viewer {
             solving: crate::solving::Solving::new(ctx),
             #[cfg(feature = "solve")]
             parting: parting::Question::default(),
+            #[cfg(feature = "solve")]
+            waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
             has_help: false,

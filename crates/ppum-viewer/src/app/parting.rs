@@ -1,11 +1,13 @@
-//! Closing a dataset or the window: not without a word where a solution would be lost that no file has.
+//! Closing a dataset or the window, or opening something in its place: not without a word where a solution would be lost that no file has.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use egui::{Context, Id, Key, Modal, Modifiers, Ui, ViewportCommand};
 
 use crate::app::Viewer;
 use crate::files::examples;
+use crate::files::read::{Arrived, Content, Why};
 use crate::stage::Opened;
 
 /// What is closed.
@@ -15,6 +17,8 @@ pub enum Parting {
     Pane(usize),
     /// The window.
     Window,
+    /// What lies where the first file is to be shown that waits for it.
+    Arrival,
 }
 
 /// How far one has come with it.
@@ -66,6 +70,29 @@ impl Viewer {
                 self.parting = Question::LetGo;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
+            Parting::Arrival => {
+                if let Some(arrived) = self.waiting.pop_front() {
+                    self.arrive(ctx, arrived);
+                }
+            }
+        }
+    }
+
+    /// Shows what was read, one after the other, or asks first.
+    pub(super) fn let_in(&mut self, ctx: &Context) {
+        self.waiting.extend(self.files.arrived());
+        while self.parting == Question::None && !self.waiting.is_empty() {
+            self.part(ctx, Parting::Arrival);
+        }
+    }
+
+    /// The panes that something takes.
+    fn taken_by(&self, arrived: &Arrived) -> Range<usize> {
+        match arrived.content {
+            _ if arrived.why != Why::Opened => 0..0,
+            Ok(Content::Dataset(_)) => arrived.pane..arrived.pane + 1,
+            Ok(Content::Session(_)) => 0..self.stages.len(),
+            Ok(Content::Problem(_)) | Err(_) => 0..0,
         }
     }
 
@@ -75,12 +102,14 @@ impl Viewer {
             let opened = self.stages.get(*pane).and_then(|stage| stage.opened.as_ref());
             opened.is_some_and(is_unsaved)
         };
-        match parting {
-            Parting::Window => (0..self.stages.len()).find(is_unsaved),
-            Parting::Pane(pane) => {
-                Some(pane).filter(is_unsaved).filter(|pane| !self.is_twice(*pane))
-            }
-        }
+        let mut panes = match parting {
+            Parting::Window => 0..self.stages.len(),
+            Parting::Pane(pane) => pane..pane + 1,
+            Parting::Arrival => self.waiting.front().map_or(0..0, |first| self.taken_by(first)),
+        };
+        // of one dataset in two views one may go
+        let is_one = panes.len() == 1;
+        panes.find(|pane| is_unsaved(pane) && !(is_one && self.is_twice(*pane)))
     }
 
     /// True if the other view has the same dataset.
@@ -106,13 +135,22 @@ impl Viewer {
             self.parting = Question::Asked(Parting::Window, pane);
         }
         let Question::Asked(parting, pane) = self.parting else { return };
-        match ask(ui) {
+        let without = match parting {
+            Parting::Arrival => "Open without saving",
+            Parting::Pane(_) | Parting::Window => "Close without saving",
+        };
+        match ask(ui, without) {
             Some(Answer::Save) => {
                 self.parting = Question::Saving(parting, pane);
                 self.ask_dataset(pane);
             }
             Some(Answer::Close) => self.close_at_last(ctx, parting),
-            Some(Answer::Back) => self.parting = Question::None,
+            Some(Answer::Back) => {
+                self.parting = Question::None;
+                if parting == Parting::Arrival {
+                    self.waiting.pop_front();
+                }
+            }
             None => {}
         }
     }
@@ -126,6 +164,8 @@ impl Viewer {
         self.parting = Question::None;
         if self.lost_with(parting) != Some(pane) {
             self.part(ctx, parting);
+        } else if parting == Parting::Arrival {
+            self.waiting.pop_front();
         }
     }
 }
@@ -138,17 +178,15 @@ fn is_unsaved(opened: &Opened) -> bool {
 }
 
 /// Shows the question; what is answered.
-fn ask(ui: &Ui) -> Option<Answer> {
+fn ask(ui: &Ui, without: &str) -> Option<Answer> {
     let mut answer = None;
     let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {
         ui.label("The solution is not saved.");
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
-            for (name, meant) in [
-                ("Save…", Answer::Save),
-                ("Close without saving", Answer::Close),
-                ("Back", Answer::Back),
-            ] {
+            for (name, meant) in
+                [("Save…", Answer::Save), (without, Answer::Close), ("Back", Answer::Back)]
+            {
                 if ui.button(name).clicked() {
                     answer = Some(meant);
                 }

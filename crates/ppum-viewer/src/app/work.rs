@@ -30,9 +30,7 @@ impl Viewer {
             self.files.kept.size = Some(rect.size().into());
         }
         self.files.keep(&self.session);
-        for arrived in self.files.arrived() {
-            self.arrive(&ctx, arrived);
-        }
+        self.let_in(&ctx);
         let (panes, draft) = (&self.session.panes, &self.session.draft);
         let draft = draft.as_ref().and_then(|draft| draft.path.as_deref());
         let is_open = |path: &Path| {
@@ -267,7 +265,7 @@ impl Viewer {
     }
 
     /// Shows what was read; what cannot be read is told beside its name, and harms nothing.
-    fn arrive(&mut self, ctx: &egui::Context, arrived: Arrived) {
+    pub(super) fn arrive(&mut self, ctx: &egui::Context, arrived: Arrived) {
         let Arrived { path, pane, why, stamp, content } = arrived;
         // it may have been closed since, and another one taken its place
         let Some(pane) = self.place_of(&path, pane, why) else { return };

@@ -1,6 +1,7 @@
 //! Problems: mistakes at their places, solved in the background, stopped, refused, saved only when it is asked for.
 
 use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Key, Modifiers};
@@ -12,6 +13,7 @@ use ppum_viewer::session::Place;
 use ppum_viewer::solving::Outcome;
 use ppum_viewer::window::Start;
 
+use crate::kit::plate;
 use crate::lab::{Lab, shot};
 
 const TEXT: &str = include_str!("../../../../examples/centre-crack.toml");
@@ -380,4 +382,58 @@ fn who_wants_to_lose_a_solution_may() {
     lab.window.step();
     lab.settle();
     assert!(lab.dataset(0).is_some() && closes(&mut lab));
+}
+
+/// Asks for a file and waits until it is shown or something is asked.
+fn ask_for(lab: &mut Lab, path: &Path, pane: usize) {
+    let ctx = lab.window.ctx.clone();
+    lab.state().open_file(&ctx, path, pane);
+    lab.settle();
+    lab.window.run_steps(3);
+}
+
+#[test]
+fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
+    let mut lab = lab(&text(2));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let solved = lab.dataset(0).expect("it is solved");
+    let (other, session) = (lab.write("other.h5", &plate()), lab.path("one.ppum-session"));
+    fs::write(&session, r#"{"ppum-session": 1, "panes": []}"#).expect("a session");
+    let is_there = |lab: &Lab| lab.dataset(0).is_some_and(|there| Arc::ptr_eq(&there, &solved));
+    for path in [&other, &session] {
+        ask_for(&mut lab, path, 0);
+        lab.window.get_by_label(UNSAVED);
+        assert!(is_there(&lab));
+        click(&mut lab, "Back");
+        lab.settle();
+        assert!(is_there(&lab) && lab.window.query_by_label(UNSAVED).is_none());
+    }
+    // beside it and a problem's text are no harm
+    let problem = lab.path("again.toml");
+    fs::write(&problem, text(2)).expect("a problem");
+    for (path, pane) in [(&other, 1), (&problem, 0)] {
+        ask_for(&mut lab, path, pane);
+        assert!(is_there(&lab) && lab.window.query_by_label(UNSAVED).is_none());
+    }
+    assert!(lab.dataset(1).is_some());
+    // saved first
+    ask_for(&mut lab, &other, 0);
+    click(&mut lab, "Save…");
+    lab.window.run_steps(3);
+    lab.window.key_press(Key::Enter);
+    lab.until("it is saved and the other one open", |viewer| {
+        let opened = viewer.stages[0].opened.as_ref();
+        opened.is_some_and(|opened| opened.path.as_ref() == Some(&other))
+    });
+    assert_eq!(ppum_format::read(&lab.path("again.h5")).expect("a dataset"), *solved);
+    // or not
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    ask_for(&mut lab, &other, 0);
+    click(&mut lab, "Open without saving");
+    lab.settle();
+    assert!(lab.viewer().stages[0].opened.as_ref().is_some_and(|o| o.path.is_some()));
 }
