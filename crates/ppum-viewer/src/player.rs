@@ -72,8 +72,8 @@ pub fn go(pane: &mut Pane, dataset: &Dataset, by: isize) {
     pane.scene.subject.step = Some(step.saturating_add_signed(by).min(last));
 }
 
-/// Leaves the choice of a step that a dataset does not have.
-pub fn mend(pane: &mut Pane, dataset: &Dataset) {
-    let step = &mut pane.scene.subject.step;
-    *step = step.filter(|step| *step < dataset.steps.len());
+/// Leaves the choice of a step that a dataset does not have; what is to be told then.
+pub fn mend(pane: &mut Pane, dataset: &Dataset) -> Option<String> {
+    let step = pane.scene.subject.step.take_if(|step| *step >= dataset.steps.len())?;
+    Some(format!("there is no step {step}; the last one is shown"))
 }

@@ -93,8 +93,7 @@ impl Start {
             Some(Ok(last)) => last,
             Some(Err(error)) => {
                 let folder = self.folder.unwrap_or_default();
-                let text = format!("what was open the last time is lost: {error}");
-                viewer.files.tell(&folder, text, true);
+                viewer.files.tell(&folder, error, true);
                 None
             }
             None => None,

@@ -27,12 +27,21 @@ pub(super) enum Question {
     /// Nothing is to be closed.
     #[default]
     None,
-    /// What becomes of a pane's solution is asked.
-    Asked(Parting, usize),
+    /// What becomes of a pane's solution, or of the one that is computed, is asked.
+    Asked(Parting, Loss),
     /// It is being saved; what was to be closed is closed then.
     Saving(Parting, usize),
     /// The window closes, whatever is lost.
     LetGo,
+}
+
+/// What would be lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loss {
+    /// The solution of a pane.
+    Solution(usize),
+    /// The work of a solver.
+    Work,
 }
 
 /// What is answered.
@@ -55,9 +64,9 @@ fn is_let_go() -> Id {
 impl Viewer {
     /// Closes something, or asks first.
     pub(crate) fn part(&mut self, ctx: &Context, parting: Parting) {
-        match (self.lost_with(parting), parting) {
-            (Some(pane), _) => self.parting = Question::Asked(parting, pane),
-            (None, _) => self.close_at_last(ctx, parting),
+        match self.lost_with(parting) {
+            Some(loss) => self.parting = Question::Asked(parting, loss),
+            None => self.close_at_last(ctx, parting),
         }
     }
 
@@ -96,8 +105,19 @@ impl Viewer {
         }
     }
 
+    /// What would be lost, if anything would.
+    fn lost_with(&self, parting: Parting) -> Option<Loss> {
+        let solution = self.solution_lost_with(parting).map(Loss::Solution);
+        solution.or(self.is_still_solving(parting).then_some(Loss::Work))
+    }
+
+    /// True if the solver works, and would not any more.
+    fn is_still_solving(&self, parting: Parting) -> bool {
+        parting == Parting::Window && self.solving.running().is_some()
+    }
+
     /// A pane whose solution would be lost.
-    fn lost_with(&self, parting: Parting) -> Option<usize> {
+    fn solution_lost_with(&self, parting: Parting) -> Option<usize> {
         let is_unsaved = |pane: &usize| {
             let opened = self.stages.get(*pane).and_then(|stage| stage.opened.as_ref());
             opened.is_some_and(is_unsaved)
@@ -129,29 +149,32 @@ impl Viewer {
             || ctx.data(|data| data.get_temp(is_let_go())).unwrap_or(false);
         if is_closing
             && !is_free
-            && let Some(pane) = self.lost_with(Parting::Window)
+            && let Some(loss) = self.lost_with(Parting::Window)
         {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.parting = Question::Asked(Parting::Window, pane);
+            self.parting = Question::Asked(Parting::Window, loss);
         }
-        let Question::Asked(parting, pane) = self.parting else { return };
-        let without = match parting {
-            Parting::Arrival => "Open without saving",
-            Parting::Pane(_) | Parting::Window => "Close without saving",
-        };
-        match ask(ui, without) {
-            Some(Answer::Save) => {
+        let Question::Asked(parting, loss) = self.parting else { return };
+        if loss == Loss::Work && !self.is_still_solving(parting) {
+            // it has ended while one thought about it, and its solution may be asked for
+            return self.part(ctx, parting);
+        }
+        match (ask(ui, parting, loss), loss) {
+            (Some(Answer::Save), Loss::Solution(pane)) => {
                 self.parting = Question::Saving(parting, pane);
                 self.ask_dataset(pane);
             }
-            Some(Answer::Close) => self.close_at_last(ctx, parting),
-            Some(Answer::Back) => {
+            (Some(Answer::Close), Loss::Solution(_)) if self.is_still_solving(parting) => {
+                self.parting = Question::Asked(parting, Loss::Work);
+            }
+            (Some(Answer::Close | Answer::Save), _) => self.close_at_last(ctx, parting),
+            (Some(Answer::Back), _) => {
                 self.parting = Question::None;
                 if parting == Parting::Arrival {
                     self.waiting.pop_front();
                 }
             }
-            None => {}
+            (None, _) => {}
         }
     }
 
@@ -162,7 +185,7 @@ impl Viewer {
             return;
         }
         self.parting = Question::None;
-        if self.lost_with(parting) != Some(pane) {
+        if self.lost_with(parting) != Some(Loss::Solution(pane)) {
             self.part(ctx, parting);
         } else if parting == Parting::Arrival {
             self.waiting.pop_front();
@@ -177,16 +200,23 @@ fn is_unsaved(opened: &Opened) -> bool {
     opened.path.is_none() && !is_example
 }
 
+const UNSAVED: &str = "The solution is not saved.";
+
 /// Shows the question; what is answered.
-fn ask(ui: &Ui, without: &str) -> Option<Answer> {
+fn ask(ui: &Ui, parting: Parting, loss: Loss) -> Option<Answer> {
+    let (text, save, without) = match (loss, parting) {
+        (Loss::Work, _) => ("A problem is being solved.", None, "Stop and close"),
+        (_, Parting::Arrival) => (UNSAVED, Some("Save…"), "Open without saving"),
+        (_, Parting::Pane(_) | Parting::Window) => (UNSAVED, Some("Save…"), "Close without saving"),
+    };
     let mut answer = None;
     let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {
-        ui.label("The solution is not saved.");
+        ui.label(text);
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
-            for (name, meant) in
-                [("Save…", Answer::Save), (without, Answer::Close), ("Back", Answer::Back)]
-            {
+            let save = save.map(|name| (name, Answer::Save));
+            let others = [(without, Answer::Close), ("Back", Answer::Back)];
+            for (name, meant) in save.into_iter().chain(others) {
                 if ui.button(name).clicked() {
                     answer = Some(meant);
                 }

@@ -352,7 +352,7 @@ impl Viewer {
         if stage.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
             stage.show_whole(pane);
         }
-        player::mend(pane, &dataset);
+        stage.told.extend(player::mend(pane, &dataset));
         stage.take(pane, Opened { path: Some(path), dataset });
     }
 
@@ -407,7 +407,8 @@ impl Viewer {
         let number = pane.min(self.session.panes.len() - 1);
         let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
         pane.file = None;
-        player::mend(pane, &dataset);
+        // what was a series may be one step now
+        let _ = player::mend(pane, &dataset);
         stage.take(pane, Opened { path: None, dataset });
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::session_file::{self, SessionError};
+use super::session_file;
 use crate::session::Session;
 
 /// What the window remembers.
@@ -54,15 +54,25 @@ impl Kept {
     }
 }
 
-/// The session of the last time; an error if a file is there that is none.
+/// The session of the last time; an error in words if a file is there that is none. That file may be of a newer program, and hold a
+/// text that no other has: it is set aside, since the session of today takes its name.
 ///
 /// # Errors
-/// What is wrong with the file.
-pub fn last_session(folder: &Path) -> Result<Option<Session>, SessionError> {
-    match ppum_file::text(&folder.join(LAST), MAX_LENGTH) {
-        Ok(text) => session_file::parse(&text, folder).map(Some),
-        Err(_) => Ok(None),
-    }
+/// What is wrong with the file, and where it is now.
+pub fn last_session(folder: &Path) -> Result<Option<Session>, String> {
+    let Ok(text) = ppum_file::text(&folder.join(LAST), MAX_LENGTH) else { return Ok(None) };
+    session_file::parse(&text, folder).map(Some).map_err(|error| {
+        let kept = set_aside(folder);
+        format!("what was open the last time cannot be read: {error}{kept}")
+    })
+}
+
+/// Gives a session that cannot be read a name of its own; where it is now.
+fn set_aside(folder: &Path) -> String {
+    let names = (1..).map(|k| format!("unreadable-{k}.ppum-session"));
+    let free = names.map(|name| folder.join(name)).find(|path| !path.exists());
+    let moved = free.filter(|path| std::fs::rename(folder.join(LAST), path).is_ok());
+    moved.map_or_else(String::new, |path| format!("; it is kept as {}", path.display()))
 }
 
 /// Keeps a session for the next time.

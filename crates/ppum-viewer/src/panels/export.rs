@@ -26,6 +26,8 @@ pub struct Exporter {
     job: Option<Job<Result<String, String>>>,
     told: Option<Result<String, String>>,
     replacing: Replacing,
+    /// The name is written next.
+    is_new: bool,
 }
 
 /// Largest side of a page.
@@ -49,6 +51,7 @@ impl Exporter {
             job: None,
             told: None,
             replacing: Replacing::default(),
+            is_new: true,
         }
     }
 
@@ -136,6 +139,9 @@ impl Exporter {
         let label = ui.label("File");
         let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(340.0));
         let name = name.labelled_by(label.id);
+        if std::mem::take(&mut self.is_new) {
+            name.request_focus();
+        }
         let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
         ui.label("Pixels");

@@ -170,6 +170,7 @@ fn a_shorter_series_is_shown_to_its_end() {
     lab.until("it is read", |viewer| steps(viewer) == Some(2));
     lab.settle();
     assert_eq!(lab.state().session.panes[0].scene.subject.step, None);
+    assert!(lab.notes().contains("there is no step 3"), "{}", lab.notes());
     assert_eq!(lab.window.state().stages[0].frames.failure(), None);
 }
 
@@ -209,8 +210,14 @@ fn damaged_settings_harm_nothing() {
         let start = ppum_viewer::window::Start { folder: Some(config.clone()), ..start };
         let viewer = start.viewer(&egui::Context::default());
         assert_eq!(viewer.session, ppum_viewer::session::Session::default(), "{text}");
-        assert!(viewer.files.notes.iter().all(|note| note.text.contains("is lost")), "{text}");
+        assert!(
+            viewer.files.notes.iter().all(|note| note.text.contains("cannot be read")),
+            "{text}"
+        );
     }
+    // a newer program may read them, and the session of today takes their name
+    let aside = fs::read(config.join("unreadable-2.ppum-session")).expect("it is kept");
+    assert_eq!(aside, b"{");
 }
 
 /// A plate of another size with another equation, solved coarsely.

@@ -38,6 +38,21 @@ fn named(lab: &mut Lab, path: &Path) {
     lab.window.run_steps(3);
 }
 
+#[test]
+fn the_name_is_written_next() {
+    let mut lab = asked("Picture");
+    let before = lab.viewer().session.clone();
+    // each of these letters would do something
+    lab.window.event(egui::Event::Text("ifn".into()));
+    for key in [Key::I, Key::F, Key::N] {
+        lab.window.key_press(key);
+    }
+    lab.window.run_steps(3);
+    assert_eq!(lab.viewer().session, before);
+    let field = lab.window.get_by_role_and_label(egui::accesskit::Role::TextInput, "File");
+    assert!(field.value().is_some_and(|name| name.contains("ifn")));
+}
+
 /// Saves it, and waits for what is told.
 fn saved(lab: &mut Lab) -> bool {
     lab.window.get_by_label("Save file").click();

@@ -357,6 +357,25 @@ fn no_solution_is_lost_without_a_word() {
 }
 
 #[test]
+fn a_solver_is_not_stopped_by_closing_without_a_word() {
+    let mut lab = lab(&text(8).replace("order = 2", "order = 4"));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.until("it is solved", |viewer| viewer.solving.running().is_some());
+    assert!(!closes(&mut lab));
+    click(&mut lab, "Back");
+    lab.window.run_steps(2);
+    assert!(lab.window.query_by_label_contains("being solved.").is_none());
+    assert!(lab.viewer().solving.running().is_some_and(|running| !running.is_cancelled()));
+    assert!(!closes(&mut lab));
+    lab.window.run_steps(2);
+    assert!(lab.window.query_by_label("Save…").is_none(), "there is nothing to save yet");
+    lab.window.get_by_label("Stop and close").click();
+    lab.window.run_steps(1);
+    assert!(commands(&lab).contains(&egui::ViewportCommand::Close));
+    assert!(closes(&mut lab));
+}
+
+#[test]
 fn who_wants_to_lose_a_solution_may() {
     let mut lab = lab(&text(2));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
