@@ -221,6 +221,28 @@ fn clipped(
     (lo <= hi).then(|| [lo, hi].map(|t| foot + tangent * t))
 }
 
+impl Curve {
+    /// Parts of a straight face that begins or ends at a point, between distances from it that are multiplied by a factor each time.
+    pub(super) fn parts_from(&self, point: Vec2, [first, factor, last]: [f64; 3]) -> Vec<Self> {
+        let (Shape::Straight([a, b]), On::Face(..)) = (&self.shape, self.on) else {
+            return Vec::new();
+        };
+        let (near, far) =
+            if (*a - point).length() < (*b - point).length() { (*a, *b) } else { (*b, *a) };
+        let length = (far - near).length();
+        if (near - point).length() > 0.1 * first || length == 0.0 {
+            return Vec::new();
+        }
+        let (along, last) = ((far - near) / length, last.min(length));
+        let starts = std::iter::successors(Some(first), |r| Some(r * factor));
+        let part = |r: f64| {
+            let ends = [r, (r * factor).min(last)].map(|r| near + along * r);
+            Self { shape: Shape::Straight(ends), toward: self.toward, on: self.on }
+        };
+        starts.take_while(|r| *r < last).map(part).collect()
+    }
+}
+
 /// The part of the way at which a sample lies.
 pub(super) fn part(sample: usize, samples: usize) -> f64 {
     (sample as f64 / (samples - 1) as f64).min(1.0)

@@ -4,7 +4,9 @@
 //! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
 //! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
 //! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel
-//! and refined. Peaks and valleys narrower than a pixel are not seen.
+//! and refined. Peaks and valleys narrower than a pixel are not seen but next to points where the quantity is infinite: around these
+//! it is looked at on rings, and on faces of cracks that end there, down to a thousandth of a pixel, as long as there are not
+//! dozens of such points. A valley that is narrower than the 7° between two places of a ring may be missed, or not followed to its end.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
 //! pixels of the picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
@@ -18,6 +20,7 @@
 mod bent;
 mod climb;
 mod curves;
+mod rings;
 mod singular;
 
 use std::fmt;
@@ -188,14 +191,16 @@ pub fn extrema<T: Sample>(
     let points = singular::candidates(field, view.center, &rect);
     let mut curves = curves::all(field, view.center, &rect);
     curves.extend(bent::all(field, view.center, &rect, view.pixel_size()));
-    let Some(samples) = samples(field, view, &curves, points.len()) else {
+    let Some(mut samples) = samples(field, view, &curves, points.len()) else {
         return Ok(Extrema::of_pixels(raster, view));
     };
-    let parts = Parts::start(watcher, 1 + curves.len() + 4 * STARTS.div_ceil(ROUND))?;
+    Parts::start(watcher, 1)?;
     let singular = singular::grown(field, view.center, &rect, quantity, points);
-    parts.finish_one()?;
     let grows = |point: &&Singular| point.max_infinite || point.min_infinite;
-    let hidden = singular.iter().filter(grows).map(|point| point.offset).collect();
+    let hidden: Vec<_> = singular.iter().filter(grows).map(|point| point.offset).collect();
+    curves.extend(rings::faces(&curves, &hidden, view.pixel_size()));
+    samples.resize(curves.len(), curves::LEAST);
+    let parts = Parts::start(watcher, curves.len() + 4 * STARTS.div_ceil(ROUND) + 2)?;
     let search = Search { field, view, slope: &slope, rect, hidden, curves, parts };
     let sampled = search.sampled(&samples)?;
     let best = |sign: f64| match infinite(&singular, sign) {
@@ -298,8 +303,11 @@ impl Search<'_, '_> {
         };
         let best = self.rounds(None, &tops, sign, on_curve)?;
         let starts = climb::starts(raster, sign, STARTS);
-        let inside = |&[i, j]: &[u32; 2]| self.climbed(self.view.offset(i, j), sign);
-        self.rounds(best, &starts, sign, inside)
+        let pixel = self.view.pixel_size();
+        let inside = |&[i, j]: &[u32; 2]| self.climbed(self.view.offset(i, j), pixel, sign);
+        let best = self.rounds(best, &starts, sign, inside)?;
+        let beside = |&(at, scale): &(Vec2, f64)| self.climbed(at, scale, sign);
+        self.rounds(best, &self.beside_singular(sign), sign, beside)
     }
 
     /// Looks at places, the most promising first, while they promise more than what is found.
@@ -338,12 +346,12 @@ impl Search<'_, '_> {
         climb::finite(self.slope.quantity().at(local, at, curve.side()))
     }
 
-    /// The extremum uphill (downhill for the sign −1) from a point.
-    fn climbed(&self, start: Vec2, sign: f64) -> Option<Extremum> {
+    /// The extremum uphill (downhill for the sign −1) from a point, by steps of a scale.
+    fn climbed(&self, start: Vec2, scale: f64, sign: f64) -> Option<Extremum> {
         let local = self.field.at(self.view.center);
         let is_hidden = |at| self.is_hidden(at);
         let mut climber = Climber { slope: self.slope, local, rect: self.rect, sign, is_hidden };
-        let (value, offset) = climber.climb(start, self.view.pixel_size())?;
+        let (value, offset) = climber.climb(start, scale)?;
         let Rect { min, max } = self.rect;
         let is_end = |v: f64, [a, b]: [f64; 2]| v == a || v == b;
         let on_border = is_end(offset.x, [min.x, max.x]) || is_end(offset.y, [min.y, max.y]);

@@ -238,6 +238,60 @@ fn infinite_at_a_tip() {
     }
 }
 
+/// (± sin(θ/2)/√r − 1/√r₀)² + (1 + cos θ)/r₀ is 0 on one face at the distance r₀ from the tip alone, within its pixel.
+#[test]
+fn valleys_on_the_faces_of_a_tip() {
+    let mut random = Random(11);
+    for _ in 0..60 {
+        let (sin, cos) = (7.0 * random.unit()).sin_cos();
+        let (tip, d) = (vec2(random.unit(), random.unit()), vec2(cos, sin));
+        let dataset = opening(tip, d);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let pixels = [[40, 30], [90, 80], [200, 150]][random.below(3)];
+        let view = View::new(tip + vec2(0.2, 0.1), 1.5, pixels).expect("a view");
+        let r = 0.003 * 300f64.powf(random.unit()) * view.pixel_size();
+        let (side, sign) = [(Side::Above, 1.0), (Side::Below, -1.0)][random.below(2)];
+        let opened = format!("(ux*({:?}) + uy*({:?}))", d.left().x, d.left().y);
+        let (x, y) = (format!("(x - {:?})", tip.x), format!("(y - {:?})", tip.y));
+        let away = format!("sqrt({x}^2 + {y}^2)");
+        let ahead = format!("({x}*({:?}) + {y}*({:?}))/{away}", d.x, d.y);
+        let c = sign / r.sqrt();
+        let text = format!("({opened}/{away} - ({c:?}))^2 + (1 + {ahead})*{:?}", 1.0 / r);
+        let least = found(&field, &view, &text).min;
+        let off = (least.offset + (view.center - tip) + d * r).length();
+        let told = format!("{least:?} {side:?}, {} pixels", r / view.pixel_size());
+        assert!(least.value.abs() < 1e-8 / r && off < 1e-3 * r, "{told}: {off}");
+    }
+}
+
+/// The distance of the stresses from those of one place, squared: 0 there, within a fraction of a pixel beside the tip, where it grows
+/// without bound.
+#[test]
+fn valleys_beside_a_tip() {
+    let mut random = Random(9);
+    for _ in 0..60 {
+        let (sin, cos) = (7.0 * random.unit()).sin_cos();
+        let (tip, d) = (vec2(random.unit(), random.unit()), vec2(cos, sin));
+        let dataset = opening(tip, d);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let shift = vec2(random.unit() - 0.5, random.unit() - 0.5) * 0.6;
+        let view = View::new(tip + shift, 1.5, [50, 40]).expect("a view");
+        let (r, angle) = (0.003 * 300f64.powf(random.unit()), 6.0 * random.unit() - 3.0);
+        let (sin, cos) = angle.sin_cos();
+        let there = (d * cos + d.left() * sin) * (r * view.pixel_size());
+        let mut local = field.at(tip);
+        let near = ["sxx", "syy", "sxy"].map(|name| {
+            let stress = Quantity::parse(name, &field).expect("a stress");
+            format!("({name} - ({:?}))^2", stress.at(&mut local, there, Side::Above))
+        });
+        let least = found(&field, &view, &near.join(" + ")).min;
+        let away = (least.offset + (view.center - tip) - there).length();
+        let scale = 1.0 / (r * view.pixel_size());
+        assert!(least.value < 1e-8 * scale, "{least:?}, {r} pixels, {angle}");
+        assert!(away < 1e-3 / scale, "{least:?}, {r} pixels, {angle}: {away}");
+    }
+}
+
 /// σ_xx = E of u_x = x jumps at a line, E = 2 + x − y on one side of it: the largest value lies on that side, at the border.
 #[test]
 fn at_an_interface_and_at_corners() {
