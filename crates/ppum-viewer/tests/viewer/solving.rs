@@ -456,3 +456,18 @@ fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
     lab.settle();
     assert!(lab.viewer().stages[0].opened.as_ref().is_some_and(|o| o.path.is_some()));
 }
+
+#[test]
+fn who_writes_the_problem_saves_the_problem() {
+    let mut lab = lab(&text(3));
+    lab.window.get_by_label("Text of the problem").click();
+    lab.window.run_steps(3);
+    lab.window.event(egui::Event::Text("# a word\n".into()));
+    lab.window.run_steps(2);
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    lab.window.run_steps(2);
+    lab.settle();
+    let written = fs::read_to_string(lab.path("plate.toml")).expect("there");
+    assert!(written.contains("# a word"), "{}", lab.notes());
+    assert!(lab.window.query_by_label_contains("ppum-session").is_none());
+}
