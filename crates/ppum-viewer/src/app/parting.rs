@@ -99,7 +99,11 @@ impl Viewer {
     fn taken_by(&self, arrived: &Arrived) -> Range<usize> {
         match arrived.content {
             _ if arrived.why != Why::Opened => 0..0,
-            Ok(Content::Dataset(_)) => arrived.pane..arrived.pane + 1,
+            Ok(Content::Dataset(_)) => {
+                // the view that it was for may have been closed since, as in `place_of`
+                let pane = arrived.pane.min(self.stages.len() - 1);
+                pane..pane + 1
+            }
             Ok(Content::Session(_)) => 0..self.stages.len(),
             Ok(Content::Problem(_)) | Err(_) => 0..0,
         }

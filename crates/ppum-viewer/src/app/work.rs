@@ -196,7 +196,7 @@ impl Viewer {
     }
 
     /// Closes a dataset; of two panes the one.
-    pub(crate) fn close(&mut self, pane: usize) {
+    pub fn close(&mut self, pane: usize) {
         self.player.is_playing = false;
         if self.session.panes.len() > 1 {
             self.session.subtract(false);

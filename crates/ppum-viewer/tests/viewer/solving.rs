@@ -429,6 +429,18 @@ fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
         lab.settle();
         assert!(is_there(&lab) && lab.window.query_by_label(UNSAVED).is_none());
     }
+    // meant for a view that has been closed while it was read
+    lab.window.key_press(Key::V);
+    lab.window.step();
+    lab.settle();
+    let ctx = lab.window.ctx.clone();
+    lab.state().open_file(&ctx, &other, 1);
+    lab.state().close(1);
+    lab.settle();
+    lab.window.run_steps(3);
+    lab.window.get_by_label(UNSAVED);
+    click(&mut lab, "Back");
+    assert!(is_there(&lab));
     // beside it and a problem's text are no harm
     let problem = lab.path("again.toml");
     fs::write(&problem, text(2)).expect("a problem");

@@ -8,7 +8,7 @@ mod files;
 mod heavy;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
@@ -33,6 +33,11 @@ pub(crate) struct Hands {
 
 impl Hands {
     fn new(seed: u64) -> Self {
+        // names that hands write without a folder
+        let here = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hands");
+        std::fs::create_dir_all(&here)
+            .and_then(|()| std::env::set_current_dir(&here))
+            .expect("a folder");
         let mut lab = Lab::new();
         let files = files::written(&lab, seed);
         let first = files[0].clone();
