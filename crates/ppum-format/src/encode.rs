@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use ppum::crack::{Crack, TipId};
+use ppum::crack::{Crack, SegmentId, TipId};
 use ppum::dataset::{
     Dataset, Equation, FieldData, NamedQuantity, Partition, Reaction, Record, Step, TipIntensity,
     Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
-use ppum::function::{Frame, Function, FunctionKind};
+use ppum::function::{Cut, Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
 
@@ -234,6 +234,7 @@ struct Row<'a> {
     origin: [f64; 2],
     angle: f64,
     parameters: &'a [(String, f64)],
+    cuts: &'a [Cut],
     kinks: &'a [[Vec2; 2]],
     singular: &'a [Vec2],
 }
@@ -249,6 +250,7 @@ impl<'a> Row<'a> {
             origin: [0.0; 2],
             angle: 0.0,
             parameters: &[],
+            cuts: &[],
             kinks: &[],
             singular: &[],
         }
@@ -260,6 +262,7 @@ impl<'a> Row<'a> {
             FunctionKind::Side { crack } => {
                 Ok(Self { crack: i64::from(*crack), ..Self::new("side") })
             }
+            FunctionKind::Component { cuts } => Ok(Self { cuts, ..Self::new("component") }),
             FunctionKind::Formula { text, frame, parameters, declared } => {
                 let (kinks, singular) = (&declared.kinks, &declared.singular);
                 let row =
@@ -300,8 +303,21 @@ fn functions(group: &mut Group, functions: &[Function]) -> Written {
     let parameters = || rows.iter().flat_map(|r| r.parameters);
     group.vector("parameter_name", parameters().map(|(name, _)| name.clone()));
     group.vector("parameter_value", parameters().map(|(_, value)| *value));
+    cuts(group, &rows);
     declared(group, &rows);
     Ok(())
+}
+
+fn cuts(group: &mut Group, rows: &[Row]) {
+    let all: Vec<_> = rows.iter().flat_map(|r| r.cuts).collect();
+    if !all.is_empty() {
+        group.array("cut_offsets", offsets(rows.iter().map(|r| r.cuts.len())));
+        group.array("cuts", Array::rows(all.into_iter().map(cut)));
+    }
+}
+
+fn cut(&Cut { segment: SegmentId { crack, segment }, left, right }: &Cut) -> [i64; 4] {
+    [crack.into(), segment.into(), left.number(), right.number()]
 }
 
 fn declared(group: &mut Group, rows: &[Row]) {

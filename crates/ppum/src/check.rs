@@ -11,12 +11,12 @@ mod work;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cover::OVERLAP;
-use crate::crack::{Crack, CrackEnd, End, TipId};
+use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
 use crate::dataset::{
     Dataset, Equation, FieldData, MAX_DEGREE, Partition, Reaction, Step, TipIntensity, Warning,
     monomials,
 };
-use crate::function::{Frame, Function, FunctionKind};
+use crate::function::{Cut, Frame, Function, FunctionKind, Part};
 use crate::vec2::{Rect, Vec2};
 
 /// The first thing found wrong in a dataset.
@@ -154,8 +154,7 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
         check_crack(&format!("cracks[{k}]"), crack)?;
     }
     for (k, function) in step.functions.iter().enumerate() {
-        check_function(function, step.cracks.len())
-            .map_err(|e| e.inside(&format!("functions[{k}]")))?;
+        check_function(function, &step.cracks).map_err(|e| e.inside(&format!("functions[{k}]")))?;
     }
     check_names("fields", step.fields.iter().map(|f| &f.name))?;
     for (k, field) in step.fields.iter().enumerate() {
@@ -256,10 +255,12 @@ fn check_crack(place: &str, crack: &Crack) -> Checked {
     )
 }
 
-fn check_function(function: &Function, cracks: usize) -> Checked {
+fn check_function(function: &Function, cracks: &[Crack]) -> Checked {
+    let count = cracks.len();
     match &function.kind {
         FunctionKind::One => Ok(()),
-        FunctionKind::Side { crack } => check_index("crack", *crack as usize, cracks, "cracks"),
+        FunctionKind::Side { crack } => check_index("crack", *crack as usize, count, "cracks"),
+        FunctionKind::Component { cuts } => check_cuts(cuts, cracks),
         FunctionKind::Formula { frame, parameters, declared, .. } => {
             check_names("parameters", parameters.iter().map(|(name, _)| name))?;
             for (name, value) in parameters {
@@ -267,9 +268,29 @@ fn check_function(function: &Function, cracks: usize) -> Checked {
             }
             check_points("declared.kinks", declared.kinks.as_flattened())?;
             check_points("declared.singular", &declared.singular)?;
-            check_frame(frame, cracks)
+            check_frame(frame, count)
         }
     }
+}
+
+/// Each cut is by a segment of a crack, and all that follow from it stand behind it.
+fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
+    require(!cuts.is_empty(), "cuts", || "a component needs at least one".into())?;
+    for (k, cut) in cuts.iter().enumerate() {
+        let SegmentId { crack, segment } = cut.segment;
+        check_index(&format!("cuts[{k}].crack"), crack as usize, cracks.len(), "cracks")?;
+        let segments = cracks[crack as usize].points.len().saturating_sub(1);
+        check_index(&format!("cuts[{k}].segment"), segment as usize, segments, "segments")?;
+        for (name, part) in [("left", cut.left), ("right", cut.right)] {
+            let Part::Cut(next) = part else { continue };
+            let place = format!("cuts[{k}].{name}");
+            check_index(&place, next as usize, cuts.len(), "cuts")?;
+            require(next as usize > k, &place, || {
+                format!("cut {next} follows from cut {k} and must stand behind it")
+            })?;
+        }
+    }
+    Ok(())
 }
 
 fn check_frame(frame: &Frame, cracks: usize) -> Checked {

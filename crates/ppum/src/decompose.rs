@@ -83,7 +83,7 @@ impl Part {
     pub fn of(function: &FunctionKind) -> Self {
         match function {
             FunctionKind::One => Self::Smooth,
-            FunctionKind::Side { .. } => Self::Jump,
+            FunctionKind::Side { .. } | FunctionKind::Component { .. } => Self::Jump,
             FunctionKind::Formula { frame: Frame::Tip(_), .. } => Self::Tip,
             FunctionKind::Formula { .. } => Self::Other,
         }

@@ -225,7 +225,7 @@ fn no_weight(text: &str, error: WeightError) -> ReplaceError {
 }
 
 /// The mark in a function's name before its place.
-const PLACES: [&str; 3] = [" of crack ", " at [", " along ["];
+const PLACES: [&str; 4] = [" of crack ", " of patch ", " at [", " along ["];
 
 impl Function {
     /// The name without the place: `westergaard 1` of `westergaard 1 of crack 0 end`. Functions that
@@ -242,7 +242,7 @@ impl FunctionKind {
     fn parameters(&self) -> &[(String, f64)] {
         match self {
             Self::Formula { parameters, .. } => parameters,
-            Self::One | Self::Side { .. } => &[],
+            Self::One | Self::Side { .. } | Self::Component { .. } => &[],
         }
     }
 
@@ -253,7 +253,9 @@ impl FunctionKind {
                 new.clone_into(text);
                 *declared = Declared::default();
             }
-            Self::One | Self::Side { .. } => *self = Self::formula(new, Frame::World),
+            Self::One | Self::Side { .. } | Self::Component { .. } => {
+                *self = Self::formula(new, Frame::World);
+            }
         }
     }
 }

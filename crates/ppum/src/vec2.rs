@@ -151,6 +151,12 @@ impl Rect {
         self.max - self.min
     }
 
+    /// Corners, counter-clockwise from the lower left one.
+    #[must_use]
+    pub fn corners(&self) -> [Vec2; 4] {
+        [self.min, vec2(self.max.x, self.min.y), self.max, vec2(self.min.x, self.max.y)]
+    }
+
     /// True if `p` lies in the closed box.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {

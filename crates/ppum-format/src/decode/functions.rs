@@ -1,7 +1,7 @@
 //! The function table.
 
-use ppum::crack::TipId;
-use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::crack::{SegmentId, TipId};
+use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Part};
 use ppum::vec2::{Vec2, vec2};
 
 use super::Read;
@@ -18,6 +18,7 @@ struct Columns {
     origin: Vec<Vec2>,
     angle: Vec<f64>,
     parameters: Vec<Vec<(String, f64)>>,
+    cuts: Vec<Vec<Cut>>,
     declared: Vec<Declared>,
 }
 
@@ -33,6 +34,7 @@ pub(super) fn functions(group: &mut Group) -> Read<Vec<Function>> {
         origin: group.points("frame_origin")?,
         angle: group.column("frame_angle", n)?,
         parameters: parameters(group, n)?,
+        cuts: cuts(group, n)?,
         declared: declared(group, n)?,
     };
     if columns.origin.len() != n {
@@ -50,6 +52,32 @@ fn parameters(group: &mut Group, functions: usize) -> Read<Vec<Vec<(String, f64)
     let parts = group.offsets("parameter_offsets", functions, names.len())?;
     let pairs: Vec<(String, f64)> = std::iter::zip(names, values).collect();
     Ok(parts.into_iter().map(|part| pairs[part].to_vec()).collect())
+}
+
+/// The cuts of components, which may be missing from the file.
+fn cuts(group: &mut Group, functions: usize) -> Read<Vec<Vec<Cut>>> {
+    if !(group.holds("cuts", Form::Dataset)? || group.holds("cut_offsets", Form::Dataset)?) {
+        return Ok(vec![Vec::new(); functions]);
+    }
+    let rows = group.rows::<i64, 4>("cuts")?;
+    let parts = group.offsets("cut_offsets", functions, rows.len())?;
+    let cuts: Vec<_> = rows
+        .into_iter()
+        .enumerate()
+        .map(|(k, row)| cut(row).ok_or_else(|| group.error("cuts", format!("row {k} is no cut"))))
+        .collect::<Read<_>>()?;
+    Ok(parts.into_iter().map(|part| cuts[part].to_vec()).collect())
+}
+
+/// Crack, segment, and the numbers of what follows on the left and on the right.
+fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
+    let [crack, segment] = [crack, segment].map(|index| u32::try_from(index).ok());
+    let [left, right] = [left, right].map(Part::of_number);
+    Some(Cut {
+        segment: SegmentId { crack: crack?, segment: segment? },
+        left: left?,
+        right: right?,
+    })
 }
 
 /// Kinks and singular points, each of which may be missing from the file.
@@ -77,6 +105,7 @@ impl Columns {
         let function = match kind {
             "one" => FunctionKind::One,
             "side" => FunctionKind::Side { crack: self.take_crack(group, k)? },
+            "component" => FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) },
             "formula" => FunctionKind::Formula {
                 frame: self.take_frame(group, k)?,
                 text: std::mem::take(&mut self.formula[k]),
@@ -109,6 +138,7 @@ impl Columns {
             ("frame_origin", self.origin[k] == Vec2::ZERO, "0, 0"),
             ("frame_angle", self.angle[k] == 0.0, "0"),
             ("parameter_offsets", self.parameters[k].is_empty(), "no parameters"),
+            ("cut_offsets", self.cuts[k].is_empty(), "no cuts"),
             ("kink_offsets", kinks.is_empty(), "no kinks"),
             ("singular_offsets", singular.is_empty(), "no singular points"),
         ]

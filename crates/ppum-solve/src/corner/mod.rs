@@ -17,7 +17,7 @@ use exponent::smallest;
 use ppum::crack::{Crack, tips};
 use ppum::dataset::Equation;
 use ppum::domain::Hole;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Rect, Vec2};
 use sectors::{Sector, Surroundings};
 
 /// Lengths below this part of the domain's longer side count as zero, as they do for cracks.
@@ -182,7 +182,7 @@ fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
 /// Points at which the border turns or its conditions may change: not all of them do, some twice.
 fn places(problem: &Problem) -> Vec<Vec2> {
     let bounds = &problem.domain.bounds;
-    let mut all = corners_of(bounds).to_vec();
+    let mut all = bounds.corners().to_vec();
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge, from, to } = condition.on {
             let inner = jumps(condition, edge, [from, to], bounds);
@@ -225,12 +225,8 @@ fn vertices(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
     crack.points.iter().copied().filter(move |p| !is_tip(p))
 }
 
-fn corners_of(rect: &Rect) -> [Vec2; 4] {
-    [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)]
-}
-
 fn edges_of(rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
-    let corners = corners_of(rect);
+    let corners = rect.corners();
     (0..4).map(move |k| [corners[k], corners[(k + 1) % 4]])
 }
 

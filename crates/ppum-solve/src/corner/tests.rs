@@ -1,6 +1,7 @@
 use super::*;
 use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge, Expression};
 use ppum::dataset::{Material, StressState};
+use ppum::vec2::vec2;
 use std::f64::consts::PI;
 
 const BOUNDS: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));

@@ -3,7 +3,7 @@
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::segment;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Rect, Vec2};
 
 /// True if `p` lies in the open box.
 pub(crate) fn inside(open: &Rect, p: Vec2) -> bool {
@@ -83,7 +83,7 @@ pub(crate) fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
 }
 
 /// The range of a segment's parameter inside an open box.
-fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
+pub(crate) fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
     let d = b - a;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (start, step, lo, hi) in
@@ -111,15 +111,14 @@ pub(crate) fn distance([a, b]: [Vec2; 2], rect: &Rect) -> f64 {
     if segment_inside(a, b, rect) > 0.0 {
         return 0.0;
     }
-    let (min, max) = (rect.min, rect.max);
-    let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    let of_corners = corners.into_iter().map(|p| segment::distance([a, b], p));
+    let of_corners = rect.corners().into_iter().map(|p| segment::distance([a, b], p));
     of_corners.chain([rect.distance(a), rect.distance(b)]).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum::vec2::vec2;
 
     #[test]
     fn runs_of_a_crack_in_a_box() {

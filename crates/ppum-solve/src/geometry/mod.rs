@@ -3,6 +3,7 @@
 mod around;
 mod clearance;
 mod clip;
+mod components;
 mod material;
 mod placed;
 
@@ -10,7 +11,9 @@ pub use around::Around;
 pub(crate) use clearance::AMPLE_CLEARANCE;
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
-    distance, inside, length_inside, meets, rim_crossings, runs_inside, runs_of_rim, segment_inside,
+    clipped, distance, inside, length_inside, meets, rim_crossings, runs_inside, runs_of_rim,
+    segment_inside,
 };
+pub(crate) use components::Components;
 pub(crate) use material::interface_distance;
 pub(crate) use placed::{Placed, around, wider};

@@ -1,7 +1,7 @@
 //! Rules for the shapes and places of holes.
 
 use ppum::domain::{Domain, Hole};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Rect, Vec2};
 
 use super::check::MistakeAt;
 use super::cracks::{TOUCH, crosses_itself};
@@ -49,7 +49,7 @@ fn bad_circle(
         format!("`radius` is {radius}, too small to be seen in this domain; leave the hole out")
     } else if bounds.distance(center) >= radius {
         MISSES.to_owned()
-    } else if corners(bounds).iter().all(|&p| (p - center).length() <= radius) {
+    } else if bounds.corners().iter().all(|&p| (p - center).length() <= radius) {
         SWALLOWS.to_owned()
     } else {
         return None;
@@ -91,8 +91,4 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
 
 fn crosses_box(side: [Vec2; 2], bounds: &Rect) -> bool {
     crate::geometry::segment_inside(side[0], side[1], bounds) > 0.0
-}
-
-fn corners(b: &Rect) -> [Vec2; 4] {
-    [b.min, vec2(b.max.x, b.min.y), b.max, vec2(b.min.x, b.max.y)]
 }

@@ -1,7 +1,7 @@
 //! Holes in cells: their rims cut, and what lies inside is dropped.
 
 use super::adapt::Part as _;
-use super::corners;
+
 use super::gauss::gauss;
 use super::geometry::Level;
 use super::piece::Piece;
@@ -27,7 +27,7 @@ pub(super) fn near<'h>(holes: &[&'h Hole], rect: &Rect) -> Vec<&'h Hole> {
 /// True if a rectangle lies in one round hole.
 pub(super) fn covered(holes: &[&Hole], rect: &Rect) -> bool {
     let holds = |hole: &Hole| {
-        matches!(hole, Hole::Circle { .. }) && corners(rect).iter().all(|&p| hole.contains(p))
+        matches!(hole, Hole::Circle { .. }) && rect.corners().iter().all(|&p| hole.contains(p))
     };
     holes.iter().copied().any(holds)
 }

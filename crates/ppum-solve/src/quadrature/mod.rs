@@ -233,15 +233,9 @@ fn meets(rect: &Rect, a: Vec2, b: Vec2) -> bool {
     let slack = rect.size() * TOLERANCE;
     let near = Rect::new(rect.min - slack, rect.max + slack);
     near.overlaps(&Rect::new(a.min(b), a.max(b))) && {
-        let side = corners(&near).map(|p| line_side(a, b, p));
+        let side = near.corners().map(|p| line_side(a, b, p));
         !(side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0))
     }
-}
-
-/// Corners in counter-clockwise order.
-fn corners(rect: &Rect) -> [Vec2; 4] {
-    let (min, max) = (rect.min, rect.max);
-    [min, vec2(max.x, min.y), max, vec2(min.x, max.y)]
 }
 
 /// One cell's work.
@@ -312,7 +306,7 @@ impl Run<'_> {
         let meeting = self.segments.iter().filter(|[a, b]| meets(rect, *a, *b)).copied();
         let straight = kinks.iter().filter_map(|kink| cutting_line(kink, rect));
         let lines: Vec<_> = meeting.chain(straight).map(|s| s.map(|p| p - anchor)).collect();
-        Polygon(corners(rect).map(|p| p - anchor).to_vec()).pieces(&lines, self.least)
+        Polygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&lines, self.least)
     }
 
     /// The distinct singular points, the nearest first.
@@ -350,7 +344,7 @@ impl Kink {
     pub(crate) fn may_meet(&self, rect: &Rect) -> bool {
         match self {
             Self::Line([a, b]) => {
-                let side = corners(rect).map(|p| line_side(*a, *b, p));
+                let side = rect.corners().map(|p| line_side(*a, *b, p));
                 !(side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0))
             }
             Self::Segment([a, b]) => meets(rect, *a, *b),

@@ -41,7 +41,8 @@ pub struct LocalSegment {
 }
 
 impl LocalSegment {
-    fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
+    /// The segment from `a` to `b` seen from `anchor`.
+    pub(crate) fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
         let (tangent, length) = ((b - a).unit(), (b - a).length());
         let distance = cross(a, b, anchor) / length;
         let (lo, hi) = (tangent.dot(a - anchor), tangent.dot(b - anchor));
@@ -49,12 +50,13 @@ impl LocalSegment {
     }
 
     /// The same segment for points that lie on it: none has a distance.
-    fn touched(self) -> Self {
+    pub(crate) fn touched(self) -> Self {
         Self { normal: Vec2::ZERO, distance: 0.0, ..self }
     }
 
+    /// Distance of a point from the line, positive on its left.
     #[inline(always)]
-    fn distance<R: Real>(&self, offset: [R; 2]) -> R {
+    pub(crate) fn distance_of<R: Real>(&self, offset: [R; 2]) -> R {
         let [x, y] = offset;
         x.lit(self.normal.y).mul_add(y, x.lit(self.normal.x).mul_add(x, x.lit(self.distance)))
     }
@@ -109,14 +111,14 @@ impl LocalCrack {
 
     #[inline(always)]
     fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
-        let mut nearest = self.segments[0].distance(offset);
+        let mut nearest = self.segments[0].distance_of(offset);
         if self.segments.len() == 1 {
             return nearest;
         }
         let mut square = self.square(0, offset, nearest);
         let mut k = 1;
         while k < self.segments.len() {
-            let distance = self.segments[k].distance(offset);
+            let distance = self.segments[k].distance_of(offset);
             let candidate = self.square(k, offset, distance);
             let nearer = (square * square.lit(1.0 - TIE)).gt(candidate);
             let farther = candidate.gt(square * square.lit(1.0 + TIE));
@@ -218,7 +220,7 @@ impl LocalTip {
         let one = offset[0].lit(1.0);
         let dx = offset[0] + one.lit(self.from_tip.x);
         let dy = offset[1] + one.lit(self.from_tip.y);
-        let distance = self.line.distance(offset);
+        let distance = self.line.distance_of(offset);
         let line_side = sign(distance, side);
         let branch = if self.bends {
             line_side * sign(self.crack.nearest_distance(offset), side)

@@ -1,5 +1,6 @@
 //! The function table: the f_b of function × polynomial.
 
+mod component;
 mod formulas;
 mod seen;
 mod table;
@@ -8,6 +9,7 @@ mod westergaard;
 use crate::crack::TipId;
 pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
+pub use component::{Cut, Part};
 pub use table::{
     CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope, native,
 };
@@ -32,6 +34,11 @@ pub enum FunctionKind {
     Side {
         /// Index of the crack.
         crack: u32,
+    },
+    /// f = 1 on one connected component of what cracks leave of a patch, 0 on the others: a jump where cracks meet.
+    Component {
+        /// The component's tree: the first cut is the root, each other one stands behind the one it follows from.
+        cuts: Vec<Cut>,
     },
     /// f = a formula of x, y, r, theta of its frame.
     Formula {

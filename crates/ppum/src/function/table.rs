@@ -1,11 +1,12 @@
 //! A step's functions, ready to be evaluated.
 //!
-//! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack,
-//! the four Westergaard functions of a tip, formulas in one frame that follow each other.
+//! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack, a
+//! component, the four Westergaard functions of a tip, formulas in one frame that follow each other.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
+use super::component::{Cut, LocalComponent};
 use super::formulas::{Formulas, LocalFormulas};
 use super::seen::Seen;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
@@ -47,6 +48,7 @@ pub const GROUP: usize = 4;
 enum Group {
     Side(u32),
     Westergaard(TipId),
+    Component(Vec<Cut>),
     Formulas(Formulas),
 }
 
@@ -138,7 +140,7 @@ impl FunctionTable {
     pub fn group_len(&self, group: usize) -> usize {
         match &self.groups[group] {
             Group::Westergaard(_) => 4,
-            Group::Side(_) => 1,
+            Group::Side(_) | Group::Component(_) => 1,
             Group::Formulas(formulas) => formulas.len(),
         }
     }
@@ -155,6 +157,7 @@ impl FunctionTable {
             + match &self.groups[group] {
                 Group::Side(crack) => segments(*crack),
                 Group::Westergaard(tip) => segments(tip.crack),
+                Group::Component(cuts) => cuts.len(),
                 Group::Formulas(formulas) => formulas.cost(cracks),
             }
     }
@@ -245,6 +248,7 @@ fn key(function: &Function, formulas: &[Formula]) -> String {
 enum Draft {
     Side(u32),
     Westergaard(TipId),
+    Component(Vec<Cut>),
     /// Formulas, and the function that is the first of them.
     Formulas(usize, Frame, Vec<Formula>),
 }
@@ -270,6 +274,7 @@ impl<'a> Compiler<'a> {
             groups.push(match draft {
                 Draft::Side(crack) => Group::Side(crack),
                 Draft::Westergaard(tip) => Group::Westergaard(tip),
+                Draft::Component(cuts) => Group::Component(cuts),
                 Draft::Formulas(first, frame, formulas) => {
                     let compiled = known.compile(&functions[first], formulas, frame);
                     Group::Formulas(compiled.map_err(|e| error(first, e))?)
@@ -295,6 +300,9 @@ impl<'a> Compiler<'a> {
             FunctionKind::Side { crack } => {
                 let group = *self.sides.entry(*crack).or_insert(new);
                 self.slot_of(group, 0, || Draft::Side(*crack))
+            }
+            FunctionKind::Component { cuts } => {
+                self.slot_of(new, 0, || Draft::Component(cuts.clone()))
             }
             FunctionKind::Formula { text, frame, parameters, .. } => {
                 match native(text, *frame).filter(|_| self.kernels) {
@@ -378,6 +386,7 @@ type Page<'t> = Vec<OnceLock<LocalGroup<'t>>>;
 enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
+    Component(LocalComponent),
     Formulas(LocalFormulas<'t>),
 }
 
@@ -401,6 +410,7 @@ impl<'t> LocalFunctions<'t> {
         page[group % self.page].get_or_init(|| match &self.table.groups[group] {
             &Group::Side(crack) => LocalGroup::Side(self.seen.crack(crack)),
             &Group::Westergaard(tip) => LocalGroup::Westergaard(self.seen.tip(tip)),
+            Group::Component(cuts) => LocalGroup::Component(LocalComponent::new(cuts, &self.seen)),
             Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(&self.seen)),
         })
     }
@@ -423,6 +433,7 @@ impl<'t> LocalFunctions<'t> {
     ) {
         match self.group(group) {
             LocalGroup::Side(crack) => out[0] = Jet::constant(crack.side(offset, side)),
+            LocalGroup::Component(of) => out[0] = Jet::constant(of.indicator(offset, side)),
             LocalGroup::Westergaard(tip) => {
                 let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
                 let (x, y) = (offset[0].lit(tip.axis.x), offset[0].lit(tip.axis.y));

@@ -168,7 +168,7 @@ fn straight_curves_are_lines() {
 fn error(n: usize, bisections: u32) -> f64 {
     let (c, r) = (vec2(-0.3, -0.4), 1.1);
     let [Kink::Curve(level), _] = circles(c, r) else { unreachable!() };
-    let square = Chart::Quadrilateral(corners(&UNIT));
+    let square = Chart::Quadrilateral(UNIT.corners());
     let (mut windows, _) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
     for _ in 0..bisections {
         windows = windows.iter().flat_map(|w| w.halves(1)).flat_map(|w| w.halves(0)).collect();
@@ -275,7 +275,7 @@ fn strips_are_divided_where_a_curve_bends() {
     let bend = |p: Vec2| p.y - 0.5 - 0.3 * ((p.x - 0.5) * 60.0).tanh();
     let level = curve(bend);
     let Kink::Curve(level) = &level else { unreachable!() };
-    let square = Chart::Quadrilateral(corners(&UNIT));
+    let square = Chart::Quadrilateral(UNIT.corners());
     let (windows, cut) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
     assert!(cut);
     let left = std::cell::Cell::new(100);
@@ -312,7 +312,7 @@ fn curves_that_coincide_are_one() {
             (cos * d.x + sin * d.y).hypot(cos * d.y - sin * d.x) - radius
         };
         let (squares, turned): (&Level, &Level) = (&squares, &turned);
-        let whole = || vec![Window::whole(Chart::Quadrilateral(corners(&UNIT)))];
+        let whole = || vec![Window::whole(Chart::Quadrilateral(UNIT.corners()))];
         let (once, _) = cut_all(whole(), &[squares], Vec2::ZERO);
         let (twice, _) = cut_all(whole(), &[squares, turned], Vec2::ZERO);
         assert_eq!(once.len(), twice.len(), "{center:?} {radius}");

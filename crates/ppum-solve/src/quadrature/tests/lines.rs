@@ -33,7 +33,7 @@ fn square_integral(polygon: &[Vec2], c: f64, g: Vec2) -> f64 {
 fn signed_square(line: [Vec2; 2]) -> f64 {
     let normal = (line[1] - line[0]).unit().left();
     let one_side = |line: [Vec2; 2]| {
-        square_integral(&left_of(line, &corners(&DOMAIN)), -normal.dot(line[0]), normal)
+        square_integral(&left_of(line, &DOMAIN.corners()), -normal.dot(line[0]), normal)
     };
     one_side(line) - one_side([line[1], line[0]])
 }
@@ -115,7 +115,7 @@ fn kinks_of_a_patch_cut_where_it_is_active() {
     }
     let support = case.partition.support(patch);
     let line = [vec2(2.0, 0.2), vec2(-2.0, 0.1)];
-    let exact = square_integral(&left_of(line, &corners(&support)), 1.0, Vec2::ZERO);
+    let exact = square_integral(&left_of(line, &support.corners()), 1.0, Vec2::ZERO);
     assert_near(cut, exact, 1e-14, "area of the patch below its kink");
     let plain: Vec<Rule> = case.rules(orders);
     let inactive = |rules: Vec<Rule>| -> Vec<Rule> {

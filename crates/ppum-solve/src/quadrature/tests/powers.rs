@@ -16,7 +16,7 @@ fn error(lambda: f64, powers: [f64; 4], orders: Orders) -> f64 {
         let mut case = alone(cell, vec![crack(&[tip - axis * 9.0, tip])], vec![tip]);
         case.singular[0].growth = Growth::Powers { least: lambda };
         let rules = case.rules(orders);
-        let corners: Vec<Vec2> = corners(&cell).iter().map(|&p| to_frame(p - tip)).collect();
+        let corners: Vec<Vec2> = cell.corners().iter().map(|&p| to_frame(p - tip)).collect();
         for q in powers {
             let exact =
                 [1.0, -1.0].map(|sign| power_integral(&half_plane(&corners, sign), q, sign > 0.0));

@@ -86,7 +86,7 @@ pub(super) fn half_plane(polygon: &[Vec2], sign: f64) -> Vec<Vec2> {
     part
 }
 
-/// Cells and tips: inside, on edges and corners, outside but near.
+/// Cells and tips: inside, on edges and outside but near.
 pub(super) fn tip_positions(random: &mut Random) -> Vec<(Rect, Vec2, f64)> {
     let mut cases = Vec::new();
     for _ in 0..12 {
@@ -111,7 +111,7 @@ fn half_integer_error(n: usize, q: f64) -> f64 {
         let to_frame = |p: Vec2| vec2(p.dot(axis), axis.cross(p));
         let case = alone(cell, vec![crack(&[tip - axis * 9.0, tip])], vec![tip]);
         let rules = case.rules(Orders::uniform(n));
-        let corners: Vec<Vec2> = corners(&cell).iter().map(|&p| to_frame(p - tip)).collect();
+        let corners: Vec<Vec2> = cell.corners().iter().map(|&p| to_frame(p - tip)).collect();
         let exact =
             [1.0, -1.0].map(|sign| power_integral(&half_plane(&corners, sign), q, sign > 0.0));
         let exact = exact[0] + exact[1];
@@ -174,7 +174,7 @@ fn stress_like_products_match_closed_forms() {
             let case = alone(cell, vec![crack(&[tip - axis * 9.0, tip])], vec![tip]);
             let rules = case.rules(Orders::uniform(n));
             let relative = |a: Vec2, x: Vec2| if a == tip { x } else { a + x - tip };
-            let exact = inverse_distance(&corners(&cell).map(|p| p - tip));
+            let exact = inverse_distance(&cell.corners().map(|p| p - tip));
             let value = [
                 integrate(&rules, |a, x| 1.0 / relative(a, x).length()),
                 integrate(&rules, |a, x| relative(a, x).x / relative(a, x).dot(relative(a, x))),
@@ -199,7 +199,7 @@ fn far_rectangles_need_no_singular_order() {
     for (p, tolerance) in [(1, 1e-11), (2, 1e-12)] {
         let orders = Orders { singular: 12, ..Orders::for_degree(p) };
         let sum = integrate(&case.rules(orders), |a, x| 1.0 / (a + x - tip).length());
-        let exact = inverse_distance(&corners(&DOMAIN).map(|c| c - tip))[0];
+        let exact = inverse_distance(&DOMAIN.corners().map(|c| c - tip))[0];
         assert_near(sum, exact, tolerance * exact, &format!("p = {p}"));
     }
 }
@@ -212,7 +212,7 @@ fn two_tips_in_a_cell_are_separated() {
         let case = alone(cell, Vec::new(), tips.clone());
         let rules = case.rules(Orders::uniform(10));
         let exact: f64 =
-            tips.iter().map(|&t| inverse_distance(&corners(&cell).map(|p| p - t))[0]).sum();
+            tips.iter().map(|&t| inverse_distance(&cell.corners().map(|p| p - t))[0]).sum();
         let sum =
             integrate(&rules, |a, x| tips.iter().map(|&t| 1.0 / (x + (a - t)).length()).sum());
         assert_near(sum, exact, 1e-12 * exact, &format!("gap {gap:e}"));

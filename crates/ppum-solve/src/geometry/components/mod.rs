@@ -1,0 +1,172 @@
+//! The connected components of what cracks leave of a box.
+//!
+//! The box is cut by the lines of segments, one after the other, each within the part of the box that the segment lies
+//! in (a binary space partition): no line is drawn farther than the segments behind it ask for, so n segments that do
+//! not cross leave about n + 1 convex parts. Two parts are joined where their common side is not covered by cracks and
+//! does not lie in holes. The tree of the cuts, with what is joined taken as one, tells the component of any point of
+//! the box, which is what [`FunctionKind::Component`](ppum::function::FunctionKind::Component) evaluates.
+//!
+//! Ends of cracks within the box need no rule: the parts beside a line are joined beyond the end.
+
+mod coverage;
+mod region;
+mod tree;
+
+use coverage::Sides;
+use ppum::crack::SegmentId;
+use ppum::domain::Hole;
+use ppum::function::Cut;
+use ppum::segment::Segment;
+use ppum::vec2::Rect;
+use region::{Piece, Region};
+use tree::{Node, Tree};
+
+/// Thickness of parts that are rounding, in sizes of the box; the same as quadrature has.
+const THINNEST: f64 = 1e-12;
+
+/// The components of a box.
+pub(crate) struct Components {
+    tree: Tree,
+    /// Of each leaf of the tree, the component.
+    of_leaf: Vec<u32>,
+    /// Area of each component.
+    areas: Vec<f64>,
+}
+
+impl Components {
+    /// The components of a box, of which `segments` of cracks and the holes are left out. Gaps in the cracks up to the
+    /// length `gap` count as closed.
+    ///
+    /// Takes time in proportion to the square of the number of segments in the box.
+    pub(crate) fn new(
+        open: &Rect,
+        segments: impl Iterator<Item = (SegmentId, Segment)>,
+        holes: &[&Hole],
+        gap: f64,
+    ) -> Self {
+        let thinnest = THINNEST * open.size().length();
+        let pieces = segments.filter_map(|(id, ends)| Piece::inside(id, ends, open, thinnest));
+        let mut building = Building::new(thinnest);
+        let region = Region::of_box(open);
+        building.part(region, pieces.collect());
+        building.join(holes, gap)
+    }
+
+    /// Number of components.
+    pub(crate) fn count(&self) -> usize {
+        self.areas.len()
+    }
+
+    /// The trees of the indicator functions of all components but the largest: with the constants they span what is
+    /// constant on each component.
+    pub(crate) fn indicators(&self) -> Vec<Vec<Cut>> {
+        let largest =
+            (0..self.areas.len()).max_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]));
+        let all = (0..self.areas.len()).filter(|&k| Some(k) != largest);
+        all.map(|k| self.tree.cuts(&|leaf| self.of_leaf[leaf] == k as u32)).collect()
+    }
+}
+
+/// A tree that is being built.
+struct Building {
+    tree: Tree,
+    /// The parts at the leaves.
+    leaves: Vec<Region>,
+    /// Of each cut, what is known of its line.
+    sides: Vec<Sides>,
+    thinnest: f64,
+}
+
+impl Building {
+    fn new(thinnest: f64) -> Self {
+        Self { tree: Tree::default(), leaves: Vec::new(), sides: Vec::new(), thinnest }
+    }
+
+    /// Cuts a part of the box by the pieces in it; returns its node.
+    fn part(&mut self, region: Region, mut pieces: Vec<Piece>) -> usize {
+        while let Some(chosen) = choose(&pieces, self.thinnest) {
+            let line = pieces[chosen].line;
+            if region.is_split_by(&line, self.thinnest) {
+                return self.cut(region, pieces, chosen);
+            }
+            // it runs along a side of the region
+            let along = pieces.swap_remove(chosen);
+            region.cuts_along(&along, self.thinnest).for_each(|cut| self.sides[cut].cover(&along));
+        }
+        self.leaves.push(region);
+        self.tree.push(Node::Leaf(self.leaves.len() - 1))
+    }
+
+    fn cut(&mut self, region: Region, pieces: Vec<Piece>, chosen: usize) -> usize {
+        let Piece { id, line, .. } = pieces[chosen];
+        let number = self.sides.len();
+        self.sides.push(Sides::new(line));
+        let node = self.tree.push(Node::Cut { segment: id, left: 0, right: 0 });
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        for piece in &pieces {
+            let parts = piece.split(&line, self.thinnest);
+            if parts.iter().all(Option::is_none) {
+                self.sides[number].cover(piece);
+            }
+            left.extend(parts[0]);
+            right.extend(parts[1]);
+        }
+        let [on_left, on_right] = region.split(&line, number, self.thinnest);
+        let left = self.part(on_left, left);
+        let right = self.part(on_right, right);
+        self.tree.set(node, Node::Cut { segment: id, left, right });
+        node
+    }
+
+    /// Joins the parts that no crack parts.
+    fn join(mut self, holes: &[&Hole], gap: f64) -> Components {
+        for (leaf, region) in self.leaves.iter().enumerate() {
+            for (cut, ends) in region.sides() {
+                self.sides[cut].add(leaf, ends, region.center());
+            }
+        }
+        let mut joined: Vec<usize> = (0..self.leaves.len()).collect();
+        for sides in &self.sides {
+            for [a, b] in sides.open(holes, gap) {
+                let (a, b) = (root(&joined, a), root(&joined, b));
+                joined[a.max(b)] = a.min(b);
+            }
+        }
+        let (mut areas, mut of_leaf) = (Vec::new(), vec![0; joined.len()]);
+        for leaf in 0..joined.len() {
+            let first = root(&joined, leaf);
+            if first == leaf {
+                of_leaf[leaf] = areas.len() as u32;
+                areas.push(0.0);
+            }
+            of_leaf[leaf] = of_leaf[first];
+            areas[of_leaf[leaf] as usize] += self.leaves[leaf].area(holes);
+        }
+        Components { tree: self.tree, of_leaf, areas }
+    }
+}
+
+/// The first of those that are joined with a part.
+fn root(joined: &[usize], mut part: usize) -> usize {
+    while joined[part] != part {
+        part = joined[part];
+    }
+    part
+}
+
+/// Pieces among which the next one to cut by is chosen.
+const CANDIDATES: usize = 8;
+
+/// The piece whose line cuts the fewest others.
+fn choose(pieces: &[Piece], thinnest: f64) -> Option<usize> {
+    let step = pieces.len().div_ceil(CANDIDATES).max(1);
+    let cuts = |&k: &usize| {
+        let cut =
+            |piece: &&Piece| piece.split(&pieces[k].line, thinnest).iter().all(Option::is_some);
+        pieces.iter().filter(cut).count()
+    };
+    (0..pieces.len()).step_by(step).min_by_key(cuts)
+}
+
+#[cfg(test)]
+mod tests;
