@@ -20,6 +20,22 @@ pub fn polyline_distance(points: &[Vec2], p: Vec2) -> f64 {
     points.windows(2).map(|s| distance([s[0], s[1]], p)).fold(f64::INFINITY, f64::min)
 }
 
+/// Distance of two segments from each other, zero if they cross.
+#[must_use]
+pub fn gap(s: Segment, t: Segment) -> f64 {
+    if splits(s, t) && splits(t, s) {
+        return 0.0;
+    }
+    let ends = [(s[0], t), (s[1], t), (t[0], s), (t[1], s)];
+    ends.into_iter().map(|(p, segment)| distance(segment, p)).fold(f64::INFINITY, f64::min)
+}
+
+/// True if the line of `s` has the ends of `t` on different sides.
+fn splits([a, b]: Segment, t: Segment) -> bool {
+    let [c, d] = t.map(|p| (b - a).cross(p - a));
+    (c < 0.0) != (d < 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,6 +66,23 @@ mod tests {
             let found = distance([a, b], p);
             assert!(found <= least + 1e-15 && least - found < 1e-3, "{a:?} {b:?} {p:?}");
             assert!((distance([b, a], p) - found).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn gaps_of_segments() {
+        let segment = |a: [f64; 2], b: [f64; 2]| [Vec2::from(a), Vec2::from(b)];
+        let s = segment([0.0, 0.0], [2.0, 0.0]);
+        for (t, expected) in [
+            (segment([1.0, -1.0], [1.0, 1.0]), 0.0),
+            (segment([1.0, 0.5], [1.0, 1.0]), 0.5),
+            (segment([5.0, 4.0], [6.0, 4.0]), 5.0),
+            (segment([3.0, 0.0], [4.0, 0.0]), 1.0),
+            (segment([1.0, 0.0], [4.0, 0.0]), 0.0),
+            (segment([0.0, 1.0], [2.0, 3.0]), 1.0),
+        ] {
+            assert_eq!(gap(s, t), expected, "{t:?}");
+            assert_eq!(gap(t, s), expected, "{t:?}");
         }
     }
 }

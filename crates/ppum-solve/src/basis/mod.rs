@@ -6,13 +6,15 @@
 //! `docs/decisions/0002-stable-basis.md`). Functions transformed at the quadrature points have no
 //! such amplification.
 
+mod confined;
 mod shape;
 mod transform;
 
-use crate::linear::SymmetricEigen;
+use crate::linear::{EigenError, SymmetricEigen};
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
+use confined::reductions;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use ppum::dataset::monomials;
@@ -46,14 +48,15 @@ impl StableBasis {
     /// Functions that are not finite, with their place; cancelled.
     pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let grams = grams(space, stage)?;
+        let reductions = reductions(space, &grams, stage)?;
         let mut transforms = Vec::with_capacity(grams.len());
         in_batches(
             stage,
             grams.len(),
             || (),
             |(), i| {
-                let Gram { weighted, plain } = &grams[i];
-                Transform::new(weighted.as_ref(), plain, space.n_polynomials(i), CUT_OFF)
+                let polynomials = space.n_polynomials(i);
+                transform(&grams[i], reductions.get(&i), polynomials)
                     .map_err(|_| Halt::at(space.partition().support(i)))
             },
             |_, transform| transforms.push(transform),
@@ -142,6 +145,25 @@ impl StableBasis {
     }
 }
 
+/// The transformation of a patch, of whose functions only some combinations may stay.
+fn transform(
+    gram: &Gram,
+    kept: Option<&Mat<f64>>,
+    polynomials: usize,
+) -> Result<Transform, EigenError> {
+    let Gram { weighted, plain, .. } = gram;
+    let Some(rows) = kept else {
+        return Transform::new(weighted.as_ref(), plain, polynomials, CUT_OFF);
+    };
+    let square = |k: usize| plain.iter().enumerate().map(|(j, n2)| rows[(k, j)].powi(2) * n2).sum();
+    let plain: Vec<f64> = (0..rows.nrows()).map(square).collect();
+    let weighted = rows * weighted * rows.transpose();
+    let Transform { matrix, dropped } =
+        Transform::new(weighted.as_ref(), &plain, polynomials, CUT_OFF)?;
+    let lost = rows.ncols() - rows.nrows();
+    Ok(Transform { matrix: matrix * rows, dropped: dropped + lost })
+}
+
 /// c (f − σ) = c f − σ c: takes the constant parts of a patch's functions to its polynomials. Jumps
 /// have the degree of the polynomials, which come first.
 fn undo_shifts(space: &Space<'_>, patch: usize, coefficients: &mut [f64]) {
@@ -197,16 +219,23 @@ struct Gram {
     weighted: Mat<f64>,
     /// ∫ h⁻² ψ²
     plain: Vec<f64>,
+    /// The same where the patch is alone.
+    alone: Vec<f64>,
 }
 
 impl Gram {
     fn zero(functions: usize) -> Self {
-        Self { weighted: Mat::zeros(functions, functions), plain: vec![0.0; functions] }
+        Self {
+            weighted: Mat::zeros(functions, functions),
+            plain: vec![0.0; functions],
+            alone: vec![0.0; functions],
+        }
     }
 
     fn add_part(&mut self, part: &Self) {
         self.weighted += &part.weighted;
         self.plain.iter_mut().zip(&part.plain).for_each(|(sum, part)| *sum += part);
+        self.alone.iter_mut().zip(&part.alone).for_each(|(sum, part)| *sum += part);
     }
 
     /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ = 1.
@@ -217,10 +246,13 @@ impl Gram {
             let sum = self.weighted.as_mut();
             matmul(sum, Accum::Add, rows, rows.transpose(), factor, Par::Seq);
         }
+        let is_alone = f64::from(u8::from(range.len() == shapes.functions));
         let rows = shapes.rows(&shapes.value, range);
         for (q, weight) in weights.iter().enumerate().filter(|&(q, _)| rows[(0, q)] > LEAST) {
-            for (k, sum) in self.plain.iter_mut().enumerate() {
-                *sum += h2 * weight * (rows[(k, q)] / rows[(0, q)]).powi(2);
+            for (k, (sum, alone)) in self.plain.iter_mut().zip(&mut self.alone).enumerate() {
+                let square = h2 * weight * (rows[(k, q)] / rows[(0, q)]).powi(2);
+                *sum += square;
+                *alone += is_alone * square;
             }
         }
     }

@@ -14,19 +14,24 @@ pub(crate) fn inside(open: &Rect, p: Vec2) -> bool {
 /// not count.
 pub(crate) fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
     let length = |s: &[Vec2]| match clipped(s[0], s[1], open) {
-        Some(range) => solid_part(s[0], s[1], range, holes) * (s[1] - s[0]).length(),
+        Some(range) => solid_part(s[0], s[1], range, holes.iter()) * (s[1] - s[0]).length(),
         None => 0.0,
     };
     crack.points.windows(2).map(length).sum()
 }
 
 /// Part of a range of a segment's parameter that lies outside of holes.
-fn solid_part(a: Vec2, b: Vec2, [from, to]: [f64; 2], holes: &[Hole]) -> f64 {
-    let crossings = holes.iter().flat_map(|hole| rim_crossings(a, b, hole));
+pub(super) fn solid_part<'h>(
+    a: Vec2,
+    b: Vec2,
+    [from, to]: [f64; 2],
+    holes: impl Iterator<Item = &'h Hole> + Clone,
+) -> f64 {
+    let crossings = holes.clone().flat_map(|hole| rim_crossings(a, b, hole));
     let mut breaks: Vec<f64> = crossings.filter(|t| *t > from && *t < to).collect();
     breaks.extend([from, to]);
     breaks.sort_by(f64::total_cmp);
-    let is_solid = |t: f64| !holes.iter().any(|hole| hole.contains(a + (b - a) * t));
+    let is_solid = |t: f64| !holes.clone().any(|hole| hole.contains(a + (b - a) * t));
     let parts = breaks.windows(2).filter(|t| is_solid(0.5 * (t[0] + t[1])));
     parts.map(|t| t[1] - t[0]).sum()
 }

@@ -4,6 +4,7 @@ mod around;
 mod clearance;
 mod clip;
 mod components;
+mod jumps;
 mod material;
 mod placed;
 
@@ -11,9 +12,8 @@ pub use around::Around;
 pub(crate) use clearance::AMPLE_CLEARANCE;
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
-    clipped, distance, inside, length_inside, meets, rim_crossings, runs_inside, runs_of_rim,
-    segment_inside,
+    clipped, distance, inside, length_inside, meets, rim_crossings, runs_of_rim, segment_inside,
 };
-pub(crate) use components::Components;
+pub(crate) use jumps::{Jump, Jumps};
 pub(crate) use material::interface_distance;
 pub(crate) use placed::{Placed, around, wider};

@@ -1,16 +1,15 @@
 //! Cracks as a problem gives them: what their ends are, and where they may lie.
 
-use std::collections::BTreeMap;
-
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
-use ppum::segment::{self, Segment};
+use ppum::segment::{Segment, gap};
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
 use super::check::MistakeAt;
+use super::contacts::{check_contacts, find_junctions};
 use super::key::Key;
-use super::nearby::{Nearby, TooDense, first_pair};
+use super::nearby::{TooDense, first_pair};
 use crate::geometry::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
@@ -18,15 +17,17 @@ use crate::geometry::{Placed, wider};
 pub(super) const TOUCH: f64 = 1e-9;
 
 /// A crack along a polyline: ends on the border of the box, and on the rim or inside of a hole (up to
-/// 10⁻⁹ of the domain's size), are mouths, all others tips.
+/// 10⁻⁹ of the domain's size), are mouths, all others tips. Of cracks that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
-    let lines = std::iter::once(points);
+    let lines = [points];
     cracks(lines, domain).pop().unwrap_or(Crack { points: Vec::new(), ends: [CrackEnd::Tip; 2] })
 }
 
-/// Cracks along polylines, with their ends as [`crack`] has them.
-pub(super) fn cracks(lines: impl Iterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
+/// Cracks along polylines, with their ends as [`crack`] has them, but for ends on other cracks (up to the same
+/// distance), which are junctions.
+#[must_use]
+pub fn cracks(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
     let end = |point: Option<&Vec2>| match point {
@@ -40,7 +41,9 @@ pub(super) fn cracks(lines: impl Iterator<Item = Vec<Vec2>>, domain: &Domain) ->
         let ends = [end(points.first()), end(points.last())];
         Crack { points, ends }
     };
-    lines.map(crack).collect()
+    let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
+    find_junctions(&mut cracks, touch);
+    cracks
 }
 
 /// Holes with their numbers.
@@ -56,8 +59,8 @@ fn holes_at<'a, 'h>(holes: &'a Holes<'h>, p: Vec2) -> impl Iterator<Item = &'a (
     holes.near(&Rect::new(p, p))
 }
 
-/// The length below which things touch.
-fn touch(bounds: &Rect) -> f64 {
+/// The length below which things touch: 10⁻⁹ of the domain's longer side.
+pub(crate) fn touch(bounds: &Rect) -> f64 {
     let size = bounds.size();
     TOUCH * size.x.max(size.y)
 }
@@ -90,43 +93,8 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
     found
 }
 
-fn points_of(crack: usize) -> Key {
+pub(super) fn points_of(crack: usize) -> Key {
     Key::new("crack").index(crack).name("points")
-}
-
-/// Most contacts that are told.
-const MOST_CONTACTS: usize = 100;
-
-/// No two of the cracks touch.
-fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<MistakeAt> {
-    let of_crack = |&crack: &usize| {
-        let segments = cracks[crack].points.windows(2).enumerate();
-        segments.map(move |(k, pair)| (crack, k, [pair[0], pair[1]]))
-    };
-    let pieces: Vec<(usize, usize, Segment)> = in_order.iter().flat_map(of_crack).collect();
-    let segments: Vec<_> = pieces.iter().map(|&(.., segment)| segment).collect();
-    let nearby = Nearby::new(&segments, touch);
-    let mut contacts = BTreeMap::new();
-    for &(crack, k, segment) in &pieces {
-        let Ok(near) = nearby.of(segment) else {
-            return vec![MistakeAt::new(Key::new("crack"), TooDense::message("the cracks"))];
-        };
-        let earlier = near.into_iter().take_while(|&other| pieces[other].0 < crack);
-        for other in earlier.filter(|&other| distance(segment, segments[other]) <= touch) {
-            contacts.entry((crack, pieces[other].0)).or_insert(k);
-        }
-        if contacts.len() >= MOST_CONTACTS {
-            break;
-        }
-    }
-    contacts.into_iter().take(MOST_CONTACTS).map(contact).collect()
-}
-
-/// The mistake of a crack that touches another one at its segment `k`.
-fn contact(((crack, other), k): ((usize, usize), usize)) -> MistakeAt {
-    let message = "the crack crosses or touches another one, which is not supported yet in this version; \
-                   move them apart";
-    MistakeAt::new(points_of(crack).index(k), message).with_other(points_of(other))
 }
 
 /// Some of the crack lies in the material, and no tip too near to a rim to be meant.
@@ -147,7 +115,7 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
     let mut found = check_places(points, domain, touch, key);
     found.extend(check_segments(points, domain, touch, key));
     if found.is_empty() {
-        found.extend(check_whole(points, domain, touch, key));
+        found.extend(check_whole(points, touch, key));
     }
     found
 }
@@ -199,37 +167,19 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
     points.windows(2).enumerate().filter_map(segment).collect()
 }
 
-/// No crossing with itself, and no hook.
-fn check_whole(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
+/// No crossing with itself.
+fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<MistakeAt> {
     let Ok(touching) = self_touch(points, touch) else {
         return Some(MistakeAt::new(key.clone(), TooDense::message("parts of the crack")));
     };
-    if let Some((first, second)) = touching {
+    touching.map(|(first, second)| {
         let message = format!(
             "the crack crosses, touches or folds back on itself: its segments {} and {} meet; \
-             separate them",
+             separate them, or give the second one as a crack of its own: cracks may meet others",
             first + 1,
             second + 1
         );
-        return Some(MistakeAt::new(key.clone().index(second), message));
-    }
-    hook(points, domain, touch).map(|segment| {
-        let message = "the straight extension of an end of the crack meets the crack itself, and such \
-                       hooks are not supported yet in this version: the side of the crack would be \
-                       wrong beyond the end; straighten it";
-        MistakeAt::new(key.clone().index(segment), message)
-    })
-}
-
-/// The segment that the straight extension of an end, as far as the domain reaches, runs into.
-fn hook(points: &[Vec2], domain: &Rect, touch: f64) -> Option<usize> {
-    let last = points.len() - 1;
-    let reach = domain.size().length();
-    let ends = [(points[0], points[1], 0), (points[last], points[last - 1], last - 1)];
-    ends.into_iter().find_map(|(end, before, own)| {
-        let ray = [end, end + (end - before).unit() * reach];
-        let meets = |k: &usize| *k != own && distance(ray, [points[*k], points[*k + 1]]) <= touch;
-        (0..last).find(meets)
+        MistakeAt::new(key.clone().index(second), message)
     })
 }
 
@@ -245,7 +195,7 @@ pub(super) fn crosses_itself(
     first_pair(sides, touch, |i, j| match (j - i, n - (j - i)) {
         (1, _) => folds_back(sides[i], sides[j], touch),
         (_, 1) => folds_back(sides[j], sides[i], touch),
-        _ => distance(sides[i], sides[j]) <= touch,
+        _ => gap(sides[i], sides[j]) <= touch,
     })
 }
 
@@ -257,7 +207,7 @@ fn self_touch(points: &[Vec2], touch: f64) -> Result<Option<(usize, usize)>, Too
     let segments: Vec<Segment> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     first_pair(&segments, touch, |i, j| match j - i {
         1 => folds_back(segments[i], segments[j], touch),
-        _ => distance(segments[i], segments[j]) <= touch,
+        _ => gap(segments[i], segments[j]) <= touch,
     })
 }
 
@@ -268,46 +218,11 @@ fn folds_back([a, b]: [Vec2; 2], [_, c]: [Vec2; 2], touch: f64) -> bool {
     back.dot(on) > 0.0 && back.unit().cross(on.unit()).abs() * reach <= touch
 }
 
-/// Distance of two segments, zero if they cross.
-pub(super) fn distance(s: Segment, t: Segment) -> f64 {
-    if splits(s, t) && splits(t, s) {
-        return 0.0;
-    }
-    let ends = [(s[0], t), (s[1], t), (t[0], s), (t[1], s)];
-    ends.into_iter().map(|(p, segment)| segment::distance(segment, p)).fold(f64::INFINITY, f64::min)
-}
-
-/// True if the line of `s` has the ends of `t` on different sides.
-fn splits([a, b]: [Vec2; 2], t: [Vec2; 2]) -> bool {
-    let [c, d] = t.map(|p| (b - a).cross(p - a));
-    (c < 0.0) != (d < 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use ppum::vec2::vec2;
 
     use super::*;
-
-    fn segment(a: [f64; 2], b: [f64; 2]) -> [Vec2; 2] {
-        [a.into(), b.into()]
-    }
-
-    #[test]
-    fn distances_of_segments() {
-        let s = segment([0.0, 0.0], [2.0, 0.0]);
-        for (t, expected) in [
-            (segment([1.0, -1.0], [1.0, 1.0]), 0.0),
-            (segment([1.0, 0.5], [1.0, 1.0]), 0.5),
-            (segment([5.0, 4.0], [6.0, 4.0]), 5.0),
-            (segment([3.0, 0.0], [4.0, 0.0]), 1.0),
-            (segment([1.0, 0.0], [4.0, 0.0]), 0.0),
-            (segment([0.0, 1.0], [2.0, 3.0]), 1.0),
-        ] {
-            assert_eq!(distance(s, t), expected, "{t:?}");
-            assert_eq!(distance(t, s), expected, "{t:?}");
-        }
-    }
 
     #[test]
     fn ends_on_the_border_are_mouths() {

@@ -29,6 +29,7 @@
 
 mod boundary;
 mod check;
+mod contacts;
 mod cracks;
 mod csv;
 mod discretization;
@@ -60,7 +61,8 @@ use ppum::formula::Table;
 use ppum::vec2::Vec2;
 
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
-pub use cracks::crack;
+pub(crate) use cracks::touch;
+pub use cracks::{crack, cracks};
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Location, Mistake, ProblemError};

@@ -102,7 +102,7 @@ mod tests {
             let nearby = Nearby::new(&segments, touch);
             for &segment in &segments {
                 let found = nearby.of(segment).expect("few");
-                let near = |other: Segment| super::super::cracks::distance(segment, other) <= touch;
+                let near = |other: Segment| ppum::segment::gap(segment, other) <= touch;
                 let missed = (0..60).filter(|i| !found.contains(i)).find(|&i| near(segments[i]));
                 assert_eq!(missed, None);
             }
@@ -114,9 +114,7 @@ mod tests {
         let mut random = Random(8);
         for n in [0, 1, 2, 9, 40] {
             let segments = random_segments(n, &mut random);
-            let meet = |i: usize, j: usize| {
-                super::super::cracks::distance(segments[i], segments[j]) <= 1e-9
-            };
+            let meet = |i: usize, j: usize| ppum::segment::gap(segments[i], segments[j]) <= 1e-9;
             let all = (0..n).flat_map(|j| (0..j).map(move |i| (i, j))).find(|&(i, j)| meet(i, j));
             assert_eq!(first_pair(&segments, 1e-9, meet), Ok(all), "{n}");
         }

@@ -6,9 +6,8 @@
 //!   materials.
 //! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
 //!   unless the problem has functions of its own: the field is singular there.
-//! - No patch is crossed twice by one crack, down to a part of the crack's length: it has one function,
-//!   the side, for the three or more parts it is cut into, two of which would be glued together. Nor by the rim
-//!   of a polygon, for whose two sides it has no functions of their own.
+//! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no functions of their own
+//!   for the two sides. Cracks may cross it and each other as they like, up to what [`Jumps`] can look at.
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
@@ -19,10 +18,10 @@ mod ligament;
 
 use crate::corner::corners;
 use crate::geometry::{
-    AMPLE_CLEARANCE, Placed, TipClearance, around, interface_distance, rim_crossings, runs_inside,
+    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, interface_distance, rim_crossings,
     runs_of_rim, wider,
 };
-use crate::problem::{Cells, Enrichment, Problem};
+use crate::problem::{Cells, Enrichment, Problem, touch};
 use crate::smoothness::Interfaces;
 use crate::watched::Stage;
 use graded::{Graded, graded};
@@ -34,11 +33,8 @@ use ppum::domain::{Domain, Hole};
 use ppum::progress::Cancelled;
 use ppum::vec2::{Rect, Vec2};
 
-/// Part of a crack's length, or of a hole's size, below which cells are not divided to part its runs.
+/// Part of a hole's size below which cells are not divided to part the sides of its rim.
 const LEAST_GAP: f64 = 1.0 / 128.0;
-
-/// The same, below which what is glued together beside a kink is as small as the kink's finest cells.
-const NO_GAP: f64 = 1.0 / 1024.0;
 
 /// Refinements below the base cover after which a problem counts as unresolvable.
 const DEEPEST: usize = 16;
@@ -102,10 +98,14 @@ pub(crate) fn cover(
         return Ok(cover);
     }
     let (needs, wishes) = (Needs::new(problem), Wishes::new(problem, &cover));
-    let crossings = Crossings::new(problem);
+    let rims = Rims::new(problem);
+    let bounds = &problem.domain.bounds;
+    let jumps = Jumps::new(&problem.cracks, &problem.domain, touch(bounds));
     let must = |cell: &Rect| {
         let patch = patch_of(cell, problem);
-        needs.asks(cell, &patch) || crossings.has_two(&patch, LEAST_GAP)
+        needs.asks(cell, &patch)
+            || rims.cross_twice(&patch)
+            || jumps.are_too_many(&patch.intersection(bounds))
     };
     for _ in 0..DEEPEST {
         if cover.n_cells() > most {
@@ -245,59 +245,41 @@ fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
     Ok(cover)
 }
 
-/// Number of patches that still hold several runs of one crack or rim: two of the parts they are cut into
+/// Number of patches that still hold several runs of a rim: two of the parts they are cut into
 /// are glued together.
 pub(crate) fn n_crossed_twice(problem: &Problem, partition: &Partition) -> usize {
-    let crossings = Crossings::new(problem);
-    let is_crossed = |&patch: &usize| crossings.has_two(&partition.support(patch), NO_GAP);
-    (0..partition.len()).filter(is_crossed).count()
+    let rims = Rims::new(problem);
+    (0..partition.len()).filter(|&patch| rims.cross_twice(&partition.support(patch))).count()
 }
 
-/// Lines that can cross a patch twice.
-struct Crossings<'p> {
+/// Rims of polygons, which can cross a patch twice.
+struct Rims<'p> {
     domain: Rect,
     overlap: f64,
-    lines: Placed<Line<'p>>,
+    /// Their corners and sizes.
+    rims: Placed<(&'p [Vec2], f64)>,
 }
 
-enum Line<'p> {
-    Crack(&'p Crack),
-    /// The rim of a polygon, with its size.
-    Rim(&'p [Vec2], f64),
-}
-
-impl<'p> Crossings<'p> {
+impl<'p> Rims<'p> {
     fn new(problem: &'p Problem) -> Self {
-        let bent = problem.cracks.iter().filter(|crack| crack.points.len() > 2);
-        let cracks = bent.map(|crack| (around(&crack.points), Line::Crack(crack)));
         let rims = problem.domain.holes.iter().filter_map(|hole| match hole {
             Hole::Circle { .. } => None,
             Hole::Polygon { points } => {
                 let size = hole.bounds().size();
-                Some((hole.bounds(), Line::Rim(points, size.x.max(size.y))))
+                Some((hole.bounds(), (points.as_slice(), size.x.max(size.y))))
             }
         });
-        Self {
-            domain: problem.domain.bounds,
-            overlap: problem.discretization.overlap,
-            lines: Placed::new(cracks.chain(rims)),
-        }
+        let overlap = problem.discretization.overlap;
+        Self { domain: problem.domain.bounds, overlap, rims: Placed::new(rims) }
     }
 
-    /// True if a patch, as far as the domain reaches, holds several runs of a crack, or of the rim of a polygon,
-    /// and is larger than a part of it.
-    fn has_two(&self, patch: &Rect, part: f64) -> bool {
+    /// True if a patch, as far as the domain reaches, holds several runs of a rim and is larger than a part of it.
+    fn cross_twice(&self, patch: &Rect) -> bool {
         let size = patch.size().x.max(patch.size().y) / self.overlap;
         let inside = patch.intersection(&self.domain);
-        self.lines.near(patch).any(|line| match line {
-            Line::Crack(crack) => {
-                size > part * crack.length() && runs_inside(&crack.points, &inside) > 1
-            }
-            // a rim is free: little is glued together at its sharp corners
-            Line::Rim(points, whole) => {
-                size > part.max(LEAST_GAP) * whole && runs_of_rim(points, &inside) > 1
-            }
-        })
+        self.rims
+            .near(patch)
+            .any(|(points, whole)| size > LEAST_GAP * whole && runs_of_rim(points, &inside) > 1)
     }
 }
 

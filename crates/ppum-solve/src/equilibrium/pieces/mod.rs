@@ -62,18 +62,19 @@ pub(crate) struct Piece {
 impl Pieces {
     /// The pieces of a domain without cracks.
     ///
-    /// In a box cracks of which at most one end lies on the border do not cut anything.
+    /// In a box one crack with a tip does not cut anything.
     pub(crate) fn new(domain: &Domain, cracks: &[Crack]) -> Self {
         let bounds = domain.bounds;
-        let cuts = |crack: &Crack| !crack.ends.contains(&CrackEnd::Tip);
         let all_of_it = || Self { bounds, all: vec![Piece::of_box(&bounds)], map: None };
-        if domain.holes.is_empty() && !cracks.iter().any(cuts) {
+        let has_tip = cracks.iter().all(|crack| crack.ends.contains(&CrackEnd::Tip));
+        if domain.holes.is_empty() && cracks.len() < 2 && has_tip {
             return all_of_it();
         }
+        let stitches = stitches(cracks, &bounds);
         let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, &bounds)).collect();
         let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
-        triangulate(&domain, &cracks)
+        triangulate(&domain, &cracks, &stitches)
             .map_or_else(|_| all_of_it(), |(mesh, along)| Self::of_mesh(&domain, mesh, along))
     }
 
@@ -191,12 +192,48 @@ fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
     points
 }
 
+/// What closes the gaps of rounding between ends of cracks and the cracks that they lie on: from each such end to the
+/// nearest place, and a little farther.
+fn stitches(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
+    let far = INWARD * bounds.size().length();
+    let mut found = Vec::new();
+    for (k, crack) in cracks.iter().enumerate() {
+        let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
+        for (end, _) in ends.filter(|(_, kind)| *kind == CrackEnd::Junction) {
+            let p = crack.end_point(end);
+            let others = cracks.iter().enumerate().filter(|(other, _)| *other != k);
+            let places = others.flat_map(|(_, other)| other.points.windows(2)).map(|s| foot(s, p));
+            let near = places.filter(|q| (*q - p).length() <= 4.0 * far);
+            for q in near {
+                let way = if q == p { crack.growth_direction(end) } else { (q - p).unit() };
+                found.extend([[p, q], [q, q + way * far]].into_iter().filter(|[a, b]| a != b));
+            }
+        }
+    }
+    found
+}
+
+/// The point of a segment nearest to a point.
+fn foot(segment: &[Vec2], p: Vec2) -> Vec2 {
+    let (a, d) = (segment[0], segment[1] - segment[0]);
+    match (d.dot(p - a) / d.dot(d)).clamp(0.0, 1.0) {
+        1.0 => segment[1],
+        place => a + d * place,
+    }
+}
+
 /// The triangulation of the box in units of its sides, so that its border stays straight. Holes are
-/// polygons. The cracks come last: nothing divides their edges any more.
-fn triangulate(domain: &Domain, cracks: &[Vec<Vec2>]) -> Result<(Mesh, Along), InsertionError> {
+/// polygons. Where the cracks lie is asked last: nothing divides their edges any more.
+fn triangulate(
+    domain: &Domain,
+    cracks: &[Vec<Vec2>],
+    stitches: &[[Vec2; 2]],
+) -> Result<(Mesh, Along), InsertionError> {
     let (mut mesh, bounds) = (Mesh::new(), &domain.bounds);
     let rims = domain.holes.iter().flat_map(Hole::sides);
-    for segment in rims::border(bounds).into_iter().chain(rims) {
+    let of_cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
+    let all = rims::border(bounds).into_iter().chain(rims).chain(of_cracks);
+    for segment in all.chain(stitches.iter().copied()) {
         add_edges(&mut mesh, bounds, segment)?;
     }
     let mut along = Vec::new();

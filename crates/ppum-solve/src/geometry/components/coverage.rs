@@ -50,6 +50,16 @@ impl Sides {
         pairs.filter(is_open).map(|(a, b)| [a.0, b.0]).collect()
     }
 
+    /// The pairs of parts that touch each other along the line.
+    pub(super) fn beside(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let [left, right] = &self.parts;
+        let pairs = left.iter().flat_map(move |a| right.iter().map(move |b| (a, b)));
+        let touch = |((_, a), (_, b)): &(&(usize, Interval), &(usize, Interval))| {
+            a[0].max(b[0]) < a[1].min(b[1])
+        };
+        pairs.filter(touch).map(|(a, b)| [a.0, b.0])
+    }
+
     fn is_open(&self, [from, to]: Interval, holes: &[&Hole], gap: f64) -> bool {
         if to - from <= gap {
             return false;

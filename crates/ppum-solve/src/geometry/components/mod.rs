@@ -24,13 +24,19 @@ use tree::{Node, Tree};
 /// Thickness of parts that are rounding, in sizes of the box; the same as quadrature has.
 const THINNEST: f64 = 1e-12;
 
+/// Size of the middle of a box, in its sizes: what a patch has for itself with the default overlap.
+const MIDDLE: f64 = 0.5;
+
+/// Weight of areas outside of the middle.
+const ELSEWHERE: f64 = 1e-3;
+
 /// The components of a box.
 pub(crate) struct Components {
     tree: Tree,
     /// Of each leaf of the tree, the component.
     of_leaf: Vec<u32>,
-    /// Area of each component.
-    areas: Vec<f64>,
+    /// Of each component, the area in the middle of the box, and a little for what else there is.
+    weights: Vec<f64>,
 }
 
 impl Components {
@@ -49,20 +55,22 @@ impl Components {
         let mut building = Building::new(thinnest);
         let region = Region::of_box(open);
         building.part(region, pieces.collect());
-        building.join(holes, gap)
+        building.join(open, holes, gap)
     }
 
     /// Number of components.
+    #[cfg(test)]
     pub(crate) fn count(&self) -> usize {
-        self.areas.len()
+        self.weights.len()
     }
 
-    /// The trees of the indicator functions of all components but the largest: with the constants they span what is
-    /// constant on each component.
+    /// The trees of the indicator functions of all components but that with the most room in the middle, which a patch
+    /// has for itself: with the constants they span what is constant on each component.
     pub(crate) fn indicators(&self) -> Vec<Vec<Cut>> {
-        let largest =
-            (0..self.areas.len()).max_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]));
-        let all = (0..self.areas.len()).filter(|&k| Some(k) != largest);
+        let numbers = 0..self.weights.len();
+        let heavier = |a: &usize, b: &usize| self.weights[*a].total_cmp(&self.weights[*b]);
+        let heaviest = numbers.clone().max_by(heavier);
+        let all = numbers.filter(|&k| Some(k) != heaviest);
         all.map(|k| self.tree.cuts(&|leaf| self.of_leaf[leaf] == k as u32)).collect()
     }
 }
@@ -119,7 +127,7 @@ impl Building {
     }
 
     /// Joins the parts that no crack parts.
-    fn join(mut self, holes: &[&Hole], gap: f64) -> Components {
+    fn join(mut self, open: &Rect, holes: &[&Hole], gap: f64) -> Components {
         for (leaf, region) in self.leaves.iter().enumerate() {
             for (cut, ends) in region.sides() {
                 self.sides[cut].add(leaf, ends, region.center());
@@ -129,20 +137,41 @@ impl Building {
         for sides in &self.sides {
             for [a, b] in sides.open(holes, gap) {
                 let (a, b) = (root(&joined, a), root(&joined, b));
-                joined[a.max(b)] = a.min(b);
+                joined[a] = b;
             }
         }
-        let (mut areas, mut of_leaf) = (Vec::new(), vec![0; joined.len()]);
+        self.join_crumbs(&mut joined, gap);
+        let middle = Rect::around(open.center(), open.size() * (0.5 * MIDDLE));
+        let (mut weights, mut of_leaf, mut numbers) =
+            (Vec::new(), Vec::new(), vec![None; joined.len()]);
         for leaf in 0..joined.len() {
             let first = root(&joined, leaf);
-            if first == leaf {
-                of_leaf[leaf] = areas.len() as u32;
-                areas.push(0.0);
-            }
-            of_leaf[leaf] = of_leaf[first];
-            areas[of_leaf[leaf] as usize] += self.leaves[leaf].area(holes);
+            let number = *numbers[first].get_or_insert_with(|| {
+                weights.push(0.0);
+                weights.len() - 1
+            });
+            of_leaf.push(number as u32);
+            let (leaf, inner) =
+                (&self.leaves[leaf], self.leaves[leaf].within(&middle, self.thinnest));
+            weights[number] += inner.area(holes) + ELSEWHERE * leaf.area(holes);
         }
-        Components { tree: self.tree, of_leaf, areas }
+        Components { tree: self.tree, of_leaf, weights }
+    }
+
+    /// Joins what is not larger than a gap, where ends that are meant to meet miss each other, to what lies beside it.
+    fn join_crumbs(&self, joined: &mut [usize], gap: f64) {
+        let mut areas = vec![0.0; joined.len()];
+        for (leaf, region) in self.leaves.iter().enumerate() {
+            areas[root(joined, leaf)] += region.area(&[]);
+        }
+        let is_crumb = |part: usize| areas[part] <= gap * gap;
+        for [a, b] in self.sides.iter().flat_map(Sides::beside) {
+            let (a, b) = (root(joined, a), root(joined, b));
+            if is_crumb(a) || is_crumb(b) {
+                let (crumb, other) = if is_crumb(a) { (a, b) } else { (b, a) };
+                joined[crumb] = other;
+            }
+        }
     }
 }
 

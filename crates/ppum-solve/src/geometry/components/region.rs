@@ -136,6 +136,16 @@ impl Region {
         self.ends().filter_map(|(ends, cut)| cut.map(|cut| (cut, ends)))
     }
 
+    /// The part in a box.
+    pub(super) fn within(&self, part: &Rect, thinnest: f64) -> Self {
+        let corners = part.corners();
+        let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
+        sides.fold(self.clone(), |region, [a, b]| {
+            let line = Line { from: a, along: (b - a).unit() };
+            region.split(&line, 0, thinnest).into_iter().next().unwrap_or(region)
+        })
+    }
+
     /// The mean of the corners.
     pub(super) fn center(&self) -> Vec2 {
         let sum = self.0.iter().fold(Vec2::ZERO, |sum, (p, _)| sum + *p);

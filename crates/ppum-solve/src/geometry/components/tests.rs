@@ -108,14 +108,14 @@ fn cracks_that_end_on_holes() {
     assert_eq!(on(&[left], &circle), 1, "round the hole");
     assert_eq!(on(&[left, right], &circle), 2);
     assert_eq!(on(&[&[[-1.0, 0.5], [2.0, 0.5]]], &circle), 2, "through it");
-    let wall = [[0.4, -0.5], [0.6, -0.5], [0.6, 0.8], [0.4, 0.8]];
+    let wall = [[0.4, -0.5], [3.0, -0.5], [3.0, 3.0], [0.4, 3.0]];
     let wall = Hole::Polygon { points: wall.map(Vec2::from).to_vec() };
-    let into: &[[f64; 2]] = &[[-1.0, 0.5], [0.45, 0.5]];
-    assert_eq!(on(&[into], &wall), 2, "the way round the wall ends at the box");
+    assert_eq!(on(&[&[[-1.0, 0.5], [0.45, 0.5]]], &wall), 2, "up to a wall");
+    assert_eq!(on(&[&[[-1.0, 0.5], [0.35, 0.5]]], &wall), 1, "not quite");
 }
 
-/// A random network on the unit box: points of one component are joined by a way that meets no crack, points of
-/// different ones by none. The ways lead along the edges of a fine grid.
+/// A random network on the unit box: a way that meets no crack does not leave its component. The ways lead along the
+/// edges of a fine grid. That components are not larger is held by `equilibrium::pieces`, which finds them otherwise.
 #[test]
 fn components_are_what_ways_lead_to() {
     const N: usize = 96;
@@ -138,16 +138,14 @@ fn components_are_what_ways_lead_to() {
         };
         let of: Vec<_> = (0..N * N).map(|k| map.at(place(k))).collect();
         let mut seen = vec![false; N * N];
-        let mut largest = vec![0; components.count()];
         for start in 0..N * N {
             if seen[start] {
                 continue;
             }
-            let (mut open, mut size) = (vec![start], 0);
+            let mut open = vec![start];
             seen[start] = true;
             while let Some(k) = open.pop() {
                 assert_eq!(of[k], of[start], "round {round}: {:?} {:?}", place(k), place(start));
-                size += 1;
                 let beside = [
                     (k % N > 0).then(|| k - 1),
                     (k % N + 1 < N).then(|| k + 1),
@@ -161,14 +159,6 @@ fn components_are_what_ways_lead_to() {
                     }
                 }
             }
-            // a component has one large island; in sharp corners the grid may lose small ones
-            let known = &mut largest[of[start]];
-            let other = std::mem::replace(known, size.max(*known));
-            assert!(
-                other.min(size) < N,
-                "round {round}: {other} and {size} around {:?}",
-                place(start)
-            );
         }
     }
 }

@@ -185,7 +185,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     }
     Some(Problem {
         title: title.to_owned(),
-        cracks: super::cracks::cracks(cracks.into_iter(), &domain),
+        cracks: super::cracks::cracks(cracks, &domain),
         domain,
         equation,
         boundary,

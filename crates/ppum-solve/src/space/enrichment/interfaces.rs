@@ -90,7 +90,7 @@ impl Enrichments<'_> {
             found.push(index);
             cuts.push((index, None));
             let cracks = self.problem.cracks.iter().enumerate();
-            let through = cracks.filter(|(_, crack)| patch.is_of(&Patches::Cut(crack)));
+            let through = cracks.filter(|(_, crack)| patch.is_cut_through(crack));
             let parted = through.filter(|(_, crack)| parts(crack, &places));
             cuts.extend(parted.map(|(k, _)| (index, Some(k))));
         }
@@ -111,7 +111,7 @@ impl Enrichments<'_> {
 
     /// True if the gradient of one of the problem's own functions of some instances jumps across an
     /// interface.
-    fn has_kink(&self, own: &[&Instance<'_>], probes: &[Probe], place: &Place, width: f64) -> bool {
+    fn has_kink(&self, own: &[&Instance], probes: &[Probe], place: &Place, width: f64) -> bool {
         let first = self.instances[self.own.clone()].first().map_or(0, |new| new.functions.start);
         let mut functions = own.iter().flat_map(|new| new.functions.clone());
         functions.any(|index| {

@@ -3,9 +3,8 @@
 //! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
 //! them, the degree of the polynomials that multiply them.
 //!
-//! A crack cuts a patch *through* when it meets the open box of the patch outside of holes and has no
-//! tip inside it;
-//! then the patch gets the side of the crack times its polynomials (a jump). A patch with a tip
+//! A patch that cracks cut into several parts gets functions that jump there times its polynomials: the
+//! sides of cracks, or where these meet indicators of the parts ([`Jumps`]). A patch with a tip
 //! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
 //! part of such a patch is cut but holds no jump, and without them the r^{3/2} term of the solution
 //! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
@@ -14,8 +13,10 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use crate::geometry::{Placed, around, distance, inside, length_inside, segment_inside, wider};
-use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
+use crate::geometry::{
+    Jump, Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
+};
+use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site, touch};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::domain::Hole;
@@ -34,7 +35,9 @@ pub(crate) type Block = (u32, u8);
 pub(crate) struct Enrichments<'p> {
     pub(crate) table: Vec<Function>,
     problem: &'p Problem,
-    instances: Vec<Instance<'p>>,
+    /// What jumps, if anything does.
+    jumps: Option<Jumps<'p>>,
+    instances: Vec<Instance>,
     /// The numbers of the instances, by the places of their patches, once all are there.
     placed: OnceLock<Placed<usize>>,
     /// Those of the problem's own among the instances.
@@ -42,17 +45,15 @@ pub(crate) struct Enrichments<'p> {
 }
 
 /// Functions that go together.
-struct Instance<'p> {
+struct Instance {
     functions: Range<u32>,
-    patches: Patches<'p>,
+    patches: Patches,
     degree: Degree,
 }
 
 /// The patches that have an instance.
-enum Patches<'p> {
+enum Patches {
     All,
-    /// Those that a crack cuts through.
-    Cut(&'p Crack),
     /// Those that hold the shape or are cut by it, and those nearer to it than a length.
     Near(Shape, f64),
     /// Of those that the tip's crack meets and that are not within the length of the tip, the ones
@@ -101,13 +102,14 @@ impl<'p> Enrichments<'p> {
         let mut all = Self {
             table: vec![one],
             problem,
+            jumps: None,
             instances: Vec::new(),
             placed: OnceLock::new(),
             own: 0..0,
         };
         let mode = problem.discretization.enrichment;
         if mode.has_jumps() {
-            problem.cracks.iter().enumerate().for_each(|(k, crack)| all.add_jump(k, crack));
+            all.add_jumps();
         }
         if let Some(at_tips) = westergaard(mode) {
             all.add(&at_tips);
@@ -121,10 +123,15 @@ impl<'p> Enrichments<'p> {
         all
     }
 
-    fn add_jump(&mut self, index: usize, crack: &'p Crack) {
-        let kind = FunctionKind::Side { crack: index as u32 };
-        let side = Function { name: format!("side of crack {index}"), kind };
-        self.push(vec![side], Patches::Cut(crack), Degree::OfPatch);
+    /// The sides of all cracks, first of the table but for the function 1.
+    fn add_jumps(&mut self) {
+        let Problem { cracks, domain, .. } = self.problem;
+        let side = |crack: u32| Function {
+            name: format!("side of crack {crack}"),
+            kind: FunctionKind::Side { crack },
+        };
+        self.table.extend((0..cracks.len() as u32).map(side));
+        self.jumps = Some(Jumps::new(cracks, domain, touch(&domain.bounds)));
     }
 
     fn add(&mut self, new: &LocalEnrichment) {
@@ -140,7 +147,7 @@ impl<'p> Enrichments<'p> {
         }
     }
 
-    fn push(&mut self, functions: Vec<Function>, patches: Patches<'p>, degree: Degree) {
+    fn push(&mut self, functions: Vec<Function>, patches: Patches, degree: Degree) {
         let first = self.table.len() as u32;
         self.table.extend(functions);
         let functions = first..self.table.len() as u32;
@@ -152,7 +159,7 @@ impl<'p> Enrichments<'p> {
     /// the crack too.
     fn extend_along_cracks(&mut self) {
         let at_tips = self.instances.iter().zip(tips(&self.problem.cracks));
-        let behind = |(instance, tip): (&Instance<'p>, TipId)| Instance {
+        let behind = |(instance, tip): (&Instance, TipId)| Instance {
             functions: instance.functions.clone(),
             patches: Patches::Behind(tip, self.problem.enrichment_radius(tip)),
             degree: instance.degree,
@@ -161,46 +168,65 @@ impl<'p> Enrichments<'p> {
         self.instances.extend(behind);
     }
 
-    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then the
-    /// enrichments.
-    pub(crate) fn blocks(&self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
-        let patch = Patch::new(partition, patch, self.problem);
+    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then jumps, then the
+    /// other enrichments.
+    pub(crate) fn blocks(&mut self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
+        let seen = Patch::new(partition, patch, self.problem);
         let mut blocks = vec![(0, degree)];
-        let near = self.placed().near(&patch.support).map(|&k| &self.instances[k]);
-        for instance in near.filter(|new| patch.is_of(&new.patches)) {
-            let degree = match instance.degree {
-                Degree::OfPatch => degree,
-                Degree::BelowPatch => degree.saturating_sub(1),
-                Degree::Fixed(degree) => degree,
-                Degree::Holding(p, inside) => {
-                    if patch.holds(p) {
-                        inside
-                    } else {
-                        0
-                    }
-                }
-            };
+        blocks.extend(self.jumps(&seen).into_iter().map(|function| (function, degree)));
+        let near = self.placed().near(&seen.support).map(|&k| &self.instances[k]);
+        for instance in near.filter(|new| seen.is_of(&new.patches)) {
+            let degree = instance.degree.on(&seen, degree);
             blocks.extend(instance.functions.clone().map(|function| (function, degree)));
         }
         blocks
+    }
+
+    /// The functions that jump in a patch; those of its own come to the table.
+    fn jumps(&mut self, patch: &Patch<'_>) -> Vec<u32> {
+        let all = match self.jumps.as_ref().map(|jumps| jumps.of(&patch.open)) {
+            None | Some(Jump::TooMany) => return Vec::new(),
+            Some(Jump::Sides(cracks)) => {
+                return cracks.into_iter().map(|crack| crack + 1).collect();
+            }
+            Some(Jump::Components(all)) => all.indicators(),
+        };
+        let first = self.table.len() as u32;
+        let name = |k: usize| format!("component {} of patch {}", k + 1, patch.index);
+        let function =
+            |(k, cuts)| Function { name: name(k), kind: FunctionKind::Component { cuts } };
+        self.table.extend(all.into_iter().enumerate().map(function));
+        (first..self.table.len() as u32).collect()
+    }
+}
+
+impl Degree {
+    /// The degree on a patch whose smooth polynomials have the degree `degree`.
+    fn on(self, patch: &Patch<'_>, degree: u8) -> u8 {
+        match self {
+            Self::OfPatch => degree,
+            Self::BelowPatch => degree.saturating_sub(1),
+            Self::Fixed(degree) => degree,
+            Self::Holding(p, inside) if patch.holds(p) => inside,
+            Self::Holding(..) => 0,
+        }
     }
 }
 
 impl Enrichments<'_> {
     fn placed(&self) -> &Placed<usize> {
         let instances = self.instances.iter().enumerate();
-        let place = |(k, new): (usize, &Instance<'_>)| (new.patches.place(self.problem), k);
+        let place = |(k, new): (usize, &Instance)| (new.patches.place(self.problem), k);
         self.placed.get_or_init(|| Placed::new(instances.map(place)))
     }
 }
 
-impl Patches<'_> {
+impl Patches {
     /// A box that all of the patches meet.
     fn place(&self, problem: &Problem) -> Rect {
         let everywhere = wider(&problem.domain.bounds, problem.domain.bounds.size().length());
         match self {
             Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
-            Patches::Cut(crack) => around(&crack.points),
             Patches::Near(Shape::Point(p), radius) => wider(&around(&[*p]), *radius),
             Patches::Near(Shape::Segment(ends), radius) => wider(&around(ends), *radius),
             Patches::Behind(tip, _) => around(&problem.cracks[tip.crack as usize].points),
@@ -295,12 +321,9 @@ impl<'p> Patch<'p> {
         }
     }
 
-    fn is_of(&self, patches: &Patches<'_>) -> bool {
+    fn is_of(&self, patches: &Patches) -> bool {
         match patches {
             Patches::All => true,
-            Patches::Cut(crack) => {
-                self.is_cut(crack) && !crack.tips().any(|end| self.holds(crack.end_point(end)))
-            }
             Patches::Near(Shape::Point(p), radius) => self.holds(*p) || self.is_near(*p, *radius),
             Patches::Near(Shape::Segment([a, b]), radius) => {
                 segment_inside(*a, *b, &self.support) > self.shortest
@@ -328,6 +351,11 @@ impl<'p> Patch<'p> {
 
     fn is_cut(&self, crack: &Crack) -> bool {
         length_inside(crack, &self.open, self.holes) > self.shortest
+    }
+
+    /// True if the crack cuts the patch and has no tip in the patch.
+    fn is_cut_through(&self, crack: &Crack) -> bool {
+        self.is_cut(crack) && !crack.tips().any(|end| self.holds(crack.end_point(end)))
     }
 
     fn nearest_tip(&self, crack: &Crack) -> Option<End> {

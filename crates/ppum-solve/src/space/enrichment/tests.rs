@@ -35,7 +35,7 @@ fn problem() -> Problem {
 fn having(problem: &Problem, name: &str) -> Vec<([i32; 2], u8)> {
     let cover = Cover::grid(problem.domain.bounds, [8, 8]).expect("a cover");
     let partition = cover.partition(1.5, WeightFunction::Linear).expect("a partition");
-    let all = Enrichments::new(problem);
+    let mut all = Enrichments::new(problem);
     let function = all.table.iter().position(|f| f.name == name).expect("a function") as u32;
     let mut found = Vec::new();
     for patch in 0..partition.len() {

@@ -1,0 +1,158 @@
+//! The functions that let a field jump across the cracks in a patch.
+//!
+//! The side of a crack serves where it says what the crack does to the patch: the crack passes through once, meets no
+//! other one there, and its straight extensions, across which the side jumps too, stay away. Wherever cracks meet,
+//! come back or end on holes the patch has the indicators of its [`Components`].
+
+use super::clip::{clipped, inside, meets, solid_part};
+use super::components::Components;
+use super::placed::{Placed, around, wider};
+use ppum::crack::{Crack, End, SegmentId};
+use ppum::domain::{Domain, Hole};
+use ppum::segment::{Segment, gap};
+use ppum::vec2::{Rect, Vec2};
+
+/// Part of a patch's size below which a cut does not count.
+const LEAST_CUT: f64 = 1e-9;
+
+/// Most segments of cracks that may cut a patch where cracks meet: time grows with the square.
+const MOST: usize = 512;
+
+/// What cracks are to patches.
+pub(crate) struct Jumps<'p> {
+    cracks: &'p [Crack],
+    segments: Placed<(SegmentId, Segment)>,
+    holes: Placed<&'p Hole>,
+    /// The straight extensions of each crack; none of one that they or the crack itself meet.
+    extensions: Vec<Option<[Segment; 2]>>,
+    /// Distance from which on cracks keep apart.
+    touch: f64,
+}
+
+/// The functions of a patch.
+pub(crate) enum Jump {
+    /// The sides of these cracks.
+    Sides(Vec<u32>),
+    /// Indicators of components.
+    Components(Components),
+    /// More segments meet each other in the patch than can be looked at.
+    TooMany,
+}
+
+impl<'p> Jumps<'p> {
+    /// The cracks of a domain; things not farther apart than `touch` meet.
+    pub(crate) fn new(cracks: &'p [Crack], domain: &'p Domain, touch: f64) -> Self {
+        let all = (0..).zip(cracks).flat_map(|(crack, c)| segments(crack, &c.points));
+        let place = |(id, ends): (SegmentId, Segment)| (around(&ends), (id, ends));
+        let reach = domain.bounds.size().length();
+        Self {
+            cracks,
+            segments: Placed::new(all.map(place)),
+            holes: Placed::new(domain.holes.iter().map(|hole| (hole.bounds(), hole))),
+            extensions: cracks.iter().map(|crack| extensions(crack, reach, touch)).collect(),
+            touch,
+        }
+    }
+
+    /// The functions of a patch with this open box.
+    pub(crate) fn of(&self, open: &Rect) -> Jump {
+        let cut: Vec<_> =
+            self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect();
+        let holes: Vec<_> = self.holes.near(open).copied().collect();
+        if holes.is_empty() && self.are_apart(&cut, open) {
+            return Jump::Sides(self.sides(&cut, open));
+        }
+        if cut.len() > MOST {
+            return Jump::TooMany;
+        }
+        if !self.is_cut(&cut, open, &holes) {
+            return Jump::Sides(Vec::new());
+        }
+        Jump::Components(Components::new(open, cut.into_iter(), &holes, 2.0 * self.touch))
+    }
+
+    /// True if more segments meet each other in a patch than can be looked at.
+    pub(crate) fn are_too_many(&self, open: &Rect) -> bool {
+        let cut = self.cut(open);
+        cut.len() > MOST && (self.holes.near(open).next().is_some() || !self.are_apart(&cut, open))
+    }
+
+    /// The segments that meet a box.
+    fn cut(&self, open: &Rect) -> Vec<(SegmentId, Segment)> {
+        self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect()
+    }
+
+    /// True if some length of cracks lies in the material of a box.
+    fn is_cut(&self, cut: &[(SegmentId, Segment)], open: &Rect, holes: &[&Hole]) -> bool {
+        let length = |[a, b]: Segment| {
+            let range = clipped(a, b, open)?;
+            Some(solid_part(a, b, range, holes.iter().copied()) * (b - a).length())
+        };
+        let size = open.size();
+        let all: f64 = cut.iter().filter_map(|(_, ends)| length(*ends)).sum();
+        all > LEAST_CUT * size.x.min(size.y)
+    }
+
+    /// The cracks that cut a box through, by their numbers.
+    fn sides(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> Vec<u32> {
+        let has_tip = |crack: &u32| {
+            let crack = &self.cracks[*crack as usize];
+            crack.tips().any(|end| inside(open, crack.end_point(end)))
+        };
+        let runs = cut.chunk_by(|a, b| a.0.crack == b.0.crack);
+        let through = runs.filter(|run| self.is_cut(run, open, &[])).map(|run| run[0].0.crack);
+        through.filter(|crack| !has_tip(crack)).collect()
+    }
+
+    /// True if the cracks in a box pass through it once each, and keep away from each other and from the
+    /// extensions.
+    fn are_apart(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> bool {
+        let runs: Vec<_> = cut.chunk_by(|a, b| a.0.crack == b.0.crack).collect();
+        let once = |run: &&[(SegmentId, Segment)]| {
+            let extended = self.extensions[run[0].0.crack as usize];
+            let goes_on = |pair: &[(SegmentId, Segment)]| {
+                pair[1].0.segment == pair[0].0.segment + 1 && inside(open, pair[0].1[1])
+            };
+            run.windows(2).all(goes_on)
+                && extended.is_some_and(|rays| !rays.iter().any(|ray| meets(*ray, open)))
+        };
+        runs.iter().all(once) && (runs.len() < 2 || self.keep_apart(&runs, open))
+    }
+
+    /// True if no two of the runs meet in a box.
+    fn keep_apart(&self, runs: &[&[(SegmentId, Segment)]], open: &Rect) -> bool {
+        let within = wider(open, self.touch);
+        let part = |s: Segment| {
+            let [from, to] = clipped(s[0], s[1], &within)?;
+            Some([s[0] + (s[1] - s[0]) * from, s[0] + (s[1] - s[0]) * to])
+        };
+        let parts: Vec<Vec<Segment>> =
+            runs.iter().map(|run| run.iter().filter_map(|(_, s)| part(*s)).collect()).collect();
+        let near = |s: &Segment, t: &Segment| gap(*s, *t) <= self.touch;
+        parts.iter().enumerate().all(|(k, run)| {
+            let others = parts[..k].iter().flatten();
+            others.into_iter().all(|t| !run.iter().any(|s| near(s, t)))
+        })
+    }
+}
+
+fn segments(crack: u32, points: &[Vec2]) -> impl Iterator<Item = (SegmentId, Segment)> + '_ {
+    let ends = points.windows(2).map(|s| [s[0], s[1]]);
+    (0..).zip(ends).map(move |(segment, ends)| (SegmentId { crack, segment }, ends))
+}
+
+/// The straight extensions of a crack, of a length; none if one of them comes near to the crack or the other one:
+/// between the two its side is not that of the nearest segment.
+fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
+    let points = &crack.points;
+    let rays = [End::Start, End::Last].map(|end| {
+        let tip = crack.end_point(end);
+        [tip, tip + crack.growth_direction(end) * reach]
+    });
+    let last = points.len() - 2;
+    let own = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
+    let meets = |(k, s): (usize, Segment)| {
+        (k != 0 && gap(rays[0], s) <= touch) || (k != last && gap(rays[1], s) <= touch)
+    };
+    (gap(rays[0], rays[1]) > touch && !own.into_iter().any(meets)).then_some(rays)
+}
