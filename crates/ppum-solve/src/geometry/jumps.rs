@@ -4,12 +4,12 @@
 //! other one there, and its straight extensions, across which the side jumps too, stay away. Wherever cracks meet,
 //! come back or end on holes the patch has the indicators of its [`Components`].
 
-use super::clip::{clipped, inside, meets, solid_part};
+use super::clip::{clipped, inside, meets, segment_inside, solid_part};
 use super::components::Components;
 use super::placed::{Placed, around, wider};
-use ppum::crack::{Crack, End, SegmentId};
+use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
-use ppum::segment::{Segment, gap};
+use ppum::segment::{Segment, distance, gap};
 use ppum::vec2::{Rect, Vec2};
 
 /// Part of a patch's size below which a cut does not count.
@@ -77,6 +77,34 @@ impl<'p> Jumps<'p> {
         cut.len() > MOST && (self.holes.near(open).next().is_some() || !self.are_apart(&cut, open))
     }
 
+    /// A crack that meets another one, or whose extensions meet it or each other.
+    pub(crate) fn first_meeting(&self) -> Option<u32> {
+        let back = self.extensions.iter().position(Option::is_none).map(|crack| crack as u32);
+        back.or_else(|| {
+            let all = (0..).zip(self.cracks).flat_map(|(k, crack)| segments(k, &crack.points));
+            let meets = |(id, s): &(SegmentId, Segment)| {
+                let near = self.segments.near(&wider(&around(s), self.touch));
+                let others = near.filter(|(other, _)| other.crack != id.crack);
+                others.into_iter().any(|(_, t)| gap(*s, *t) <= self.touch)
+            };
+            all.into_iter().find(meets).map(|(id, _)| id.crack)
+        })
+    }
+
+    /// True if the angle θ at a tip may jump in a box beside the tip's crack: it does so on the crack, or where
+    /// another part of a crack that comes back is as near as the tip's own segment.
+    pub(crate) fn mislead(&self, tip: TipId, within: &Rect) -> bool {
+        if self.extensions[tip.crack as usize].is_some() {
+            return false;
+        }
+        let points = &self.cracks[tip.crack as usize].points;
+        let own = if tip.end == End::Start { 0 } else { points.len() - 2 };
+        let mut others = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
+        let farthest = within.corners().map(|p| distance([points[own], points[own + 1]], p));
+        let farthest = farthest.into_iter().fold(0.0, f64::max);
+        others.any(|(k, s)| k != own && super::clip::distance(s, within) <= farthest)
+    }
+
     /// The segments that meet a box.
     fn cut(&self, open: &Rect) -> Vec<(SegmentId, Segment)> {
         self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect()
@@ -95,13 +123,15 @@ impl<'p> Jumps<'p> {
 
     /// The cracks that cut a box through, by their numbers.
     fn sides(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> Vec<u32> {
-        let has_tip = |crack: &u32| {
-            let crack = &self.cracks[*crack as usize];
-            crack.tips().any(|end| inside(open, crack.end_point(end)))
-        };
         let runs = cut.chunk_by(|a, b| a.0.crack == b.0.crack);
         let through = runs.filter(|run| self.is_cut(run, open, &[])).map(|run| run[0].0.crack);
-        through.filter(|crack| !has_tip(crack)).collect()
+        through.filter(|&crack| !self.has_tip(crack, open)).collect()
+    }
+
+    /// True if a tip of a crack lies in a box.
+    fn has_tip(&self, crack: u32, open: &Rect) -> bool {
+        let crack = &self.cracks[crack as usize];
+        crack.tips().any(|end| inside(open, crack.end_point(end)))
     }
 
     /// True if the cracks in a box pass through it once each, and keep away from each other and from the
@@ -109,12 +139,15 @@ impl<'p> Jumps<'p> {
     fn are_apart(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> bool {
         let runs: Vec<_> = cut.chunk_by(|a, b| a.0.crack == b.0.crack).collect();
         let once = |run: &&[(SegmentId, Segment)]| {
-            let extended = self.extensions[run[0].0.crack as usize];
+            let crack = run[0].0.crack;
+            let is_clear = |rays: [Segment; 2]| {
+                self.has_tip(crack, open)
+                    || rays.iter().all(|&[a, b]| segment_inside(a, b, open) == 0.0)
+            };
             let goes_on = |pair: &[(SegmentId, Segment)]| {
                 pair[1].0.segment == pair[0].0.segment + 1 && inside(open, pair[0].1[1])
             };
-            run.windows(2).all(goes_on)
-                && extended.is_some_and(|rays| !rays.iter().any(|ray| meets(*ray, open)))
+            run.windows(2).all(goes_on) && self.extensions[crack as usize].is_some_and(is_clear)
         };
         runs.iter().all(once) && (runs.len() < 2 || self.keep_apart(&runs, open))
     }

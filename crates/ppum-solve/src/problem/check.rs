@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use ppum::cover::OVERLAP;
-use ppum::crack::Side;
+use ppum::crack::{Crack, CrackEnd, Side};
 use ppum::dataset::{Equation, MAX_DEGREE};
 use ppum::domain::Domain;
 use ppum::vec2::Rect;
 
-use super::cracks::check_cracks;
+use super::cracks::{check_cracks, points_of, touch};
 use super::enrichment::check_enrichments;
 use super::holes::check_holes;
 use super::key::Key;
@@ -18,6 +18,7 @@ use super::{
     BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment, LocalEnrichment, Order,
     Problem,
 };
+use crate::geometry::Jumps;
 
 /// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
 pub(super) const MAX_LEVEL: u32 = 10;
@@ -59,12 +60,25 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
         found.extend(check_points(&problem.discretization.cells, bounds));
         found.extend(check_order(&problem.discretization.order, bounds));
         found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_additive(problem));
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
         found.extend(check_boundary(problem));
     }
     found.extend(domain);
     found
+}
+
+/// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.
+fn check_additive(problem: &Problem) -> Option<MistakeAt> {
+    let Problem { cracks, domain, discretization, .. } = problem;
+    if discretization.enrichment != Enrichment::AdditiveOnly {
+        return None;
+    }
+    let jumps = Jumps::new(cracks, domain, touch(&domain.bounds));
+    let message = "the crack meets another one or comes back to itself, which `enrichment = \"additive-only\"` \
+                   cannot show; take another enrichment, or move the cracks apart";
+    jumps.first_meeting().map(|crack| MistakeAt::new(points_of(crack as usize), message))
 }
 
 /// No zone of the built-in functions of tips may reach too far.
@@ -78,12 +92,19 @@ fn check_zone(problem: &Problem) -> Option<MistakeAt> {
 /// The mistake of the radius of a zone around all tips, if it is too large: the functions of a tip
 /// jump on the whole straight extension of its segment, also beyond the other end of the crack.
 pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
-    let two_tips = problem.cracks.iter().filter(|crack| crack.tips().count() == 2);
-    let apart = two_tips.filter_map(|c| Some((*c.points.last()? - *c.points.first()?).length()));
+    // from the border on there is nothing to jump
+    let goes_on = |crack: &&Crack| {
+        crack.ends.contains(&CrackEnd::Tip) && !crack.ends.contains(&CrackEnd::Mouth)
+    };
+    let apart = problem
+        .cracks
+        .iter()
+        .filter(goes_on)
+        .filter_map(|c| Some((*c.points.last()? - *c.points.first()?).length()));
     let nearest = apart.fold(f64::INFINITY, f64::min);
     (radius >= nearest).then(|| {
         format!(
-            "is {radius}, but the tips of a crack are only {nearest} apart; give less than half of \
+            "is {radius}, but the ends of a crack are only {nearest} apart; give less than half of \
              that"
         )
     })

@@ -10,7 +10,6 @@ use super::check::MistakeAt;
 use super::cracks::points_of;
 use super::key::Key;
 use super::nearby::{Nearby, TooDense};
-use crate::geometry::{Placed, around, wider};
 
 /// Most contacts that are told.
 const MOST_TOLD: usize = 100;
@@ -18,22 +17,27 @@ const MOST_TOLD: usize = 100;
 /// Most pairs of segments that meet: what they cut the plate into is found for each.
 const MOST_MEETINGS: usize = 100_000;
 
-/// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions.
+/// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions. Where cracks lie too close
+/// together to look at all of them, which is a mistake, they stay tips.
 pub(super) fn find_junctions(cracks: &mut [Crack], touch: f64) {
-    let segments = |(k, crack): (usize, &Crack)| {
-        let all: Vec<_> = crack.points.windows(2).map(|s| [s[0], s[1]]).collect();
-        all.into_iter().map(move |s| (wider(&around(&s), 2.0 * touch), (k, s)))
+    let of_crack = |(k, crack): (usize, &Crack)| {
+        crack.points.windows(2).map(|s| (k, [s[0], s[1]])).collect::<Vec<_>>()
     };
-    let placed = Placed::new(cracks.iter().enumerate().flat_map(segments));
-    let is_junction = |own: usize, p: Vec2| {
-        let near = placed.near(&around(&[p]));
-        near.into_iter().any(|(k, s)| *k != own && segment::distance(*s, p) <= touch)
+    let pieces: Vec<(usize, Segment)> = cracks.iter().enumerate().flat_map(of_crack).collect();
+    let segments: Vec<_> = pieces.iter().map(|&(_, segment)| segment).collect();
+    let nearby = Nearby::new(&segments, touch);
+    let lies_on = |own: usize, p: Vec2| {
+        let near = nearby.of([p, p])?;
+        let mut others = near.into_iter().map(|at| pieces[at]).filter(|(k, _)| *k != own);
+        Ok::<_, TooDense>(others.any(|(_, s)| segment::distance(s, p) <= touch))
     };
     for (k, crack) in cracks.iter_mut().enumerate().filter(|(_, crack)| crack.points.len() > 1) {
         let ends = [crack.points[0], crack.points[crack.points.len() - 1]];
         for (kind, p) in crack.ends.iter_mut().zip(ends) {
-            if *kind == CrackEnd::Tip && is_junction(k, p) {
-                *kind = CrackEnd::Junction;
+            match lies_on(k, p) {
+                Ok(true) if *kind == CrackEnd::Tip => *kind = CrackEnd::Junction,
+                Ok(_) => {}
+                Err(TooDense) => return,
             }
         }
     }

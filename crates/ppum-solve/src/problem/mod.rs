@@ -61,6 +61,7 @@ use ppum::formula::Table;
 use ppum::vec2::Vec2;
 
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
+use contacts::find_junctions;
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
 pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
@@ -223,11 +224,13 @@ impl Problem {
     }
 
     /// The problem with one more crack; its ends on the border, also on rims
-    /// and in holes, become mouths, the others tips.
+    /// and in holes, become mouths, those on other cracks junctions, and all others tips. Ends of the cracks before
+    /// it that lie on it become junctions, too.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let points = points.iter().copied().map(Vec2::from).collect();
         self.cracks.push(crack(points, &self.domain));
+        find_junctions(&mut self.cracks, touch(&self.domain.bounds));
         self
     }
 

@@ -11,6 +11,7 @@ mod holes;
 mod incompressible;
 mod intensity;
 mod interfaces;
+mod junctions;
 mod kernels;
 mod loads;
 mod physics;

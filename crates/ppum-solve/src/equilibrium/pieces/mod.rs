@@ -74,8 +74,11 @@ impl Pieces {
         let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, &bounds)).collect();
         let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
-        triangulate(&domain, &cracks, &stitches)
-            .map_or_else(|_| all_of_it(), |(mesh, along)| Self::of_mesh(&domain, mesh, along))
+        let Ok((mesh, along)) = triangulate(&domain, &cracks, &stitches) else {
+            return all_of_it();
+        };
+        let found = Self::of_mesh(&domain, mesh, along);
+        if domain.holes.is_empty() && found.all.len() == 1 { all_of_it() } else { found }
     }
 
     fn of_mesh(domain: &Domain, mesh: Mesh, along: Along) -> Self {
@@ -205,7 +208,10 @@ fn stitches(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
             let places = others.flat_map(|(_, other)| other.points.windows(2)).map(|s| foot(s, p));
             let near = places.filter(|q| (*q - p).length() <= 4.0 * far);
             for q in near {
-                let way = if q == p { crack.growth_direction(end) } else { (q - p).unit() };
+                let gap = q - p;
+                // a direction that is more than rounding
+                let is_apart = gap.length() > 1e-3 * far;
+                let way = if is_apart { gap.unit() } else { crack.growth_direction(end) };
                 found.extend([[p, q], [q, q + way * far]].into_iter().filter(|[a, b]| a != b));
             }
         }
@@ -251,11 +257,7 @@ fn add_edges(
     ends: [Vec2; 2],
 ) -> Result<Vec<[FixedVertexHandle; 2]>, InsertionError> {
     let [from, to] = ends.map(|p| mesh.insert(to_unit(bounds, p)));
-    let (from, to) = (from?, to?);
-    let edges =
-        if from == to { Vec::new() } else { mesh.add_constraint_and_split(from, to, |p| p) };
-    let ends = edges.into_iter().map(|edge| mesh.directed_edge(edge).vertices().map(|v| v.fix()));
-    Ok(ends.collect())
+    crossing::connect(mesh, from?, to?)
 }
 
 fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
@@ -314,6 +316,7 @@ fn from_unit(bounds: &Rect, p: Point2<f64>) -> Vec2 {
     bounds.min + vec2(p.x * bounds.size().x, p.y * bounds.size().y)
 }
 
+mod crossing;
 mod rims;
 #[cfg(test)]
 mod tests;

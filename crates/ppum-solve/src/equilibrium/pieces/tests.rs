@@ -138,3 +138,92 @@ fn cracks_from_a_round_hole() {
         assert_ne!(found.behind(middle, normal), found.behind(middle, -normal));
     }
 }
+
+/// Cracks that cross, branch and end on each other cut out what lies between them, whatever their numbers are.
+#[test]
+fn cracks_that_meet() {
+    let mut random = ppum_testkit::random::Random(16);
+    for round in 0..200 {
+        let mut point = || [random.between(-0.9, 0.9), random.between(-0.9, 0.9)];
+        let corners = [point(), point(), point()];
+        let [a, b, c] = corners.map(Vec2::from);
+        let area = 0.5 * (b - a).cross(c - a).abs();
+        if area < 1e-3 {
+            continue;
+        }
+        let toward = |from: Vec2, to: Vec2, part: f64| <[f64; 2]>::from(from + (to - from) * part);
+        let beyond =
+            [[a, b], [b, c], [c, a]].map(|[p, q]| [toward(q, p, 1.001), toward(p, q, 1.001)]);
+        let lines = match round % 3 {
+            0 => beyond.map(|side| side.to_vec()).to_vec(),
+            1 => vec![vec![corners[0], corners[1]], vec![corners[1], corners[2], corners[0]]],
+            _ => {
+                let middle = toward(a, b, 0.37);
+                vec![
+                    vec![corners[0], corners[1]],
+                    vec![middle, corners[2]],
+                    vec![corners[2], corners[1]],
+                ]
+            }
+        };
+        let cracks = crate::problem::cracks(
+            lines.into_iter().map(|line| line.into_iter().map(Vec2::from).collect()),
+            &bounds().into(),
+        );
+        let found = Pieces::new(&domain(&[]), &cracks);
+        let cut_out = if round % 3 == 2 { 0.63 * area } else { area };
+        let areas: Vec<f64> = found.all().iter().map(|piece| piece.area).collect();
+        assert_eq!(areas.len(), 2, "round {round}: {corners:?} {areas:?}");
+        let least = areas[0].min(areas[1]);
+        assert!((least - cut_out).abs() < 1e-8, "round {round}: {least} {cut_out}");
+        let inside =
+            if round % 3 == 2 { a + (b - a) * 0.7 + (c - b) * 0.1 } else { (a + b + c) / 3.0 };
+        assert!((found.all()[found.of(inside)].area - cut_out).abs() < 1e-8);
+    }
+}
+
+/// What the components of patches are, and the pieces of a plate that is the patch: found in two ways, the same.
+#[test]
+fn pieces_of_a_box_are_its_components() {
+    use ppum::function::{Function, FunctionKind, FunctionTable, GROUP};
+    let (mut random, bounds) = (ppum_testkit::random::Random(17), bounds());
+    for round in 0..100 {
+        let mut point = || vec2(random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+        let lines: Vec<Vec<Vec2>> =
+            (0..2 + round % 5).map(|k| (0..2 + k % 3).map(|_| point()).collect()).collect();
+        let around = Rect::around(Vec2::ZERO, vec2(9.0, 9.0)).into();
+        let whole = crate::problem::cracks(lines.iter().cloned(), &around);
+        let pieces = Pieces::new(&domain(&[]), &whole);
+        let jump = crate::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
+        let kinds: Vec<FunctionKind> = match jump {
+            crate::geometry::Jump::Sides(all) => {
+                all.into_iter().map(|crack| FunctionKind::Side { crack }).collect()
+            }
+            crate::geometry::Jump::Components(all) => {
+                all.indicators().into_iter().map(|cuts| FunctionKind::Component { cuts }).collect()
+            }
+            crate::geometry::Jump::TooMany => panic!("a few cracks"),
+        };
+        let functions: Vec<_> =
+            kinds.into_iter().map(|kind| Function { name: "any".into(), kind }).collect();
+        let table = FunctionTable::new(&functions, whole.len(), &[]).expect("jumps");
+        let mut known: std::collections::BTreeMap<Vec<i64>, usize> =
+            std::collections::BTreeMap::new();
+        let mut numbers = std::collections::BTreeSet::new();
+        for _ in 0..400 {
+            let p = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+            let local = table.at(&whole, p);
+            let mut jets = [ppum::jet::Jet::constant(0.0); GROUP];
+            let values: Vec<i64> = (0..table.groups())
+                .map(|group| {
+                    local.evaluate::<f64, 1>(group, [0.0; 2], Side::Above, &mut jets);
+                    jets[0].v as i64
+                })
+                .collect();
+            let piece = pieces.of(p);
+            assert_eq!(*known.entry(values).or_insert(piece), piece, "round {round}: {p:?}");
+            numbers.insert(piece);
+        }
+        assert_eq!(known.len(), numbers.len(), "round {round}: {known:?} {lines:?}");
+    }
+}

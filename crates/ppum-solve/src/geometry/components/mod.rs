@@ -30,6 +30,9 @@ const MIDDLE: f64 = 0.5;
 /// Weight of areas outside of the middle.
 const ELSEWHERE: f64 = 1e-3;
 
+/// The same in parts of the coordinates.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// The components of a box.
 pub(crate) struct Components {
     tree: Tree,
@@ -50,7 +53,8 @@ impl Components {
         holes: &[&Hole],
         gap: f64,
     ) -> Self {
-        let thinnest = THINNEST * open.size().length();
+        let reach = open.min.length().max(open.max.length());
+        let thinnest = (THINNEST * open.size().length()).max(ROUNDING * reach);
         let pieces = segments.filter_map(|(id, ends)| Piece::inside(id, ends, open, thinnest));
         let mut building = Building::new(thinnest);
         let region = Region::of_box(open);
@@ -111,7 +115,8 @@ impl Building {
         self.sides.push(Sides::new(line));
         let node = self.tree.push(Node::Cut { segment: id, left: 0, right: 0 });
         let (mut left, mut right) = (Vec::new(), Vec::new());
-        for piece in &pieces {
+        self.sides[number].cover(&pieces[chosen]);
+        for (_, piece) in pieces.iter().enumerate().filter(|(k, _)| *k != chosen) {
             let parts = piece.split(&line, self.thinnest);
             if parts.iter().all(Option::is_none) {
                 self.sides[number].cover(piece);

@@ -40,10 +40,11 @@ pub(super) struct Piece {
 impl Piece {
     /// The part of a segment in a box, if it is longer than rounding.
     pub(super) fn inside(id: SegmentId, ends: Segment, open: &Rect, thinnest: f64) -> Option<Self> {
-        let line = Line { from: ends[0], along: (ends[1] - ends[0]).unit() };
         let [from, to] = crate::geometry::clipped(ends[0], ends[1], open)?;
         let at = |t: f64| if t == 1.0 { ends[1] } else { ends[0] + (ends[1] - ends[0]) * t };
-        let piece = Self { id, line, ends: [at(from), at(to)] };
+        let piece = [at(from), at(to)];
+        let line = Line { from: piece[0], along: (ends[1] - ends[0]).unit() };
+        let piece = Self { id, line, ends: piece };
         (piece.length() > thinnest).then_some(piece)
     }
 

@@ -47,6 +47,8 @@ pub(crate) struct Enrichments<'p> {
 /// Functions that go together.
 struct Instance {
     functions: Range<u32>,
+    /// The tip in whose frame they are, if there is one.
+    tip: Option<TipId>,
     patches: Patches,
     degree: Degree,
 }
@@ -152,7 +154,11 @@ impl<'p> Enrichments<'p> {
         self.table.extend(functions);
         let functions = first..self.table.len() as u32;
         self.placed.take();
-        self.instances.push(Instance { functions, patches, degree });
+        let tip = match &self.table[first as usize].kind {
+            FunctionKind::Formula { frame: Frame::Tip(tip), .. } => Some(*tip),
+            _ => None,
+        };
+        self.instances.push(Instance { functions, tip, patches, degree });
     }
 
     /// Gives the functions of each tip, so far the only instances, to the patches along its part of
@@ -161,6 +167,7 @@ impl<'p> Enrichments<'p> {
         let at_tips = self.instances.iter().zip(tips(&self.problem.cracks));
         let behind = |(instance, tip): (&Instance, TipId)| Instance {
             functions: instance.functions.clone(),
+            tip: instance.tip,
             patches: Patches::Behind(tip, self.problem.enrichment_radius(tip)),
             degree: instance.degree,
         };
@@ -175,11 +182,17 @@ impl<'p> Enrichments<'p> {
         let mut blocks = vec![(0, degree)];
         blocks.extend(self.jumps(&seen).into_iter().map(|function| (function, degree)));
         let near = self.placed().near(&seen.support).map(|&k| &self.instances[k]);
-        for instance in near.filter(|new| seen.is_of(&new.patches)) {
+        let misled = |new: &&Instance| new.tip.is_some_and(|tip| self.misleads(tip, &seen.open));
+        for instance in near.filter(|new| seen.is_of(&new.patches) && !misled(new)) {
             let degree = instance.degree.on(&seen, degree);
             blocks.extend(instance.functions.clone().map(|function| (function, degree)));
         }
         blocks
+    }
+
+    /// True if the functions of a tip jump in a box where nothing else does.
+    fn misleads(&self, tip: TipId, open: &Rect) -> bool {
+        self.jumps.as_ref().is_some_and(|jumps| jumps.mislead(tip, open))
     }
 
     /// The functions that jump in a patch; those of its own come to the table.
