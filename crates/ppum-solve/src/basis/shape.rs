@@ -133,19 +133,21 @@ impl<'s> ShapeEvaluator<'s> {
             space,
             anchor,
             offset: Vec2::ZERO,
-            jets: vec![[ZERO; GROUP]; space.functions.groups()],
+            jets: vec![[ZERO; GROUP]; groups.len()],
+            places: places_in(space, patches, &groups),
         };
         let mut weights = Vec::with_capacity(patches.len());
         for (point, &offset) in offsets.iter().enumerate() {
             at.offset = offset;
-            for &group in &groups {
-                let place = [offset.x, offset.y];
-                functions.evaluate::<f64, 1>(group, place, side, &mut at.jets[group]);
+            for (&group, jets) in groups.iter().zip(&mut at.jets) {
+                functions.evaluate::<f64, 1>(group, [offset.x, offset.y], side, jets);
             }
             at.partition(patches, &mut weights);
-            let mut function = 0;
+            let (mut function, mut places) = (0, at.places.as_slice());
             for (&patch, phi) in patches.iter().zip(&weights) {
-                function = at.shapes(patch as usize, *phi, point, function, out);
+                let (own, rest) = places.split_at(space.data().blocks(patch as usize).len());
+                function = at.shapes((patch as usize, own), *phi, point, function, out);
+                places = rest;
             }
         }
     }
@@ -175,12 +177,29 @@ fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {
     groups
 }
 
+/// A block's function: the place of its group among those that are evaluated, and its entry there; none for 1.
+type Place = Option<[usize; 2]>;
+
+/// The functions of all blocks of some patches, in order.
+fn places_in(space: &Space<'_>, patches: &[u32], groups: &[usize]) -> Vec<Place> {
+    let blocks = patches.iter().flat_map(|&p| space.data().blocks(p as usize));
+    let place = |b: usize| match space.functions.of(space.data().block_function[b]) {
+        Slot::One => None,
+        Slot::Jet { group, entry } => {
+            groups.binary_search(&(group as usize)).ok().map(|at| [at, entry as usize])
+        }
+    };
+    blocks.map(place).collect()
+}
+
 /// One quadrature point.
 struct Point<'s> {
     space: &'s Space<'s>,
     anchor: Vec2,
     offset: Vec2,
+    /// The groups of functions, and where each block's is among them.
     jets: Vec<[Jet<f64>; GROUP]>,
+    places: Vec<Place>,
 }
 
 impl Point<'_> {
@@ -213,7 +232,7 @@ impl Point<'_> {
     /// Writes the functions of one patch from index `function` on; returns the index after them.
     fn shapes(
         &self,
-        patch: usize,
+        (patch, places): (usize, &[Place]),
         phi: Jet<f64>,
         point: usize,
         function: usize,
@@ -224,11 +243,11 @@ impl Point<'_> {
         let monomials =
             Monomials::new(self.local(self.space.partition().origin[patch], inverse), inverse);
         let mut next = function;
-        for block in data.blocks(patch) {
-            let factor = match self.space.functions.of(data.block_function[block]) {
-                Slot::One => phi,
-                Slot::Jet { group, entry } => {
-                    let mut function = self.jets[group as usize][entry as usize];
+        for (block, place) in data.blocks(patch).zip(places) {
+            let factor = match *place {
+                None => phi,
+                Some([group, entry]) => {
+                    let mut function = self.jets[group][entry];
                     function.v -= self.space.shifts[block];
                     phi.times::<1>(function)
                 }

@@ -25,6 +25,8 @@ pub(crate) struct Jumps<'p> {
     holes: Placed<&'p Hole>,
     /// The straight extensions of each crack; none of one that they or the crack itself meet.
     extensions: Vec<Option<[Segment; 2]>>,
+    /// Length of extensions.
+    reach: f64,
     /// Distance from which on cracks keep apart.
     touch: f64,
 }
@@ -50,6 +52,7 @@ impl<'p> Jumps<'p> {
             segments: Placed::new(all.map(place)),
             holes: Placed::new(domain.holes.iter().map(|hole| (hole.bounds(), hole))),
             extensions: cracks.iter().map(|crack| extensions(crack, reach, touch)).collect(),
+            reach,
             touch,
         }
     }
@@ -92,17 +95,21 @@ impl<'p> Jumps<'p> {
     }
 
     /// True if the angle θ at a tip may jump in a box beside the tip's crack: it does so on the crack, or where
-    /// another part of a crack that comes back is as near as the tip's own segment.
+    /// another part of a crack that comes back, or its other end's extension, is as near as the tip's own segment.
     pub(crate) fn mislead(&self, tip: TipId, within: &Rect) -> bool {
         if self.extensions[tip.crack as usize].is_some() {
             return false;
         }
-        let points = &self.cracks[tip.crack as usize].points;
+        let crack = &self.cracks[tip.crack as usize];
+        let points = &crack.points;
         let own = if tip.end == End::Start { 0 } else { points.len() - 2 };
-        let mut others = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
+        let others = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
+        let others = others.filter(|(k, _)| *k != own).map(|(_, s)| s);
+        let other_end = if tip.end == End::Start { End::Last } else { End::Start };
+        let mut others = others.chain([extension(crack, other_end, self.reach)]);
         let farthest = within.corners().map(|p| distance([points[own], points[own + 1]], p));
         let farthest = farthest.into_iter().fold(0.0, f64::max);
-        others.any(|(k, s)| k != own && super::clip::distance(s, within) <= farthest)
+        others.any(|s| super::clip::distance(s, within) <= farthest)
     }
 
     /// The segments that meet a box.
@@ -174,14 +181,17 @@ fn segments(crack: u32, points: &[Vec2]) -> impl Iterator<Item = (SegmentId, Seg
     (0..).zip(ends).map(move |(segment, ends)| (SegmentId { crack, segment }, ends))
 }
 
+/// The straight extension of a crack at an end.
+fn extension(crack: &Crack, end: End, length: f64) -> Segment {
+    let tip = crack.end_point(end);
+    [tip, tip + crack.growth_direction(end) * length]
+}
+
 /// The straight extensions of a crack, of a length; none if one of them comes near to the crack or the other one:
 /// between the two its side is not that of the nearest segment.
 fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
     let points = &crack.points;
-    let rays = [End::Start, End::Last].map(|end| {
-        let tip = crack.end_point(end);
-        [tip, tip + crack.growth_direction(end) * reach]
-    });
+    let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
     let last = points.len() - 2;
     let own = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
     let meets = |(k, s): (usize, Segment)| {

@@ -217,6 +217,6 @@ fn a_junction_anywhere() {
     for (condition, found) in &all {
         assert!(*condition < 10.0 * least, "{condition} and {least}");
         // finite elements of order 10 have 1.68484 and twice 1.68508 for one that is not turned
-        close(found, &[[1.685, 0.0]; 3], 1e-3);
+        close(found, &[[1.685, 0.0]; 3], 2e-3);
     }
 }
