@@ -87,7 +87,7 @@ pub mod kind {
     pub const DIGITS: &str = "digits";
     /// The order is too low for a plate that is nearly incompressible.
     pub const LOCKING: &str = "locking";
-    /// Patches remain that a crack, or the rim of a hole, crosses twice.
+    /// Patches remain that the rim of a hole crosses twice.
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
     pub const SINGULAR_POINT: &str = "singular-point";

@@ -208,13 +208,21 @@ fn slivers_at_held_edges() {
     assert_eq!(of(&at(0.025)), None);
 }
 
-/// The sides of a V are both in three patches without its kink: in those on [−0.0625, 0.3125] up to
-/// y = 0.136, which are two above that of the kink, in the one left of these up to y = −0.277. The blunt kink of
-/// [`good_problems_are_silent`] crosses none twice.
+/// The sides of a notch like a V are both in three patches without its corner: in those on [−0.0625, 0.3125] up to
+/// y = 0.136, which are two above that of the corner, in the one left of these up to y = −0.277. A crack of that shape
+/// has functions for its two sides.
 #[test]
 fn patches_crossed_twice() {
+    let loads = sides("[-1, 0]", "[1, 0]");
+    let set = "refine = false\noverlap = 1.5";
     let sharp = "[[-0.13, 0.6], [0.03, -0.5], [0.19, 0.6]]";
-    let dataset = plate(sharp, &sides("[-1, 0]", "[1, 0]"), "refine = false\noverlap = 1.5");
+    let crack = plate(sharp, &loads, set);
+    assert!(warnings(&crack).iter().all(|w| w.kind != kind::CROSSED_TWICE));
+    let notch = format!("[[hole]]\npoints = {sharp}\n{loads}");
+    let notched = text(sharp, &notch, set);
+    let (head, tail) = notched.split_once("[[crack]]\n").expect("a crack");
+    let (_, tail) = tail.split_once('\n').expect("its points");
+    let dataset = solve_text(&format!("{head}{tail}"));
     let found = warnings(&dataset);
     let crossed: Vec<_> = found.iter().filter(|w| w.kind == kind::CROSSED_TWICE).collect();
     let [crossed] = crossed[..] else { panic!("{found:?}") };
