@@ -133,7 +133,7 @@ fn tips_that_are_missing_or_too_near() {
     assert_eq!(
         mistakes(&text),
         [
-            "dir/plate.toml:41:10: `radius` is 0.5, but the tips of a crack are only 0.4 apart; give less \
+            "dir/plate.toml:41:10: `radius` is 0.5, but the ends of a crack are only 0.4 apart; give less \
           than half of that"
         ]
     );
