@@ -1,13 +1,14 @@
 //! Stress intensity factors as `solve`, `info` and `sif` show them.
 
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::{self, Write};
 
 use anyhow::{Context as _, ensure};
 use ppum::crack::{TipId, tips};
-use ppum::dataset::{Ring, Step, TipIntensity};
+use ppum::dataset::{Dataset, Ring, TipIntensity};
 use ppum::field::Field;
-use ppum::text::Places;
+use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
 use ppum_scene::tips::words;
 use serde::Serialize;
@@ -34,6 +35,12 @@ pub(crate) struct Tip {
     angle: f64,
     k1: Number,
     k2: Number,
+    t_stress: Number,
+    j: Number,
+    /// (K_I² + K_II²) / E′ with the material at the tip.
+    g: Number,
+    /// Direction of the largest hoop stress, radians from `angle`.
+    growth_angle: Number,
     /// Largest relative difference of two rings: no estimate of the error.
     spread: Number,
     rings: Vec<RingRow>,
@@ -49,26 +56,57 @@ struct RingRow {
 
 impl Tip {
     /// A tip of step number `index` that has no factors.
-    pub(crate) fn without_factors(index: usize, step: &Step, tip: TipId) -> Self {
-        let none = TipIntensity { tip, k1: f64::NAN, k2: f64::NAN, rings: Vec::new() };
-        Self::new(index, step, &none)
+    pub(crate) fn without_factors(dataset: &Dataset, index: usize, tip: TipId) -> Self {
+        Self::new(dataset, index, &TipIntensity::new(tip, f64::NAN, f64::NAN))
     }
 
     /// The intensities of a tip of step number `index`.
-    pub(crate) fn new(index: usize, step: &Step, intensity: &TipIntensity) -> Self {
-        let TipIntensity { tip, k1, k2, rings } = intensity;
-        let crack = &step.cracks[tip.crack as usize];
+    pub(crate) fn new(dataset: &Dataset, index: usize, intensity: &TipIntensity) -> Self {
+        let TipIntensity { tip, k1, k2, t_stress, j, rings } = intensity;
+        let crack = &dataset.steps[index].cracks[tip.crack as usize];
         let axis = crack.growth_direction(tip.end);
+        let at = crack.end_point(tip.end);
+        let elastic = dataset.equation.elastic();
+        let known = |value: Option<f64>| Number(value.unwrap_or(f64::NAN));
         Self {
             step: index,
             crack: tip.crack,
-            tip: crack.end_point(tip.end).into(),
+            tip: at.into(),
             angle: axis.y.atan2(axis.x),
             k1: Number(*k1),
             k2: Number(*k2),
+            t_stress: known(*t_stress),
+            j: known(*j),
+            g: known(elastic.map(|body| intensity.energy_release(&body.at(at)))),
+            growth_angle: known(intensity.growth_angle()),
             spread: Number(intensity.spread()),
             rings: rings.iter().map(RingRow::new).collect(),
         }
+    }
+
+    /// The words of a line of the table; what is not known is a dash.
+    fn words(&self, places: &Places) -> Vec<String> {
+        let [k1, k2, spread] = words(self.k1.0, self.k2.0, self.spread.0);
+        let number = |value: f64| if value.is_nan() { DASH.into() } else { short(value) };
+        let angle = match self.growth_angle.0 {
+            angle if angle.is_nan() => DASH.into(),
+            // zero has no sign
+            angle => format!("{:.1}°", (10.0 * angle.to_degrees()).round() / 10.0 + 0.0),
+        };
+        // where T is zero, it is found as rounding of the stresses in the disc
+        let size = self.k1.0.hypot(self.k2.0) / self.reach().sqrt();
+        let check = match (self.j.0 / self.g.0 - 1.0).abs() {
+            check if check.is_finite() => format!("{check:.0e}"),
+            _ => DASH.into(),
+        };
+        let t_stress = number(beside(self.t_stress.0, size));
+        let at = places.show(Vec2::from(self.tip));
+        vec![at, k1, k2, t_stress, number(self.g.0), angle, spread, check]
+    }
+
+    /// Radius of the largest disc.
+    fn reach(&self) -> f64 {
+        self.rings.iter().map(|ring| ring.r2).fold(f64::NAN, f64::max)
     }
 }
 
@@ -79,35 +117,47 @@ impl RingRow {
 }
 
 /// The tips of step number `index` with the factors that are stored, and those that have none.
-pub(crate) fn all_tips(index: usize, step: &Step) -> Vec<Tip> {
-    let tip = |tip: TipId| match step.intensities.iter().find(|known| known.tip == tip) {
-        Some(factors) => Tip::new(index, step, factors),
-        None => Tip::without_factors(index, step, tip),
+pub(crate) fn all_tips(dataset: &Dataset, index: usize) -> Vec<Tip> {
+    let step = &dataset.steps[index];
+    // of several factors of a tip the first ones count
+    let stored = step.intensities.iter().rev();
+    let known: BTreeMap<TipId, &TipIntensity> = stored.map(|known| (known.tip, known)).collect();
+    let tip = |tip: TipId| match known.get(&tip) {
+        Some(factors) => Tip::new(dataset, index, factors),
+        None => Tip::without_factors(dataset, index, tip),
     };
     tips(&step.cracks).map(tip).collect()
 }
+
+const DASH: &str = "–";
+
+/// Heads of the columns after the numbers of tip and crack.
+const HEADS: [&str; 8] = ["position", "K_I", "K_II", "T", "G", "angle", "spread", "J/G-1"];
+
+/// What they mean.
+const MEANING: &str =
+    "angle: of growth by the hoop stress; spread, J/G-1: checks, each no estimate of the error";
 
 /// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
 /// is shown as zero.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
     let step = |text: &dyn Display| if has_steps { format!("{text:>4}  ") } else { String::new() };
-    let head = format!("{:>24}  {:>12}  {:>12}  {:>7}", "position", "K_I", "K_II", "spread");
-    writeln!(out, "{}tip  crack  {head}", step(&"step"))?;
-    for group in tips.chunk_by(|a, b| a.step == b.step) {
-        for (number, tip) in group.iter().enumerate() {
-            let Tip { crack, tip: at, spread, .. } = tip;
-            let [k1, k2, spread] = words(tip.k1.0, tip.k2.0, spread.0);
-            let at = places.show(Vec2::from(*at));
-            let row = format!("{at:>24}  {k1:>12}  {k2:>12}  {spread:>7}");
-            writeln!(out, "{}{number:>3}  {crack:>5}  {row}", step(&tip.step))?;
-        }
+    let rows: Vec<Vec<String>> = tips.iter().map(|tip| tip.words(places)).collect();
+    let width = |k: usize| {
+        let words = rows.iter().map(|row| row[k].chars().count());
+        words.fold(HEADS[k].len(), usize::max)
+    };
+    let widths: Vec<usize> = (0..HEADS.len()).map(width).collect();
+    let line = |words: &mut dyn Iterator<Item = &str>| -> String {
+        words.zip(&widths).map(|(word, &width)| format!("  {word:>width$}")).collect()
+    };
+    writeln!(out, "{}tip  crack{}", step(&"step"), line(&mut HEADS.into_iter()))?;
+    let mut number = 0;
+    for (k, (tip, row)) in tips.iter().zip(&rows).enumerate() {
+        number = if k > 0 && tips[k - 1].step == tip.step { number + 1 } else { 0 };
+        let row = line(&mut row.iter().map(String::as_str));
+        writeln!(out, "{}{number:>3}  {:>5}{row}", step(&tip.step), tip.crack)?;
     }
-    if !tips.is_empty() {
-        writeln!(
-            out,
-            "spread: relative difference between three radii, a check and no estimate of the error"
-        )?;
-    }
-    Ok(())
+    if tips.is_empty() { Ok(()) } else { writeln!(out, "{MEANING}") }
 }

@@ -256,11 +256,22 @@ fn intensities(group: &mut Group) -> Read<Vec<TipIntensity>> {
     let ring = |[r1, r2, k1, k2]: [f64; 4]| Ring { r1, r2, k1, k2 };
     let rings: Vec<Ring> = group.rows("rings")?.into_iter().map(ring).collect();
     let parts = group.offsets("ring_offsets", n, rings.len())?;
+    let (t_stress, j) = (known(group, "t_stress", n)?, known(group, "j", n)?);
     let intensity = |(k, part): (usize, std::ops::Range<usize>)| {
         let tip = TipId { crack: crack[k], end: group.word(ENDS, &end[k], "end")? };
-        Ok(TipIntensity { tip, k1: k1[k], k2: k2[k], rings: rings[part].to_vec() })
+        let (k1, k2, rings) = (k1[k], k2[k], rings[part].to_vec());
+        Ok(TipIntensity { tip, k1, k2, t_stress: t_stress[k], j: j[k], rings })
     };
     parts.into_iter().enumerate().map(intensity).collect()
+}
+
+/// Values that are not there, or NaN, where they are not known.
+fn known(group: &mut Group, name: &str, n: usize) -> Read<Vec<Option<f64>>> {
+    if !group.holds(name, Form::Dataset)? {
+        return Ok(vec![None; n]);
+    }
+    let values = group.column::<f64>(name, n)?;
+    Ok(values.into_iter().map(|v| (!v.is_nan()).then_some(v)).collect())
 }
 
 fn history(group: &mut Group) -> Read<Vec<Record>> {

@@ -358,7 +358,16 @@ fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {
     group.vector("k2", intensities.iter().map(|i| i.k2));
     group.array("ring_offsets", offsets(intensities.iter().map(|i| i.rings.len())));
     group.array("rings", Array::rows(rings.map(|r| [r.r1, r.r2, r.k1, r.k2])));
+    known(group, "t_stress", intensities.iter().map(|i| i.t_stress));
+    known(group, "j", intensities.iter().map(|i| i.j));
     Ok(())
+}
+
+/// Nothing where no value is known; NaN stands for those that are not.
+fn known(group: &mut Group, name: &str, values: impl Iterator<Item = Option<f64>> + Clone) {
+    if values.clone().any(|value| value.is_some()) {
+        group.vector(name, values.map(|value| value.unwrap_or(f64::NAN)));
+    }
 }
 
 fn history(group: &mut Group, history: &[Record]) {

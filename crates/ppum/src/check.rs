@@ -411,6 +411,8 @@ fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
     })?;
     check_number("k1", intensity.k1)?;
     check_number("k2", intensity.k2)?;
+    check_number("t_stress", intensity.t_stress.unwrap_or(0.0))?;
+    check_number("j", intensity.j.unwrap_or(0.0))?;
     require(intensity.rings.len() <= MAX_RINGS, "rings", || {
         format!("there are {} rings, but at most {MAX_RINGS} may be", intensity.rings.len())
     })?;
@@ -488,7 +490,8 @@ mod tests {
             .with_function("side", FunctionKind::Side { crack: 0 })
             .with_field(field());
         step.attributes = vec![Attribute { name: "order".into(), values: vec![f64::NAN] }];
-        step.intensities = vec![TipIntensity { tip, k1: 1.0, k2: 0.0, rings: vec![ring] }];
+        step.intensities =
+            vec![TipIntensity { rings: vec![ring], ..TipIntensity::new(tip, 1.0, 0.0) }];
         let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
         let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         Dataset::new(domain, Equation::elasticity(material)).with_step(step)
@@ -593,6 +596,14 @@ mod tests {
         assert_eq!(
             place_after(|d| d.steps[0].intensities[0].tip.crack = 1),
             "steps[0].intensities[0].crack"
+        );
+        assert_eq!(
+            place_after(|d| d.steps[0].intensities[0].j = Some(f64::INFINITY)),
+            "steps[0].intensities[0].j"
+        );
+        assert_eq!(
+            place_after(|d| d.steps[0].intensities[0].t_stress = Some(f64::NAN)),
+            "steps[0].intensities[0].t_stress"
         );
     }
 }

@@ -354,7 +354,8 @@ pub struct Reaction {
     pub moment: f64,
 }
 
-/// Stress intensity factors at one tip, from interaction integrals over several discs.
+/// The leading terms of the field at one tip: stress intensity factors, from interaction integrals over several discs, and what
+/// stands beside them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TipIntensity {
     /// The tip.
@@ -363,11 +364,46 @@ pub struct TipIntensity {
     pub k1: f64,
     /// Value of the preferred ring, K_II.
     pub k2: f64,
+    /// T: of the stress along the crack at the tip the part that is finite there, σ_11 = K terms + T \[stress\]. None
+    /// where it is not known, or has no value.
+    pub t_stress: Option<f64>,
+    /// The J-integral, found without the factors: the energy released per length of growth and thickness, which is
+    /// [G](Self::energy_release) \[stress·length\]. None where it is not known.
+    pub j: Option<f64>,
     /// All rings. That they agree is a check of the integrals, no estimate of the error of K.
     pub rings: Vec<Ring>,
 }
 
+/// Part of |K| that K_I may be negative by where it should be zero.
+const NOISE: f64 = 1e-3;
+
 impl TipIntensity {
+    /// The factors of a tip of which nothing else is known.
+    #[must_use]
+    pub fn new(tip: TipId, k1: f64, k2: f64) -> Self {
+        Self { tip, k1, k2, t_stress: None, j: None, rings: Vec::new() }
+    }
+
+    /// G = (K_I² + K_II²) / E′, the energy released per length of growth and thickness, in the material at the tip.
+    #[must_use]
+    pub fn energy_release(&self, material: &Material) -> f64 {
+        (self.k1 * self.k1 + self.k2 * self.k2) / material.effective_young()
+    }
+
+    /// The angle from the crack's direction in which the hoop stress beside the tip is largest, and in which a crack
+    /// in a brittle material grows (Erdogan & Sih 1963), in [−70.53°, 70.53°] as radians:
+    /// 2 arctan(−2 K_II / (K_I + √(K_I² + 8 K_II²))).
+    ///
+    /// None where K_I is negative, so that the faces overlap, or where there are no factors.
+    #[must_use]
+    pub fn growth_angle(&self) -> Option<f64> {
+        let (k1, k2) = (self.k1, self.k2);
+        let opens = k1 >= -NOISE * k1.hypot(k2) && k1.hypot(k2) > 0.0;
+        let k1 = k1.max(0.0);
+        let root = k1.hypot(8f64.sqrt() * k2);
+        opens.then(|| 2.0 * (-2.0 * k2).atan2(k1 + root))
+    }
+
     /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
     /// the denominator; NaN where that is zero, or without rings.
     ///
@@ -399,4 +435,70 @@ pub struct Ring {
     pub k1: f64,
     /// K_II.
     pub k2: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::crack::End;
+
+    fn factors(k1: f64, k2: f64) -> TipIntensity {
+        TipIntensity::new(TipId { crack: 0, end: End::Last }, k1, k2)
+    }
+
+    /// The angles of Erdogan and Sih's criterion (1963), to 1e-7 degrees.
+    #[test]
+    fn angles_of_growth() {
+        let angle = |k1, k2| factors(k1, k2).growth_angle().map(f64::to_degrees);
+        for (k1, k2, degrees) in [
+            (1.0, 0.0, 0.0),
+            (1.0, 0.1, -11.2028777),
+            (2.0, 1.0, -40.2078187),
+            (3.0, 3.0, -53.1301024),
+            (0.0, 1.0, -70.5287794),
+        ] {
+            for scale in [1e-200, 1.0, 1e150] {
+                let found = angle(scale * k1, scale * k2).expect("an open crack");
+                assert!((found - degrees).abs() < 1e-7, "{k1} {k2}: {found}");
+                assert!(
+                    (angle(scale * k1, -scale * k2).expect("its mirror image") + found).abs()
+                        < 1e-12
+                );
+            }
+        }
+        // a K_I that is rounding of nothing is none; faces that overlap, and no field, have no angle
+        assert!((angle(-1e-9, 1.0).expect("shear") + 70.5287794).abs() < 1e-7);
+        for (k1, k2) in [(-1.0, 0.0), (-0.1, 1.0), (0.0, 0.0), (f64::NAN, f64::NAN)] {
+            assert_eq!(angle(k1, k2), None, "{k1} {k2}");
+        }
+    }
+
+    /// The hoop stress √(2πr) σ_θθ = cos(θ/2) (K_I cos²(θ/2) − 3/2 K_II sin θ) is largest there.
+    #[test]
+    fn the_hoop_stress_is_largest_there() {
+        for k in 0..40 {
+            let phase = std::f64::consts::PI * (f64::from(k) / 39.0 - 0.5);
+            let (k1, k2) = (phase.cos(), phase.sin());
+            let hoop =
+                |t: f64| (0.5 * t).cos() * (k1 * (0.5 * t).cos().powi(2) - 1.5 * k2 * t.sin());
+            let found = hoop(factors(k1, k2).growth_angle().expect("an open crack"));
+            let most = (-1000..=1000).map(|i| hoop(3.1e-3 * f64::from(i))).fold(0.0, f64::max);
+            assert!(found >= most - 1e-12 && most > found - 1e-5, "{phase}: {found} {most}");
+        }
+    }
+
+    #[test]
+    fn energy_released() {
+        let material = Material { young: 2.0, poisson: 0.25, state: StressState::PlaneStrain };
+        assert!((factors(3.0, 4.0).energy_release(&material) - 25.0 * 0.9375 / 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_spread_is_that_of_both_factors() {
+        let ring = |k1, k2| Ring { r1: 0.0, r2: 1.0, k1, k2 };
+        let rings = vec![ring(3.0, 4.03), ring(3.04, 4.0), ring(3.0, 4.0)];
+        let intensity = TipIntensity { rings, ..factors(3.0, 4.0) };
+        assert!((intensity.spread() - 0.01).abs() < 1e-15);
+        assert!(factors(3.0, 4.0).spread().is_nan());
+    }
 }

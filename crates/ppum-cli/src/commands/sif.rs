@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ppum::crack::tips;
-use ppum::dataset::{Dataset, Step, Warning};
+use ppum::dataset::{Dataset, Warning};
 use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
@@ -20,9 +20,9 @@ use crate::standard;
 use crate::tips::{Tip, all_tips, table};
 use crate::warnings::{WarningRow, rows, warn};
 
-/// Print the stress intensity factors of all crack tips
+/// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle of growth
 ///
-/// They are those that the solver has stored, found by the interaction integral at three radii; `spread` is the
+/// The factors are those that the solver has stored, found by the interaction integral at three radii; `spread` is the
 /// largest relative difference of the three: a check that they agree, no estimate of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -88,7 +88,7 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
             is_stored,
             "{name}: holds no stress intensity factors; --recompute finds them from the field"
         );
-        all.extend(all_tips(index, step));
+        all.extend(all_tips(dataset, index));
         warnings.extend(rows(index, &step.warnings));
     }
     Ok((all, warnings))
@@ -104,10 +104,10 @@ fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
         };
         let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
             // What the solver found while it knew the loads.
-            None => known(name, index, step, UNKNOWN)?,
+            None => known(name, dataset, index, UNKNOWN)?,
             Some(problem) => match check_effort(dataset, index, problem.as_ref()) {
                 Err(error @ EffortError::TooMuch { .. }) => {
-                    known(name, index, step, ("too-costly", &error.to_string()))?
+                    known(name, dataset, index, ("too-costly", &error.to_string()))?
                 }
                 effort => {
                     effort?;
@@ -128,10 +128,9 @@ fn computed(
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let (outcomes, warnings) = recompute(dataset, index, problem, &Bar::new())?;
-    let step = &dataset.steps[index];
     let tip = |outcome: &Outcome| match &outcome.factors {
-        Some(factors) => Tip::new(index, step, factors),
-        None => Tip::without_factors(index, step, outcome.tip),
+        Some(factors) => Tip::new(dataset, index, factors),
+        None => Tip::without_factors(dataset, index, outcome.tip),
     };
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
@@ -147,11 +146,11 @@ const UNKNOWN: Reason<'static> = (
 /// The factors that the solver stored in a step, whose factors cannot be found again.
 fn known(
     file: &str,
+    dataset: &Dataset,
     index: usize,
-    step: &Step,
     (kind, reason): Reason<'_>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let tips = all_tips(index, step);
+    let (step, tips) = (&dataset.steps[index], all_tips(dataset, index));
     if step.intensities.is_empty() && !tips.is_empty() {
         bail!("{file}: {reason}, and no factors are stored; solve the problem again");
     }

@@ -181,7 +181,7 @@ impl Report {
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),
-            tips: if is_elastic { all_tips(0, step) } else { Vec::new() },
+            tips: if is_elastic { all_tips(dataset, 0) } else { Vec::new() },
             reactions: reactions::rows(dataset, step),
             warnings: rows(0, &step.warnings),
         }

@@ -13,8 +13,8 @@ fn json_has_the_documented_shape() {
     let tips = report["tips"].as_array().unwrap();
     assert_eq!(tips.len(), 2);
     for (tip, [x, angle]) in tips.iter().zip([[-0.5, std::f64::consts::PI], [0.5, 0.0]]) {
-        let expected = ["angle", "crack", "k1", "k2", "rings", "spread", "step", "tip"];
-        assert_eq!(keys(tip), expected);
+        let factors = ["angle", "crack", "g", "growth_angle", "j", "k1", "k2", "rings"];
+        assert_eq!(keys(tip), [&factors[..], &["spread", "step", "t_stress", "tip"]].concat());
         assert_eq!(tip["tip"], json!([x, 0.0]));
         assert_eq!(tip["angle"].as_f64(), Some(angle));
         assert_eq!((tip["step"].as_u64(), tip["crack"].as_u64()), (Some(0), Some(0)));
@@ -26,6 +26,11 @@ fn json_has_the_documented_shape() {
         let exact = 1.333_712 * (0.5 * std::f64::consts::PI).sqrt();
         assert!((k1 / exact - 1.0).abs() < 0.05, "{k1} {exact}");
         assert!(tip["k2"].as_f64().unwrap().abs() < 1e-6 * k1, "symmetry");
+        assert!(tip["growth_angle"].as_f64().unwrap().abs() < 1e-6, "straight on");
+        // E′ = 1 / 0.91; J is another integral over the same field, and T about minus the load
+        let [g, j, t] = ["g", "j", "t_stress"].map(|key| tip[key].as_f64().unwrap());
+        assert!((g / (0.91 * k1 * k1) - 1.0).abs() < 1e-9 && (j / g - 1.0).abs() < 0.02, "{g} {j}");
+        assert!((-2.0..-0.5).contains(&t), "{t}");
         let spread = tip["spread"].as_f64().unwrap();
         let at = |ring: usize| rings[ring]["k1"].as_f64().unwrap();
         assert!(spread >= (at(0) - at(2)).abs() / k1 * 0.999 && spread < 0.05, "{spread}");
@@ -84,8 +89,9 @@ fn nothing_to_tell_is_said() {
 #[test]
 fn text_has_a_line_for_each_tip() {
     let text = Lab::solved(CRACKED).run("sif plate.h5");
-    // the head, two tips, what the spread is
+    // the head, two tips, what the columns are
     assert_eq!(text.lines().count(), 4, "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     assert!(text.contains("no estimate of the error"), "{text}");
     assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
 }
@@ -101,6 +107,25 @@ fn stored_factors_are_shown() {
     ppum_format::write(&dataset, &lab.path("plate.h5")).unwrap();
     assert_eq!(lab.json("sif plate.h5")["tips"][1]["k1"], json!(7.0));
     assert_eq!(lab.json("sif plate.h5 --recompute"), before);
+}
+
+/// A file of an earlier version, or of another program, need not know more than K.
+#[test]
+fn what_a_file_does_not_hold_is_a_dash() {
+    let lab = Lab::solved(CRACKED);
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    dataset.steps[0].intensities[1].t_stress = None;
+    dataset.steps[0].intensities.iter_mut().for_each(|tip| tip.j = None);
+    dataset.steps[0].intensities[0].k1 = -1.0;
+    ppum_format::write(&dataset, &lab.path("plate.h5")).unwrap();
+    let tips = &lab.json("sif plate.h5")["tips"];
+    let known =
+        |tip: usize| ["t_stress", "j", "g", "growth_angle"].map(|key| tips[tip][key].is_number());
+    // faces that overlap have no angle
+    assert_eq!([known(0), known(1)], [[true, false, true, false], [false, false, true, true]]);
+    let text = lab.run("sif plate.h5");
+    let dashes = |line: &str| line.matches('–').count();
+    assert_eq!(text.lines().map(dashes).collect::<Vec<_>>(), [0, 2, 2, 0], "{text}");
 }
 
 /// A tip that cells do not resolve: a line without numbers, and what to do about it.

@@ -1,7 +1,7 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
 use super::material::jumps;
-use ppum::crack::{Crack, TipId};
+use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::Dataset;
 use ppum::domain::Domain;
 use ppum::segment;
@@ -15,8 +15,14 @@ const BESIDE: f64 = 1e-9;
 /// with tips beside another tip and beside the border (order 2; 0.05 % at order 3; docs/decisions/0004).
 pub(crate) const AMPLE_CLEARANCE: f64 = 2.0;
 
-/// The largest disc around a tip that holds no border, no hole and no part of a crack but the last segment of its
-/// own. The material may vary and jump in it; a tip at which it jumps has none.
+/// The largest disc around a tip that holds no border, no hole, no other crack, and of its own crack no more than the part
+/// that leads away from the tip. This part may have kinks. The material may vary and jump in the disc; a tip at which it
+/// jumps has none.
+///
+/// The crack leads away from its tip as long as the distance to the tip grows along it, and as long as it is behind the
+/// tip, where x < 0 in the tip's frame. So every circle in the disc meets it once, and none of it lies ahead of the tip:
+/// with its last segment extended out of the disc it divides the plane in two, and fields that jump on it are fields of one
+/// angle θ. A crack that comes back, a hook, would need a sheet of its own for each arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipClearance {
     /// Its radius.
@@ -33,8 +39,8 @@ pub enum Obstacle {
     Border,
     /// The rim of a hole, by its index.
     Hole(usize),
-    /// A kink of its own crack, or the crack's other end.
-    Kink,
+    /// Its own crack, where that ends or comes back.
+    Own,
     /// Another crack, by its index.
     Crack(usize),
     /// An interface of two materials, on which the tip itself lies.
@@ -48,7 +54,7 @@ impl Obstacle {
         match self {
             Self::Border => "the border".into(),
             Self::Hole(k) => format!("the rim of hole {k}"),
-            Self::Kink => "a kink or the other end of its crack".into(),
+            Self::Own => "the other end of its crack or a part that turns back".into(),
             Self::Crack(k) => format!("crack {k}"),
             Self::Interface => "an interface of two materials".into(),
         }
@@ -67,14 +73,26 @@ impl TipClearance {
 
     /// The clearance without regard of materials.
     pub(crate) fn among_cracks(cracks: &[Crack], domain: &Domain, tip: TipId) -> Self {
-        Self::among(cracks.iter().enumerate(), domain, (&cracks[tip.crack as usize], tip))
+        let own = &cracks[tip.crack as usize];
+        Self::nearest(cracks.iter().enumerate(), domain, (own, tip), comes_back(own, tip.end))
     }
 
-    /// The same among some of the cracks, with their numbers, of which the tip's own one is left out.
+    /// The disc in which also the own crack is nothing but its last segment, among some of the cracks, with their numbers,
+    /// of which the tip's own one is left out: what cells at the tip have to resolve.
     pub(crate) fn among<'c>(
         cracks: impl Iterator<Item = (usize, &'c Crack)>,
         domain: &Domain,
         (own, tip): (&Crack, TipId),
+    ) -> Self {
+        Self::nearest(cracks, domain, (own, tip), behind(own, own.end_point(tip.end)))
+    }
+
+    /// The nearest of border, rims, other cracks, and what is at the distance `of_own` of the own one.
+    fn nearest<'c>(
+        cracks: impl Iterator<Item = (usize, &'c Crack)>,
+        domain: &Domain,
+        (own, tip): (&Crack, TipId),
+        of_own: f64,
     ) -> Self {
         let p = own.end_point(tip.end);
         let depth = (p - domain.bounds.min).min(domain.bounds.max - p);
@@ -86,7 +104,7 @@ impl TipClearance {
             radius: segment::polyline_distance(&c.points, p),
             end: Obstacle::Crack(k),
         });
-        border.with(rims).with(others.chain([Self { radius: behind(own, p), end: Obstacle::Kink }]))
+        border.with(rims).with(others.chain([Self { radius: of_own, end: Obstacle::Own }]))
     }
 
     /// The smallest of several.
@@ -104,10 +122,33 @@ fn behind(own: &Crack, tip: Vec2) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// The vertices of a crack from an end on.
+pub(crate) fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Vec2> {
+    let n = own.points.len();
+    (0..n).map(move |k| match end {
+        End::Start => own.points[k],
+        End::Last => own.points[n - 1 - k],
+    })
+}
+
+/// Distance of a tip to the part of its crack that does not lead away from it: the other end at least.
+fn comes_back(own: &Crack, end: End) -> f64 {
+    let points: Vec<Vec2> = from_tip(own, end).collect();
+    let (tip, axis) = (points[0], own.growth_direction(end));
+    let leads_away = |s: &[Vec2]| (s[1] - s[0]).dot(s[0] - tip) > 0.0;
+    let is_behind = |p: Vec2| (p - tip).dot(axis) < 0.0;
+    let first = |s: &&[Vec2]| s[0] == tip;
+    let goes_on = |s: &&[Vec2]| (first(s) || leads_away(s)) && is_behind(s[1]);
+    let away = points.windows(2).take_while(goes_on).count();
+    let rest = &points[away..];
+    let end = rest.iter().map(|&p| (p - tip).length()).fold(f64::INFINITY, f64::min);
+    end.min(segment::polyline_distance(rest, tip))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::crack::{CrackEnd, End};
+    use ppum::crack::CrackEnd;
     use ppum::domain::Hole;
     use ppum::vec2::{Rect, vec2};
 
@@ -128,16 +169,47 @@ mod tests {
     fn the_nearest_thing_ends_the_room() {
         let alone = [crack(&[[-0.125, 0.0], [0.5, 0.0]])];
         assert_eq!(clearance(&alone, 0, End::Last), (0.5, Obstacle::Border));
-        assert_eq!(clearance(&alone, 0, End::Start), (0.625, Obstacle::Kink));
-        let kinked = [crack(&[[-0.25, 0.0], [0.25, 0.0], [0.25, 0.125]])];
-        assert_eq!(clearance(&kinked, 0, End::Last), (0.125, Obstacle::Kink));
-        assert_eq!(clearance(&kinked, 0, End::Start), (0.5, Obstacle::Kink));
-        // back beside the tip without a vertex near it
-        let hooked = [crack(&[[0.0, 0.0], [0.5, 0.0], [0.5, 0.25], [-0.5, 0.25]])];
-        assert_eq!(clearance(&hooked, 0, End::Start), (0.25, Obstacle::Kink));
+        assert_eq!(clearance(&alone, 0, End::Start), (0.625, Obstacle::Own));
         let two = [crack(&[[-0.5, 0.0], [0.0, 0.0]]), crack(&[[0.125, -0.5], [0.125, 0.5]])];
         assert_eq!(clearance(&two, 0, End::Last), (0.125, Obstacle::Crack(1)));
         let up = [crack(&[[0.0, -0.5], [0.0, 0.5]])];
         assert_eq!(clearance(&up, 0, End::Last), (0.125, Obstacle::Hole(0)));
+    }
+
+    /// Kinks lie in the disc as long as the crack goes on away from the tip.
+    #[test]
+    fn cracks_that_come_back_end_the_room() {
+        let room = |points: &[[f64; 2]], end| clearance(&[crack(points)], 0, end);
+        let gentle = [[-0.25, 0.0], [0.0, 0.0], [0.25, 0.0625]];
+        let length = vec2(0.5, 0.0625).length();
+        assert_eq!(room(&gentle, End::Last), (length, Obstacle::Own));
+        assert_eq!(room(&gentle, End::Start), (length, Obstacle::Own));
+        // square kinks go neither away nor back; after sharper ones the crack comes nearer
+        let square = [[-0.25, 0.0], [0.25, 0.0], [0.25, 0.125]];
+        assert_eq!(room(&square, End::Last), (0.125, Obstacle::Own));
+        assert_eq!(room(&square, End::Start), (0.5, Obstacle::Own));
+        let sharp = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]];
+        let (found, end) = room(&sharp, End::Start);
+        assert!((found - 0.5 * 0.2f64.sqrt()).abs() < 1e-15 && end == Obstacle::Own, "{found}");
+        // back beside the tip without a vertex near it
+        let hooked = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.25], [-0.5, 0.25]];
+        assert_eq!(room(&hooked, End::Start), (0.25, Obstacle::Own));
+        // round the tip, always farther away from it, and ahead of it at last
+        let round = [[0.0, 0.0], [-0.25, 0.0], [-0.26, 0.25], [-0.1, 0.45], [0.3, 0.6]];
+        let (found, end) = room(&round, End::Start);
+        assert!((found - 0.2125f64.sqrt()).abs() < 1e-15 && end == Obstacle::Own, "{found}");
+    }
+
+    /// All of an arc that leads away from its tip, however finely it is divided.
+    #[test]
+    fn arcs_have_room() {
+        for n in [8, 64, 1024] {
+            let at = |k: u32| 1.5 * (f64::from(k) / f64::from(n) - 0.5);
+            let points: Vec<_> =
+                (0..=n).map(|k| [0.4 * at(k).sin(), 0.4 * at(k).cos() - 0.4]).collect();
+            let (found, end) = clearance(&[crack(&points)], 0, End::Last);
+            let chord = 0.8 * 0.75f64.sin();
+            assert!((found - chord).abs() < 1e-15 && end == Obstacle::Own, "{n}: {found}");
+        }
     }
 }

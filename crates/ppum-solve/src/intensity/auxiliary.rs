@@ -1,42 +1,120 @@
-//! The auxiliary fields: Williams fields of unit intensity in a uniform body of the tip's material.
+//! The auxiliary fields in a uniform body of the tip's material: Williams fields of unit intensity, and that of a unit
+//! force at the tip.
 
+use super::integral::MODES;
 use ppum::crack::TipPoint;
 use ppum::dataset::Material;
 use ppum::function::westergaard;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
+use std::f64::consts::{PI, TAU};
 
 /// Of each component its gradient, in the tip's frame.
 pub(super) type Gradients = [Vec2; 2];
 
 /// The field of one mode as the interaction integral takes it, at a point in the tip's frame.
+#[derive(Clone, Copy)]
 pub(super) struct Auxiliary {
     /// ∇uᵃ_i
     pub(super) gradient: Gradients,
-    /// ∇uᵃ_i,1, like r^(−3/2) at the tip. Zero unless it was asked for.
+    /// ∇uᵃ_i,1, like r^(−3/2) at the tip, or r^(−2) of the force. Zero unless it was asked for.
     pub(super) along: Gradients,
 }
 
-/// The fields with K_I = 1 and with K_II = 1, with derivatives up to `D`: 1 for the gradient alone, 2 for
-/// its derivative along the crack.
+/// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`: 1 for the gradient alone,
+/// 2 for its derivative along the crack.
 pub(super) fn auxiliary<const D: usize>(
     material: &Material,
     point: &TipPoint<f64>,
-) -> [Auxiliary; 2] {
+) -> [Auxiliary; MODES] {
     let functions = westergaard::<f64, D>(point);
     let gradient = modes(material, functions.map(|jet: Jet<f64>| vec2(jet.x, jet.y)));
     let along = modes(material, functions.map(|jet| vec2(jet.xx, jet.xy)));
-    let [one, two] = gradient;
-    let [along_one, along_two] = along;
-    [(one, along_one), (two, along_two)].map(|(gradient, along)| Auxiliary { gradient, along })
+    let of_mode = |k: usize| Auxiliary { gradient: gradient[k], along: along[k] };
+    [of_mode(0), of_mode(1), point_force(material, point)]
 }
 
 /// Both modes from a derivative of the Westergaard functions F₁…F₄: with κ of Kolosov, 2μ√(2π) u is
 /// ((κ−1)F₁ + F₃, (κ+1)F₂ − F₄) and ((κ+1)F₂ + F₄, −(κ−1)F₁ + F₃).
 fn modes(material: &Material, functions: [Vec2; 4]) -> [Gradients; 2] {
     let kappa = material.kolosov();
-    let scale = 1.0 / (2.0 * material.mu() * std::f64::consts::TAU.sqrt());
+    let scale = 1.0 / (2.0 * material.mu() * TAU.sqrt());
     let [f1, f2, f3, f4] = functions.map(|f| f * scale);
     let (less, more) = (kappa - 1.0, kappa + 1.0);
     [[f1 * less + f3, f2 * more - f4], [f2 * more + f4, f3 - f1 * less]]
+}
+
+/// The field of the force 1 along the axis at the tip of a crack, or in the plane without one: a pull in the direction of r,
+///
+/// ```text
+/// σ_rr = −cos θ / (π r)   σ_θθ = σ_rθ = 0
+/// 8πμ u_x = −(κ + 1) ln r − 2 sin² θ   8πμ u_y = −(κ − 1) θ + 2 sin θ cos θ
+/// ```
+///
+/// (Kfouri 1986). It loads no ray from the tip, so no face along the axis, and its gradient is that of one angle everywhere.
+fn point_force(material: &Material, point: &TipPoint<f64>) -> Auxiliary {
+    let (kappa, scale) = (material.kolosov(), 1.0 / (8.0 * PI * material.mu()));
+    let square = point.x * point.x + point.y * point.y;
+    let inverse = 1.0 / square;
+    // cos² θ, sin² θ, sin θ cos θ
+    let (cc, ss) = (point.x * point.x * inverse, point.y * point.y * inverse);
+    let sc = point.x * point.y * inverse;
+    let (a, b, c) = ((kappa + 1.0) * scale, 2.0 * scale, (kappa - 1.0) * scale);
+    let gradient = [
+        vec2(-a * point.x + 2.0 * b * ss * point.x, -a * point.y - 2.0 * b * cc * point.y)
+            * inverse,
+        vec2(c + b * (ss - cc), 0.0) * (point.y * inverse)
+            + vec2(0.0, b * (cc - ss) - c) * (point.x * inverse),
+    ];
+    let along = [
+        vec2(a * (cc - ss) + 2.0 * b * (ss - 4.0 * sc * sc), 2.0 * sc * (a + 2.0 * b * (cc - ss))),
+        vec2(
+            -2.0 * sc * (c + b + 2.0 * b * (ss - cc)),
+            c * (cc - ss) + b * (3.0 * ss - cc - 4.0 * ss * (ss - cc)),
+        ),
+    ];
+    Auxiliary { gradient, along: along.map(|g| g * inverse) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::dataset::StressState;
+
+    fn point(x: f64, y: f64) -> TipPoint<f64> {
+        TipPoint { x, y, sign: if y >= 0.0 { 1.0 } else { -1.0 }, branch: 1.0 }
+    }
+
+    /// Derivatives by differences, and the displacement of the force itself.
+    #[test]
+    fn derivatives_of_the_fields() {
+        for state in [StressState::PlaneStrain, StressState::PlaneStress] {
+            let material = Material { young: 2.0, poisson: 0.27, state };
+            let (kappa, scale) = (material.kolosov(), 8.0 * PI * material.mu());
+            let displacement = |x: f64, y: f64| {
+                let (r, theta) = (x.hypot(y), y.atan2(x));
+                let (s, c) = theta.sin_cos();
+                [-(kappa + 1.0) * r.ln() - 2.0 * s * s, 2.0 * s * c - (kappa - 1.0) * theta]
+                    .map(|u| u / scale)
+            };
+            for (x, y) in [(0.3, 0.4), (-0.7, 0.2), (-0.5, -0.6), (0.2, -0.9), (0.6, 0.0)] {
+                let h = 1e-5;
+                let at = |dx: f64, dy: f64| auxiliary::<2>(&material, &point(x + dx, y + dy));
+                let own = at(0.0, 0.0);
+                let [e, w, n, s] = [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]];
+                let close = |a: Vec2, b: Vec2| assert!((a - b).length() < 1e-7, "{a:?} {b:?}");
+                for i in 0..2 {
+                    let u = |[dx, dy]: [f64; 2]| displacement(x + dx, y + dy)[i];
+                    close(own[2].gradient[i], vec2(u(e) - u(w), u(n) - u(s)) / (2.0 * h));
+                }
+                for (mode, field) in own.iter().enumerate() {
+                    for i in 0..2 {
+                        let along = |[dx, dy]: [f64; 2]| at(dx, dy)[mode].gradient[i].x;
+                        let difference = vec2(along(e) - along(w), along(n) - along(s)) / (2.0 * h);
+                        close(field.along[i], difference);
+                    }
+                }
+            }
+        }
+    }
 }

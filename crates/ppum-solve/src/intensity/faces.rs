@@ -2,9 +2,10 @@
 
 use super::FaceLoad;
 use super::auxiliary::auxiliary;
-use super::integral::{Modes, cut_off, turned};
+use super::course::{Course, Part};
+use super::integral::{Modes, cut_off, square, turned};
 use crate::quadrature::{GaussRule, closed, gauss};
-use ppum::crack::{Crack, End, Side, TipId, TipPoint};
+use ppum::crack::{LocalTip, Side};
 use ppum::dataset::Material;
 
 /// Gauss points of a panel.
@@ -25,43 +26,78 @@ const MOST: usize = 256;
 /// Difference of rules on a panel that is rounding, in parts of the integral of the magnitude.
 const ACCURACY: f64 = 1e-11;
 
+/// Places along the segment at the tip, in parts of it, at which loads are looked at. At the first they are those at the
+/// tip: what grows like √r is 1e-6 there.
+const LOOKS: [f64; 5] = [1e-12, 1e-3, 0.03, 0.3, 1.0];
+
+/// Part of the segment at the tip on which a resultant of the loads is rounding of their places, which the field of the force,
+/// like 1/r, would blow up.
+const AT_TIP: f64 = 1e-10;
+
+/// Most places at which a part is divided for its loads: those that vary everywhere are noise.
+const MOST_BREAKS: usize = 512;
+
+/// Resultant of the loads at a tip that is none, in parts of the largest load that was seen.
+const BALANCED: f64 = 1e-5;
+
 /// An interval of the face's coordinate with the integral over it.
 type Panel = ([f64; 2], Modes);
 
+/// A part of the crack, and the tip as seen from it.
+type Seen<'s> = (&'s Part, &'s LocalTip);
+
 /// The faces of a crack behind one tip, in the discs around it.
 pub(super) struct Faces<'a> {
-    pub(super) crack: &'a Crack,
-    pub(super) tip: TipId,
+    pub(super) course: &'a Course,
     pub(super) material: &'a Material,
     /// Radii of the discs, ascending.
     pub(super) radii: &'a [f64],
     pub(super) load: FaceLoad<'a>,
+    /// False if the loads have a resultant at the tip: the integral for T has no value then, and is left out.
+    pub(super) is_balanced: bool,
 }
 
 impl Faces<'_> {
     /// −∫ t_i uᵃ_i,1 q ds over both faces. Panels are divided until they resolve the load, which may bend
     /// or jump anywhere.
     pub(super) fn integrals(&self) -> Modes {
-        [Side::Above, Side::Below].map(|side| self.face(side)).into_iter().fold(zero(), plus)
+        self.course.parts().map(|part| self.part(&part)).fold(zero(), plus)
     }
 
-    fn face(&self, side: Side) -> Modes {
+    fn part(&self, part: &Part) -> Modes {
+        self.resolved(part).into_iter().fold(zero(), |sum, (_, modes)| plus(sum, modes))
+    }
+
+    /// The distances to the tip at which a part has to be divided for its loads.
+    pub(super) fn breaks(&self, part: &Part) -> Vec<f64> {
+        let [from, to] = part.ends.map(|p| p - self.course.center());
+        let along = |s: f64| if part.is_first { s * s } else { s };
+        let panels = self.resolved(part);
+        let thinned = panels.len() / MOST_BREAKS + 1;
+        let panels = panels.into_iter().step_by(thinned);
+        panels.map(|([start, _], _)| (from + (to - from) * along(start)).length()).collect()
+    }
+
+    /// Panels that resolve the loads on a part.
+    fn resolved(&self, part: &Part) -> Vec<Panel> {
+        let tip = &self.course.on(part, self.course.center());
         let at = |k: u32| f64::from(k) / f64::from(PANELS);
-        let mut open: Vec<_> = (0..PANELS).map(|k| self.panel(side, [at(k), at(k + 1)])).collect();
+        let mut open: Vec<_> =
+            (0..PANELS).map(|k| self.panel((part, tip), [at(k), at(k + 1)])).collect();
         let allowed = ACCURACY * open.iter().map(|(_, whole)| magnitude(whole)).sum::<f64>();
-        let mut sum = zero();
+        let mut done = Vec::new();
         for _ in 0..DIVISIONS {
             let mut next = Vec::new();
             for (ends, whole) in open {
-                let parts = self.parts(side, ends);
+                let parts = self.halves((part, tip), ends);
                 let both = plus(parts[0].1, parts[1].1);
                 // what happens beside an end is seen by points there alone
-                let other = self.integral(side, ends, closed(ORDER));
+                let other = self.integral((part, tip), ends, closed(ORDER));
                 let change = magnitude(&minus(both, whole)).max(magnitude(&minus(other, whole)));
                 if change > allowed {
                     next.extend(parts);
                 } else {
-                    sum = plus(sum, both);
+                    done.push((ends, both));
                 }
             }
             open = next;
@@ -69,44 +105,66 @@ impl Faces<'_> {
                 break;
             }
         }
-        open.into_iter().fold(sum, |sum, (_, rest)| plus(sum, rest))
+        done.extend(open);
+        done
     }
 
-    fn parts(&self, side: Side, [from, to]: [f64; 2]) -> [Panel; 2] {
+    fn halves(&self, of: Seen<'_>, [from, to]: [f64; 2]) -> [Panel; 2] {
         let between = from + SHARE * (to - from);
-        [[from, between], [between, to]].map(|ends| self.panel(side, ends))
+        [[from, between], [between, to]].map(|ends| self.panel(of, ends))
     }
 
-    fn panel(&self, side: Side, ends: [f64; 2]) -> Panel {
-        (ends, self.integral(side, ends, gauss(ORDER)))
+    fn panel(&self, of: Seen<'_>, ends: [f64; 2]) -> Panel {
+        (ends, self.integral(of, ends, gauss(ORDER)))
     }
 
-    /// A rule on an interval of the unit interval: with r = R s² the integrand has no singularity.
-    fn integral(&self, side: Side, [from, to]: [f64; 2], rule: &GaussRule) -> Modes {
-        let largest = self.radii[self.radii.len() - 1];
+    /// A rule on an interval of the unit interval. At the tip the square of its coordinate goes along the part: then the
+    /// integrand has no singularity.
+    fn integral(&self, (part, tip): Seen<'_>, [from, to]: [f64; 2], rule: &GaussRule) -> Modes {
+        let length = (part.ends[1] - part.ends[0]).length();
         let node = |(s, ds): (f64, f64)| {
-            self.at(side, largest * s * s).map(|modes| modes.map(|m| 2.0 * largest * s * ds * m))
+            let (along, slope) = if part.is_first { (s * s, 2.0 * s) } else { (s, 1.0) };
+            self.at((part, tip), along).map(|modes| modes.map(|m| length * slope * ds * m))
         };
         rule.on(from, to).map(node).fold(zero(), plus)
     }
 
-    /// −t_i uᵃ_i,1 q at the distance `r` behind the tip.
-    fn at(&self, side: Side, r: f64) -> Modes {
-        let Self { crack, tip, material, .. } = self;
-        let axis = crack.growth_direction(tip.end);
-        let traction = (self.load)(tip.crack, side, crack.end_point(tip.end) - axis * r);
-        let t = turned(axis, traction);
-        let auxiliary = auxiliary::<1>(material, &on_face(r, tip.end, side));
-        let work = auxiliary.map(|a| t.x * a.gradient[0].x + t.y * a.gradient[1].x);
-        std::array::from_fn(|k| work.map(|w| -cut_off(r * r, self.radii[k]).0 * w))
+    /// −t_i uᵃ_i,1 q of both faces, `along` going from 0 to 1 along the part.
+    fn at(&self, (part, tip): Seen<'_>, along: f64) -> Modes {
+        let [from, to] = part.ends;
+        let offset = (from - self.course.center()) + (to - from) * along;
+        let of_side = |side: Side| {
+            let point = tip.point([offset.x, offset.y], side);
+            let traction =
+                (self.load)(self.course.tip().crack, side, self.course.center() + offset);
+            let t = turned(tip.axis, traction);
+            let auxiliary = auxiliary::<1>(self.material, &point);
+            let work = auxiliary.map(|a| t.x * a.gradient[0].x + t.y * a.gradient[1].x);
+            let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
+            std::array::from_fn(|k| work.map(|w| -q(k) * w))
+        };
+        let mut both = plus(of_side(Side::Above), of_side(Side::Below));
+        let is_at_tip = part.is_first && along < AT_TIP;
+        if is_at_tip || !self.is_balanced {
+            both.iter_mut().for_each(|modes| modes[2] = 0.0);
+        }
+        both
     }
 }
 
-/// The point of a face at the distance `r` behind the tip. *Above* is the tip's left at the last
-/// vertex and its right at the first.
-fn on_face(r: f64, end: End, side: Side) -> TipPoint<f64> {
-    let left = (end == End::Last) == (side == Side::Above);
-    TipPoint { x: -r, y: 0.0, sign: if left { 1.0 } else { -1.0 }, branch: 1.0 }
+/// σ_22 in the tip's frame that the loads on the faces at a tip stand for; none if these have a resultant, under which
+/// stresses grow like log r.
+pub(super) fn pressed(course: &Course, load: FaceLoad<'_>) -> Option<f64> {
+    let first = course.parts().next()?;
+    let loads = LOOKS.map(|part| {
+        let at = first.ends[0] + (first.ends[1] - first.ends[0]) * part;
+        let tip = course.on(&first, at);
+        [Side::Above, Side::Below]
+            .map(|side| turned(tip.axis, load(course.tip().crack, side, at)) * tip.orientation)
+    });
+    let size = loads.as_flattened().iter().map(|t| t.length()).fold(0.0, f64::max);
+    let [above, below] = loads[0];
+    ((above + below).length() <= BALANCED * size).then_some(0.5 * (below.y - above.y))
 }
 
 fn zero() -> Modes {
@@ -128,7 +186,7 @@ fn magnitude(modes: &Modes) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::crack::CrackEnd;
+    use ppum::crack::{Crack, CrackEnd, End, TipId};
     use ppum::dataset::StressState;
     use ppum::vec2::{Vec2, vec2};
 
@@ -140,7 +198,9 @@ mod tests {
         let crack = Crack { points, ends: [CrackEnd::Tip; 2] };
         let material = Material { young: 2.0, poisson: 0.2, state: StressState::PlaneStress };
         let tip = TipId { crack: 0, end: End::Last };
-        Faces { crack: &crack, tip, material: &material, radii: &RADII, load }.integrals()
+        let course = Course::new(&crack, tip, RADII[2]);
+        Faces { course: &course, material: &material, radii: &RADII, load, is_balanced: true }
+            .integrals()
     }
 
     /// A pressure p on both faces gives E′/2 M = √(2/π) ∫ p q/√r dr, with r = s²: loads that jump at r = c,
@@ -157,7 +217,7 @@ mod tests {
                 let sign = if side == Side::Above { 1.0 } else { -1.0 };
                 [0.0, sign * p(0.3 - x.x)]
             };
-            for ([k1, k2], radius) in integrals(&load).into_iter().zip(RADII) {
+            for ([k1, k2, _], radius) in integrals(&load).into_iter().zip(RADII) {
                 let expected: f64 =
                     breaks.windows(2).map(|b| exact(p, radius, b[0].min(radius), b[1])).sum();
                 // E′ = 2

@@ -2,17 +2,21 @@
 
 use super::Loads;
 use super::auxiliary::{Auxiliary, Gradients, auxiliary};
-use super::faces::Faces;
+use super::bent::Bend;
+use super::course::Course;
+use super::faces::{Faces, pressed};
+use super::slope::Slope;
+use crate::geometry::{Placed, around};
 use crate::law::{Law, LawAt};
 use crate::quadrature::{Doubt, Quadrature, Rule};
 use crate::space::Space;
 use crate::watched::Stage;
-use ppum::crack::{LocalTip, Side, TipId, TipPoint};
-use ppum::dataset::{Material, Ring};
+use ppum::crack::{Side, TipId, TipPoint};
+use ppum::dataset::{Material, Ring, TipIntensity};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
 /// Exponent of the cut-off q = (1 − r²/R²)^m. It is smooth enough for plain Gauss rules across r = R:
@@ -28,41 +32,64 @@ const SMALL: f64 = 0.2;
 /// Discs for each tip.
 pub(super) const RINGS: usize = 3;
 
-/// Integrals of both modes over each disc.
-pub(super) type Modes = [[f64; 2]; RINGS];
+/// Auxiliary fields: one for each of K_I, K_II and T.
+pub(super) const MODES: usize = 3;
+
+/// Integrals of all modes over each disc.
+pub(super) type Modes = [[f64; MODES]; RINGS];
 
 /// Integrals around a tip.
 #[derive(Clone, Copy, Default)]
-struct Integrals {
-    modes: Modes,
+pub(super) struct Integrals {
+    pub(super) modes: Modes,
+    /// The J-integral over the largest disc.
+    pub(super) j: f64,
     /// Twice the strain energy in the largest disc.
-    energy: f64,
+    pub(super) energy: f64,
     /// Errors that the rules leave.
-    doubt: Doubt,
+    pub(super) doubt: Doubt,
 }
 
 /// The findings at a tip.
 pub(super) struct Found {
     pub(super) rings: [Ring; RINGS],
+    pub(super) t_stress: Option<f64>,
+    pub(super) j: Option<f64>,
     /// See [`Outcome::strength`](super::Outcome::strength).
     pub(super) strength: f64,
     /// Errors that quadrature leaves in the discs.
     pub(super) doubt: Doubt,
 }
 
+impl Found {
+    /// The same as they are stored: the values of the largest disc, whose integral averages most.
+    pub(super) fn factors(&self, tip: TipId) -> TipIntensity {
+        let Ring { k1, k2, .. } = self.rings[RINGS - 1];
+        let Self { t_stress, j, .. } = *self;
+        TipIntensity { tip, k1, k2, t_stress, j, rings: self.rings.to_vec() }
+    }
+}
+
 /// The interaction integrals around one tip.
 pub(super) struct Interaction<'a> {
-    field: &'a Field<'a>,
-    space: &'a Space<'a>,
+    pub(super) field: &'a Field<'a>,
+    pub(super) space: &'a Space<'a>,
     law: Law<'a>,
     /// The law and the material at the tip, those of the auxiliary fields.
-    law_at_tip: LawAt,
+    pub(super) law_at_tip: LawAt,
     material: Material,
-    tip: TipId,
+    /// The crack in the discs.
+    pub(super) course: Course,
     center: Vec2,
+    /// The direction of growth.
+    axis: Vec2,
     /// Radii of the discs, ascending.
-    radii: [f64; RINGS],
-    loads: Loads<'a>,
+    pub(super) radii: [f64; RINGS],
+    pub(super) loads: Loads<'a>,
+    /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
+    slope: Option<Slope<'a>>,
+    /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
+    pressed: Option<f64>,
 }
 
 impl<'a> Interaction<'a> {
@@ -75,21 +102,62 @@ impl<'a> Interaction<'a> {
         radii: [f64; RINGS],
         loads: Loads<'a>,
     ) -> Option<Self> {
-        let center = field.step.cracks[tip.crack as usize].end_point(tip.end);
+        let crack = &field.step.cracks[tip.crack as usize];
+        let course = Course::new(crack, tip, radii[RINGS - 1]);
+        let center = course.center();
         let law = Law::new(field.equation);
         let law_at_tip = law.at(center);
-        let material = field.equation.elastic()?.at(center);
-        Some(Self { field, space, law, law_at_tip, material, tip, center, radii, loads })
+        let elastic = field.equation.elastic()?;
+        let material = elastic.at(center);
+        let slope = Slope::new(elastic, center, radii[RINGS - 1]);
+        let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load));
+        Some(Self {
+            field,
+            space,
+            law,
+            law_at_tip,
+            material,
+            course,
+            center,
+            axis: crack.growth_direction(tip.end),
+            radii,
+            loads,
+            slope,
+            pressed,
+        })
     }
 
-    fn largest(&self) -> f64 {
+    pub(super) fn largest(&self) -> f64 {
         self.radii[RINGS - 1]
     }
 
     /// The cells that meet the largest disc.
-    fn cells(&self) -> impl Iterator<Item = usize> {
-        let cells = &self.space.partition().cell;
-        (0..cells.len()).filter(|&c| cells[c].distance(self.center) < self.largest())
+    fn cells(&self, cells: &Placed<usize>) -> impl Iterator<Item = usize> {
+        let (all, radius) = (&self.space.partition().cell, self.largest());
+        let square = Rect::around(self.center, vec2(radius, radius));
+        let near = cells.near(&square).copied().collect::<Vec<_>>().into_iter();
+        near.filter(move |&c| all[c].distance(self.center) < radius)
+    }
+
+    /// The pieces of the crack that are not along the axis, or loaded, in all cells that they may meet.
+    fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
+        let faces = self.faces();
+        let mut all = Vec::new();
+        for part in self.course.parts().filter(|part| !part.is_first || faces.is_some()) {
+            let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
+            let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
+            for ends in self.course.pieces(&part, &at) {
+                let near = cells.near(&around(&ends));
+                all.extend(near.map(|&cell| Bend { part, ends, cell }));
+            }
+        }
+        all
+    }
+
+    fn faces(&self) -> Option<Faces<'_>> {
+        let Self { course, material, radii, pressed, .. } = self;
+        let is_balanced = pressed.is_some();
+        self.loads.faces.map(|load| Faces { course, material, radii, load, is_balanced })
     }
 
     fn cell(&self, quadrature: &Quadrature<'_>, c: usize) -> Integrals {
@@ -98,15 +166,15 @@ impl<'a> Interaction<'a> {
         let order = if small { self.space.degree() + 4 } else { ORDER };
         let coverers = &self.space.coverers[c];
         let rules = quadrature.disc(cell, coverers, self.center, self.largest(), order);
-        let mut sums = rules.iter().map(|rule| self.rule(rule)).fold(Integrals::default(), sum);
+        let parts = rules.iter().map(|rule| self.rule(rule));
+        let mut sums = parts.fold(Integrals::default(), Integrals::plus);
         rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
         sums
     }
 
     /// The part of a rule's points inside the largest disc.
     fn rule(&self, rule: &Rule) -> Integrals {
-        let crack = &self.field.step.cracks[self.tip.crack as usize];
-        let tip = LocalTip::new(crack, self.tip.end, rule.anchor);
+        let tip = self.course.at(rule.anchor);
         let point = |offset: Vec2| tip.point([offset.x, offset.y], Side::Above);
         let all = rule.offsets.iter().zip(&rule.weights);
         let near = all.filter(|(o, _)| square(&point(**o)) < self.largest() * self.largest());
@@ -122,7 +190,7 @@ impl<'a> Interaction<'a> {
                 u: in_frame(u, tip.axis),
                 force: self.force(rule.anchor + offset, tip.axis),
             };
-            integrals = sum(integrals, self.at(&place).times(weight));
+            integrals = integrals.plus(self.at(&place).times(weight));
         }
         integrals
     }
@@ -139,8 +207,7 @@ impl<'a> Interaction<'a> {
         let Place { point, u, .. } = place;
         let along = vec2(point.x, point.y);
         let stresses = self.stresses(place);
-        let stress = &stresses.own;
-        let energy = (0..2).map(|i| stress[i][0] * u[i].x + stress[i][1] * u[i].y).sum();
+        let energy = work(&stresses.own, u);
         let parts = self.auxiliary(point).map(|a| {
             let flow = self.flow(&stresses, u, &a.gradient);
             (flow.dot(along), divergence(&stresses, place.force, &a))
@@ -149,17 +216,29 @@ impl<'a> Interaction<'a> {
             let (q, slope) = cut_off(square(point), radius);
             parts.map(|(flow, source)| slope * flow + q * source)
         });
-        Integrals { modes, energy, doubt: Doubt::default() }
+        let (q, slope) = cut_off(square(point), self.largest());
+        let j = -(slope * energy_flow(&stresses.own, u).dot(along) + q * self.energy_source(place));
+        Integrals { modes, j, energy, doubt: Doubt::default() }
+    }
+
+    /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½ ε:C,_1:ε + b_i u_i,1.
+    fn energy_source(&self, place: &Place) -> f64 {
+        let graded =
+            self.slope.as_ref().map_or(0.0, |s| s.energy(place.world, self.axis, &place.u));
+        graded + place.force.x * place.u[0].x + place.force.y * place.u[1].x
+    }
+
+    /// σ of a gradient at a point.
+    pub(super) fn stress(&self, world: Vec2, u: &Gradients) -> [[f64; 2]; 2] {
+        if self.law.is_uniform() { self.law_at_tip.flux(u) } else { self.law.at(world).flux(u) }
     }
 
     fn stresses(&self, place: &Place) -> Stresses {
         let at_tip = self.law_at_tip.flux(&place.u);
-        let uniform = self.law.is_uniform();
-        let own = if uniform { at_tip } else { self.law.at(place.world).flux(&place.u) };
-        Stresses { own, at_tip }
+        Stresses { own: self.stress(place.world, &place.u), at_tip }
     }
 
-    fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; 2] {
+    pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
         let of_order = if self.law.is_uniform() { auxiliary::<1> } else { auxiliary::<2> };
         of_order(&self.material, point)
     }
@@ -175,22 +254,27 @@ impl<'a> Interaction<'a> {
 
     /// The part that does not come from the cells: the loads on the faces.
     fn start(&self) -> Integrals {
-        let Self { tip, material, radii, .. } = self;
-        let crack = &self.field.step.cracks[tip.crack as usize];
-        let faces = self.loads.faces.map(|load| Faces { crack, tip: *tip, material, radii, load });
-        let modes = faces.map_or_else(Modes::default, |faces| faces.integrals());
-        Integrals { modes, energy: 0.0, doubt: Doubt::default() }
+        let modes = self.faces().map_or_else(Modes::default, |faces| faces.integrals());
+        Integrals { modes, ..Integrals::default() }
     }
 
-    /// K = E′/2 M
+    /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the force sees ε_11 by its work,
+    /// and σ_22 by the opening of its own field, u_2(−π) − u_2(π) = (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
     fn found(&self, integrals: &Integrals) -> Found {
         let modulus = self.material.effective_young();
         let rings = std::array::from_fn(|k| {
-            let [k1, k2] = integrals.modes[k].map(|m| 0.5 * modulus * m);
-            Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
+            let [m1, m2, _] = integrals.modes[k];
+            Ring { r1: 0.0, r2: self.radii[k], k1: 0.5 * modulus * m1, k2: 0.5 * modulus * m2 }
         });
+        let of_force = modulus * integrals.modes[RINGS - 1][2];
         let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
-        Found { rings, strength, doubt: integrals.doubt }
+        Found {
+            rings,
+            t_stress: self.pressed.map(|pressed| of_force + pressed).filter(|t| t.is_finite()),
+            j: self.slope.as_ref().map(|_| integrals.j).filter(|j| j.is_finite()),
+            strength,
+            doubt: integrals.doubt,
+        }
     }
 }
 
@@ -218,8 +302,14 @@ fn divergence(stresses: &Stresses, force: Vec2, aux: &Auxiliary) -> f64 {
     work(&excess, &aux.along) - (force.x * aux.gradient[0].x + force.y * aux.gradient[1].x)
 }
 
+/// E_j = W δ_1j − σ_ij u_i,1, a vector over j, with W = ½ σ_ij u_i,j: the flow of energy whose integral round a tip is J.
+fn energy_flow(stress: &[[f64; 2]; 2], u: &Gradients) -> Vec2 {
+    let flow = |j: usize| stress[0][j] * u[0].x + stress[1][j] * u[1].x;
+    vec2(0.5 * work(stress, u) - flow(0), -flow(1))
+}
+
 /// σ_ij g_i,j of a symmetric stress.
-fn work(s: &[[f64; 2]; 2], g: &Gradients) -> f64 {
+pub(super) fn work(s: &[[f64; 2]; 2], g: &Gradients) -> f64 {
     s[0][0] * g[0].x + s[0][1] * (g[0].y + g[1].x) + s[1][1] * g[1].y
 }
 
@@ -231,8 +321,14 @@ const MOST_DIVISIONS: usize = 50_000;
 const DIVISION_OPERATIONS: usize = 1 << 32;
 const DIVISION_POINTS: usize = 1 << 10;
 
-/// Pairs of tips and cells that are worked on at a time.
+/// Pieces of work that are done at a time.
 const BATCH: usize = 1 << 14;
+
+/// A piece of the work at a tip, given by its number.
+enum Work {
+    Cell(usize, usize),
+    Bend(usize, Bend),
+}
 
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
 ///
@@ -243,46 +339,60 @@ pub(super) fn found(
     tips: &[Interaction<'_>],
     watcher: &dyn Watcher,
 ) -> Result<Vec<Found>, Cancelled> {
-    let cells: Vec<Vec<usize>> = tips.par_iter().map(|tip| tip.cells().collect()).collect();
-    let pairs = cells.iter().map(Vec::len).sum::<usize>().max(1);
-    let stage = Stage::new(watcher, Phase::Intensity, pairs)?;
+    let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
+    let of_tip = |(k, tip): (usize, &Interaction<'_>)| {
+        let of_cells = tip.cells(&near).map(|c| Work::Cell(k, c));
+        of_cells.chain(tip.bends(&near).into_iter().map(|bend| Work::Bend(k, bend))).collect()
+    };
+    let work: Vec<Vec<Work>> = tips.par_iter().enumerate().map(of_tip).collect();
+    let count = |is_counted: fn(&Work) -> bool| {
+        work.iter().flatten().filter(|work| is_counted(work)).count().max(1)
+    };
+    let cells_of_tips = count(|work| matches!(work, Work::Cell(..)));
+    let stage = Stage::new(watcher, Phase::Intensity, count(|_| true))?;
     let operations = space.probe_operations().max(1);
     let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
-    let quadrature = space.quadrature(0).with_divisions(divisions / pairs);
+    let [quadrature, finer] =
+        [0, ORDER].map(|extra| space.quadrature(extra).with_divisions(divisions / cells_of_tips));
     let mut integrals: Vec<_> = tips.iter().map(Interaction::start).collect();
-    let mut work = (0..tips.len()).flat_map(|k| cells[k].iter().map(move |&c| (k, c)));
+    let mut work = work.into_iter().flatten();
     loop {
         let batch: Vec<_> = work.by_ref().take(BATCH).collect();
         if batch.is_empty() {
             break;
         }
-        let part =
-            |&(k, c): &(usize, usize)| stage.advance(1).map(|()| tips[k].cell(&quadrature, c));
+        let part = |work: &Work| {
+            stage.advance(1).map(|()| match work {
+                Work::Cell(k, c) => (*k, tips[*k].cell(&quadrature, *c)),
+                Work::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
+            })
+        };
         let parts: Vec<_> = batch.par_iter().map(part).collect();
-        for ((k, _), part) in batch.into_iter().zip(parts) {
-            integrals[k] = sum(integrals[k], part?);
+        for part in parts {
+            let (k, part) = part?;
+            integrals[k] = integrals[k].plus(part);
         }
     }
     Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect())
 }
 
-fn sum(a: Integrals, b: Integrals) -> Integrals {
-    let mode = |k: usize, i: usize| a.modes[k][i] + b.modes[k][i];
-    let modes = std::array::from_fn(|k| [mode(k, 0), mode(k, 1)]);
-    let mut doubt = a.doubt;
-    doubt.add(&b.doubt);
-    Integrals { modes, energy: a.energy + b.energy, doubt }
-}
-
 impl Integrals {
-    fn times(self, weight: f64) -> Self {
+    pub(super) fn plus(self, other: Self) -> Self {
+        let mode = |k: usize| std::array::from_fn(|i| self.modes[k][i] + other.modes[k][i]);
+        let mut doubt = self.doubt;
+        doubt.add(&other.doubt);
+        let (j, energy) = (self.j + other.j, self.energy + other.energy);
+        Self { modes: std::array::from_fn(mode), j, energy, doubt }
+    }
+
+    pub(super) fn times(self, weight: f64) -> Self {
         let modes = self.modes.map(|modes| modes.map(|m| weight * m));
-        Self { modes, energy: weight * self.energy, doubt: self.doubt }
+        Self { modes, j: weight * self.j, energy: weight * self.energy, doubt: self.doubt }
     }
 }
 
 /// r² of a point in the tip's frame.
-fn square(point: &TipPoint<f64>) -> f64 {
+pub(super) fn square(point: &TipPoint<f64>) -> f64 {
     point.x * point.x + point.y * point.y
 }
 
@@ -300,7 +410,7 @@ pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 }
 
 /// The displacement gradient in a frame with the given x axis.
-fn in_frame(u: &[Jet<f64>], axis: Vec2) -> [Vec2; 2] {
+pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
     let (gx, gy) = (turned(axis, [u[0].x, u[0].y]), turned(axis, [u[1].x, u[1].y]));
     [gx * axis.x + gy * axis.y, gy * axis.x - gx * axis.y]
 }

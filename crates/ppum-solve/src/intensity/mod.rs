@@ -18,12 +18,26 @@
 //!
 //! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is u, so that
 //! \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al. 2009). Interfaces may lie in
-//! the disc; only a tip on one has no factors, because its field is another one. The crack must be straight inside
-//! the disc and nothing else may lie in it: the radii are chosen in the [`TipClearance`] of the tip.
+//! the disc; only a tip on one has no factors, because its field is another one.
+//!
+//! The crack may have kinks in the disc. The auxiliary fields then jump on the crack itself, where θ does, and not on its
+//! axis; so they load the faces that are not along it, and the last integral is −∫ P_j n_j q ds there. Of the gradient
+//! along a face, ∂u/∂s, and of that across it, the second cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the
+//! outward normal n on the left of s
+//!
+//! ```text
+//! −∫ P_j n_j q ds = −∫ (t_i uᵃ_i,1 + σᵃ_i2 ∂u_i/∂s) q ds
+//! ```
+//!
+//! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is on that side. Nothing
+//! else may lie in the disc: the radii are chosen in the [`TipClearance`] of the tip.
 
 mod auxiliary;
+mod bent;
+mod course;
 mod faces;
 mod integral;
+mod slope;
 
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use crate::geometry::{Obstacle, TipClearance};
@@ -31,9 +45,9 @@ use crate::problem::Problem;
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
 use crate::watched::Stage;
-use integral::{Found, Interaction, RINGS, found};
+use integral::{Interaction, RINGS, found};
 use ppum::crack::{Side, TipId, tips};
-use ppum::dataset::{Dataset, Ring, TipIntensity};
+use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
@@ -125,11 +139,9 @@ pub fn intensities(
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
     for (outcome, found) in wanted.into_iter().zip(found(space, &integrals, watcher)?) {
-        let Found { rings, strength, doubt } = found;
-        let Ring { k1, k2, .. } = rings[RINGS - 1];
-        outcome.factors = Some(TipIntensity { tip: outcome.tip, k1, k2, rings: rings.to_vec() });
-        outcome.strength = strength;
-        outcome.doubt = doubt;
+        outcome.strength = found.strength;
+        outcome.doubt = found.doubt;
+        outcome.factors = Some(found.factors(outcome.tip));
     }
     Ok(tips)
 }
@@ -195,13 +207,12 @@ pub fn on_circle(
     }
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
-    let rings = under(problem, |loads| {
+    let found = under(problem, |loads| {
         let integral = Interaction::new(&field, &space, tip, radii, loads);
         found(&space, integral.as_slice(), watcher)
     })?;
-    let rings = rings.into_iter().next().ok_or(CircleError::NoDisplacement)?.rings;
-    let Ring { k1, k2, .. } = rings[RINGS - 1];
-    Ok(TipIntensity { tip, k1, k2, rings: rings.to_vec() })
+    let found = found.into_iter().next().ok_or(CircleError::NoDisplacement)?;
+    Ok(found.factors(tip))
 }
 
 /// The same under the loads of a problem that the field solves; none act without one.

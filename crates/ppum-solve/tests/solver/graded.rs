@@ -168,6 +168,12 @@ fn exact_fields_in_graded_bodies() {
             println!("{found:.1e}, without the loads {without:.1e}");
             assert!(found < 1e-7, "{found:.1e}");
             assert!(without > 1e-2, "{without:.1e}");
+            let loads = Loads { force: Some(&force), faces: Some(&face) };
+            let found = factors(&dataset, loads);
+            let (t, j) = (found.t_stress.expect("a value"), found.j.expect("a value"));
+            let energy = found.energy_release(&grading.at_tip());
+            println!("T off by {:.1e}, J/G − 1 {:.1e}", t - T_STRESS, j / energy - 1.0);
+            assert!((t - T_STRESS).abs() < 1e-9 && (j / energy - 1.0).abs() < 1e-9, "{found:?}");
         }
     }
 }

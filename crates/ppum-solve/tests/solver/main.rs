@@ -13,6 +13,7 @@ mod intensity;
 mod interfaces;
 mod junctions;
 mod kernels;
+mod kinked;
 mod loads;
 mod physics;
 mod pieces;
@@ -25,6 +26,7 @@ mod rooms;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod tip_terms;
 mod warnings;
 mod watched;
 mod weights;

@@ -202,7 +202,7 @@ fn tips_in_cells() -> Dataset {
 fn with_rings(n: usize) -> TipIntensity {
     let ring = |k: usize| Ring { r1: 0.0, r2: 1.0 + k as f64, k1: 1.0, k2: 0.0 };
     let tip = TipId { crack: 0, end: End::Start };
-    TipIntensity { tip, k1: 1.0, k2: 0.0, rings: (0..n).map(ring).collect() }
+    TipIntensity { rings: (0..n).map(ring).collect(), ..TipIntensity::new(tip, 1.0, 0.0) }
 }
 
 /// Rings of one tip.

@@ -102,7 +102,7 @@ fn with_factors() -> Dataset {
     for (k, step) in dataset.steps.iter_mut().enumerate().filter(|(k, _)| *k != 1) {
         let tip = TipId { crack: 0, end: End::Last };
         let (k1, k2) = (1.0 + k as f64, -0.25 * k as f64);
-        step.intensities.push(TipIntensity { tip, k1, k2, rings: Vec::new() });
+        step.intensities.push(TipIntensity::new(tip, k1, k2));
     }
     dataset
 }

@@ -222,8 +222,8 @@ impl StepReport {
             unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
             energy: SolverReport::of(history).energy.map(Number),
             history: history.iter().map(history_row).collect(),
-            intensities: intensities.iter().map(|t| Tip::new(index, field.step, t)).collect(),
-            all_tips: all_tips(index, field.step),
+            intensities: intensities.iter().map(|t| Tip::new(dataset, index, t)).collect(),
+            all_tips: all_tips(dataset, index),
             warnings: rows(index, &field.step.warnings),
             reactions: reactions::rows(dataset, field.step),
         })

@@ -357,6 +357,12 @@ pub(super) const RULES: &[Rule] = &[
         &["steps[0].intensities[0].rings[0]", "r1 < r2"],
     ),
     (
+        "what is known of a tip is finite",
+        FULL,
+        |c| set(c, "steps/0000/intensities/t_stress", 0, f64::INFINITY),
+        &["steps[0].intensities[0].t_stress"],
+    ),
+    (
         "a place has two coordinates or none",
         FULL,
         |c| set(c, "steps/0000/warnings/at", 0, 0.5),

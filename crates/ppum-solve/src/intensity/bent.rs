@@ -1,0 +1,84 @@
+//! The part of the interaction integral that comes from the faces of the crack behind its kinks.
+
+use super::auxiliary::Gradients;
+use super::course::Part;
+use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned, work};
+use crate::quadrature::{EdgeRule, Quadrature};
+use ppum::crack::{SegmentId, Side};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+/// A piece of the crack in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    pub(super) part: Part,
+    pub(super) ends: [Vec2; 2],
+    pub(super) cell: usize,
+}
+
+impl Interaction<'_> {
+    /// The integrals over both faces of a piece.
+    pub(super) fn bend(&self, quadrature: &Quadrature<'_>, bend: &Bend) -> Integrals {
+        let left = self.left(&bend.part);
+        let mut sums = Integrals::default();
+        for (side, normal) in [(Side::Above, -left), (Side::Below, left)] {
+            let cell = &self.space.partition().cell[bend.cell];
+            let coverers = &self.space.coverers[bend.cell];
+            for rule in quadrature.edge(cell, coverers, bend.ends, normal) {
+                sums = sums.plus(self.along(&bend.part, side, &rule));
+                sums.doubt.add(&rule.doubt);
+            }
+        }
+        sums
+    }
+
+    /// Unit vector to the left of the crack on a part of it.
+    fn left(&self, part: &Part) -> Vec2 {
+        let points = &self.field.step.cracks[self.course.tip().crack as usize].points;
+        let k = part.segment as usize;
+        (points[k + 1] - points[k]).unit().left()
+    }
+
+    /// The points of a rule on one face.
+    fn along(&self, part: &Part, side: Side, rule: &EdgeRule) -> Integrals {
+        let segment = SegmentId { crack: self.course.tip().crack, segment: part.segment };
+        let tip = self.course.on(part, rule.anchor);
+        let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
+        let local = self.field.on(segment, rule.anchor);
+        local.evaluate_over::<1>(&rule.offsets, side, &rule.patches, &mut jets);
+        let mut sums = Integrals::default();
+        let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
+        for (((offset, &weight), normal), u) in points.zip(jets.chunks_exact(2)) {
+            let point = tip.point([offset.x, offset.y], side);
+            let (u, normal) = (in_frame(u, tip.axis), turned(tip.axis, (*normal).into()));
+            let parts = self.auxiliary(&point).map(|a| -self.crossing(&u, &a.gradient, normal));
+            let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
+            let modes = self.radii.map(part);
+            let world = rule.anchor + *offset;
+            let q = cut_off(square(&point), self.largest()).0;
+            let j =
+                q * self.energy_crossing(&u, normal, world, self.traction(side, world, tip.axis));
+            sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
+        }
+        sums
+    }
+
+    /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is but for the
+    /// traction's part.
+    fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
+        let (stress, along) = (self.law_at_tip.flux(aux), -normal.left());
+        (0..2).map(|i| stress[i][1] * u[i].dot(along)).sum()
+    }
+
+    /// The traction on a face in the tip's frame.
+    fn traction(&self, side: Side, world: Vec2, axis: Vec2) -> Vec2 {
+        let crack = self.course.tip().crack;
+        self.loads.faces.map_or(Vec2::ZERO, |load| turned(axis, load(crack, side, world)))
+    }
+
+    /// E_j n_j = W n_1 − t_i u_i,1
+    fn energy_crossing(&self, u: &Gradients, normal: Vec2, world: Vec2, traction: Vec2) -> f64 {
+        let energy = 0.5 * work(&self.stress(world, u), u);
+        energy * normal.x - traction.dot(vec2(u[0].x, u[1].x))
+    }
+}

@@ -1,0 +1,103 @@
+//! The variation of a material along the crack, as the J-integral needs it.
+
+use super::auxiliary::Gradients;
+use crate::geometry::interface_distance;
+use ppum::dataset::{Elasticity, StressState};
+use ppum::expression::Expression;
+use ppum::formula::FormulaJets;
+use ppum::vec2::{Vec2, vec2};
+
+/// A material that varies without jumps.
+pub(super) struct Slope<'a> {
+    body: &'a Elasticity,
+    /// E and ν with their first derivatives; none of a constant.
+    constants: [Option<FormulaJets>; 2],
+}
+
+impl<'a> Slope<'a> {
+    /// The variation in a disc. None if the material jumps there: the energy that crosses an interface is no integral
+    /// over the disc. None if its formulas are too large to be differentiated.
+    pub(super) fn new(body: &'a Elasticity, center: Vec2, radius: f64) -> Option<Self> {
+        if interface_distance(body, center, radius).is_some() {
+            return None;
+        }
+        let jets = |expression: &Expression| match expression.constant() {
+            Some(_) => Some(None),
+            None => FormulaJets::new(&[expression.formula()], 1).ok().map(Some),
+        };
+        Some(Self { body, constants: [jets(&body.young)?, jets(&body.poisson)?] })
+    }
+
+    /// ½ ε:C,_1:ε = ½ λ,_1 (tr ε)² + μ,_1 ε:ε, the derivative along `axis` at a point where u has the gradient `u` in the
+    /// frame of that axis.
+    pub(super) fn energy(&self, at: Vec2, axis: Vec2, u: &Gradients) -> f64 {
+        let [young, poisson] = [0, 1].map(|k| self.along(k, at, axis));
+        if young == 0.0 && poisson == 0.0 {
+            return 0.0;
+        }
+        let [lambda, mu] = self.moduli(at, young, poisson);
+        let (trace, shear) = (u[0].x + u[1].y, 0.5 * (u[0].y + u[1].x));
+        let square = u[0].x * u[0].x + u[1].y * u[1].y + 2.0 * shear * shear;
+        0.5 * lambda * trace * trace + mu * square
+    }
+
+    /// The derivative of a constant along the axis.
+    fn along(&self, constant: usize, at: Vec2, axis: Vec2) -> f64 {
+        let Some(jets) = &self.constants[constant] else { return 0.0 };
+        let mut out = [0.0; 3];
+        jets.evaluate(&[at.x, at.y], &mut Vec::new(), &mut out);
+        vec2(out[1], out[2]).dot(axis)
+    }
+
+    /// The derivatives of λ and μ from those of E and ν.
+    fn moduli(&self, at: Vec2, young: f64, poisson: f64) -> [f64; 2] {
+        let material = self.body.at(at);
+        let (e, nu) = (material.young, material.poisson);
+        let by_poisson = match material.state {
+            StressState::PlaneStrain => {
+                e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
+            }
+            StressState::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
+        };
+        [
+            material.lambda() / e * young + by_poisson * poisson,
+            material.mu() * (young / e - poisson / (1.0 + nu)),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The energy of one strain at two places nearby.
+    #[test]
+    fn derivatives_by_differences() {
+        for state in [StressState::PlaneStrain, StressState::PlaneStress] {
+            let [young, poisson] = ["2 + x*y", "0.25 + 0.05*sin(x + 2*y)"]
+                .map(|text| text.parse().expect("a formula"));
+            let body = Elasticity { young, poisson, state };
+            let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
+            let slope = Slope::new(&body, at, 0.1).expect("no jump");
+            let u = [vec2(0.3, -0.2), vec2(0.5, 0.7)];
+            let energy = |p: Vec2| {
+                let material = body.at(p);
+                let (trace, shear) = (u[0].x + u[1].y, 0.5 * (u[0].y + u[1].x));
+                let square = u[0].x.powi(2) + u[1].y.powi(2) + 2.0 * shear * shear;
+                0.5 * material.lambda() * trace * trace + material.mu() * square
+            };
+            let h = 1e-5;
+            let difference = (energy(at + axis * h) - energy(at - axis * h)) / (2.0 * h);
+            let found = slope.energy(at, axis, &u);
+            assert!((found - difference).abs() < 1e-8, "{found} {difference}");
+        }
+    }
+
+    #[test]
+    fn jumps_have_no_slope() {
+        let [young, poisson] = ["if(y > 0.3, 2, 1)", "0.3"].map(|t| t.parse().expect("a formula"));
+        let body = Elasticity { young, poisson, state: StressState::PlaneStrain };
+        assert!(Slope::new(&body, vec2(0.0, 0.0), 0.2).is_some());
+        assert!(Slope::new(&body, vec2(0.0, 0.0), 0.4).is_none());
+    }
+}
