@@ -1,6 +1,6 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::Gradients;
+use super::auxiliary::{Gradients, stress};
 use super::course::Part;
 use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned, work};
 use crate::quadrature::{EdgeRule, Quadrature};
@@ -66,7 +66,7 @@ impl Interaction<'_> {
     /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is but for the
     /// traction's part.
     fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
-        let (stress, along) = (self.law_at_tip.flux(aux), -normal.left());
+        let (stress, along) = (stress(self.body.lame, aux), -normal.left());
         (0..2).map(|i| stress[i][1] * u[i].dot(along)).sum()
     }
 

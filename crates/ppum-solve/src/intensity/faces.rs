@@ -1,12 +1,11 @@
 //! The part of the interaction integral that comes from loads on the faces of a crack.
 
 use super::FaceLoad;
-use super::auxiliary::auxiliary;
+use super::auxiliary::Body;
 use super::course::{Course, Part};
 use super::integral::{Modes, cut_off, square, turned};
 use crate::quadrature::{GaussRule, closed, gauss};
 use ppum::crack::{LocalTip, Side};
-use ppum::dataset::Material;
 
 /// Gauss points of a panel.
 const ORDER: usize = 8;
@@ -49,7 +48,7 @@ type Seen<'s> = (&'s Part, &'s LocalTip);
 /// The faces of a crack behind one tip, in the discs around it.
 pub(super) struct Faces<'a> {
     pub(super) course: &'a Course,
-    pub(super) material: &'a Material,
+    pub(super) body: &'a Body,
     /// Radii of the discs, ascending.
     pub(super) radii: &'a [f64],
     pub(super) load: FaceLoad<'a>,
@@ -138,7 +137,7 @@ impl Faces<'_> {
             let traction =
                 (self.load)(self.course.tip().crack, side, self.course.center() + offset);
             let t = turned(tip.axis, traction);
-            let auxiliary = auxiliary::<1>(self.material, &point);
+            let auxiliary = self.body.fields::<1>(&point);
             let work = auxiliary.map(|a| t.x * a.gradient[0].x + t.y * a.gradient[1].x);
             let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
             std::array::from_fn(|k| work.map(|w| -q(k) * w))
@@ -187,7 +186,7 @@ fn magnitude(modes: &Modes) -> f64 {
 mod tests {
     use super::*;
     use ppum::crack::{Crack, CrackEnd, End, TipId};
-    use ppum::dataset::StressState;
+    use ppum::dataset::{Material, StressState};
     use ppum::vec2::{Vec2, vec2};
 
     const RADII: [f64; 3] = [0.3, 0.4, 0.5];
@@ -199,8 +198,14 @@ mod tests {
         let material = Material { young: 2.0, poisson: 0.2, state: StressState::PlaneStress };
         let tip = TipId { crack: 0, end: End::Last };
         let course = Course::new(&crack, tip, RADII[2]);
-        Faces { course: &course, material: &material, radii: &RADII, load, is_balanced: true }
-            .integrals()
+        Faces {
+            course: &course,
+            body: &Body::new(&material),
+            radii: &RADII,
+            load,
+            is_balanced: true,
+        }
+        .integrals()
     }
 
     /// A pressure p on both faces gives E′/2 M = √(2/π) ∫ p q/√r dr, with r = s²: loads that jump at r = c,

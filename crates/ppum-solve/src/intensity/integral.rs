@@ -1,14 +1,14 @@
 //! The interaction integral over the cells of a space.
 
 use super::Loads;
-use super::auxiliary::{Auxiliary, Gradients, auxiliary};
+use super::auxiliary::{Auxiliary, Body, Gradients, stress};
 use super::bent::Bend;
 use super::course::Course;
 use super::faces::{Faces, pressed};
 use super::slope::Slope;
 use crate::geometry::{Placed, around};
-use crate::law::{Law, LawAt};
-use crate::quadrature::{Doubt, Quadrature, Rule};
+use crate::law::Law;
+use crate::quadrature::{Disc, Doubt, Quadrature, Rule};
 use crate::space::Space;
 use crate::watched::Stage;
 use ppum::crack::{Side, TipId, TipPoint};
@@ -23,11 +23,12 @@ use rayon::prelude::*;
 /// with m = 4 their error is seen at 1e-7, with more at 1e-10.
 const CUT_OFF_POWER: i32 = 6;
 
-/// Gauss points in each direction of cells that are large in the disc, where the cut-off bends.
+/// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
 const ORDER: usize = 12;
 
-/// Part of the radius below which a cell is small and the order of the assembly is enough.
-const SMALL: f64 = 0.2;
+/// Size of pieces from which on they are large, in radii of the smallest disc. Smaller ones take fewer points, down to the
+/// order of the assembly. With 1 that is seen at 1e-8 in discs no larger than the cells.
+const ALL_POINTS: f64 = 0.5;
 
 /// Discs for each tip.
 pub(super) const RINGS: usize = 3;
@@ -75,9 +76,9 @@ pub(super) struct Interaction<'a> {
     pub(super) field: &'a Field<'a>,
     pub(super) space: &'a Space<'a>,
     law: Law<'a>,
-    /// The law and the material at the tip, those of the auxiliary fields.
-    pub(super) law_at_tip: LawAt,
+    /// The material at the tip, and the body of it that the auxiliary fields are in.
     material: Material,
+    pub(super) body: Body,
     /// The crack in the discs.
     pub(super) course: Course,
     center: Vec2,
@@ -106,17 +107,17 @@ impl<'a> Interaction<'a> {
         let course = Course::new(crack, tip, radii[RINGS - 1]);
         let center = course.center();
         let law = Law::new(field.equation);
-        let law_at_tip = law.at(center);
         let elastic = field.equation.elastic()?;
         let material = elastic.at(center);
+        let body = Body::new(&material);
         let slope = Slope::new(elastic, center, radii[RINGS - 1]);
         let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load));
         Some(Self {
             field,
             space,
             law,
-            law_at_tip,
             material,
+            body,
             course,
             center,
             axis: crack.growth_direction(tip.end),
@@ -155,32 +156,43 @@ impl<'a> Interaction<'a> {
     }
 
     fn faces(&self) -> Option<Faces<'_>> {
-        let Self { course, material, radii, pressed, .. } = self;
+        let Self { course, body, radii, pressed, .. } = self;
         let is_balanced = pressed.is_some();
-        self.loads.faces.map(|load| Faces { course, material, radii, load, is_balanced })
+        self.loads.faces.map(|load| Faces { course, body, radii, load, is_balanced })
     }
 
-    fn cell(&self, quadrature: &Quadrature<'_>, c: usize) -> Integrals {
+    fn cell(
+        &self,
+        quadrature: &Quadrature<'_>,
+        seen: &mut Option<LocalField<'a>>,
+        c: usize,
+    ) -> Integrals {
         let cell = &self.space.partition().cell[c];
-        let small = cell.size().length() < SMALL * self.radii[0];
-        let order = if small { self.space.degree() + 4 } else { ORDER };
-        let coverers = &self.space.coverers[c];
-        let rules = quadrature.disc(cell, coverers, self.center, self.largest(), order);
-        let parts = rules.iter().map(|rule| self.rule(rule));
+        let disc = Disc {
+            center: self.center,
+            radius: self.largest(),
+            scale: ALL_POINTS * self.radii[0],
+            order: ORDER,
+            least: self.space.degree() + 4,
+        };
+        let rules = quadrature.disc(cell, &self.space.coverers[c], disc);
+        let parts = rules.iter().map(|rule| self.rule(rule, seen));
         let mut sums = parts.fold(Integrals::default(), Integrals::plus);
         rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
         sums
     }
 
-    /// The part of a rule's points inside the largest disc.
-    fn rule(&self, rule: &Rule) -> Integrals {
+    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last looked at: most rules around a
+    /// tip have the tip as their anchor.
+    fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
         let tip = self.course.at(rule.anchor);
         let point = |offset: Vec2| tip.point([offset.x, offset.y], Side::Above);
         let all = rule.offsets.iter().zip(&rule.weights);
         let near = all.filter(|(o, _)| square(&point(**o)) < self.largest() * self.largest());
         let (offsets, weights): (Vec<Vec2>, Vec<f64>) = near.unzip();
         let mut jets = vec![Jet::constant(0.0); 2 * offsets.len()];
-        let local: LocalField<'_> = self.field.at(rule.anchor);
+        let known = seen.take().filter(|local| local.anchor == rule.anchor);
+        let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
         local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
         let mut integrals = Integrals::default();
         for ((&offset, &weight), u) in offsets.iter().zip(&weights).zip(jets.chunks_exact(2)) {
@@ -190,7 +202,7 @@ impl<'a> Interaction<'a> {
                 u: in_frame(u, tip.axis),
                 force: self.force(rule.anchor + offset, tip.axis),
             };
-            integrals = integrals.plus(self.at(&place).times(weight));
+            self.add(&place, weight, &mut integrals);
         }
         integrals
     }
@@ -200,25 +212,37 @@ impl<'a> Interaction<'a> {
         self.loads.force.map_or(Vec2::ZERO, |force| turned(axis, force(at)))
     }
 
-    /// The integrands at a point.
+    /// Adds the integrands at a point.
     ///
     /// With q,_j = q′/r x_j the parts without q are the same for all discs.
-    fn at(&self, place: &Place) -> Integrals {
+    fn add(&self, place: &Place, weight: f64, sums: &mut Integrals) {
         let Place { point, u, .. } = place;
         let along = vec2(point.x, point.y);
         let stresses = self.stresses(place);
-        let energy = work(&stresses.own, u);
-        let parts = self.auxiliary(point).map(|a| {
-            let flow = self.flow(&stresses, u, &a.gradient);
-            (flow.dot(along), divergence(&stresses, place.force, &a))
-        });
-        let modes = self.radii.map(|radius| {
+        let through = self.through(&stresses, u, along);
+        let auxiliary = self.auxiliary(point);
+        let flows =
+            auxiliary.map(|a| through[0].dot(a.gradient[0]) + through[1].dot(a.gradient[1]));
+        let sources = if self.has_sources() {
+            auxiliary.map(|a| divergence(&stresses, place.force, &a))
+        } else {
+            [0.0; MODES]
+        };
+        for (modes, radius) in sums.modes.iter_mut().zip(self.radii) {
             let (q, slope) = cut_off(square(point), radius);
-            parts.map(|(flow, source)| slope * flow + q * source)
-        });
+            for (sum, (flow, source)) in modes.iter_mut().zip(flows.iter().zip(sources)) {
+                *sum += weight * (slope * flow + q * source);
+            }
+        }
         let (q, slope) = cut_off(square(point), self.largest());
-        let j = -(slope * energy_flow(&stresses.own, u).dot(along) + q * self.energy_source(place));
-        Integrals { modes, j, energy, doubt: Doubt::default() }
+        let energy = energy_flow(&stresses.own, u).dot(along);
+        sums.j -= weight * (slope * energy + q * self.energy_source(place));
+        sums.energy += weight * work(&stresses.own, u);
+    }
+
+    /// False where all flows have no divergence.
+    fn has_sources(&self) -> bool {
+        self.loads.force.is_some() || !self.law.is_uniform()
     }
 
     /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½ ε:C,_1:ε + b_i u_i,1.
@@ -230,26 +254,29 @@ impl<'a> Interaction<'a> {
 
     /// σ of a gradient at a point.
     pub(super) fn stress(&self, world: Vec2, u: &Gradients) -> [[f64; 2]; 2] {
-        if self.law.is_uniform() { self.law_at_tip.flux(u) } else { self.law.at(world).flux(u) }
+        let uniform = self.law.is_uniform();
+        stress(if uniform { self.body.lame } else { self.law.coefficients(world) }, u)
     }
 
     fn stresses(&self, place: &Place) -> Stresses {
-        let at_tip = self.law_at_tip.flux(&place.u);
+        let at_tip = stress(self.body.lame, &place.u);
         Stresses { own: self.stress(place.world, &place.u), at_tip }
     }
 
     pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
-        let of_order = if self.law.is_uniform() { auxiliary::<1> } else { auxiliary::<2> };
-        of_order(&self.material, point)
+        if self.has_sources() { self.body.fields::<2>(point) } else { self.body.fields::<1>(point) }
     }
 
-    /// P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, a vector over j; σᵃ_ik ε_ik is the stress that
-    /// the tip's material would have, on εᵃ.
-    fn flow(&self, stresses: &Stresses, u: &Gradients, aux: &Gradients) -> Vec2 {
-        let (s, sa) = (&stresses.own, self.law_at_tip.flux(aux));
-        let work = work(&stresses.at_tip, aux);
-        let flow = |j: usize| (0..2).map(|i| s[i][j] * aux[i].x + sa[i][j] * u[i].x).sum::<f64>();
-        vec2(flow(0) - work, flow(1))
+    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 −
+    /// σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would have, on εᵃ.
+    fn through(&self, stresses: &Stresses, u: &Gradients, x: Vec2) -> Gradients {
+        let Stresses { own, at_tip } = stresses;
+        let dual = stress(self.body.lame, &[x * u[0].x, x * u[1].x]);
+        let row = |i: usize| {
+            let along = own[i][0] * x.x + own[i][1] * x.y + dual[i][0] - x.x * at_tip[i][0];
+            vec2(along, dual[i][1] - x.x * at_tip[i][1])
+        };
+        [row(0), row(1)]
     }
 
     /// The part that does not come from the cells: the loads on the faces.
@@ -298,7 +325,8 @@ struct Stresses {
 /// what σ exceeds the stress of the tip's material by, on εᵃ,_1.
 fn divergence(stresses: &Stresses, force: Vec2, aux: &Auxiliary) -> f64 {
     let Stresses { own, at_tip } = stresses;
-    let excess = std::array::from_fn(|i| std::array::from_fn(|j| own[i][j] - at_tip[i][j]));
+    let row = |i: usize| [own[i][0] - at_tip[i][0], own[i][1] - at_tip[i][1]];
+    let excess = [row(0), row(1)];
     work(&excess, &aux.along) - (force.x * aux.gradient[0].x + force.y * aux.gradient[1].x)
 }
 
@@ -334,9 +362,9 @@ enum Work {
 ///
 /// # Errors
 /// Cancelled.
-pub(super) fn found(
+pub(super) fn found<'a>(
     space: &Space<'_>,
-    tips: &[Interaction<'_>],
+    tips: &[Interaction<'a>],
     watcher: &dyn Watcher,
 ) -> Result<Vec<Found>, Cancelled> {
     let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
@@ -361,13 +389,13 @@ pub(super) fn found(
         if batch.is_empty() {
             break;
         }
-        let part = |work: &Work| {
+        let part = |seen: &mut Option<LocalField<'a>>, work: &Work| {
             stage.advance(1).map(|()| match work {
-                Work::Cell(k, c) => (*k, tips[*k].cell(&quadrature, *c)),
+                Work::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
                 Work::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
             })
         };
-        let parts: Vec<_> = batch.par_iter().map(part).collect();
+        let parts: Vec<_> = batch.par_iter().map_init(|| None, part).collect();
         for part in parts {
             let (k, part) = part?;
             integrals[k] = integrals[k].plus(part);
@@ -400,7 +428,8 @@ pub(super) fn square(point: &TipPoint<f64>) -> f64 {
 pub(super) fn cut_off(square: f64, radius: f64) -> (f64, f64) {
     let base = (1.0 - square / (radius * radius)).max(0.0);
     let slope = -2.0 * f64::from(CUT_OFF_POWER) / (radius * radius);
-    (base.powi(CUT_OFF_POWER), slope * base.powi(CUT_OFF_POWER - 1))
+    let power = base.powi(CUT_OFF_POWER - 1);
+    (base * power, slope * power)
 }
 
 /// A vector in a frame with the given x axis.

@@ -1,4 +1,4 @@
-//! Stress intensity factors by the interaction integral.
+//! Stress intensity factors by the interaction integral, and what stands beside them.
 //!
 //! With the field u, an auxiliary Williams field uᵃ with K = 1 in one mode, both in the tip's frame,
 //! and a cut-off q that is 1 at the tip and 0 outside a disc (Yau, Wang & Corten 1980; domain form
@@ -31,6 +31,20 @@
 //!
 //! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is on that side. Nothing
 //! else may lie in the disc: the radii are chosen in the [`TipClearance`] of the tip.
+
+//! T, the part of σ_11 at the tip that is finite, comes from the same integral with the field of a force 1 along the axis at
+//! the tip (Kfouri 1986): T = E′M + σ_22, where σ_22 is what the loads on the faces press the tip with. That field loads no
+//! face along the axis, and has no K. Loads with a resultant at the tip make σ_11 grow like log r, and there is no T.
+//!
+//! J is the energy that is released, by the domain form of the J-integral (Li, Shih & Needleman 1985)
+//!
+//! ```text
+//! J = −∫ E_j q_,j + E_j,j q dA + ∫ (W n_1 − t_i u_i,1) q ds      W = ½ σ_ij ε_ij
+//! E_j = W δ_1j − σ_ij u_i,1      E_j,j = ½ ε:C,_1:ε + b_i u_i,1
+//! ```
+//!
+//! with the second integral over all faces. It knows nothing of auxiliary fields: that J = G = (K_I² + K_II²)/E′ is a check. C
+//! is differentiated, so that there is no J where the material jumps in the disc.
 
 mod auxiliary;
 mod bent;
@@ -236,10 +250,14 @@ fn under<T>(problem: Option<&Problem>, find: impl FnOnce(Loads<'_>) -> T) -> T {
         problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
     };
     let loads = Loads {
-        force: problem.map(|_| &force as PointLoad<'_>),
+        force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),
         faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
     };
     find(loads)
+}
+
+fn has_force(problem: &Problem) -> bool {
+    problem.source.iter().any(|component| component.constant() != Some(0.0))
 }
 
 /// The longest side of the cells that a point lies in.

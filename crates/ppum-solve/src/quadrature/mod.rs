@@ -135,9 +135,29 @@ pub(crate) struct Quadrature<'a> {
 
 /// A disc around a point at which the integrand is singular.
 #[derive(Clone, Copy)]
-struct Disc {
-    center: Vec2,
-    radius: f64,
+pub(crate) struct Disc {
+    pub center: Vec2,
+    pub radius: f64,
+    /// Length on which the integrand's factor of the disc varies.
+    pub scale: f64,
+    /// Gauss points in each direction of pieces as large as that, and at the centre.
+    pub order: usize,
+    /// Gauss points of pieces that are next to nothing against it, enough for what else is in the integrand.
+    pub least: usize,
+}
+
+impl Disc {
+    /// The same number of points on all pieces.
+    #[cfg(test)]
+    fn even(center: Vec2, radius: f64, order: usize) -> Self {
+        Self { center, radius, scale: radius, order, least: order }
+    }
+
+    /// Gauss points of a rectangle that is at least its diameter away from singular points.
+    fn order(&self, diameter: f64) -> usize {
+        let more = self.order.saturating_sub(self.least) as f64 * (diameter / self.scale).min(1.0);
+        self.least.min(self.order) + more.ceil() as usize
+    }
 }
 
 impl<'a> Quadrature<'a> {
@@ -168,29 +188,22 @@ impl<'a> Quadrature<'a> {
         self.rules(cell, coverers, self.orders, None)
     }
 
-    /// The rules on the pieces of a cell that meet a disc, with `order` points in each direction, or
-    /// more where the weight function needs them.
+    /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for where the weight function
+    /// needs them.
     ///
-    /// The integrand may be singular like r⁻¹ at the disc's `center`, whichever functions are active,
+    /// The integrand may be singular like r⁻¹ at the disc's centre, whichever functions are active,
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
     /// integrated. The anchor is the centre wherever no other singular point is near.
     #[must_use]
-    pub(crate) fn disc(
-        &self,
-        cell: &Rect,
-        coverers: &[u32],
-        center: Vec2,
-        radius: f64,
-        order: usize,
-    ) -> Vec<Rule> {
-        let part = cell.intersection(&Rect::around(center, vec2(radius, radius)));
+    pub(crate) fn disc(&self, cell: &Rect, coverers: &[u32], disc: Disc) -> Vec<Rule> {
+        let part = cell.intersection(&Rect::around(disc.center, vec2(disc.radius, disc.radius)));
         let size = part.size();
         if size.x <= 0.0 || size.y <= 0.0 {
             return Vec::new();
         }
-        let overlap = order.max(self.orders.overlap);
-        let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(order) };
-        self.rules(&part, coverers, orders, Some(Disc { center, radius }))
+        let overlap = disc.order.max(self.orders.overlap);
+        let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(disc.order) };
+        self.rules(&part, coverers, orders, Some(disc))
     }
 
     fn rules(
@@ -282,6 +295,12 @@ impl Run<'_> {
             kinks: geometry.has_kinks(patches) || !curves.is_empty(),
             probes: !active.is_empty(),
         });
+        let order = match self.disc {
+            Some(disc) if nearest >= diameter && active.is_empty() => {
+                order.min(disc.order(diameter).max(self.quadrature.orders.overlap))
+            }
+            _ => order,
+        };
         let polygons = self.cut(rect, anchor, &kinks);
         let mut pieces = Pieces {
             rules: &mut self.rules,

@@ -263,7 +263,9 @@ fn energy_in_a_disc_with_a_smooth_cut_off() {
         .partition
         .cell
         .iter()
-        .flat_map(|c| quadrature.disc(c, &coverers(&case.partition, c), tip, radius, 14))
+        .flat_map(|c| {
+            quadrature.disc(c, &coverers(&case.partition, c), Disc::even(tip, radius, 14))
+        })
         .collect();
     assert!(rules.iter().all(|r| r.anchor == tip));
     let sum = integrate(&rules, |_, x| {

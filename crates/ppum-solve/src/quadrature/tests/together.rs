@@ -77,7 +77,8 @@ fn discs_honour_kinks_and_probes() {
     ];
     let geometry = Geometry { kinks: &kinks, common_kinks: &[0, 1], ..case.geometry() };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
-    let disc = |c: &Rect| quadrature.disc(c, &coverers(&case.partition, c), tip, radius, 14);
+    let disc =
+        |c: &Rect| quadrature.disc(c, &coverers(&case.partition, c), Disc::even(tip, radius, 14));
     let rules: Vec<Rule> = case.partition.cell.iter().flat_map(disc).collect();
     let density = |x: Vec2| {
         let r = x.length();

@@ -114,7 +114,9 @@ fn discs_have_the_points_that_the_weight_needs() {
     let points = |orders: Orders| {
         let quadrature = case.quadrature(orders);
         let (center, radius) = (vec2(0.1, 0.2), 0.5);
-        let rules = |c: &Rect| quadrature.disc(c, &coverers(&case.partition, c), center, radius, 8);
+        let rules = |c: &Rect| {
+            quadrature.disc(c, &coverers(&case.partition, c), Disc::even(center, radius, 8))
+        };
         let rules: Vec<Rule> = case.partition.cell.iter().flat_map(rules).collect();
         let (overlaps, rest): (Vec<_>, Vec<_>) =
             rules.into_iter().partition(|r| r.patches.len() > 1);
