@@ -33,6 +33,9 @@ const PLACES: u64 = 32;
 /// Looks at each rim from a cell.
 const RIM_LOOKS: u64 = 32;
 
+/// Looks at each segment from a segment behind a kink: both faces, in the cells that it may meet.
+const FACE_LOOKS: u64 = 8;
+
 /// Places along a crack.
 const CRACK_PLACES: u64 = 192;
 
@@ -133,15 +136,20 @@ impl Count<'_> {
 
     /// Comparisons of everything with everything.
     fn looks(&self) -> u64 {
-        let (tips, cells) =
+        let (n_tips, cells) =
             (tips(&self.step.cracks).count() as u64, self.step.partition.len() as u64);
         let segments = self.step.cracks.iter().map(|crack| crack.points.len() as u64).sum::<u64>();
         let kinks: u64 = self.declared().iter().sum();
         let curves = self.curves();
-        let of_tips = tips.saturating_mul(cells + segments + self.rims());
+        let of_tips = n_tips.saturating_mul(cells + segments + self.rims());
         let of_cells = RIM_LOOKS.saturating_mul(cells).saturating_mul(self.rims());
         let of_kinks = kinks.saturating_mul(kinks).saturating_add(curves * curves * COMPARED);
-        of_tips.saturating_add(of_cells).saturating_add(of_kinks)
+        // rules along the faces behind kinks look at all segments
+        let behind =
+            |tip: TipId| self.step.cracks[tip.crack as usize].points.len().saturating_sub(2) as u64;
+        let own: u64 = tips(&self.step.cracks).map(behind).sum();
+        let of_faces = FACE_LOOKS.saturating_mul(own).saturating_mul(segments);
+        of_tips.saturating_add(of_cells).saturating_add(of_kinks).saturating_add(of_faces)
     }
 
     /// Curves on which the coefficients of the equation may have kinks.
