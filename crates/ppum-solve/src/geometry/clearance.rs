@@ -1,11 +1,12 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
+use super::jumps::{extension, extensions};
 use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::Dataset;
 use ppum::domain::Domain;
 use ppum::segment;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
 
 /// Distance from a tip, in cells, at which the material is compared with the tip's: more than rounding of the
 /// coordinates, and nothing against the lengths over which a material varies smoothly.
@@ -74,7 +75,8 @@ impl TipClearance {
     /// The clearance without regard of materials.
     pub(crate) fn among_cracks(cracks: &[Crack], domain: &Domain, tip: TipId) -> Self {
         let own = &cracks[tip.crack as usize];
-        Self::nearest(cracks.iter().enumerate(), domain, (own, tip), comes_back(own, tip.end))
+        let room = comes_back(own, tip.end).min(led_astray(own, tip.end, &domain.bounds));
+        Self::nearest(cracks.iter().enumerate(), domain, (own, tip), room)
     }
 
     /// The disc in which also the own crack is nothing but its last segment, among some of the cracks, with their numbers,
@@ -145,12 +147,24 @@ fn comes_back(own: &Crack, end: End) -> f64 {
     end.min(segment::polyline_distance(rest, tip))
 }
 
+/// Distance from a tip up to which θ surely jumps on its crack alone. Of a hook, whose extensions meet it or each other,
+/// that is up to where the other end's extension, or what comes back, may be nearer than the tip's own part.
+fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
+    let reach = bounds.size().length();
+    if extensions(own, reach, 0.0).is_some() {
+        return f64::INFINITY;
+    }
+    let (tip, other) = (own.end_point(end), if end == End::Start { End::Last } else { End::Start });
+    let beyond = segment::distance(extension(own, other, reach), tip);
+    0.5 * beyond.min(comes_back(own, end))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use ppum::crack::CrackEnd;
     use ppum::domain::Hole;
-    use ppum::vec2::{Rect, vec2};
+    use ppum::vec2::vec2;
 
     fn clearance(cracks: &[Crack], crack: u32, end: End) -> (f64, Obstacle) {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
@@ -198,6 +212,15 @@ mod tests {
         let round = [[0.0, 0.0], [-0.25, 0.0], [-0.26, 0.25], [-0.1, 0.45], [0.3, 0.6]];
         let (found, end) = room(&round, End::Start);
         assert!((found - 0.2125f64.sqrt()).abs() < 1e-15 && end == Obstacle::Own, "{found}");
+    }
+
+    /// The extension of the end of a hook runs into the hook, and past its other tip.
+    #[test]
+    fn hooks_lead_astray() {
+        let hook = [[-0.5, -0.25], [0.5, -0.25], [0.5, 0.25], [0.0, 0.25], [0.0, 0.125]];
+        let found = clearance(&[crack(&hook)], 0, End::Start);
+        assert_eq!(found, (0.25, Obstacle::Own));
+        assert_eq!(clearance(&[crack(&hook[..4])], 0, End::Start).0, 0.5);
     }
 
     /// All of an arc that leads away from its tip, however finely it is divided.

@@ -182,14 +182,14 @@ fn segments(crack: u32, points: &[Vec2]) -> impl Iterator<Item = (SegmentId, Seg
 }
 
 /// The straight extension of a crack at an end.
-fn extension(crack: &Crack, end: End, length: f64) -> Segment {
+pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Segment {
     let tip = crack.end_point(end);
     [tip, tip + crack.growth_direction(end) * length]
 }
 
 /// The straight extensions of a crack, of a length; none if one of them comes near to the crack or the other one:
 /// between the two its side is not that of the nearest segment.
-fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
+pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
     let points = &crack.points;
     let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
     let last = points.len() - 2;
