@@ -564,6 +564,33 @@ mod tests {
     }
 
     #[test]
+    fn cuts_of_components() {
+        let cut = |segment: u32, left, right| Cut {
+            segment: SegmentId { crack: 0, segment },
+            left,
+            right,
+        };
+        let place = |cuts: Vec<Cut>| {
+            let full =
+                place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Component { cuts });
+            full.strip_prefix("steps[0].functions[1].").expect("inside the function").to_owned()
+        };
+        let (inside, outside) = (Part::Inside, Part::Outside);
+        assert_eq!(place(vec![]), "cuts");
+        let other = SegmentId { crack: 1, segment: 0 };
+        assert_eq!(place(vec![Cut { segment: other, ..cut(0, inside, outside) }]), "cuts[0].crack");
+        assert_eq!(place(vec![cut(1, inside, outside)]), "cuts[0].segment");
+        assert_eq!(place(vec![cut(0, Part::Cut(1), outside)]), "cuts[0].left");
+        assert_eq!(place(vec![cut(0, inside, Part::Cut(0))]), "cuts[0].right");
+        let back = vec![cut(0, Part::Cut(1), inside), cut(0, outside, Part::Cut(0))];
+        assert_eq!(place(back), "cuts[1].right");
+        let mut good = dataset();
+        let cuts = vec![cut(0, Part::Cut(1), Part::Cut(1)), cut(0, outside, inside)];
+        good.steps[0].functions[1].kind = FunctionKind::Component { cuts };
+        assert_eq!(good.check(), Ok(()));
+    }
+
+    #[test]
     fn field_arrays() {
         let place = |change: fn(&mut FieldData)| {
             let full = place_after(|d| change(&mut d.steps[0].fields[0]));

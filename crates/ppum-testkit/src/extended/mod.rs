@@ -1,15 +1,15 @@
 //! Evaluation of datasets in double-double arithmetic (some 31 digits), for comparison.
 //!
 //! Written from the definition of the field, in other terms than the evaluator of `ppum`: absolute
-//! coordinates of 106 bits, derivatives by dual numbers, φ_i one by one, powers of ξ, and sides of cracks
-//! by counting how often a ray crosses them. Slow: every patch is looked at.
+//! coordinates of 106 bits, derivatives by dual numbers, φ_i one by one, powers of ξ, sides of cracks
+//! by counting how often a ray crosses them, components by walking down their trees. Slow: every patch is looked at.
 
 mod double;
 
 pub use double::Double;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, FieldData, Material, Step, StressState};
-use ppum::function::{Frame, FunctionKind, WESTERGAARD};
+use ppum::function::{Cut, Frame, FunctionKind, Part, WESTERGAARD};
 use ppum::polynomial::exponents;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -169,6 +169,9 @@ impl<'d> Extended<'d> {
             FunctionKind::Side { crack } => {
                 Dual::constant(side(&self.step.cracks[*crack as usize], p))
             }
+            FunctionKind::Component { cuts } => {
+                Dual::constant(indicator(cuts, &self.step.cracks, p))
+            }
             FunctionKind::Formula { text, frame: Frame::Tip(tip), .. } => {
                 let k = WESTERGAARD.iter().position(|known| known == text);
                 self.westergaard(*tip, k.expect("a Westergaard function"), p)
@@ -266,6 +269,22 @@ pub fn side(crack: &Crack, p: Point) -> f64 {
     let crossings = crack.points.windows(2).enumerate().filter(|&s| crosses(s)).count();
     let far = far_side(axis(crack, End::Start), axis(crack, End::Last), ray);
     if crossings.is_multiple_of(2) { far } else { -far }
+}
+
+/// 1 in the component of a tree of cuts, 0 outside: the areas of triangles of segments and the point tell the way.
+///
+/// # Panics
+/// If a cut or a segment is not there.
+#[must_use]
+pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: Point) -> f64 {
+    let mut part = Part::Cut(0);
+    loop {
+        let Part::Cut(k) = part else { return if part == Part::Inside { 1.0 } else { 0.0 } };
+        let Cut { segment, left, right } = cuts[k as usize];
+        let points = &cracks[segment.crack as usize].points[segment.segment as usize..];
+        let from = minus(point(points[1], Vec2::ZERO), points[0]);
+        part = if cross(from, minus(p, points[0])) >= 0.0 { left } else { right };
+    }
 }
 
 /// The side far out in a direction: left is what lies anticlockwise between the crack's end and start.

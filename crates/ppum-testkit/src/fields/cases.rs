@@ -147,6 +147,26 @@ fn tabulate(dataset: &mut Dataset) {
     dataset.steps[0].replace_function("extra", "table(wave, 3*x)*y", &tables).expect("a function");
 }
 
+/// Cracks that cross, branch and end on each other, seen as a whole, in patches of all sizes.
+#[must_use]
+pub fn junctions() -> Vec<Case> {
+    let graded = Recipe::meeting();
+    let coarse = Recipe { level: 1, tip_level: 2, overlap: 1.6, ..Recipe::meeting() };
+    let random = Recipe {
+        coefficients: Coefficients::Random,
+        degrees: DEGREES.to_vec(),
+        own_frames: true,
+        ..Recipe::meeting()
+    };
+    let one = Recipe { components: 1, weight: WeightFunction::Cubic, ..Recipe::meeting() };
+    vec![
+        Case::new("junctions", &graded, SOME).seen(vec![whole([147, 111])]),
+        Case::new("junctions in large patches", &coarse, SOME),
+        Case::new("junctions of unrelated patches", &random, SOME),
+        Case::new("junctions of a potential", &one, &["gradient", "u"]),
+    ]
+}
+
 /// All quantities of an elastic plate, φ of a patch, and formulas of them.
 const ELASTIC: &str = "von-mises; ux; duy_dx; duy_dy; magnitude; gradient; energy; weight-sum; overlap; \
     divergence; curl; exx; eyy; exy; sxx; syy; sxy; szz; tresca; s1; s2; direction; hydrostatic; phi:23; \
@@ -227,10 +247,26 @@ pub fn zooms() -> Case {
     let middle = points[0] + (points[1] - points[0]) * 0.63;
     let beside = |zoom: f64| points[2] + vec2(0.71, 0.43) * (recipe.domain.size().x / zoom);
     let places: [&dyn Fn(f64) -> Vec2; 4] = [&|_| points[2], &beside, &|_| middle, &|_| points[1]];
-    let window =
-        |center, zoom| Window { center, width: recipe.domain.size().x / zoom, pixels: [65, 49] };
-    let zooms = [1.0, 1e3, 1e6, 1e9, 1e12];
-    let windows =
-        places.iter().flat_map(|place| zooms.map(|zoom| window(place(zoom), zoom))).collect();
+    let windows = places
+        .iter()
+        .flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place(zoom), zoom)))
+        .collect();
     Case::new("zooms", &recipe, SOME).seen(windows)
+}
+
+const ZOOMS: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
+
+fn zoomed(recipe: &Recipe, center: Vec2, zoom: f64) -> Window {
+    Window { center, width: recipe.domain.size().x / zoom, pixels: [65, 49] }
+}
+
+/// Zooms by factors up to 1e12 to all junctions, and to the middle of an arm.
+#[must_use]
+pub fn junction_zooms() -> Case {
+    let recipe = Recipe { tip_level: 6, ..Recipe::meeting() };
+    let arm = &recipe.cracks[0].points;
+    let middle = arm[0] + (arm[1] - arm[0]) * 0.13;
+    let places = recipe.junctions.iter().map(|place| place.center).chain([middle]);
+    let windows = places.flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place, zoom))).collect();
+    Case::new("zooms to junctions", &recipe, SOME).seen(windows)
 }

@@ -14,7 +14,7 @@
 mod cases;
 mod truth;
 
-pub use cases::{Case, coverings, equations, functions, wholes, zooms};
+pub use cases::{Case, coverings, equations, functions, junction_zooms, junctions, wholes, zooms};
 pub use truth::{BAND, Differences, Expected, Truth};
 
 use ppum::vec2::{Vec2, vec2};

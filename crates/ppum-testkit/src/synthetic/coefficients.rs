@@ -1,13 +1,13 @@
 //! Blocks and coefficients of synthetic fields.
 
-use super::Recipe;
+use super::{Components, Junction, Recipe};
 use crate::random::Random;
 use ppum::crack::{Crack, End, LocalCrack, Side};
 use ppum::dataset::{FieldData, Partition, monomials};
-use ppum::function::{Function, FunctionTable, GROUP, Slot};
+use ppum::function::{Function, FunctionKind, FunctionTable, GROUP, Slot};
 use ppum::jet::Jet;
 use ppum::polynomial::exponents;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 /// The choice of the coefficients.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub enum Coefficients {
     /// Uniform in \[−1, 1): patches have nothing to do with each other.
     Random,
     /// As a solver finds them: the field is [`smooth`] plus [`amplitude`] × Westergaard functions of
-    /// the tips × [`cut_off`]. Patches near a tip have its functions with these factors, all else is
+    /// the tips × [`cut_off`], plus a [`level`] for each component at a junction × cut-off. Patches near a tip have its functions with these factors, all else is
     /// expanded by Taylor's formula about each patch, so that neighbours agree up to h³.
     Taylor,
     /// The same polynomial everywhere: for each component the coefficients of the monomials, in the
@@ -28,6 +28,12 @@ pub enum Coefficients {
 #[must_use]
 pub fn amplitude(tip: usize, k: usize, component: usize) -> f64 {
     0.3 * (1.7 * (tip + 1) as f64 + 2.3 * k as f64 + 1.1 * component as f64).sin()
+}
+
+/// Size of component `k` at a junction in [`Coefficients::Taylor`].
+#[must_use]
+pub fn level(junction: usize, k: usize, component: usize) -> f64 {
+    0.4 * (0.7 + 1.3 * junction as f64 + 1.9 * k as f64 + 0.6 * component as f64).sin()
 }
 
 /// The smooth part of a component in [`Coefficients::Taylor`]: sin(a x + b y + c).
@@ -63,7 +69,9 @@ pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Functio
     let table =
         FunctionTable::new(functions, recipe.cracks.len(), &[]).expect("functions of a recipe");
     let random = Random(recipe.seed ^ 0xc0ef);
-    let mut maker = Maker { recipe, partition, table, data, random };
+    let around = around(recipe);
+    let next = first_indicator(recipe);
+    let mut maker = Maker { recipe, partition, table, data, random, around, next };
     for patch in 0..partition.len() {
         maker.add_patch(patch);
         maker.data.patch_blocks.push(maker.data.block_function.len() as u32);
@@ -77,6 +85,57 @@ struct Maker<'a> {
     table: FunctionTable,
     data: FieldData,
     random: Random,
+    /// The components of the boxes around junctions.
+    around: Vec<Components>,
+    /// The function of the next patch's first component.
+    next: u32,
+}
+
+/// The components of the boxes around junctions.
+pub(super) fn around(recipe: &Recipe) -> Vec<Components> {
+    let components = |place: &Junction| {
+        let bounds = Rect::around(place.center, vec2(place.radius, place.radius));
+        Components::new(&recipe.cracks, &cutting(recipe, &bounds), &bounds)
+    };
+    recipe.junctions.iter().map(components).collect()
+}
+
+/// The number of the first function of a component.
+fn first_indicator(recipe: &Recipe) -> u32 {
+    (1 + recipe.cracks.len() + 4 * recipe.tips().count() + recipe.extra.len()) as u32
+}
+
+/// The cracks that cut a box through: none of their tips lies in it.
+fn cutting(recipe: &Recipe, bounds: &Rect) -> Vec<u32> {
+    let bounds = bounds.intersection(&recipe.domain);
+    let cracks = (0..).zip(&recipe.cracks);
+    cracks.filter(|(_, crack)| cuts_through(crack, &bounds)).map(|(k, _)| k).collect()
+}
+
+/// The components of a patch that has functions of them: its cracks leave more than the two that a side tells apart, or two
+/// cracks leave two.
+fn components(recipe: &Recipe, partition: &Partition, patch: usize) -> Option<Components> {
+    if recipe.junctions.is_empty() || !recipe.jumps {
+        return None;
+    }
+    let support = partition.support(patch).intersection(&recipe.domain);
+    let cracks = cutting(recipe, &support);
+    let components = Components::new(&recipe.cracks, &cracks, &support);
+    let count = components.count();
+    (count > 2 || count == 2 && cracks.len() > 1).then_some(components)
+}
+
+/// The functions of the components of all patches but the first of each.
+pub(super) fn indicators(recipe: &Recipe, partition: &Partition) -> Vec<Function> {
+    let mut all = Vec::new();
+    for patch in 0..partition.len() {
+        let Some(components) = components(recipe, partition, patch) else { continue };
+        all.extend((1..components.count()).map(|k| Function {
+            name: format!("component {k} of patch {patch}"),
+            kind: FunctionKind::Component { cuts: components.indicator(k) },
+        }));
+    }
+    all
 }
 
 /// A crack that cuts a patch through, and half the jump of the field there, expanded about `at`.
@@ -93,8 +152,36 @@ impl Maker<'_> {
         let near: Vec<bool> = (self.recipe.tips())
             .map(|tip| (self.recipe.position(tip) - center).length() < self.recipe.zone)
             .collect();
-        let cuts = self.cuts(patch, &near);
-        let mut rest = self.remainder(center, Vec2::ZERO, &near);
+        match components(self.recipe, self.partition, patch) {
+            Some(components) => self.add_components(patch, degree, &components, &near),
+            None => self.add_sides(patch, degree, &near),
+        }
+        self.add_tips(patch, &near);
+        self.add_extra(patch);
+    }
+
+    /// The smooth block is the field on the first component; those of the others are what the field differs by there.
+    fn add_components(&mut self, patch: usize, degree: u8, components: &Components, near: &[bool]) {
+        let center = self.partition.center[patch];
+        let on = |k: usize| {
+            let at = components.middle(k);
+            let jets = self.remainder(at, Vec2::ZERO, near);
+            jets.iter().map(|jet| moved(jet, center - at)).collect::<Vec<_>>()
+        };
+        let all: Vec<_> = (0..components.count()).map(on).collect();
+        self.add_polynomial(patch, 0, degree, center, &all[0]);
+        for of in &all[1..] {
+            let less = |(a, b): (&Jet<f64>, &Jet<f64>)| a.minus::<2>(*b);
+            let jump: Vec<_> = of.iter().zip(&all[0]).map(less).collect();
+            self.add_polynomial(patch, self.next, degree, center, &jump);
+            self.next += 1;
+        }
+    }
+
+    fn add_sides(&mut self, patch: usize, degree: u8, near: &[bool]) {
+        let center = self.partition.center[patch];
+        let cuts = self.cuts(patch, near);
+        let mut rest = self.remainder(center, Vec2::ZERO, near);
         for cut in &cuts {
             let crack = &self.recipe.cracks[cut.crack as usize];
             let side = LocalCrack::new(crack, center).side([0.0; 2], Side::Above);
@@ -106,8 +193,6 @@ impl Maker<'_> {
         for cut in &cuts {
             self.add_polynomial(patch, 1 + cut.crack, degree, cut.at, &cut.half_jump);
         }
-        self.add_tips(patch, &near);
-        self.add_extra(patch);
     }
 
     fn add_tips(&mut self, patch: usize, near: &[bool]) {
@@ -189,22 +274,25 @@ impl Maker<'_> {
             return Vec::new();
         }
         let support = self.partition.support(patch).intersection(&self.recipe.domain);
-        let cuts =
-            (0..).zip(&self.recipe.cracks).filter(|(_, crack)| cuts_through(crack, &support));
-        let cut = |(index, crack): (u32, &Crack)| {
+        let cut = |index: u32| {
+            let crack = &self.recipe.cracks[index as usize];
             let (at, normal) = nearest(crack, self.partition.center[patch]);
             let step = normal * (1e-9 * support.size().x);
             let (above, below) = (self.remainder(at, step, near), self.remainder(at, -step, near));
             let half = |(a, b): (&Jet<f64>, &Jet<f64>)| a.minus::<2>(*b).scaled::<2>(0.5);
             Cut { crack: index, at, half_jump: above.iter().zip(&below).map(half).collect() }
         };
-        cuts.map(cut).collect()
+        cutting(self.recipe, &support).into_iter().map(cut).collect()
     }
 
     /// The field without the functions of the tips that are near, at a point a small step away.
     fn remainder(&self, at: Vec2, step: Vec2, near: &[bool]) -> Vec<Jet<f64>> {
         let mut jets: Vec<_> = (0..self.recipe.components).map(|c| smooth(c, at)).collect();
-        if !matches!(self.recipe.coefficients, Coefficients::Taylor) || near.iter().all(|&n| n) {
+        if !matches!(self.recipe.coefficients, Coefficients::Taylor) {
+            return jets;
+        }
+        self.add_levels(at + step, &mut jets);
+        if near.iter().all(|&n| n) {
             return jets;
         }
         let functions = self.table.at(&self.recipe.cracks, at);
@@ -224,6 +312,20 @@ impl Maker<'_> {
             }
         }
         jets
+    }
+}
+
+impl Maker<'_> {
+    /// Adds what the field has on the components at junctions.
+    fn add_levels(&self, p: Vec2, jets: &mut [Jet<f64>]) {
+        for (junction, (place, components)) in
+            self.recipe.junctions.iter().zip(&self.around).enumerate()
+        {
+            let (share, k) = (cut_off(p - place.center, 0.5 * place.radius), components.of(p));
+            for (component, jet) in jets.iter_mut().enumerate() {
+                *jet = jet.plus::<2>(share.scaled::<2>(level(junction, k, component)));
+            }
+        }
     }
 }
 

@@ -2,10 +2,12 @@
 //!
 //! A [`Recipe`] says what a dataset looks like: its cover, cracks, functions and coefficients. The
 //! blocks are those of a solver: every patch has a smooth block; a patch that a crack cuts through
-//! has its side function; a patch near a tip has the tip's Westergaard functions. So every recipe
-//! jumps on its cracks and nowhere else.
+//! has its side function, one in which cracks meet functions of the components that they leave of it; a
+//! patch near a tip has the tip's Westergaard functions. So every recipe jumps on its cracks and nowhere else.
 
 mod coefficients;
+mod components;
+mod meeting;
 mod series;
 
 use crate::random::Random;
@@ -18,7 +20,8 @@ use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-pub use coefficients::{Coefficients, amplitude, cut_off, smooth};
+pub use coefficients::{Coefficients, amplitude, cut_off, level, smooth};
+pub use components::Components;
 pub use series::{growing, series};
 
 /// The features of a synthetic dataset.
@@ -34,7 +37,7 @@ pub struct Recipe {
     pub level: u8,
     /// Rounds in which one cell in four, at random, is halved.
     pub random_rounds: u32,
-    /// Level of the cells that hold a tip.
+    /// Level of the cells that hold a tip or a junction.
     pub tip_level: u8,
     /// Overlap α.
     pub overlap: f64,
@@ -52,6 +55,9 @@ pub struct Recipe {
     pub zone: f64,
     /// Patches that a crack cuts through have its side function.
     pub jumps: bool,
+    /// Places where cracks meet. Where there are any, patches that cracks cut into more than two components have functions
+    /// of these in place of sides.
+    pub junctions: Vec<Junction>,
     /// Texts that stand for the four Westergaard functions in the tips' frames.
     pub tip_functions: [String; 4],
     /// More functions; every third patch has one of them, in turn, with a linear polynomial.
@@ -62,6 +68,16 @@ pub struct Recipe {
     pub coefficients: Coefficients,
     /// Seed of all that is random.
     pub seed: u64,
+}
+
+/// A place where cracks meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Junction {
+    /// Where they meet.
+    pub center: Vec2,
+    /// Within this distance the field of [`Coefficients::Taylor`] jumps from component to component of what the cracks leave of
+    /// the box around it; no tip lies in it.
+    pub radius: f64,
 }
 
 impl Default for Recipe {
@@ -82,6 +98,7 @@ impl Default for Recipe {
             tip_degree: 0,
             zone: 0.2,
             jumps: true,
+            junctions: Vec::new(),
             tip_functions: WESTERGAARD.map(str::to_owned),
             extra: Vec::new(),
             components: 2,
@@ -138,6 +155,13 @@ impl Recipe {
         }
     }
 
+    /// Cracks that cross, branch and end on each other, with patches of several sizes around where they do.
+    #[must_use]
+    pub fn meeting() -> Self {
+        let (cracks, junctions) = meeting::cracks();
+        Self { cracks, junctions, zone: meeting::ZONE, ..Self::default() }
+    }
+
     /// The dataset, of one step with one field.
     #[must_use]
     pub fn dataset(&self) -> Dataset {
@@ -175,7 +199,8 @@ impl Recipe {
             cover.refine(|_, _| random.below(4) == 0).expect("a cover");
         }
         let tips: Vec<Vec2> = self.tips().map(|tip| self.position(tip)).collect();
-        let near = |cell: Rect| tips.iter().any(|&tip| cell.contains(tip));
+        let fine = || tips.iter().copied().chain(self.junctions.iter().map(|j| j.center));
+        let near = |cell: Rect| fine().any(|place| cell.contains(place));
         while cover.refine(|cell, level| level < self.tip_level && near(cell)).expect("a cover") > 0
         {
         }
@@ -200,7 +225,8 @@ impl Recipe {
         cover
     }
 
-    /// The table of functions: one, the side of each crack, four functions of each tip, the extra ones.
+    /// The table of functions: one, the side of each crack, four functions of each tip, the extra ones, those of components
+    /// in the order of their patches.
     #[must_use]
     pub fn functions(&self) -> Vec<Function> {
         let mut all = vec![Function { name: "one".into(), kind: FunctionKind::One }];
@@ -220,6 +246,9 @@ impl Recipe {
         }
         let named = |kind: &FunctionKind| Function { name: "extra".into(), kind: kind.clone() };
         all.extend(self.extra.iter().map(named));
+        if !self.junctions.is_empty() {
+            all.extend(coefficients::indicators(self, &self.partition()));
+        }
         all
     }
 
@@ -275,12 +304,17 @@ mod tests {
             let parts = f.iter().enumerate().map(|(k, f)| amplitude(tip, k, 0) * f.v);
             sum += parts.sum::<f64>() * cut_off(p - recipe.position(id), recipe.zone).v;
         }
+        let around = recipe.junctions.iter().zip(coefficients::around(recipe)).enumerate();
+        for (k, (place, components)) in around {
+            let share = cut_off(p - place.center, 0.5 * place.radius).v;
+            sum += level(k, components.of(p), 0) * share;
+        }
         sum
     }
 
     /// Largest error at random points, the neighbourhood of the tips included.
-    fn error(level: u8) -> f64 {
-        let recipe = Recipe { level, tip_level: level + 2, zone: 0.15, ..Recipe::default() };
+    fn error(recipe: &Recipe, level: u8) -> f64 {
+        let recipe = Recipe { level, tip_level: level + 2, ..recipe.clone() };
         let dataset = recipe.dataset();
         let field = Field::new(&dataset, 0).expect("a field");
         let table =
@@ -297,8 +331,16 @@ mod tests {
 
     #[test]
     fn taylor_coefficients_converge_to_the_field_they_expand() {
-        let (coarse, fine) = (error(2), error(3));
+        let recipe = Recipe { zone: 0.15, ..Recipe::default() };
+        let (coarse, fine) = (error(&recipe, 2), error(&recipe, 3));
         assert!(fine < 1e-2 && coarse / fine > 5.0, "{coarse} {fine}");
+    }
+
+    /// Where cracks meet, too, of which each patch knows its own components.
+    #[test]
+    fn so_do_those_where_cracks_meet() {
+        let (coarse, fine) = (error(&Recipe::meeting(), 4), error(&Recipe::meeting(), 5));
+        assert!(fine < 2e-2 && coarse / fine > 5.0, "{coarse} {fine}");
     }
 
     #[test]

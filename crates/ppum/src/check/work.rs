@@ -159,7 +159,9 @@ impl Line {
 mod tests {
     use super::*;
     use crate::check::tests::{dataset, place_after};
+    use crate::crack::SegmentId;
     use crate::dataset::{Ring, TipIntensity};
+    use crate::function::{Cut, FunctionKind, Part};
     use ppum_testkit::random::Random;
 
     /// The largest sum over the corners of boxes, among which its place must be.
@@ -227,6 +229,23 @@ mod tests {
             *rings = vec![ring; 65];
         };
         assert_eq!(place_after(rings), "steps[0].intensities[0].rings");
+    }
+
+    /// Cuts of components count one by one, whatever patch has them.
+    #[test]
+    fn cuts_are_counted() {
+        let with = |n: usize| {
+            let mut data = dataset();
+            let segment = SegmentId { crack: 0, segment: 0 };
+            let cut =
+                |k: usize| Cut { segment, left: Part::Outside, right: Part::Cut(k as u32 + 1) };
+            let mut cuts: Vec<_> = (0..n).map(cut).collect();
+            cuts[n - 1].right = Part::Inside;
+            data.steps[0].functions[1].kind = FunctionKind::Component { cuts };
+            check(&data)
+        };
+        assert_eq!(with(1 << 17), Ok(()));
+        assert_eq!(with(1 << 18).expect_err("too many").place, "steps[0].fields[0]");
     }
 
     /// Patches over a point: as many as a graded cover has, and far more.

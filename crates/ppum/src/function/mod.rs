@@ -1,7 +1,7 @@
 //! The function table: the f_b of function × polynomial.
 
-mod component;
 mod formulas;
+mod indicator;
 mod seen;
 mod table;
 mod westergaard;
@@ -9,7 +9,7 @@ mod westergaard;
 use crate::crack::TipId;
 pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
-pub use component::{Cut, Part};
+pub use indicator::{Cut, Part};
 pub use table::{
     CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope, native,
 };

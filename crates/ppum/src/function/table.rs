@@ -1,13 +1,13 @@
 //! A step's functions, ready to be evaluated.
 //!
 //! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack, a
-//! component, the four Westergaard functions of a tip, formulas in one frame that follow each other.
+//! component's indicator, the four Westergaard functions of a tip, formulas in one frame that follow each other.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use super::component::{Cut, LocalComponent};
 use super::formulas::{Formulas, LocalFormulas};
+use super::indicator::{Cut, LocalIndicator};
 use super::seen::Seen;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId};
@@ -386,7 +386,7 @@ type Page<'t> = Vec<OnceLock<LocalGroup<'t>>>;
 enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
-    Component(LocalComponent),
+    Component(LocalIndicator),
     Formulas(LocalFormulas<'t>),
 }
 
@@ -410,7 +410,7 @@ impl<'t> LocalFunctions<'t> {
         page[group % self.page].get_or_init(|| match &self.table.groups[group] {
             &Group::Side(crack) => LocalGroup::Side(self.seen.crack(crack)),
             &Group::Westergaard(tip) => LocalGroup::Westergaard(self.seen.tip(tip)),
-            Group::Component(cuts) => LocalGroup::Component(LocalComponent::new(cuts, &self.seen)),
+            Group::Component(cuts) => LocalGroup::Component(LocalIndicator::new(cuts, &self.seen)),
             Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(&self.seen)),
         })
     }
@@ -433,7 +433,7 @@ impl<'t> LocalFunctions<'t> {
     ) {
         match self.group(group) {
             LocalGroup::Side(crack) => out[0] = Jet::constant(crack.side(offset, side)),
-            LocalGroup::Component(of) => out[0] = Jet::constant(of.indicator(offset, side)),
+            LocalGroup::Component(of) => out[0] = Jet::constant(of.value(offset, side)),
             LocalGroup::Westergaard(tip) => {
                 let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
                 let (x, y) = (offset[0].lit(tip.axis.x), offset[0].lit(tip.axis.y));

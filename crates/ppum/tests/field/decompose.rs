@@ -7,7 +7,7 @@ use ppum::decompose::{KINDS, Part, PartError};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::random::Random;
-use ppum_testkit::synthetic::{Recipe, crack};
+use ppum_testkit::synthetic::{Coefficients, Recipe, crack};
 
 /// The dataset with a part of its field in the field's place.
 fn part(whole: &Dataset, part: Part) -> Dataset {
@@ -64,6 +64,24 @@ fn kinds_add_up_to_the_whole() {
     for seed in 1..4 {
         assert_sum(&Recipe::random(seed).dataset(), &KINDS, 40);
     }
+    let meeting = Recipe { coefficients: Coefficients::Random, ..Recipe::meeting() };
+    assert_sum(&meeting.dataset(), &[Part::Smooth, Part::Jump, Part::Tip], 40);
+}
+
+/// Functions of components are jumps: without them the rest is the same on both faces of an arm of a star.
+#[test]
+fn components_are_jumps() {
+    let recipe = Recipe::meeting();
+    let dataset = recipe.dataset();
+    let arm = &recipe.cracks[1].points;
+    let (place, normal) = (arm[0] + (arm[1] - arm[0]) * 0.1, (arm[1] - arm[0]).unit().left());
+    let apart = |which: Part| {
+        let part = part(&dataset, which);
+        let [above, below] =
+            [1e-9, -1e-9].map(|step| values(&part, &[place + normal * step], Side::Above));
+        (above[0].v - below[0].v).abs()
+    };
+    assert!(apart(Part::Smooth) < 1e-6 && apart(Part::Jump) > 0.1);
 }
 
 #[test]

@@ -82,6 +82,18 @@ fn around_kinks() {
         assert_exact("kink", &recipe.dataset(), points[1].into());
     }
 }
+
+/// Where cracks meet, and beside: every sector has its own field.
+#[test]
+fn around_junctions() {
+    let recipe = Recipe::meeting();
+    let dataset = recipe.dataset();
+    for place in &recipe.junctions {
+        assert_exact("junction", &dataset, place.center);
+        assert_exact("beside a junction", &dataset, place.center + vec2(-2e-10, 3e-10));
+    }
+}
+
 /// Rounding errors of ∇u = Σ ∇φ_i v_i + … are of the size 10⁻¹⁶ |u| / h: they grow as patches shrink.
 #[test]
 fn on_a_fine_cover() {

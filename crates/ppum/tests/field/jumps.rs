@@ -60,10 +60,11 @@ fn steps(field: &Field<'_>, random: &mut Random) -> Vec<(Vec2, Vec2)> {
 /// as well with quadratic and cubic weights, Hessians with cubic ones.
 #[test]
 fn continuous_off_the_cracks() {
-    for seed in 0..9 {
+    for seed in 0..12 {
         let weight = WeightFunction::ALL[seed as usize % 3].clone();
         let smoothness = [1, 3, 6][seed as usize % 3];
-        let dataset = Recipe { weight, overlap: 1.4, ..Recipe::random(seed) }.dataset();
+        let recipe = if seed < 9 { Recipe::random(seed) } else { meeting(seed) };
+        let dataset = Recipe { weight, overlap: 1.4, ..recipe }.dataset();
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         let mut off = 0;
@@ -91,11 +92,17 @@ fn continuous_off_the_cracks() {
     }
 }
 
+/// Cracks that meet; patches have nothing to do with each other.
+fn meeting(seed: u64) -> Recipe {
+    Recipe { coefficients: Coefficients::Random, seed, ..Recipe::meeting() }
+}
+
 /// Steps over cracks of every kind see a jump.
 #[test]
 fn jumps_on_the_cracks() {
-    for seed in 0..6 {
-        let dataset = Recipe::random(seed).dataset();
+    for seed in 0..8 {
+        let recipe = if seed < 6 { Recipe::random(seed) } else { meeting(seed) };
+        let dataset = recipe.dataset();
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(seed));
         let (mut over, mut seen) = (0, 0);

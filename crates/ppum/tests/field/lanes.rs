@@ -32,8 +32,9 @@ fn compare<const D: usize>(field: &Field<'_>, anchor: Vec2, points: &[Vec2], sid
 /// Points anywhere, a third of them outside, in chunks of mixed origin, and a rest that fills no vector.
 #[test]
 fn lanes_equal_single_points() {
-    for seed in 0..12 {
-        let dataset = Recipe::random(seed).dataset();
+    for seed in 0..13 {
+        let recipe = if seed < 12 { Recipe::random(seed) } else { Recipe::meeting() };
+        let dataset = recipe.dataset();
         let field = compiled(&dataset);
         let mut random = Random(seed);
         let around =

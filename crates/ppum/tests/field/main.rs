@@ -8,6 +8,7 @@ mod derivatives;
 mod errors;
 mod formulas;
 mod gradients;
+mod indicators;
 mod jumps;
 mod lanes;
 mod library;

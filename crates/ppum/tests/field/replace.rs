@@ -4,7 +4,7 @@ use crate::support::{compiled, evaluate};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::decompose::{Part, PartError};
-use ppum::function::FunctionKind;
+use ppum::function::{Frame, FunctionKind};
 use ppum::replace::{ReplaceError, Replacements, ReplacementsError};
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
@@ -63,6 +63,25 @@ fn functions_that_were_no_formulas() {
     let mut dataset = original.clone();
     assert_eq!(dataset.steps[0].replace_function("one", "x/x", &[]), Ok(vec![0]));
     assert_same(&dataset, &original);
+}
+
+/// The functions of all patches' components have one name, and each has its own; a formula in their place is one of the world.
+#[test]
+fn functions_of_components() {
+    let original = Recipe::meeting().dataset();
+    let functions = &original.steps[0].functions;
+    let of = |name: &str| original.steps[0].functions_called(name);
+    let is_first = |k: &usize| functions[*k].name.starts_with("component 1 of patch ");
+    let all: Vec<_> = (0..functions.len()).filter(is_first).collect();
+    assert!(all.len() > 15 && of("component 1") == all, "{} patches", all.len());
+    assert_eq!(of(&functions[all[3]].name), [all[3]]);
+    let mut dataset = original.clone();
+    assert_eq!(dataset.steps[0].replace_function("component 1", "x*y", &[]), Ok(all.clone()));
+    let mut wanted = original.clone();
+    all.iter().for_each(|&k| {
+        wanted.steps[0].functions[k].kind = FunctionKind::formula("x*y", Frame::World);
+    });
+    assert_same(&dataset, &wanted);
 }
 
 #[test]

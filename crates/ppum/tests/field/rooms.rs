@@ -16,7 +16,7 @@ const FLOORS: Floors<'_> = &[
     &[("crack", &["compensated", "vec2"]), ("domain", &["compensated", "segment", "vec2"])],
     &[
         ("equation", &["domain", "expression", "vec2"]),
-        ("function", &["crack", "jet", "library", "vec2"]),
+        ("function", &["crack", "jet", "library", "segment", "vec2"]),
         ("sides", &["box_tree", "crack", "vec2"]),
         ("text", &["crack", "vec2"]),
     ],

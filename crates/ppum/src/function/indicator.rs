@@ -1,4 +1,4 @@
-//! Connected components of what cracks leave of a patch, as functions.
+//! Indicator functions of connected components of what cracks leave of a patch.
 //!
 //! Cracks that meet cut a patch into more parts than their sides tell apart: behind a branch, or beyond a crack's end
 //! on another one, the side of a crack jumps where the field does not. The indicator function of a component jumps on
@@ -64,9 +64,9 @@ impl Part {
     }
 }
 
-/// A component seen from an anchor.
+/// The indicator of a component, seen from an anchor.
 #[derive(Clone, Debug)]
-pub(super) struct LocalComponent {
+pub(super) struct LocalIndicator {
     cuts: Vec<LocalCut>,
 }
 
@@ -79,7 +79,7 @@ struct LocalCut {
     right: f64,
 }
 
-impl LocalComponent {
+impl LocalIndicator {
     pub(super) fn new(cuts: &[Cut], seen: &Seen<'_>) -> Self {
         let cut = |cut: &Cut| {
             let (line, reversed) = seen.line(cut.segment);
@@ -93,7 +93,7 @@ impl LocalComponent {
     ///
     /// A cut stands before those that follow from it, so one pass over the tree brings every lane to its part.
     #[inline(always)]
-    pub(super) fn indicator<R: Real>(&self, offset: [R; 2], side: Side) -> R {
+    pub(super) fn value<R: Real>(&self, offset: [R; 2], side: Side) -> R {
         let (zero, one) = (offset[0].lit(0.0), offset[0].lit(1.0));
         let (half, mut at, mut k) = (one.lit(0.5), zero, 0);
         while k < self.cuts.len() {
