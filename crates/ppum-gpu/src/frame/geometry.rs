@@ -2,34 +2,40 @@
 //!
 //! All differences are formed in double precision without cancellation and rounded at last; so a view
 //! 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it in
-//! `shader/wgsl/{geometry,crack,domain}.wgsl`.
+//! `shader/wgsl/{geometry,crack,indicator,domain}.wgsl`.
 
-use ppum::crack::{Crack, LocalCrack, LocalTip, TipId};
+use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
 use ppum::dataset::Step;
 use ppum::domain::{Domain, Hole, LocalRim, LocalSide};
+use ppum::function::{Cut, FunctionKind, Part};
 use ppum::vec2::{Vec2, vec2};
 
+use crate::error::GpuError;
 use crate::scene::groups::GroupFrame;
 
 /// Pairs of the frame of a group.
 const FRAME: usize = 4;
 /// Pairs of a segment: tangent; distance; ends.
 const SEGMENT: usize = 3;
+/// Pairs of a cut of an indicator: first pair of its segment; what follows on the left, on the right.
+const CUT: usize = 2;
 /// Pairs of a circle: 0, excess / 2r; d / r; 1 / 2r.
 const CIRCLE: usize = 3;
 /// Pairs of a polygon's side: its ends, unit direction, distance.
 const SIDE: usize = 4;
 
+/// Most pairs of a view: whole numbers are exact in single precision up to here, and shaders see no more at once than 128 MiB.
+const MOST_PAIRS: usize = 1 << 24;
+
 /// Stands for an infinite coordinate: shaders may assume that there is none.
 const FAR: f64 = 3e38;
 
-/// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats, exact up to 2²⁴;
-/// that is as many pairs as the 128 MiB that a shader sees at once. (As bit patterns they would be subnormal
+/// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats. (As bit patterns they would be subnormal
 /// numbers, which devices may take for zero.)
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Geometry {
     /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every crack; the
-    /// segments; the holes.
+    /// segments; the cuts of indicators; the holes.
     pub(crate) pairs: Vec<[f32; 2]>,
     /// First pair of the cracks.
     pub(crate) cracks: u32,
@@ -41,14 +47,14 @@ pub(crate) struct Geometry {
 
 impl Geometry {
     /// Cracks of a step, holes of a domain and the frames of groups of functions seen from `center`. Linear
-    /// in their number.
+    /// in their number and that of the cuts of indicators.
     pub(crate) fn new(step: &Step, domain: &Domain, frames: &[GroupFrame], center: Vec2) -> Self {
         let cracks = FRAME * frames.len();
-        let directory = Directory::new(&step.cracks, cracks, center);
-        let frame = |frame| directory.frame(frame);
-        let mut pairs: Vec<Vec2> = frames.iter().flat_map(frame).collect();
+        let mut directory = Directory::new(step, cracks, center);
+        let mut pairs: Vec<Vec2> = frames.iter().flat_map(|frame| directory.frame(frame)).collect();
         pairs.extend(&directory.entries);
         pairs.extend(directory.cracks.iter().flat_map(segments));
+        pairs.append(&mut directory.cuts);
         let holes = pairs.len();
         pairs.extend(domain.holes.iter().flat_map(|hole| rim(hole, center)));
         Self {
@@ -60,30 +66,47 @@ impl Geometry {
     }
 }
 
-/// The declarations of the lengths for shaders.
+/// Refuses a view of more pairs than shaders can number.
+pub(crate) fn check_size(pairs: usize) -> Result<(), GpuError> {
+    let bytes = |pairs: usize| 8 * pairs as u64;
+    if pairs <= MOST_PAIRS {
+        return Ok(());
+    }
+    let what = "cracks, holes and functions of components".to_owned();
+    Err(GpuError::TooLarge { what, needed: bytes(pairs), most: bytes(MOST_PAIRS) })
+}
+
+/// The declarations of the lengths for shaders, and of the number of what is in a component.
 pub(crate) fn constants() -> String {
     let lengths = [
         ("GEOMETRY_PAIRS", FRAME),
         ("SEGMENT_PAIRS", SEGMENT),
+        ("CUT_PAIRS", CUT),
         ("HOLE_CIRCLE_PAIRS", CIRCLE),
         ("HOLE_SIDE_PAIRS", SIDE),
     ];
-    lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n")).collect()
+    let lengths = lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n"));
+    let inside = format!("const INDICATOR_INSIDE = {}.0;\n", Part::Inside.number());
+    lengths.chain([inside]).collect()
 }
 
-/// The cracks, and where their segments are.
+/// The cracks, and where their segments are; the cuts that frames refer to.
 struct Directory<'a> {
     center: Vec2,
-    points: &'a [Crack],
+    step: &'a Step,
     cracks: Vec<LocalCrack>,
     /// First segment and number of segments.
     entries: Vec<Vec2>,
+    /// Pair at which the cuts begin.
+    first_cut: usize,
+    cuts: Vec<Vec2>,
 }
 
 impl<'a> Directory<'a> {
-    /// For a directory that begins at pair `at`, with the segments behind it.
-    fn new(points: &'a [Crack], at: usize, center: Vec2) -> Self {
-        let cracks: Vec<_> = points.iter().map(|crack| LocalCrack::new(crack, center)).collect();
+    /// For a directory that begins at pair `at`, with the segments and then the cuts behind it.
+    fn new(step: &'a Step, at: usize, center: Vec2) -> Self {
+        let cracks: Vec<_> =
+            step.cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
         let mut next = at + cracks.len();
         let entry = |crack: &LocalCrack| {
             let (first, count) = (next, crack.segments().len());
@@ -91,26 +114,41 @@ impl<'a> Directory<'a> {
             vec2(first as f64, count as f64)
         };
         let entries = cracks.iter().map(entry).collect();
-        Self { center, points, cracks, entries }
+        Self { center, step, cracks, entries, first_cut: next, cuts: Vec::new() }
     }
 
-    fn frame(&self, frame: &GroupFrame) -> [Vec2; FRAME] {
+    fn frame(&mut self, frame: &GroupFrame) -> [Vec2; FRAME] {
         let zero = Vec2::ZERO;
         match *frame {
             GroupFrame::One => [zero; FRAME],
             GroupFrame::Side(crack) => [self.entries[crack as usize], zero, zero, zero],
+            GroupFrame::Indicator(function) => [self.indicator(function), zero, zero, zero],
             GroupFrame::World => [self.center, vec2(1.0, 0.0), zero, zero],
             GroupFrame::Fixed { origin, angle } => {
                 [self.center - origin, vec2(angle.cos(), angle.sin()), zero, zero]
             }
             GroupFrame::Tip(TipId { crack, end }) => {
                 let crack = crack as usize;
-                let tip = LocalTip::new(&self.points[crack], end, self.center);
+                let tip = LocalTip::new(&self.step.cracks[crack], end, self.center);
                 let distance = self.cracks[crack].segments()[tip.segment].distance;
                 let at_end = vec2(crack as f64, tip.segment as f64);
                 [tip.from_tip, tip.axis, vec2(distance, tip.orientation), at_end]
             }
         }
+    }
+
+    /// First cut and number of cuts of the indicator that a function is.
+    fn indicator(&mut self, function: u32) -> Vec2 {
+        let FunctionKind::Component { cuts } = &self.step.functions[function as usize].kind else {
+            return Vec2::ZERO;
+        };
+        let first = self.first_cut + self.cuts.len();
+        for &Cut { segment: SegmentId { crack, segment }, left, right } in cuts {
+            let line = self.entries[crack as usize].x + (SEGMENT * segment as usize) as f64;
+            self.cuts.push(vec2(line, 0.0));
+            self.cuts.push(vec2(left.number() as f64, right.number() as f64));
+        }
+        vec2(first as f64, cuts.len() as f64)
     }
 }
 
@@ -143,4 +181,16 @@ fn side(side: &LocalSide) -> [Vec2; SIDE] {
 
 fn rounded(pair: Vec2) -> [f32; 2] {
     [pair.x as f32, pair.y as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn views_have_a_limit() {
+        assert_eq!(check_size(1 << 24), Ok(()));
+        let error = check_size((1 << 24) + 1).expect_err("too many").to_string();
+        assert!(error.contains("functions of components need 134217736 bytes"), "{error}");
+    }
 }

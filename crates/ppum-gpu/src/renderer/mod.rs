@@ -21,7 +21,7 @@ use crate::device::Gpu;
 use crate::device::read;
 use crate::error::{GpuError, RenderError};
 use crate::frame::areas::{Area, areas};
-use crate::frame::geometry::Geometry;
+use crate::frame::geometry::{Geometry, check_size};
 use crate::frame::quads::quads;
 use crate::frame::shading::Shading;
 use crate::frame::view_data::ViewData;
@@ -238,6 +238,7 @@ fn view_data<O: Output>(
     let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
     let region = on_card.region()?;
     let mut data = ViewData::new(field, view, geometry, region, on_card.lattice.as_ref());
+    check_size(data.pairs.len())?;
     data.record.component = program.output().component().into();
     if let Some(shading) = program.output().shading() {
         shading.note(&mut data.record);

@@ -1,13 +1,14 @@
 //! Groups of functions: what a shader evaluates at once.
 //!
 //! A group has up to four functions that follow each other in the step's table and share a frame, or one
-//! side of a crack, or the function 1. The dataset's data name functions by group and entry, so groups are
+//! side of a crack, one indicator of a component, or the function 1. The dataset's data name functions by group and entry, so groups are
 //! made once, at upload. A function that is replaced stays in its group: frames and kernels follow the table
 //! at hand, the data stay.
 
 use std::collections::BTreeMap;
 
 use ppum::crack::TipId;
+use ppum::decompose::Part;
 use ppum::function::{Frame, Function, FunctionKind, GROUP, WESTERGAARD};
 use ppum::vec2::Vec2;
 
@@ -18,6 +19,8 @@ pub(crate) enum GroupFrame {
     One,
     /// The side of a crack, by its index.
     Side(u32),
+    /// The indicator of a component, by the index of its function.
+    Indicator(u32),
     /// World coordinates.
     World,
     /// A fixed origin and x axis.
@@ -49,7 +52,7 @@ pub(crate) struct Groups {
 pub(crate) enum Class {
     /// f = 1.
     Smooth,
-    /// The side of a crack.
+    /// The side of a crack, the indicator of a component.
     Jump,
     /// Formulas in the frame of a tip.
     Tip,
@@ -119,7 +122,7 @@ impl Groups {
 
     /// The frame of each group, with a table in which functions may be replaced.
     pub(crate) fn frames(&self, functions: &[Function]) -> Vec<GroupFrame> {
-        self.members.iter().map(|members| frame(&functions[members[0] as usize])).collect()
+        self.members.iter().map(|members| frame(members[0], functions)).collect()
     }
 }
 
@@ -149,17 +152,18 @@ fn joins(first: &Function, function: &Function, members: usize) -> bool {
 }
 
 fn class(function: &Function) -> Class {
-    match frame(function) {
-        GroupFrame::One => Class::Smooth,
-        GroupFrame::Side(_) => Class::Jump,
-        GroupFrame::Tip(_) => Class::Tip,
-        GroupFrame::Fixed { .. } | GroupFrame::World => Class::Other,
+    match Part::of(&function.kind) {
+        Part::Smooth => Class::Smooth,
+        Part::Jump => Class::Jump,
+        Part::Tip => Class::Tip,
+        Part::Other | Part::Patch(_) => Class::Other,
     }
 }
 
-fn frame(function: &Function) -> GroupFrame {
-    match function.kind {
+fn frame(index: u32, functions: &[Function]) -> GroupFrame {
+    match functions[index as usize].kind {
         FunctionKind::Side { crack } => GroupFrame::Side(crack),
+        FunctionKind::Component { .. } => GroupFrame::Indicator(index),
         FunctionKind::Formula { frame: Frame::World, .. } => GroupFrame::World,
         FunctionKind::Formula { frame: Frame::Fixed { origin, angle }, .. } => {
             GroupFrame::Fixed { origin, angle }
@@ -169,13 +173,14 @@ fn frame(function: &Function) -> GroupFrame {
     }
 }
 
-/// Texts and parameters of formulas: groups that differ in their kernels have different ones.
+/// Texts and parameters of formulas, a mark of indicators: groups that differ in their kernels have different ones.
 pub(crate) fn texts(functions: &[Function], members: &[u32]) -> String {
     let text = |&member: &u32| match &functions[member as usize].kind {
         FunctionKind::Formula { text, parameters, .. } => {
             let values = parameters.iter().map(|(name, v)| format!("{name}={:x}\0", v.to_bits()));
             format!("{text}\0{}\0", values.collect::<String>())
         }
+        FunctionKind::Component { .. } => "\0".to_owned(),
         _ => String::new(),
     };
     members.iter().map(text).collect()
@@ -184,7 +189,8 @@ pub(crate) fn texts(functions: &[Function], members: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::crack::{End, TipId};
+    use ppum::crack::{End, SegmentId, TipId};
+    use ppum::function::{Cut, Part};
     use ppum::vec2::Vec2;
     use ppum_testkit::synthetic::Recipe;
 
@@ -216,12 +222,16 @@ mod tests {
         }
     }
 
-    /// Tips and sides in turn, as the solver lists them: still one run of each kernel.
+    /// Tips, sides and components in turn, as a solver may list them: still one run of each kernel.
     #[test]
     fn like_groups_follow_each_other() {
         let mut functions = Vec::new();
+        let (segment, [left, right]) =
+            (SegmentId { crack: 0, segment: 0 }, [Part::Inside, Part::Outside]);
         for crack in 0..9 {
             functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack } });
+            let cuts = vec![Cut { segment, left, right }];
+            functions.push(Function { name: "in".into(), kind: FunctionKind::Component { cuts } });
             for end in [End::Start, End::Last] {
                 let frame = Frame::Tip(TipId { crack, end });
                 functions.extend(WESTERGAARD.map(|text| formula(text, frame)));
@@ -229,10 +239,11 @@ mod tests {
             }
         }
         let groups = Groups::new(&functions);
-        assert_eq!(groups.count(), 9 + 18 + 18);
+        assert_eq!(groups.count(), 9 + 9 + 18 + 18);
+        assert_eq!(groups.classes()[..18], [Class::Jump; 18]);
         let keys: Vec<_> =
             (0..groups.count()).map(|group| texts(&functions, groups.members(group))).collect();
-        assert_eq!(keys.windows(2).filter(|pair| pair[0] != pair[1]).count(), 2);
+        assert_eq!(keys.windows(2).filter(|pair| pair[0] != pair[1]).count(), 3);
     }
 
     #[test]

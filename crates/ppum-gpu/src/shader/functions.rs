@@ -65,6 +65,7 @@ pub(crate) fn functions_wgsl(
 enum Kind {
     One,
     Side,
+    Indicator,
     /// Formulas in a frame that stays where it is.
     Fixed,
     /// Formulas in the frame of a tip.
@@ -75,6 +76,7 @@ fn kind(frame: &GroupFrame) -> Kind {
     match frame {
         GroupFrame::One => Kind::One,
         GroupFrame::Side(_) => Kind::Side,
+        GroupFrame::Indicator(_) => Kind::Indicator,
         GroupFrame::Fixed { .. } | GroupFrame::World => Kind::Fixed,
         GroupFrame::Tip(_) => Kind::Tip,
     }
@@ -96,6 +98,10 @@ impl Kernel {
             Kind::One => constant("1.0"),
             Kind::Side => {
                 format!("    let side = crack_side(crack_of(group), offset);\n{}", constant("side"))
+            }
+            Kind::Indicator => {
+                let value = "    let value = indicator_value(indicator_of(group), offset);\n";
+                format!("{value}{}", constant("value"))
             }
             Kind::Fixed | Kind::Tip => {
                 let members = members.iter().map(|&member| &functions[member as usize]);

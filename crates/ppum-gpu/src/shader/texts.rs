@@ -9,6 +9,8 @@ pub(crate) const POLYNOMIAL: &str = include_str!("wgsl/polynomial.wgsl");
 pub(crate) const WEIGHT: &str = include_str!("wgsl/weight.wgsl");
 /// Sides of cracks.
 pub(crate) const CRACK: &str = include_str!("wgsl/crack.wgsl");
+/// Indicators of components.
+pub(crate) const INDICATOR: &str = include_str!("wgsl/indicator.wgsl");
 /// Points in the frames of functions.
 pub(crate) const TIP: &str = include_str!("wgsl/tip.wgsl");
 /// The Westergaard functions.
@@ -21,11 +23,12 @@ pub(crate) const GEOMETRY: &str = include_str!("wgsl/geometry.wgsl");
 /// All functions of a point, by name. Beside them they need `ppum::formula::wgsl_prelude`, the
 /// [constants](crate::frame::geometry::constants) of the view's data, `load_view`, `load_lanes`, `LANE_PAIRS`,
 /// `Lanes`, `ORDER`, `weight` and `view.cracks`.
-pub(crate) const POINT_FUNCTIONS: [(&str, &str); 8] = [
+pub(crate) const POINT_FUNCTIONS: [(&str, &str); 9] = [
     ("jet", JET),
     ("polynomial", POLYNOMIAL),
     ("weight", WEIGHT),
     ("crack", CRACK),
+    ("indicator", INDICATOR),
     ("tip", TIP),
     ("westergaard", WESTERGAARD),
     ("domain", DOMAIN),
@@ -52,5 +55,5 @@ pub(crate) const SPLAT: &str = include_str!("wgsl/splat.wgsl");
 pub(crate) const FINISH: &str = include_str!("wgsl/finish.wgsl");
 /// The transfer function.
 pub(crate) const COLOR: &str = include_str!("wgsl/color.wgsl");
-/// A component as numbers.
+/// A component of a vector as numbers.
 pub(crate) const COMPONENT: &str = include_str!("wgsl/component.wgsl");

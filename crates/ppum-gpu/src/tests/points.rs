@@ -5,10 +5,10 @@
 //! division and 9 u for a root; sums and products have 1 u.
 
 use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, Side, TipId, TipPoint};
+use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use ppum::dataset::{Step, monomials};
 use ppum::domain::{Domain, Hole};
-use ppum::function::westergaard;
+use ppum::function::{Cut, Function, FunctionKind, FunctionTable, Part, westergaard};
 use ppum::jet::Jet;
 use ppum::polynomial::polynomial;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -449,6 +449,79 @@ fn sides_of_cracks() {
         }
     }
     assert!(compared > all / 2, "{compared} of {all}");
+}
+
+/// Arms of a star, a crack that ends on one of them and one that crosses it; and random trees of cuts by their segments.
+fn trees(random: &mut Random) -> (Vec<Crack>, Vec<Function>) {
+    let mut cracks: Vec<Crack> = (0..5)
+        .map(|_| crack(&[[0.25, 0.5], (vec2(0.25, 0.5) + random.direction()).into()]))
+        .collect();
+    let [a, b] = [0, 1].map(|k| cracks[0].points[k]);
+    let foot = a + (b - a) * 0.37;
+    cracks.push(crack(&[foot.into(), (foot + random.direction()).into()]));
+    cracks.push(crack(&[[-0.3, 0.1], [0.4, 0.45], [1.0, 0.3]]));
+    let mut tree = || {
+        let count = 1 + random.below(12);
+        let mut part = |k: usize| match k + 1 + random.below(3) {
+            next if next < count => Part::Cut(next as u32),
+            _ => [Part::Inside, Part::Outside][random.below(2)],
+        };
+        let parts: Vec<_> = (0..count).map(|k| [part(k), part(k)]).collect();
+        let mut cut = |[left, right]: [Part; 2]| {
+            let at = random.below(8) as u32;
+            let segment = SegmentId { crack: at.min(6), segment: at / 7 };
+            Cut { segment, left, right }
+        };
+        let cuts = parts.into_iter().map(&mut cut).collect();
+        Function { name: "component".into(), kind: FunctionKind::Component { cuts } }
+    };
+    let functions = (0..12).map(|_| tree()).collect();
+    (cracks, functions)
+}
+
+#[test]
+fn indicators_of_components() {
+    let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
+    let text = "fn row(k: u32) {
+        put(k, 0u, indicator_value(indicator_of(0u), vec2<f32>(input(k, 0u), input(k, 1u))));
+    }";
+    let (cracks, functions) = trees(&mut Random(10));
+    let (mut compared, mut all, mut inside) = (0, 0, 0);
+    for (index, function) in (0..).zip(&functions) {
+        let mut step = step(cracks.clone());
+        step.functions.clone_from(&functions);
+        let table = FunctionTable::new(std::slice::from_ref(function), cracks.len(), &[]);
+        let table = table.expect("a function");
+        let centers = [cracks[0].points[0], cracks[5].points[0], cracks[6].points[1]];
+        for center in centers.into_iter().chain([vec2(0.31, -0.17)]) {
+            let geometry = Geometry::new(&step, &domain, &[GroupFrame::Indicator(index)], center);
+            let local = table.at(&cracks, center);
+            let value = |p: Vec2| {
+                let mut jets = [Jet::constant(0.0)];
+                local.evaluate::<f64, 0>(0, p.into(), Side::Above, &mut jets);
+                jets[0].v
+            };
+            let lines = cracks.iter().map(|crack| LocalCrack::new(crack, center));
+            let far =
+                lines.flat_map(|c| c.segments().iter().map(|s| s.distance).collect::<Vec<_>>());
+            // distances of lines through the centre are nothing but rounding: those of the others count where they decide
+            let far: Vec<f64> = far.map(f64::abs).filter(|&d| d > 1e-15).collect();
+            let mut rows = offsets(11);
+            all += rows.len();
+            rows.retain(|&[x, y]| {
+                let p = vec2(x.into(), y.into());
+                let near =
+                    far.iter().filter(|&&d| d < 2.0 * p.length()).fold(0.0, |a, &d| d.max(a));
+                decided(p, near, |p| value(p) > 0.0)
+            });
+            compared += rows.len();
+            inside += rows.iter().filter(|&&[x, y]| value(vec2(x.into(), y.into())) > 0.0).count();
+            agrees(text, &geometry.pairs, &rows, 0.0, |&[x, y]| {
+                vec![(value(vec2(x.into(), y.into())), 1.0)]
+            });
+        }
+    }
+    assert!(compared > all / 2 && inside > compared / 8, "{compared} of {all}, {inside} inside");
 }
 
 /// The point of a frame: a product and a sum for each coordinate of rounded data, 8 u of what is added.

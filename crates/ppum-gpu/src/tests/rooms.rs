@@ -9,7 +9,7 @@ const FLOORS: Floors<'_> = &[
     &[("error", &["choice"])],
     &[("device", &["choice", "error"])],
     &[("scene", &["device", "error", "layout"])],
-    &[("frame", &["layout", "scene"])],
+    &[("frame", &["error", "layout", "scene"])],
     &[("shader", &["error", "frame", "layout", "scene"])],
     &[("program", &["device", "error", "frame", "scene", "shader"])],
     &[(

@@ -158,8 +158,22 @@ fn windows_of_all_kinds() {
 }
 
 #[test]
+fn cracks_that_meet() {
+    agree("cracks that meet", &fields::junctions(), within);
+}
+
+#[test]
 fn zooms() {
-    agree("zooms", &[fields::zooms()], |what, evaluator, found| {
+    deep("zooms", fields::zooms());
+}
+
+#[test]
+fn zooms_to_junctions() {
+    deep("zooms to junctions", fields::junction_zooms());
+}
+
+fn deep(group: &str, case: Case) {
+    agree(group, &[case], |what, evaluator, found| {
         within(what, evaluator, found);
         let stress = what.contains("von-mises");
         assert!(!stress || found.relative <= RELATIVE, "{what}: {found:?}");

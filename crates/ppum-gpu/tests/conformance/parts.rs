@@ -38,6 +38,20 @@ fn parts_are_drawn_alone() {
     assert!(worst < 1e-5, "{worst}");
 }
 
+/// Functions of components are jumps.
+#[test]
+fn jumps_of_cracks_that_meet_are_drawn_alone() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let mut dataset = Recipe::meeting().dataset();
+    let step = &mut dataset.steps[0];
+    step.fields = vec![good(step.fields[0].part(Part::Jump, &step.functions))];
+    let field = field(&dataset);
+    for method in METHODS {
+        let raster = render(&mut renderer, &field, "uy", method);
+        check("jumps", &field, "uy", method, &raster);
+    }
+}
+
 fn field(dataset: &ppum::dataset::Dataset) -> Field<'_> {
     good(Field::new(dataset, 0))
 }

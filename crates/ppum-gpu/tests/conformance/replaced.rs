@@ -41,6 +41,24 @@ fn replacements() -> Vec<(&'static str, Dataset)> {
     out
 }
 
+/// Functions of components, and formulas in the place of some.
+#[test]
+fn replaced_functions_of_components() {
+    let Some(mut renderer) = renderer_or_skip() else { return };
+    let old = Recipe::meeting().dataset();
+    let mut new = old.clone();
+    good(new.steps[0].replace_function("component 1", "x*y^2", &[]));
+    good(new.steps[0].replace_function("component 2", "side(0)", &[]));
+    let (field, truth) = (good(Field::new(&old, 0)), good(Field::new(&new, 0)));
+    let scene = good(good(renderer.upload(&field)).with_functions_of(&truth));
+    let stress = Values(quantity("von-mises", &truth));
+    for method in METHODS {
+        let mut program = good(renderer.compile(&scene, stress.clone(), method));
+        let raster = draw(&mut renderer, &mut program, &window());
+        check("components", &truth, "von-mises", method, &raster);
+    }
+}
+
 /// The field that the program is compiled for has other coefficients: those on the card are drawn, so
 /// nothing is uploaded again.
 #[test]

@@ -160,7 +160,7 @@ pub fn junctions() -> Vec<Case> {
     };
     let one = Recipe { components: 1, weight: WeightFunction::Cubic, ..Recipe::meeting() };
     vec![
-        Case::new("junctions", &graded, SOME).seen(vec![whole([147, 111])]),
+        Case::new("junctions", &graded, SOME).seen(vec![whole([151, 113])]),
         Case::new("junctions in large patches", &coarse, SOME),
         Case::new("junctions of unrelated patches", &random, SOME),
         Case::new("junctions of a potential", &one, &["gradient", "u"]),
@@ -260,13 +260,15 @@ fn zoomed(recipe: &Recipe, center: Vec2, zoom: f64) -> Window {
     Window { center, width: recipe.domain.size().x / zoom, pixels: [65, 49] }
 }
 
-/// Zooms by factors up to 1e12 to all junctions, and to the middle of an arm.
+/// Zooms by factors of 1e3 to 1e12 to all junctions, and to the middle of an arm. Patches there are no finer than is seen of jumps in
+/// single precision: their slopes are differences of constants over the size of a patch.
 #[must_use]
 pub fn junction_zooms() -> Case {
-    let recipe = Recipe { tip_level: 6, ..Recipe::meeting() };
+    let recipe = Recipe { tip_level: 4, ..Recipe::meeting() };
     let arm = &recipe.cracks[0].points;
     let middle = arm[0] + (arm[1] - arm[0]) * 0.13;
     let places = recipe.junctions.iter().map(|place| place.center).chain([middle]);
-    let windows = places.flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place, zoom))).collect();
+    let seen = places.flat_map(|at| ZOOMS[1..].iter().map(move |&zoom| (at, zoom)));
+    let windows = seen.map(|(at, zoom)| zoomed(&recipe, at, zoom)).collect();
     Case::new("zooms to junctions", &recipe, SOME).seen(windows)
 }

@@ -30,10 +30,10 @@ pub fn amplitude(tip: usize, k: usize, component: usize) -> f64 {
     0.3 * (1.7 * (tip + 1) as f64 + 2.3 * k as f64 + 1.1 * component as f64).sin()
 }
 
-/// Size of component `k` at a junction in [`Coefficients::Taylor`].
+/// Size of component `k` at a junction in [`Coefficients::Taylor`]: a tenth of the field, as cracks open under strains of size one.
 #[must_use]
 pub fn level(junction: usize, k: usize, component: usize) -> f64 {
-    0.4 * (0.7 + 1.3 * junction as f64 + 1.9 * k as f64 + 0.6 * component as f64).sin()
+    0.1 * (0.7 + 1.3 * junction as f64 + 1.9 * k as f64 + 0.6 * component as f64).sin()
 }
 
 /// The smooth part of a component in [`Coefficients::Taylor`]: sin(a x + b y + c).

@@ -81,7 +81,7 @@ fn components_are_jumps() {
             [1e-9, -1e-9].map(|step| values(&part, &[place + normal * step], Side::Above));
         (above[0].v - below[0].v).abs()
     };
-    assert!(apart(Part::Smooth) < 1e-6 && apart(Part::Jump) > 0.1);
+    assert!(apart(Part::Smooth) < 1e-6 && apart(Part::Jump) > 0.02);
 }
 
 #[test]

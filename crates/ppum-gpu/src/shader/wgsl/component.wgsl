@@ -1,4 +1,4 @@
-// One component with its derivatives, as numbers.
+// One component of the field's vector with its derivatives, as numbers.
 
 struct Numbers {
     // v, x, y, xx

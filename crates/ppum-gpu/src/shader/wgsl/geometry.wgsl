@@ -6,6 +6,12 @@ fn crack_of(group: u32) -> Crack {
     return crack_from(load_view(GEOMETRY_PAIRS * group));
 }
 
+// The component whose indicator is a group's function.
+fn indicator_of(group: u32) -> Indicator {
+    let pair = load_view(GEOMETRY_PAIRS * group);
+    return Indicator(u32(pair.x), u32(pair.y));
+}
+
 // The tip of a group's frame.
 fn tip_at(group: u32) -> Tip {
     let at = GEOMETRY_PAIRS * group;

@@ -1,7 +1,7 @@
-use ppum::crack::{Crack, CrackEnd, End, Side, TipId, tips};
+use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side, TipId, tips};
 use ppum::dataset::Step;
 use ppum::formula::Table;
-use ppum::function::{Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD};
+use ppum::function::{Cut, Frame, Function, FunctionKind, FunctionTable, Part, Slot, WESTERGAARD};
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
@@ -14,7 +14,9 @@ use crate::error::GpuError;
 use crate::frame::geometry::{Geometry, constants};
 use crate::scene::groups::{GroupFrame, Groups};
 use crate::shader::functions::{Surroundings, functions_wgsl};
-use crate::shader::texts::{CRACK, GEOMETRY, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL};
+use crate::shader::texts::{
+    CRACK, GEOMETRY, INDICATOR, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL,
+};
 
 /// The centre of the view.
 const CENTER: Vec2 = vec2(0.8, 0.2);
@@ -66,8 +68,9 @@ fn shader(
         Recipe { level: 0, cells: [1, 1], tip_level: 0, cracks: vec![], ..Recipe::default() };
     let mut step = recipe.step();
     step.cracks = cracks.to_vec();
+    step.functions = functions.to_vec();
     let view = view(&step, &groups.frames(functions), order);
-    let parts = [JET, CRACK, TIP, WESTERGAARD_KERNEL, GEOMETRY, &view, &text, NUMBERS];
+    let parts = [JET, CRACK, INDICATOR, TIP, WESTERGAARD_KERNEL, GEOMETRY, &view, &text, NUMBERS];
     (module(&parts), text)
 }
 
@@ -140,8 +143,23 @@ fn all_kinds() -> Vec<FunctionKind> {
         formula("theta*x*side(0) + y", tip, &[]),
         formula("cos(1.5*theta)*r + table(array, x)", tip, &[]),
         formula("3", tip, &[]),
+        component(),
         FunctionKind::One,
+        component(),
     ]
+}
+
+/// Left of the second segment of the first crack, and there right of the second crack; or right of all of these.
+fn component() -> FunctionKind {
+    let cut =
+        |crack, segment, left, right| Cut { segment: SegmentId { crack, segment }, left, right };
+    let cuts = vec![
+        cut(0, 1, Part::Cut(1), Part::Cut(2)),
+        cut(1, 0, Part::Outside, Part::Inside),
+        cut(0, 0, Part::Outside, Part::Cut(3)),
+        cut(1, 0, Part::Outside, Part::Inside),
+    ];
+    FunctionKind::Component { cuts }
 }
 
 fn tables() -> Vec<Arc<Table>> {
@@ -160,16 +178,22 @@ fn functions_of_every_kind() {
     }
 }
 
-/// Formulas in place of a kernel's function, of a side and of 1, some of them at one tip only.
+/// Formulas in place of a kernel's function, of a side, of a component and of 1, some of them at one tip only.
 #[test]
 fn replaced_functions() {
     let plain = Recipe { cracks: cracks(), ..Recipe::default() };
     let mut step = plain.dataset().steps.remove(0);
     step.functions = recipe(all_kinds());
     let groups = Groups::new(&step.functions);
-    for (which, text) in
-        [("1", "2*y + side(1)"), ("3", "r*x"), ("0", "1 + x"), ("10", "x + theta/4")]
-    {
+    let component = step.functions.iter().position(|f| f.kind == component());
+    let component = component.expect("a component").to_string();
+    for (which, text) in [
+        ("1", "2*y + side(1)"),
+        ("3", "r*x"),
+        ("0", "1 + x"),
+        ("10", "x + theta/4"),
+        (&component, "x - side(0)"),
+    ] {
         step.replace_function(which, text, &tables()).expect("a formula");
         compare(&step.functions, &groups, &tables(), 1);
     }
@@ -179,7 +203,7 @@ fn replaced_functions() {
 #[test]
 fn kernels_are_shared() {
     let cracks: Vec<Crack> = (0..144)
-        .map(|k| crack(&[[0.0, f64::from(k)], [1.0, f64::from(k)]], [CrackEnd::Tip; 2]))
+        .map(|k| crack(&[-1.0, 0.0, 1.0].map(|x| [x, f64::from(k)]), [CrackEnd::Tip; 2]))
         .collect();
     let mut functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
     for crack in 0..cracks.len() as u32 {
@@ -191,11 +215,13 @@ fn kernels_are_shared() {
             functions.push(Function { name: text.to_owned(), kind });
         }
     }
+    functions.extend((0..50).map(|_| Function { name: "component".into(), kind: component() }));
+    functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack: 3 } });
     let groups = Groups::new(&functions);
-    assert_eq!(groups.count(), 1 + 144 + 288 + 288);
+    assert_eq!(groups.count(), 1 + 145 + 50 + 288 + 288);
     let (_, text) = shader(&functions, &groups, &cracks, &[], 2);
-    assert_eq!(text.matches("fn functions_").count(), 4);
-    assert_eq!(text.matches("if group <").count(), 3);
+    assert_eq!(text.matches("fn functions_").count(), 5);
+    assert_eq!(text.matches("if group <").count(), 4);
     assert_eq!(text.matches("fn formulas_").count(), 1);
 }
 
