@@ -125,6 +125,17 @@ fn agree(dataset: &Dataset, view: &View, quantities: &[Quantity]) {
 const SOME: [Quantity; 3] =
     [Quantity::VonMises, Quantity::Component(1), Quantity::Derivative(0, Axis::Y)];
 
+/// Where cracks meet, as a whole and near each junction.
+#[test]
+fn cracks_that_meet() {
+    let recipe = Recipe::meeting();
+    let dataset = recipe.dataset();
+    agree(&dataset, &whole([131, 97]), &SOME);
+    for (place, zoom) in recipe.junctions.iter().zip([1e3, 1e6, 1e9, 1e12]) {
+        agree(&dataset, &view(place.center, zoom), &SOME);
+    }
+}
+
 #[test]
 fn every_quantity() {
     let dataset = dataset(&Recipe::default());

@@ -119,6 +119,51 @@ fn random_fields_against_brute_force() {
     }
 }
 
+/// Fields that jump from sector to sector where cracks meet: nothing on a dense grid is beyond, nor near them, nor beside junctions.
+#[test]
+fn where_cracks_meet() {
+    let mut random = Random(8);
+    for seed in 0..4 {
+        let (coefficients, degrees) = (Coefficients::Random, vec![2]);
+        let recipe = Recipe {
+            level: 1,
+            tip_level: 2,
+            weight: WeightFunction::Cubic,
+            coefficients,
+            degrees,
+            seed,
+            ..Recipe::meeting()
+        };
+        let dataset = recipe.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let view = View::hug(dataset.domain.bounds, [200, 150]).expect("a view");
+        for text in ["ux", "uy"] {
+            let all = found(&field, &view, text);
+            let quantity = Quantity::parse(text, &field).expect("a quantity");
+            let mut local = field.at(view.center);
+            let mut value = |p| quantity.at(&mut local, p, Side::Above);
+            let fine = View::hug(dataset.domain.bounds, [900, 700]).expect("a view");
+            let every = (0..fine.pixels[1]).flat_map(|j| (0..fine.pixels[0]).map(move |i| (i, j)));
+            let mut places: Vec<Vec2> = every.map(|(i, j)| fine.offset(i, j)).collect();
+            for at in recipe.junctions.iter().map(|place| place.center - view.center) {
+                places
+                    .extend((0..500).map(|_| at + random.direction() * random.between(0.0, 0.01)));
+            }
+            for at in [all.min.offset, all.max.offset] {
+                let near = Rect::around(at, vec2(1.0, 1.0) * view.pixel_size());
+                places.extend((0..500).map(|_| random.point(&near)));
+            }
+            let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+            for v in places.into_iter().map(&mut value) {
+                (lo, hi) = (lo.min(v), hi.max(v));
+            }
+            let slack = 1e-6 * (hi - lo);
+            assert!(all.max.value >= hi - slack, "{seed} {text} {:?} {hi}", all.max);
+            assert!(all.min.value <= lo + slack, "{seed} {text} {:?} {lo}", all.min);
+        }
+    }
+}
+
 /// u = e √r sin(θ/2) about a tip, its crack along the direction d.
 fn opening(tip: Vec2, d: Vec2) -> Dataset {
     let domain = Rect::around(tip, vec2(1.0, 1.0));

@@ -224,12 +224,17 @@ fn off(slope: &QuantityGradient, field: &Field<'_>, view: &View, level: f64, p: 
     (at.value - level).abs() / at.gradient.length() / view.pixel_size()
 }
 
+/// Cracks that cross, branch and end on each other.
+fn meeting() -> Dataset {
+    let (weight, degrees) = (WeightFunction::Cubic, vec![3, 2]);
+    Recipe { weight, degrees, ..Recipe::meeting() }.dataset()
+}
+
 /// Everywhere on lines the value is the level; no line crosses a crack or ends but where something ends; one of each side
 /// of a lattice's edges has a line through it if it passes the level.
 #[test]
 fn lines_in_a_plate() {
-    for is_smooth in [true, false] {
-        let dataset = plate(is_smooth);
+    for (is_smooth, dataset) in [(true, plate(true)), (false, plate(false)), (true, meeting())] {
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::hug(dataset.domain.bounds, [220, 200]).expect("a view");
         let of_ux = [-0.4, 0.1, 0.5, 0.9];

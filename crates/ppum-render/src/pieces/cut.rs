@@ -166,6 +166,18 @@ impl Polygon {
         Self { corners, sides }
     }
 
+    /// The same polygon without sides shorter than `shortest`; none if fewer than three are left.
+    pub(super) fn without_short_sides(self, shortest: f64) -> Option<Self> {
+        let is_long = |k: &usize| (self.next(*k) - self.corners[*k]).length() >= shortest;
+        let long: Vec<usize> = (0..self.corners.len()).filter(is_long).collect();
+        if long.len() == self.corners.len() {
+            return Some(self);
+        }
+        let corners = long.iter().map(|&k| self.corners[k]).collect();
+        let sides = long.iter().map(|&k| self.sides[k].clone()).collect();
+        (long.len() > 2).then_some(Self { corners, sides })
+    }
+
     /// The same polygon with a corner at each end of a face inside a side: at a tip.
     pub(super) fn with_ends(self) -> Self {
         let (mut corners, mut sides) = (Vec::new(), Vec::new());

@@ -45,6 +45,9 @@ const DEPTH: usize = 6;
 /// inside them.
 const SLIVER: f64 = 1e-5;
 
+/// Sides shorter than this part of the square are what rounding leaves where several lines meet in a point: they are none.
+const SHORTEST: f64 = 1e-9;
+
 /// A convex part of a square, wholly on one side of everything that a field jumps on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
@@ -174,12 +177,13 @@ impl<'f> Pieces<'f> {
         for curve in &self.curves {
             all = all.into_iter().flat_map(|polygon| curve.split(polygon, least)).collect();
         }
-        pieces.extend(all.into_iter().filter_map(|polygon| self.finished(polygon)));
+        let shortest = SHORTEST * size;
+        pieces.extend(all.into_iter().filter_map(|polygon| self.finished(polygon, shortest)));
     }
 
-    /// The piece of a polygon that nothing cuts any more; none outside the domain.
-    fn finished(&self, polygon: Polygon) -> Option<Piece> {
-        let polygon = polygon.with_ends();
+    /// The piece of a polygon that nothing cuts any more; none outside the domain, or where it has no area.
+    fn finished(&self, polygon: Polygon, shortest: f64) -> Option<Piece> {
+        let polygon = polygon.without_short_sides(shortest)?.with_ends();
         let center = centroid(&polygon.corners);
         if !self.domain.contains(center) {
             return None;

@@ -1,14 +1,18 @@
 //! Pieces of random squares: they fill them, and nothing runs through them.
 
 use super::*;
+use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::equation::{Elasticity, StressState};
+use ppum::function::{FunctionKind, GROUP, Slot};
+use ppum::jet::Jet;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
-/// Cracks with kinks, tips and a mouth, round holes of many sizes, polygons, over each other and the border.
+/// Cracks with kinks, tips and a mouth, or ones that meet, round holes of many sizes, polygons, over each other and the border.
 fn dataset(seed: u64) -> Dataset {
-    let mut dataset = Recipe::random(seed).dataset();
+    let recipe = if seed < 4 { Recipe::random(seed) } else { Recipe::meeting() };
+    let mut dataset = recipe.dataset();
     let circle = |x, y, radius| Hole::Circle { center: vec2(x, y), radius };
     let polygon =
         |points: &[[f64; 2]]| Hole::Polygon { points: points.iter().map(|&p| p.into()).collect() };
@@ -70,7 +74,7 @@ fn crosses(crack: &Crack, anchor: Vec2, [p, q]: [Vec2; 2]) -> bool {
 #[test]
 fn pieces_are_convex_inside_and_on_one_side() {
     let mut looked = 0;
-    for seed in 0..4 {
+    for seed in 0..5 {
         let dataset = dataset(seed);
         let field = Field::new(&dataset, 0).expect("a field");
         let mut random = Random(seed);
@@ -98,10 +102,58 @@ fn pieces_are_convex_inside_and_on_one_side() {
     assert!(looked > 3000, "{looked}");
 }
 
+/// At junctions as near as one likes: every function of a component has one value on a piece.
+#[test]
+fn components_do_not_jump_in_pieces() {
+    let recipe = Recipe::meeting();
+    let dataset = recipe.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let (mut random, mut pieces_of_several) = (Random(7), 0);
+    for (center, size) in recipe
+        .junctions
+        .iter()
+        .flat_map(|place| [1e-3, 1e-6, 1e-9, 1e-12].map(|size| (place.center, size)))
+    {
+        let functions = field.functions.at(&field.step.cracks, center);
+        let mut patches = Vec::new();
+        field.tree.query_point(center, &mut patches);
+        let blocks = patches.iter().flat_map(|&patch| field.data.blocks(patch as usize));
+        let groups: Vec<usize> = blocks
+            .map(|block| field.data.block_function[block])
+            .filter(|&f| {
+                matches!(field.step.functions[f as usize].kind, FunctionKind::Component { .. })
+            })
+            .filter_map(|f| match field.functions.of(f) {
+                Slot::Jet { group, .. } => Some(group as usize),
+                Slot::One => None,
+            })
+            .collect();
+        let value = |p: Vec2| -> Vec<f64> {
+            let mut jets = [Jet::constant(0.0); GROUP];
+            let mut of = |group: usize| {
+                functions.evaluate::<f64, 0>(group, p.into(), Side::Above, &mut jets);
+                jets[0].v
+            };
+            groups.iter().map(|&group| of(group)).collect()
+        };
+        let shift = random.point(&Rect::around(Vec2::ZERO, vec2(0.4, 0.4))) * size;
+        let pieces = Pieces::new(&field, center).of(&Rect::around(shift, vec2(0.5, 0.5) * size));
+        pieces_of_several += usize::from(pieces.len() > 2 && !groups.is_empty());
+        for piece in &pieces {
+            let inside = value(piece.center());
+            let corners = piece.corners.iter().map(|&corner| piece.seen_from_inside(corner));
+            for p in corners.collect::<Vec<_>>() {
+                assert_eq!(value(p), inside, "{center:?} {size} {piece:?}");
+            }
+        }
+    }
+    assert_eq!(pieces_of_several, 16);
+}
+
 /// What no piece covers is outside the domain, or beside a round rim.
 #[test]
 fn pieces_fill_the_square_but_for_holes() {
-    for seed in 0..4 {
+    for seed in 0..5 {
         let dataset = dataset(seed);
         let field = Field::new(&dataset, 0).expect("a field");
         let mut random = Random(seed);
