@@ -161,7 +161,7 @@ class Field:
 
     def read_functions(self, group):
         plain = lambda d: texts(d) if d.dtype.kind in "SO" else d[()]
-        rows = ("parameter_", "kink", "singular")
+        rows = ("parameter_", "cut", "kink", "singular")
         columns = {k: plain(v) for k, v in group.items() if not k.startswith(rows)}
         self.table = [dict(zip(columns, row)) for row in zip(*columns.values())]
         names, values = texts(group["parameter_name"]), group["parameter_value"][()]
@@ -170,6 +170,10 @@ class Field:
             row["parameters"] = {k: self.real(v) for k, v in zip(names[a:b], values[a:b])}
             if row["kind"] == "formula":
                 row["formula"] = self.formula(row["formula"], PLANE)
+        if "cuts" in group:
+            cuts, offsets = group["cuts"][()], group["cut_offsets"][()]
+            for row, a, b in zip(self.table, offsets, offsets[1:]):
+                row["cuts"] = cuts[a:b]
 
     def read_quantities(self, file):
         """Formulas of quantities, in the order in which they are defined."""
@@ -240,9 +244,21 @@ class Field:
                 self.cache[b] = Jet(self.real(1))
             elif row["kind"] == "side":
                 self.cache[b] = Jet(self.side_of(p, row["crack"]))
+            elif row["kind"] == "component":
+                self.cache[b] = Jet(self.indicator(p, row["cuts"]))
             else:
+                assert row["kind"] == "formula"
                 self.cache[b] = self.in_frame(p, row)
         return self.cache[b]
+
+    def indicator(self, p, cuts):
+        """1 in the component of a tree of cuts, 0 outside."""
+        part = 0
+        while part >= 0:
+            crack, segment, left, right = cuts[part]
+            distance = list(self.segments(p, crack))[segment][2]
+            part = left if self.sign(distance) > 0 else right
+        return self.real(1 if part == -2 else 0)
 
     def side_of(self, p, crack):
         return self.real(self.sign(self.nearest(p, crack)))

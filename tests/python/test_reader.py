@@ -203,6 +203,60 @@ def test_the_angle_at_the_origin_of_a_frame_is_zero():
         assert abs(found - own) < 1e-12, (frame, end, found, own)
 
 
+def junctions(field):
+    """Ends of cracks that lie on others, and points where two cross."""
+    segments = [(i, a, b) for i, crack in enumerate(field.cracks) for a, b in zip(crack, crack[1:])]
+    cross = lambda a, b: a[0] * b[1] - a[1] * b[0]
+    for i, a, b in segments:
+        for j, c, d in segments:
+            area = cross(b - a, d - c)
+            if i < j and area != 0:
+                s, t = cross(c - a, d - c) / area, cross(c - a, b - a) / area
+                if -1e-9 < s < 1 + 1e-9 and -1e-9 < t < 1 + 1e-9:
+                    yield a + s * (b - a)
+
+
+def test_where_cracks_meet_the_program_agrees_with_extended_precision():
+    worst, sectors = 0, set()
+    random = np.random.default_rng(2)
+    for path in files():
+        with h5py.File(path) as file:
+            field = Field(file, numbers=Extended)
+            if not any("cuts" in row and len(row["cuts"]) for row in field.table):
+                continue
+            angles = 2 * math.pi * random.random(8)
+            around = [np.array([math.cos(a), math.sin(a)]) for a in angles]
+            places = list(junctions(field))
+            assert len(places) >= 4
+            asked = [(p, r * d, 1) for p in places for r in (1e-3, 1e-8, 1e-12) for d in around]
+            for (anchor, offset, side), numbers in zip(asked, program(path, asked), strict=True):
+                jets = [numbers[k : k + 3] for k in range(0, len(numbers), 3)]
+                exact = field.evaluate(*exact_sum(anchor, offset), side)
+                worst = max(worst, difference(jets, exact))
+                values = [field.cache[b].v for b in field.cache if field.table[b]["kind"] == "component"]
+                sectors.add((path.stem, *map(float, anchor), tuple(map(int, values))))
+    print(f"    largest difference {worst:.1e} of the local size, {len(sectors)} sectors")
+    assert worst < 1e-12 and len(sectors) >= 24
+
+
+def test_the_component_of_the_page():
+    """The example of section 3."""
+    field = Field.__new__(Field)
+    field.n, field.real = Extended, Extended.real
+    field.cracks = [np.array([[-1.0, 0], [1, 0]]), np.array([[0.0, 0], [0, 1]])]
+    cuts = [(0, 0, 1, -1), (1, 0, -2, -1)]
+    for x, y, above, below in [
+        (-0.5, 0.5, 1, 1),
+        (0.5, 0.5, 0, 0),
+        (-0.5, -0.5, 0, 0),
+        (-0.5, 0, 1, 0),
+        (0, 0.5, 1, 0),
+        (0, 0, 1, 0),
+    ]:
+        for field.side, expected in ((1, above), (-1, below)):
+            assert field.indicator((field.real(x), field.real(y)), cuts) == expected
+
+
 def test_gradients_are_those_of_the_values():
     for path in files()[:3]:
         with h5py.File(path) as file:

@@ -79,8 +79,10 @@ fn unknown_words_are_named() {
 
 #[test]
 fn lists_that_do_not_divide_are_named() {
-    let step = ["cracks/offsets", "functions/parameter_offsets", "intensities/ring_offsets"];
-    let keys = step.map(|key| format!("steps/0000/{key}")).into_iter();
+    let offsets = ["cracks/offsets", "intensities/ring_offsets"];
+    let of_functions = ["parameter", "cut"].map(|list| format!("functions/{list}_offsets"));
+    let step = offsets.map(str::to_owned).into_iter().chain(of_functions);
+    let keys = step.map(|key| format!("steps/0000/{key}"));
     for key in keys.chain(["domain/holes/offsets".into()]) {
         for change in [
             |v: &mut Vec<u64>| v[0] = 1,
@@ -112,12 +114,13 @@ fn put(content: &mut Content, key: &str, array: Array) {
     content.insert(key.to_owned(), array);
 }
 
-/// Puts a text in the place of the last one of an array.
+/// Puts a text in the place of the last one of an array that is not empty.
 fn put_last(content: &mut Content, key: &str, text: &str) {
     let Values::Text(texts) = &mut content.get_mut(key).expect(key).values else {
         panic!("{key} holds texts")
     };
-    *texts.last_mut().expect("not empty") = text.to_owned();
+    let last = texts.iter_mut().rfind(|text| !text.is_empty());
+    *last.expect("a text") = text.to_owned();
 }
 
 fn text(text: &str) -> Array {
@@ -236,6 +239,43 @@ fn plain_datasets_have_no_objects_of_version_1_1() {
     let full = content();
     for new in new {
         assert!(full.keys().any(|key| key.contains(new)), "{new}");
+    }
+}
+
+/// Of what is new in 1.3 files without components have nothing.
+#[test]
+fn cuts_are_written_where_there_are_components() {
+    let holds_cuts = |seed: u64| {
+        let content = encode::content(&everything::dataset(seed)).expect("valid");
+        content.keys().any(|key| key.contains("cut"))
+    };
+    let with: Vec<u64> = (0..8).filter(|&seed| holds_cuts(seed)).collect();
+    assert_eq!(with, [1, 5]);
+}
+
+/// Numbers that are no cuts, by their row; counts that do not fit.
+#[test]
+fn cuts_that_are_none_are_named() {
+    let row = |at: usize, value: i64| {
+        complaint_after(|c| {
+            let Values::I64(cuts) =
+                &mut c.get_mut("steps/0000/functions/cuts").expect("cuts").values
+            else {
+                panic!("cuts are whole numbers")
+            };
+            cuts[4 * 3 + at] = value;
+        })
+    };
+    for (at, value) in [(0, -1), (1, -1), (2, -3), (3, i64::MIN), (0, 1 << 32), (2, 1 << 32)] {
+        let complaint = row(at, value);
+        assert!(complaint.contains("functions/cuts: row 3 is no cut"), "{complaint}");
+    }
+    for (at, value) in [(0, 1 << 20), (1, 1 << 20), (2, 1 << 20)] {
+        let complaint = row(at, value);
+        assert!(
+            complaint.contains("steps[0].functions[") && complaint.contains(".cuts["),
+            "{complaint}"
+        );
     }
 }
 

@@ -266,6 +266,72 @@ pub(super) const RULES: &[Rule] = &[
         &["functions/singular_offsets", "expected no singular points"],
     ),
     (
+        "only components have cuts",
+        FULL,
+        |c| give_to_the_first(c, "steps/0000/functions/cut_offsets"),
+        &["functions/cut_offsets", "of the kind `one` does not use it: expected no cuts"],
+    ),
+    (
+        "components have cuts",
+        FULL,
+        |c| {
+            let k = function(c, "component", "");
+            edit(c, "steps/0000/functions/cut_offsets", |v: &mut Vec<u64>| v[k + 1] = v[k]);
+        },
+        &["].cuts", "a component needs at least one"],
+    ),
+    (
+        "cuts come with their offsets",
+        FULL,
+        |c| remove(c, "steps/0000/functions/cut_offsets"),
+        &["functions/cut_offsets", "is missing"],
+    ),
+    (
+        "offsets of cuts come with cuts",
+        FULL,
+        |c| remove(c, "steps/0000/functions/cuts"),
+        &["functions/cuts", "is missing"],
+    ),
+    (
+        "a component has cuts at all",
+        FULL,
+        |c| {
+            remove(c, "steps/0000/functions/cuts");
+            remove(c, "steps/0000/functions/cut_offsets");
+        },
+        &["].cuts", "a component needs at least one"],
+    ),
+    (
+        "cuts are of segments that there are",
+        FULL,
+        |c| set(c, "steps/0000/functions/cuts", 1, 9_i64),
+        &["].cuts[0].segment", "segments"],
+    ),
+    (
+        "and of cracks that there are",
+        FULL,
+        |c| set(c, "steps/0000/functions/cuts", 0, 99_i64),
+        &["].cuts[0].crack", "cracks"],
+    ),
+    (
+        "what follows stands behind",
+        FULL,
+        |c| set(c, "steps/0000/functions/cuts", 2, 0_i64),
+        &["].cuts[0].left", "must stand behind it"],
+    ),
+    (
+        "what follows is there",
+        FULL,
+        |c| set(c, "steps/0000/functions/cuts", 3, 1_000_i64),
+        &["].cuts[0].right", "cuts"],
+    ),
+    (
+        "a cut has four numbers",
+        FULL,
+        |c| put(c, "steps/0000/functions/cuts", Array::vector([0_i64; 4])),
+        &["functions/cuts", "expected"],
+    ),
+    (
         "parameters have different names",
         FULL,
         |c| {
