@@ -1,7 +1,7 @@
 //! The functions of a step in few words: `westergaard 1–4 at 6 tips` for 24 of them.
 
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ppum::dataset::FieldData;
 use ppum::function::{Declared, Frame, Function, FunctionKind};
@@ -62,7 +62,10 @@ impl Family {
     fn new(groups: &[Group<'_>]) -> Self {
         let (first, last) = (&groups[0], &groups[groups.len() - 1]);
         let name = match (first.numbered(), last.numbered()) {
-            (Some((base, from)), Some((_, to))) if from < to => format!("{base} {from}–{to}"),
+            (Some((base, [from, _])), Some((_, [_, to]))) if from < to => {
+                format!("{base} {from}–{to}")
+            }
+            (Some((base, [number, _])), _) => format!("{base} {number}"),
             _ => first.stem.to_owned(),
         };
         let mut numbers: Vec<_> = groups.iter().flat_map(|group| &group.numbers).copied().collect();
@@ -87,7 +90,7 @@ fn range(run: &[usize]) -> String {
     }
 }
 
-/// Functions that differ in their places only.
+/// Functions that differ in their places only, and components in their numbers, too: each patch has other ones.
 struct Group<'f> {
     stem: &'f str,
     names: Vec<&'f str>,
@@ -100,7 +103,7 @@ fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> 
     let mut groups: Vec<Group<'_>> = Vec::new();
     let mut known: BTreeMap<Key<'_>, usize> = BTreeMap::new();
     for (number, (function, &blocks)) in functions.iter().zip(blocks).enumerate() {
-        let (stem, kind) = (function.stem(), &function.kind);
+        let (stem, kind) = (stem(function), &function.kind);
         match known.entry(key(stem, kind)) {
             Entry::Occupied(entry) => {
                 let group = &mut groups[*entry.get()];
@@ -119,13 +122,31 @@ fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> 
     groups
 }
 
+/// The name without the place, of a component without its number, too.
+fn stem(function: &Function) -> &str {
+    match (&function.kind, numbered(function.stem())) {
+        (FunctionKind::Component { .. }, Some((base, _))) => base,
+        _ => function.stem(),
+    }
+}
+
+/// A name that ends in a number, and the number.
+fn numbered(name: &str) -> Option<(&str, usize)> {
+    let (base, number) = name.rsplit_once(' ')?;
+    Some((base, number.parse().ok()?))
+}
+
 /// Name, kind, formula, names of parameters, and numbers: two functions that differ in their places only have the same.
 type Key<'f> = (&'f str, &'static str, &'f str, Vec<&'f str>, Vec<u64>);
 
 fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
     let Some((text, frame, parameters, declared)) = parts(kind) else {
-        let kind = if matches!(kind, FunctionKind::Side { .. }) { "side" } else { "one" };
-        return (stem, kind, "", Vec::new(), Vec::new());
+        let word = match kind {
+            FunctionKind::Side { .. } => "side",
+            FunctionKind::Component { .. } => "component",
+            _ => "one",
+        };
+        return (stem, word, "", Vec::new(), Vec::new());
     };
     let frame = match frame {
         Frame::World => "world",
@@ -154,16 +175,22 @@ fn parts(kind: &FunctionKind) -> Option<Parts<'_>> {
 }
 
 impl Group<'_> {
-    /// A name that ends in a number, and the number.
-    fn numbered(&self) -> Option<(&str, usize)> {
-        let (base, number) = self.stem.rsplit_once(' ')?;
-        Some((base, number.parse().ok()?))
+    /// A name that ends in a number, and the least and the largest number that it ends in.
+    fn numbered(&self) -> Option<(&str, [usize; 2])> {
+        let FunctionKind::Component { .. } = self.kinds[0] else {
+            return numbered(self.stem).map(|(base, number)| (base, [number; 2]));
+        };
+        let number = |name: &&str| {
+            name.strip_prefix(self.stem)?.trim_start().split(' ').next()?.parse().ok()
+        };
+        let numbers = || self.names.iter().filter_map(number);
+        Some((self.stem, [numbers().min()?, numbers().max()?]))
     }
 
     /// True if this is the next function of a family at the same places.
     fn continues(&self, last: &Self) -> bool {
         let is_next = match (last.numbered(), self.numbered()) {
-            (Some((base, k)), Some((next, m))) => base == next && m == k + 1,
+            (Some((base, [_, k])), Some((next, [m, _]))) => base == next && m == k + 1,
             _ => false,
         };
         let place = |kind: &&FunctionKind| {
@@ -177,6 +204,12 @@ impl Group<'_> {
         let n = self.names.len();
         match self.kinds[0] {
             FunctionKind::Side { .. } => format!("of {}", count(n, "crack", "cracks")),
+            FunctionKind::Component { .. } if n > 1 => {
+                let place =
+                    |name: &&'_ str| name.find(" of patch ").map(|at| name[at..].to_owned());
+                let patches: BTreeSet<_> = self.names.iter().filter_map(place).collect();
+                format!("of {}", count(patches.len(), "patch", "patches"))
+            }
             FunctionKind::Formula { frame: Frame::Tip(_), .. } => {
                 format!("at {}", count(n, "tip", "tips"))
             }
@@ -237,6 +270,23 @@ mod tests {
             ["0 one 2", "1–2 side of 2 cracks 4", "3–14 westergaard 1–4 at 3 tips 24"]
         );
         assert_eq!(families(&all, &[0; 15])[2].formulas, WESTERGAARD);
+    }
+
+    /// Thousands of components are one family, whatever number each patch has of them.
+    #[test]
+    fn components_are_a_family() {
+        let component = |k: usize, patch: usize| {
+            let name = format!("component {k} of patch {patch}");
+            function(&name, FunctionKind::Component { cuts: Vec::new() })
+        };
+        let mut all = cracked();
+        for patch in 0..1000 {
+            all.extend((1..=1 + patch % 4).map(|k| component(k, 3 * patch)));
+        }
+        assert_eq!(told(&all)[3..], ["15–2514 component 1–4 of 1000 patches 5000"]);
+        let two = [component(2, 7), component(2, 9)];
+        assert_eq!(told(&two), ["0–1 component 2 of 2 patches 4"]);
+        assert_eq!(told(&two[..1]), ["0 component 2 of patch 7 2"]);
     }
 
     /// Functions that differ in more than their place are told apart.

@@ -21,7 +21,7 @@ use crate::text::hint;
 pub enum Part {
     /// Blocks of the function 1.
     Smooth,
-    /// Blocks of the sides of cracks.
+    /// Blocks of the sides of cracks, and of components.
     Jump,
     /// Blocks of formulas in the frames of crack tips.
     Tip,

@@ -117,6 +117,9 @@ fn stem(function: &Function, patches: usize) -> Stem {
     let (text, parameters) = match &function.kind {
         FunctionKind::One => ("1".to_owned(), Vec::new()),
         FunctionKind::Side { crack } => (format!("side({crack})"), Vec::new()),
+        FunctionKind::Component { .. } => {
+            ("1 on a component of the patch, 0 on the others".to_owned(), Vec::new())
+        }
         FunctionKind::Formula { text, parameters, .. } => {
             (text.clone(), parameters.iter().map(|(name, _)| name.clone()).collect())
         }

@@ -40,7 +40,7 @@ fn kind_button(ui: &mut Ui, pane: &mut Pane, controls: &Controls, kind: Part, pa
 fn meaning(kind: Part) -> &'static str {
     match kind {
         Part::Smooth => "Polynomials alone",
-        Part::Jump => "Polynomials times the side of a crack",
+        Part::Jump => "Polynomials times the side of a crack, or on one component of a patch",
         Part::Tip => "Functions of crack tips",
         Part::Other => "Enrichments of one's own",
         Part::Patch(_) => "One patch",

@@ -1,8 +1,9 @@
 //! The formulas of a dataset: functions, weight, quantities, tables.
 
+use ppum::crack::SegmentId;
 use ppum::dataset::{Dataset, NamedQuantity, Partition};
 use ppum::formula::Table;
-use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::function::{Cut, Declared, Frame, Function, FunctionKind};
 use ppum::library;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -17,6 +18,9 @@ pub(super) struct FunctionRow {
     blocks: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     crack: Option<u32>,
+    /// Of a component, as in the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cuts: Option<Vec<[i64; 4]>>,
     #[serde(flatten)]
     formula: Option<FormulaRow>,
 }
@@ -56,22 +60,35 @@ pub(super) fn functions(table: &[Function], blocks: &[usize]) -> Vec<FunctionRow
 
 impl FunctionRow {
     fn new(function: &Function, blocks: usize) -> Self {
-        let (kind, crack, formula) = match &function.kind {
-            FunctionKind::One => ("one", None, None),
-            FunctionKind::Side { crack } => ("side", Some(*crack), None),
+        let (mut crack, mut cuts, mut formula) = (None, None, None);
+        let kind = match &function.kind {
+            FunctionKind::One => "one",
+            FunctionKind::Side { crack: of } => {
+                crack = Some(*of);
+                "side"
+            }
+            FunctionKind::Component { cuts: of } => {
+                cuts = Some(of.iter().map(cut).collect());
+                "component"
+            }
             FunctionKind::Formula { text, frame, parameters, declared } => {
-                let row = FormulaRow {
+                formula = Some(FormulaRow {
                     formula: text.clone(),
                     frame: FrameRow::new(frame),
                     parameters: self::parameters(parameters),
                     declared: DeclaredRow::new(declared),
-                };
-                ("formula", None, Some(row))
+                });
+                "formula"
             }
-            _ => ("other", None, None),
+            _ => "other",
         };
-        Self { name: function.name.clone(), kind, blocks, crack, formula }
+        Self { name: function.name.clone(), kind, blocks, crack, cuts, formula }
     }
+}
+
+/// Crack, segment, and the numbers of what follows on the left and on the right.
+fn cut(&Cut { segment: SegmentId { crack, segment }, left, right }: &Cut) -> [i64; 4] {
+    [crack.into(), segment.into(), left.number(), right.number()]
 }
 
 fn parameters(parameters: &[(String, f64)]) -> Vec<Parameter> {
