@@ -1,11 +1,11 @@
 //! Many of a thing.
 
 use super::{Maker, displacement, middle, piled, plate, straight, with_functions};
-use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
+use ppum::crack::{Crack, CrackEnd, End, SegmentId, TipId, tips};
 use ppum::dataset::{Attribute, Dataset, Ring, TipIntensity};
 use ppum::domain::Hole;
-use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
-use ppum::vec2::vec2;
+use ppum::function::{Cut, Frame, Function, FunctionKind, Part, WESTERGAARD};
+use ppum::vec2::{Vec2, vec2};
 
 pub(super) const ALL: &[Maker] = &[
     ("blocks", Some("coefficients"), blocks),
@@ -23,6 +23,8 @@ pub(super) const ALL: &[Maker] = &[
     ("cracks-crossing", None, cracks_crossing),
     ("crack-of-vertices", None, crack_of_vertices),
     ("sides-of-vertices", Some("at a point"), sides_of_vertices),
+    ("junctions", None, junctions),
+    ("cuts", Some("at a point"), cuts),
     ("tips-in-cells", None, tips_in_cells),
     ("rings", Some("rings"), rings),
     ("rings-of-tips", Some("rings"), rings_of_tips),
@@ -192,6 +194,51 @@ fn sides_of_vertices() -> Dataset {
     let crack =
         Crack { points: (0..20_000).map(forth_and_back).collect(), ends: [CrackEnd::Tip; 2] };
     with_functions(plate(2, 1, vec![crack; 64]), (0..64).map(side).collect())
+}
+
+/// Cracks that cross in every patch, each of which has functions of three of its four components: 4,800 of them.
+fn junctions() -> Dataset {
+    const N: u32 = 40;
+    let through =
+        |from: Vec2, to: Vec2| Crack { points: vec![from, to], ends: [CrackEnd::Mouth; 2] };
+    let at = |k: u32| (f64::from(k) + 0.5) / f64::from(N);
+    let level = (0..N).map(|k| through(vec2(-0.5, at(k)), vec2(1.5, at(k) + 0.001)));
+    let upright = (0..N).map(|k| through(vec2(at(k), -0.5), vec2(at(k) + 0.001, 1.5)));
+    let mut dataset = plate(N, 1, level.chain(upright).collect());
+    let step = &mut dataset.steps[0];
+    let mut blocks = Vec::new();
+    for (patch, at) in step.partition.center.iter().enumerate() {
+        let [column, row] = [at.x, at.y].map(|v| (v * f64::from(N)) as u32);
+        let first = step.functions.len() as u32;
+        step.functions.extend((1..4).map(|k| Function {
+            name: format!("component {k} of patch {patch}"),
+            kind: FunctionKind::Component { cuts: quadrant(k, row, N + column) },
+        }));
+        blocks.push(vec![(0, 1), (first, 1), (first + 1, 1), (first + 2, 1)]);
+    }
+    step.fields = vec![displacement(&blocks)];
+    dataset
+}
+
+/// A component of two straight cracks that cross.
+fn quadrant(k: u32, a: u32, b: u32) -> Vec<Cut> {
+    let cut = |crack: u32, is_left: bool, part: Part| {
+        let segment = SegmentId { crack, segment: 0 };
+        let [left, right] = if is_left { [part, Part::Outside] } else { [Part::Outside, part] };
+        Cut { segment, left, right }
+    };
+    vec![cut(a, k & 1 == 0, Part::Cut(1)), cut(b, k & 2 == 0, Part::Inside)]
+}
+
+/// A component whose tree is one long branch.
+fn cuts() -> Dataset {
+    const N: u32 = 1 << 18;
+    let segment = SegmentId { crack: 0, segment: 0 };
+    let cut = |k: u32| Cut { segment, left: Part::Outside, right: Part::Cut(k + 1) };
+    let last = Cut { segment, left: Part::Inside, right: Part::Outside };
+    let cuts = (0..N - 1).map(cut).chain([last]).collect();
+    let function = Function { name: "component".into(), kind: FunctionKind::Component { cuts } };
+    with_functions(plate(2, 1, middle()), vec![function])
 }
 
 /// Tips whose discs hold all cells.
