@@ -90,6 +90,37 @@ fn files_of_version_1_1_are_read() {
     assert!(same(&again, &old));
 }
 
+/// A file of version 1.3 as the program of that time wrote it: a crack along y = 0 and one from there up along x = 0; every patch has
+/// the functions one, two components and the side of the first crack, with the factors 2, 3, 5, 7.
+#[test]
+fn files_of_version_1_3_are_read() {
+    let old = from_bytes(include_bytes!("../data/version-1.3.h5").to_vec()).unwrap();
+    let field = Field::new(&old, 0).unwrap();
+    let mut u = [Jet::constant(0.0)];
+    let mut at = |x: f64, y: f64, side| {
+        assert!(field.at(vec2(x, y)).evaluate::<0>(Vec2::ZERO, side, &mut u));
+        u[0].v
+    };
+    let [above, below] = [Side::Above, Side::Below];
+    for (x, y, side, expected) in [
+        (-0.5, 0.3, above, 2.0 + 3.0 + 7.0),
+        (0.5, 0.3, above, 2.0 + 5.0 + 7.0),
+        (0.5, -0.3, above, 2.0 - 7.0),
+        (-1e-300, 1e-300, above, 2.0 + 3.0 + 7.0),
+        // on the first crack, on the second, where they meet
+        (-0.5, 0.0, above, 2.0 + 3.0 + 7.0),
+        (-0.5, 0.0, below, 2.0 - 7.0),
+        (0.0, 0.7, above, 2.0 + 3.0 + 7.0),
+        (0.0, 0.7, below, 2.0 + 5.0 + 7.0),
+        (0.0, 0.0, above, 2.0 + 3.0 + 7.0),
+        (0.0, 0.0, below, 2.0 - 7.0),
+    ] {
+        assert!((at(x, y, side) - expected).abs() < 1e-14, "{x} {y} {side:?}");
+    }
+    let again = from_bytes(to_bytes(&old).unwrap()).unwrap();
+    assert!(same(&again, &old));
+}
+
 /// The same dataset as the file of version 1.0, written by h5py: other layouts, texts of variable length.
 #[test]
 fn files_of_h5py_are_read() {
