@@ -174,7 +174,7 @@ fn parts(kind: &FunctionKind) -> Option<Parts<'_>> {
     }
 }
 
-impl Group<'_> {
+impl<'f> Group<'f> {
     /// A name that ends in a number, and the least and the largest number that it ends in.
     fn numbered(&self) -> Option<(&str, [usize; 2])> {
         let FunctionKind::Component { .. } = self.kinds[0] else {
@@ -204,17 +204,23 @@ impl Group<'_> {
         let n = self.names.len();
         match self.kinds[0] {
             FunctionKind::Side { .. } => format!("of {}", count(n, "crack", "cracks")),
-            FunctionKind::Component { .. } if n > 1 => {
-                let place =
-                    |name: &&'_ str| name.find(" of patch ").map(|at| name[at..].to_owned());
-                let patches: BTreeSet<_> = self.names.iter().filter_map(place).collect();
-                format!("of {}", count(patches.len(), "patch", "patches"))
-            }
+            FunctionKind::Component { .. } => self.patches(),
             FunctionKind::Formula { frame: Frame::Tip(_), .. } => {
                 format!("at {}", count(n, "tip", "tips"))
             }
             _ if n > 1 => format!("at {n} places"),
             _ => self.names[0][self.stem.len()..].trim_start().to_owned(),
+        }
+    }
+
+    /// The patches of components, by their names.
+    fn patches(&self) -> String {
+        let place = |name: &&'f str| name.find(" of patch ").map(|at| &name[at + 1..]);
+        let patches: BTreeSet<&str> = self.names.iter().filter_map(place).collect();
+        match patches.first() {
+            None => String::new(),
+            Some(only) if patches.len() == 1 => (*only).to_owned(),
+            Some(_) => format!("of {} patches", patches.len()),
         }
     }
 
@@ -287,6 +293,9 @@ mod tests {
         let two = [component(2, 7), component(2, 9)];
         assert_eq!(told(&two), ["0–1 component 2 of 2 patches 4"]);
         assert_eq!(told(&two[..1]), ["0 component 2 of patch 7 2"]);
+        let nowhere = ["component 1", "component 2"]
+            .map(|name| function(name, FunctionKind::Component { cuts: Vec::new() }));
+        assert_eq!(told(&nowhere), ["0–1 component 1–2 4"]);
     }
 
     /// Functions that differ in more than their place are told apart.
