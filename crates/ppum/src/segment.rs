@@ -1,6 +1,6 @@
 //! Segments of cracks, rims and borders.
 
-use crate::vec2::Vec2;
+use crate::vec2::{Rect, Vec2};
 
 /// A segment by its ends. It may be a point.
 pub type Segment = [Vec2; 2];
@@ -23,11 +23,16 @@ pub fn polyline_distance(points: &[Vec2], p: Vec2) -> f64 {
 /// Distance of two segments from each other, zero if they cross.
 #[must_use]
 pub fn gap(s: Segment, t: Segment) -> f64 {
-    if splits(s, t) && splits(t, s) {
+    // of segments on one line rounding may find either on both sides of the other
+    if splits(s, t) && splits(t, s) && bounds(s).overlaps(&bounds(t)) {
         return 0.0;
     }
     let ends = [(s[0], t), (s[1], t), (t[0], s), (t[1], s)];
     ends.into_iter().map(|(p, segment)| distance(segment, p)).fold(f64::INFINITY, f64::min)
+}
+
+fn bounds([a, b]: Segment) -> Rect {
+    Rect::new(a.min(b), a.max(b))
 }
 
 /// True if the line of `s` has the ends of `t` on different sides.
@@ -83,6 +88,21 @@ mod tests {
         ] {
             assert_eq!(gap(s, t), expected, "{t:?}");
             assert_eq!(gap(t, s), expected, "{t:?}");
+        }
+    }
+
+    /// Segments on one oblique line that keep apart.
+    #[test]
+    fn gaps_on_one_line() {
+        let mut random = Random(5);
+        for _ in 0..1000 {
+            let [from, way] =
+                [0.3, 1.0].map(|size| Vec2::from(<[f64; 2]>::from(random.direction())) * size);
+            let at = |s: f64| from + way * s;
+            let (s, t) = ([at(0.0), at(-1.3)], [at(0.41), at(2.9)]);
+            for (s, t) in [(s, t), (t, s)] {
+                assert!((gap(s, t) - 0.41).abs() < 1e-14, "{s:?} {t:?}");
+            }
         }
     }
 }

@@ -67,12 +67,15 @@ pub(super) fn reductions(
         let place = || Halt::at(space.partition().support(jumps[i].patch));
         kept.insert(i, rows.map_err(|_| place())?);
     }
-    let mut parts: BTreeMap<usize, Vec<(Range<usize>, Mat<f64>)>> = BTreeMap::new();
+    let mut parts: BTreeMap<usize, Vec<Part>> = BTreeMap::new();
     for (i, rows) in kept.into_iter().filter(|(_, kept)| kept.lost > 0) {
         parts.entry(jumps[i].patch).or_default().push((jumps[i].functions.clone(), rows.rows));
     }
     Ok(parts.into_iter().map(|(i, parts)| (i, matrix(space.sizes[i], &parts))).collect())
 }
+
+/// Functions of a patch, and what is kept of them.
+type Part = (Range<usize>, Mat<f64>);
 
 /// What is kept of a jump's functions.
 struct Kept {
@@ -162,7 +165,7 @@ fn blocks(rows: &[usize], columns: &[usize], block: &dyn Fn(usize, usize) -> Mat
 }
 
 /// The combinations of a patch's n functions that stay: all those not among the parts, and of these their rows.
-fn matrix(n: usize, parts: &[(Range<usize>, Mat<f64>)]) -> Mat<f64> {
+fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     let is_whole = |k: &usize| !parts.iter().any(|(functions, _)| functions.contains(k));
     let whole: Vec<usize> = (0..n).filter(is_whole).collect();
     let rows = whole.len() + parts.iter().map(|(_, rows)| rows.nrows()).sum::<usize>();
