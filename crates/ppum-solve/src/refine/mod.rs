@@ -6,6 +6,7 @@
 //!   materials.
 //! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
 //!   unless the problem has functions of its own: the field is singular there.
+//! - In no patch with a tip, or near it, does anything mislead the angle at the tip ([`Jumps::mislead`]).
 //! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no functions of their own
 //!   for the two sides. Cracks may cross it and each other as they like, up to what [`Jumps`] can look at.
 //! - Three cells lie across what is left between a hole and its neighbours.
@@ -106,6 +107,7 @@ pub(crate) fn cover(
         needs.asks(cell, &patch)
             || rims.cross_twice(&patch)
             || jumps.are_too_many(&patch.intersection(bounds))
+            || needs.misleads(&patch, &jumps)
     };
     for _ in 0..DEEPEST {
         if cover.n_cells() > most {
@@ -131,13 +133,18 @@ pub(crate) fn cover(
 /// The needs of tips and of the mouths of cracks, and all tips.
 struct Needs {
     needs: Placed<Need>,
-    tips: Placed<Vec2>,
+    /// With the distance up to which nothing may mislead the angle.
+    tips: Placed<(TipId, Vec2, f64)>,
 }
 
 impl Needs {
     fn new(problem: &Problem) -> Self {
         let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
-        let points: Vec<_> = tips(&problem.cracks).map(tip).collect();
+        let reach = |id: TipId| {
+            let room = TipClearance::among_cracks(&problem.cracks, &problem.domain, id).radius;
+            problem.enrichment_radius(id).min(0.5 * room)
+        };
+        let points: Vec<_> = tips(&problem.cracks).map(|id| (id, tip(id), reach(id))).collect();
         let numbered = problem.cracks.iter().enumerate();
         let cracks = Placed::new(numbered.map(|crack| (around(&crack.1.points), crack)));
         let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, &cracks, tip));
@@ -145,7 +152,7 @@ impl Needs {
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
         Self {
             needs: Placed::new(all.map(place)),
-            tips: Placed::new(points.into_iter().map(|p| (around(&[p]), p))),
+            tips: Placed::new(points.into_iter().map(|t| (wider(&around(&[t.1]), t.2), t))),
         }
     }
 
@@ -154,7 +161,13 @@ impl Needs {
     }
 
     fn holds_two_tips(&self, patch: &Rect) -> bool {
-        self.tips.near(patch).filter(|tip| patch.contains(**tip)).nth(1).is_some()
+        self.tips.near(patch).filter(|tip| patch.contains(tip.1)).nth(1).is_some()
+    }
+
+    /// True if a patch is near a tip whose functions would jump in it beside the crack.
+    fn misleads(&self, patch: &Rect, jumps: &Jumps<'_>) -> bool {
+        let near = |tip: &&(TipId, Vec2, f64)| patch.distance(tip.1) <= tip.2;
+        self.tips.near(patch).filter(near).any(|(id, ..)| jumps.mislead(*id, patch))
     }
 }
 

@@ -12,6 +12,9 @@ use crate::studies::support::solved;
 
 type Line = Vec<[f64; 2]>;
 
+/// A name, cracks, and K_I and K_II of their tips.
+type Case = (&'static str, Vec<Line>, Vec<[f64; 2]>);
+
 /// A square plate with these cracks under tension in y, and in x too if it is pulled all round.
 fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -> Problem {
     let domain = Rect::around(Vec2::ZERO, vec2(half, half));
@@ -96,7 +99,7 @@ fn a_kink_of_one_crack_and_of_two() {
 /// the cracks (tests/random/README.md), whose own estimates of its errors are below 4e-6.
 #[test]
 fn cracks_that_meet_in_all_ways() {
-    let cases: [(&str, Vec<Line>, Vec<[f64; 2]>); 7] = [
+    let cases: [Case; 8] = [
         (
             "an oblique crossing",
             vec![vec![[-0.4, -0.25], [0.45, 0.3]], vec![[-0.3, 0.35], [0.35, -0.2]]],
@@ -139,6 +142,11 @@ fn cracks_that_meet_in_all_ways() {
             "a Z",
             vec![vec![[-0.5, 0.2], [0.4, 0.2], [-0.4, -0.2], [0.5, -0.25]]],
             vec![[1.580963, 0.431324], [1.599275, 0.423771]],
+        ),
+        (
+            "a hook whose extension meets its other end's",
+            vec![vec![[-0.5, -0.2], [0.4, -0.2], [0.4, 0.3], [-0.1, 0.3], [-0.35, 0.25]]],
+            vec![[1.530528, -0.418140], [0.465181, 0.436238]],
         ),
         (
             "a V of 7°",

@@ -34,12 +34,13 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 20] = [
+pub const ALL: [Example; 21] = [
     example!("centre-crack"),
     example!("edge-crack"),
     example!("slanted-crack"),
     example!("kinked-crack"),
     example!("many-cracks"),
+    example!("meeting-cracks"),
     example!("cracked-hole"),
     example!("plate-with-hole"),
     example!("bimaterial-plate"),

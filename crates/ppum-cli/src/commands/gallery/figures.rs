@@ -71,8 +71,13 @@ pub(super) const ALL: &[Figure] = &[
     },
     Figure {
         number: 6,
-        title: "ten cracks",
-        files: &[example!("many-cracks.toml")],
-        lines: &["solve @/many-cracks.toml", "render @/many-cracks.h5 -o @/figure-6.png --figure"],
+        title: "cracks that cross, branch and end on each other",
+        files: &[example!("meeting-cracks.toml")],
+        lines: &[
+            "solve @/meeting-cracks.toml",
+            "render @/meeting-cracks.h5 -o @/figure-6.png --figure",
+            "render @/meeting-cracks.h5 -o @/figure-6-star.png --figure --center=-0.246,0.258 --width 0.5 --overlay cracks,cells --size 700x600",
+            "render @/meeting-cracks.h5 -o @/figure-6-junction.png --figure --center=-0.246,0.258 --width 1e-9 --overlay cracks --size 700x600",
+        ],
     },
 ];
