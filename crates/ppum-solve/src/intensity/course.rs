@@ -4,7 +4,7 @@ use crate::geometry::from_tip;
 use ppum::crack::{Crack, End, LocalTip, TipId};
 use ppum::vec2::Vec2;
 
-/// Ratio of the distances to the tip at the ends of a [piece](Part::pieces). Auxiliary fields are powers of the distance:
+/// Ratio of the distances to the tip at the ends of a [piece](Course::pieces). Auxiliary fields are powers of the distance:
 /// on an interval from r to 2r twelve Gauss points leave an error of 1e-15.
 const RATIO: f64 = 2.0;
 
