@@ -111,6 +111,21 @@ impl Step {
         }
     }
 
+    /// The value of a record of the history.
+    #[must_use]
+    pub fn record(&self, name: &str) -> Option<f64> {
+        self.history.iter().find(|record| record.name == name).map(|record| record.value)
+    }
+
+    /// Number of unknowns of the solution: those that the solver reports, else the coefficients of the first field. Where the
+    /// components of functions are tied, there are more coefficients than unknowns.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        let coefficients =
+            || self.fields.first().map_or(0, |f| f.coefficients.iter().map(Vec::len).sum());
+        self.record("unknowns").map_or_else(coefficients, |unknowns| unknowns as usize)
+    }
+
     /// The step with one more crack.
     #[must_use]
     pub fn with_crack(mut self, crack: Crack) -> Self {

@@ -176,7 +176,7 @@ impl Report {
             file,
             title: dataset.title.clone(),
             patches: step.partition.len(),
-            unknowns: step.fields[0].coefficients.iter().map(Vec::len).sum(),
+            unknowns: step.unknowns(),
             energy: report.energy.map(Number),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),

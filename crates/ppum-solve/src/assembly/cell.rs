@@ -8,6 +8,7 @@ use super::Assembly;
 use super::border::{Border, BorderPiece};
 use super::cell_system::CellSystem;
 use super::functions::CellFunctions;
+use super::gauge::FreeModes;
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::law::LawAt;
 use crate::linear::{EigenError, add_at};
@@ -29,14 +30,16 @@ pub(crate) struct Source<'a> {
 /// Assembles the systems of cells; keeps what belongs to the last one.
 pub(crate) struct CellAssembler<'s> {
     assembly: Assembly<'s>,
+    /// The free modes whose moments are wanted, if any are.
+    free: Option<&'s FreeModes<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
 
 impl<'s> CellAssembler<'s> {
-    pub(crate) fn new(assembly: Assembly<'s>) -> Self {
+    pub(crate) fn new(assembly: Assembly<'s>, free: Option<&'s FreeModes<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        Self { assembly, evaluator, shapes: Shapes::default() }
+        Self { assembly, free, evaluator, shapes: Shapes::default() }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -55,6 +58,7 @@ impl<'s> CellAssembler<'s> {
         let mut system = CellSystem {
             matrix: Mat::zeros(n * components, n * components),
             load: vec![0.0; n * components],
+            moments: vec![vec![0.0; n * components]; self.free.map_or(0, FreeModes::len)],
             penalty: 0.0,
             reactions: Vec::new(),
             functions,
@@ -116,6 +120,9 @@ impl<'s> CellAssembler<'s> {
         }
         let shapes = &mut self.shapes;
         let numbers = system.functions.numbers(&rule.patches);
+        if let Some(free) = self.free {
+            free.add(rule, shapes, &numbers, self.assembly.law.components, &mut system.moments);
+        }
         if self.assembly.law.is_uniform() {
             shapes.scale(&rule.weights);
             products[0].add(&numbers, shapes, shapes);
@@ -160,14 +167,16 @@ impl Products {
 
     /// K = Σ_kl C_ikjl ∫ ∂_k N ∂_l Nᵀ.
     fn add_to(&self, matrix: &mut Mat<f64>, law: &LawAt, c: usize) {
-        let n = self.xx.nrows();
-        for b in 0..n {
-            for a in 0..n {
-                let parts =
-                    [[self.xx[(a, b)], self.xy[(a, b)]], [self.xy[(b, a)], self.yy[(a, b)]]];
-                for j in 0..c {
-                    for i in 0..c {
-                        matrix[(a * c + i, b * c + j)] += law.contract(i, j, &parts);
+        let yx = self.xy.transpose().to_owned();
+        for b in 0..self.xx.ncols() {
+            let [xx, xy, yx, yy] =
+                [&self.xx, &self.xy, &yx, &self.yy].map(|product| product.col_as_slice(b));
+            for j in 0..c {
+                let column = matrix.col_as_slice_mut(b * c + j).chunks_exact_mut(c);
+                for (a, entries) in column.enumerate() {
+                    let parts = [[xx[a], xy[a]], [yx[a], yy[a]]];
+                    for (i, entry) in entries.iter_mut().enumerate() {
+                        *entry += law.contract(i, j, &parts);
                     }
                 }
             }

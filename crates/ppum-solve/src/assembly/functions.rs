@@ -1,6 +1,7 @@
 //! The functions that live in a cell, and the places of their unknowns in the system.
 
 use super::Assembly;
+use crate::basis::StableBasis;
 use crate::linear::BlockMatrix;
 
 /// The functions of a cell's patches, numbered patch after patch.
@@ -36,8 +37,8 @@ impl CellFunctions {
         patches.iter().flat_map(range).collect()
     }
 
-    /// The cell's unknowns of patch `k` in the order of the system: component-major.
-    pub(crate) fn unknowns(&self, k: usize, components: usize) -> Vec<usize> {
+    /// The cell's unknowns of patch `k` in the order of the system, component-major; ties are still to come.
+    pub(crate) fn free(&self, k: usize, components: usize) -> Vec<usize> {
         let functions = self.first[k]..self.first[k + 1];
         (0..components).flat_map(|i| functions.clone().map(move |a| a * components + i)).collect()
     }
@@ -46,15 +47,21 @@ impl CellFunctions {
     /// of all unknowns.
     pub(crate) fn add_to(
         &self,
+        basis: &StableBasis,
         matrix: &BlockMatrix,
         components: usize,
         part: &[f64],
         sum: &mut [f64],
     ) {
         for (k, &patch) in self.patches.iter().enumerate() {
-            let range = matrix.unknowns(patch as usize);
-            for (sum, &from) in sum[range].iter_mut().zip(&self.unknowns(k, components)) {
-                *sum += part[from];
+            let sum = &mut sum[matrix.unknowns(patch as usize)];
+            let own = self.free(k, components).into_iter().map(|from| part[from]);
+            let Some(tie) = basis.tie(patch) else {
+                sum.iter_mut().zip(own).for_each(|(sum, part)| *sum += part);
+                continue;
+            };
+            for (j, part) in own.enumerate() {
+                sum.iter_mut().zip(tie.col(j).iter()).for_each(|(sum, tie)| *sum += tie * part);
             }
         }
     }
@@ -62,15 +69,19 @@ impl CellFunctions {
     /// The cell's unknowns out of all: the way back of [`CellFunctions::add_to`].
     pub(crate) fn take_from(
         &self,
+        basis: &StableBasis,
         matrix: &BlockMatrix,
         components: usize,
         all: &[f64],
     ) -> Vec<f64> {
         let mut part = vec![0.0; self.len() * components];
         for (k, &patch) in self.patches.iter().enumerate() {
-            let range = matrix.unknowns(patch as usize);
-            for (value, &to) in all[range].iter().zip(&self.unknowns(k, components)) {
-                part[to] = *value;
+            let own = &all[matrix.unknowns(patch as usize)];
+            for (j, to) in self.free(k, components).into_iter().enumerate() {
+                part[to] = match basis.tie(patch) {
+                    Some(tie) => tie.col(j).iter().zip(own).map(|(tie, u)| tie * u).sum(),
+                    None => own[j],
+                };
             }
         }
         part

@@ -9,12 +9,10 @@
 //! one patch, which is exact for balanced loads whatever its size. Solutions for the same functionals
 //! as loads are the rigid-body modes themselves, in whatever functions, and they are subtracted.
 
-use super::Assembly;
-use super::functions::CellFunctions;
-use crate::basis::{BasisEvaluator, Shapes};
+use crate::basis::Shapes;
 use crate::equilibrium::{PerMode, Pieces, Plate, RigidModes};
 use crate::linear::{BlockMatrix, LinearError, LinearSolver};
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::Rule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 
@@ -27,6 +25,57 @@ struct Mode {
     group: usize,
 }
 
+/// The free modes of all pieces.
+pub(crate) struct FreeModes<'p> {
+    pieces: &'p Pieces,
+    modes: Vec<Mode>,
+    /// Number of pieces that are free.
+    groups: usize,
+}
+
+impl<'p> FreeModes<'p> {
+    /// The free modes of a plate.
+    pub(crate) fn new(plate: &'p Plate) -> Self {
+        let (mut modes, mut groups) = (Vec::new(), 0);
+        for (piece, (balance, free)) in plate.balances.iter().zip(&plate.free).enumerate() {
+            let of_piece =
+                |&mode: &PerMode| Mode { piece, modes: balance.modes, mode, group: groups };
+            modes.extend(free.iter().map(of_piece));
+            groups += usize::from(!free.is_empty());
+        }
+        Self { pieces: &plate.pieces, modes, groups }
+    }
+
+    /// Number of free modes.
+    pub(crate) fn len(&self) -> usize {
+        self.modes.len()
+    }
+
+    /// Adds ∫ N·m over the points of a rule in its piece for each mode m; shapes are those of the rule's patches, `numbers`
+    /// their places in a part.
+    pub(super) fn add(
+        &self,
+        rule: &Rule,
+        shapes: &Shapes,
+        numbers: &[usize],
+        components: usize,
+        parts: &mut [Vec<f64>],
+    ) {
+        if self.modes.is_empty() {
+            return;
+        }
+        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+            let x = rule.anchor + offset;
+            let piece = self.pieces.of(x);
+            let here = parts.iter_mut().zip(&self.modes).filter(|(_, mode)| mode.piece == piece);
+            for (part, mode) in here {
+                let m = mode.modes.combined(&mode.mode, x);
+                shapes.add_load(q, numbers, &m[..components], weight, part);
+            }
+        }
+    }
+}
+
 /// The free modes of all pieces and the functionals that fix them.
 pub(crate) struct Gauge {
     modes: Vec<Mode>,
@@ -37,29 +86,15 @@ pub(crate) struct Gauge {
 }
 
 impl Gauge {
-    /// The gauge of the free modes of pieces, given the unknowns of the matrix.
-    ///
-    /// Cost: where there are free modes, one more pass over the cells.
+    /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of the matrix.
     pub(crate) fn new(
-        assembly: Assembly<'_>,
-        plate: &Plate,
+        FreeModes { modes, groups, .. }: FreeModes<'_>,
+        moments: Vec<Vec<f64>>,
         matrix: &BlockMatrix,
-        stage: &Stage<'_>,
-    ) -> Result<Self, Halt> {
-        let mut modes = Vec::new();
-        let mut groups = 0;
-        for (piece, (balance, free)) in plate.balances.iter().zip(&plate.free).enumerate() {
-            let of_piece =
-                |&mode: &PerMode| Mode { piece, modes: balance.modes, mode, group: groups };
-            modes.extend(free.iter().map(of_piece));
-            groups += usize::from(!free.is_empty());
-        }
-        let mut gauge = Self { moments: Vec::new(), modes, patches: Vec::new() };
-        if groups > 0 {
-            gauge.moments = gauge.integrate(assembly, &plate.pieces, matrix, stage)?;
-            gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
-        }
-        Ok(gauge)
+    ) -> Self {
+        let mut gauge = Self { moments, modes, patches: Vec::new() };
+        gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
+        gauge
     }
 
     /// Number of free modes.
@@ -145,52 +180,6 @@ impl Gauge {
         };
         let all = (0..matrix.n_blocks()).map(|patch| (patch, volume(patch)));
         all.fold((0, 0.0), |best, new| if new.1 > best.1 { new } else { best }).0
-    }
-
-    /// ∫ N·m over the pieces of the modes, cell by cell.
-    fn integrate(
-        &self,
-        assembly: Assembly<'_>,
-        pieces: &Pieces,
-        matrix: &BlockMatrix,
-        stage: &Stage<'_>,
-    ) -> Result<Vec<Vec<f64>>, Halt> {
-        let Assembly { space, basis, .. } = assembly;
-        let quadrature = space.quadrature(0);
-        let components = assembly.components();
-        let mut moments = vec![vec![0.0; matrix.n_unknowns()]; self.modes.len()];
-        in_batches(
-            stage,
-            space.partition().len(),
-            || (BasisEvaluator::new(space, basis), Shapes::default()),
-            |(evaluator, shapes), cell| {
-                let functions = CellFunctions::new(&assembly, cell);
-                let mut parts = vec![vec![0.0; functions.len() * components]; self.modes.len()];
-                for rule in space.rules(&quadrature, cell).iter() {
-                    evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-                    let numbers = functions.numbers(&rule.patches);
-                    for (q, (&offset, &weight)) in
-                        rule.offsets.iter().zip(&rule.weights).enumerate()
-                    {
-                        let x = rule.anchor + offset;
-                        let piece = pieces.of(x);
-                        for (part, mode) in parts.iter_mut().zip(&self.modes) {
-                            if mode.piece == piece {
-                                let m = mode.modes.combined(&mode.mode, x);
-                                shapes.add_load(q, &numbers, &m[..components], weight, part);
-                            }
-                        }
-                    }
-                }
-                Ok((functions, parts))
-            },
-            |_, (functions, parts)| {
-                for (sum, part) in moments.iter_mut().zip(&parts) {
-                    functions.add_to(matrix, components, part, sum);
-                }
-            },
-        )?;
-        Ok(moments)
     }
 }
 

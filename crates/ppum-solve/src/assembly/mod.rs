@@ -17,7 +17,7 @@ mod loads;
 mod reaction;
 mod system;
 
-pub(crate) use gauge::Gauge;
+pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use system::{System, pattern, slivers};
 

@@ -9,6 +9,7 @@
 
 use super::cell_system::CellSystem;
 use super::functions::CellFunctions;
+use crate::basis::StableBasis;
 use crate::equilibrium::{MODES, PerMode, RigidModes};
 use crate::linear::BlockMatrix;
 use crate::problem::{BoundaryCondition, Problem, restraint_words};
@@ -99,13 +100,14 @@ impl Reactions {
     pub(crate) fn of(
         &self,
         problem: &Problem,
+        basis: &StableBasis,
         matrix: &BlockMatrix,
         solution: &[f64],
     ) -> Vec<Reaction> {
         let components = problem.components();
         let mut sums = vec![[0.0; MODES]; problem.boundary.len()];
         for (functions, parts) in &self.0 {
-            let unknowns = functions.take_from(matrix, components, solution);
+            let unknowns = functions.take_from(basis, matrix, components, solution);
             for part in parts {
                 for (k, sum) in sums[part.condition].iter_mut().enumerate() {
                     let terms = part.work[k].iter().zip(&unknowns).map(|(w, u)| w * u);

@@ -4,6 +4,7 @@ use super::Assembly;
 use super::border::BorderPiece;
 use super::cell::CellAssembler;
 use super::cell_system::CellSystem;
+use super::gauge::FreeModes;
 use super::given::Given;
 use super::reaction::Reactions;
 use crate::basis::Penalty;
@@ -12,6 +13,7 @@ use crate::quadrature::{Doubt, EdgeRule, Rule};
 use crate::report::Unresolved;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
+use faer::Mat;
 use ppum::vec2::Rect;
 
 /// The assembled system.
@@ -19,6 +21,8 @@ pub(crate) struct System {
     pub(crate) matrix: BlockMatrix,
     /// Right-hand side, in the order of the matrix.
     pub(crate) load: Vec<f64>,
+    /// ∫ N·m of each free mode m, in the same order.
+    pub(crate) moments: Vec<Vec<f64>>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub(crate) nitsche: f64,
     /// Forces of the restraints on the plate.
@@ -46,7 +50,7 @@ pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<P
     in_batches(
         stage,
         if given.is_empty() { 0 } else { assembly.n_cells() },
-        || CellAssembler::new(assembly),
+        || CellAssembler::new(assembly, None),
         |assembler, cell| {
             let on_border = given.border(space, &quadrature, cell);
             if on_border.is_empty() {
@@ -91,22 +95,23 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    /// Assembles the system of what is given. Advances the stage by the number of cells.
+    /// Assembles the system of what is given, and the moments of free modes. Advances the stage by the number of cells.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
     pub(crate) fn new(
         assembly: Assembly<'_>,
         given: &Given<'_>,
+        free: &FreeModes<'_>,
         stage: &Stage<'_>,
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
         let quadrature = space.quadrature(0);
-        let (mut system, mut doubt) = (Self::zero(&assembly), Doubt::default());
+        let (mut system, mut doubt) = (Self::zero(&assembly, free.len()), Doubt::default());
         in_batches(
             stage,
             assembly.n_cells(),
-            || CellAssembler::new(assembly),
+            || CellAssembler::new(assembly, Some(free)),
             |assembler, cell| {
                 let rules = space.rules(&quadrature, cell);
                 let pieces = given.border(space, &quadrature, cell);
@@ -116,14 +121,15 @@ impl System {
                 let part = assembler
                     .assemble(cell, &rules, source, &pieces)
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
-                Ok((part, points, doubt_of(&rules, &pieces)))
+                let blocks = part.blocks(&assembly);
+                Ok((part, blocks, points, doubt_of(&rules, &pieces)))
             },
-            |cell, (part, points, left)| {
+            |cell, (part, blocks, points, left)| {
                 system.points += points;
                 doubt.add(&left);
                 let penalty = part.penalty * width(&space.partition().cell[cell]);
                 system.nitsche = system.nitsche.max(penalty);
-                system.add(part, assembly.components());
+                system.add(part, &blocks, &assembly);
             },
         )?;
         system.unresolved = given.unresolved();
@@ -134,11 +140,12 @@ impl System {
         Ok(system)
     }
 
-    fn zero(assembly: &Assembly<'_>) -> Self {
-        let sizes = assembly.basis.sizes.iter().map(|n| n * assembly.components());
+    fn zero(assembly: &Assembly<'_>, modes: usize) -> Self {
+        let sizes = assembly.basis.unknowns(assembly.components());
         let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
+            moments: vec![vec![0.0; matrix.n_unknowns()]; modes],
             matrix,
             nitsche: 0.0,
             reactions: Reactions::default(),
@@ -147,18 +154,19 @@ impl System {
         }
     }
 
-    fn add(&mut self, part: CellSystem, components: usize) {
-        part.functions.add_to(&self.matrix, components, &part.load, &mut self.load);
+    fn add(&mut self, part: CellSystem, blocks: &[Mat<f64>], assembly: &Assembly<'_>) {
+        let (basis, components) = (assembly.basis, assembly.components());
+        part.functions.add_to(basis, &self.matrix, components, &part.load, &mut self.load);
+        for (sum, moments) in self.moments.iter_mut().zip(&part.moments) {
+            part.functions.add_to(basis, &self.matrix, components, moments, sum);
+        }
         let patches = &part.functions.patches;
-        for (k, &p) in patches.iter().enumerate() {
-            let p = p as usize;
-            for (l, &q) in patches.iter().enumerate().skip(k) {
-                // both meet the cell, but not each other
-                if !self.matrix.couples(p, q as usize) {
-                    continue;
-                }
-                let block = part.block(k, l, components);
-                self.matrix.add_block(p, q as usize, block.as_ref());
+        let pairs =
+            patches.iter().enumerate().flat_map(|(k, p)| patches[k..].iter().map(move |q| (p, q)));
+        for ((&p, &q), block) in pairs.zip(blocks) {
+            // patches may meet the cell, but not each other
+            if self.matrix.couples(p as usize, q as usize) {
+                self.matrix.add_block(p as usize, q as usize, block.as_ref());
             }
         }
         self.reactions.push(part);

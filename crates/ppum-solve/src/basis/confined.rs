@@ -50,7 +50,7 @@ struct Common {
     squares: [f64; 2],
 }
 
-/// Of the patches that lose functions, the combinations of their functions that stay: [kept × functions].
+/// Of the patches that lose functions, the combinations of these functions that stay.
 ///
 /// # Errors
 /// Functions that are not finite, with their place; cancelled.
@@ -58,7 +58,7 @@ pub(super) fn reductions(
     space: &Space<'_>,
     grams: &[Gram],
     stage: &Stage<'_>,
-) -> Result<BTreeMap<usize, Mat<f64>>, Halt> {
+) -> Result<BTreeMap<usize, Vec<Part>>, Halt> {
     let jumps: Vec<Jump> = (0..grams.len()).flat_map(|i| lonely(space, i, &grams[i])).collect();
     let shared = Shared { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
     let mut kept = BTreeMap::new();
@@ -71,11 +71,11 @@ pub(super) fn reductions(
     for (i, rows) in kept.into_iter().filter(|(_, kept)| kept.lost > 0) {
         parts.entry(jumps[i].patch).or_default().push((jumps[i].functions.clone(), rows.rows));
     }
-    Ok(parts.into_iter().map(|(i, parts)| (i, matrix(space.sizes[i], &parts))).collect())
+    Ok(parts)
 }
 
-/// Functions of a patch, and what is kept of them.
-type Part = (Range<usize>, Mat<f64>);
+/// Functions of a patch, and the combinations of them that are kept.
+pub(super) type Part = (Range<usize>, Mat<f64>);
 
 /// What is kept of a jump's functions.
 struct Kept {
@@ -165,7 +165,7 @@ fn blocks(rows: &[usize], columns: &[usize], block: &dyn Fn(usize, usize) -> Mat
 }
 
 /// The combinations of a patch's n functions that stay: all those not among the parts, and of these their rows.
-fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
+pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     let is_whole = |k: &usize| !parts.iter().any(|(functions, _)| functions.contains(k));
     let whole: Vec<usize> = (0..n).filter(is_whole).collect();
     let rows = whole.len() + parts.iter().map(|(_, rows)| rows.nrows()).sum::<usize>();

@@ -7,23 +7,25 @@
 //! such amplification.
 
 mod confined;
+mod local;
 mod shape;
+mod tie;
 mod transform;
+mod williams;
 
-use crate::linear::{EigenError, SymmetricEigen};
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use confined::reductions;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
+use local::LocalBasis;
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
 use shape::ShapeEvaluator;
 pub(crate) use shape::Shapes;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use transform::{CUT_OFF, Transform};
 
 /// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a cell's system.
 pub(crate) struct Penalty {
@@ -36,7 +38,7 @@ pub(crate) struct Penalty {
 /// The stable basis of every patch.
 #[derive(Debug)]
 pub(crate) struct StableBasis {
-    transforms: Vec<Transform>,
+    patches: Vec<LocalBasis>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
 }
@@ -49,20 +51,20 @@ impl StableBasis {
     pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let grams = grams(space, stage)?;
         let reductions = reductions(space, &grams, stage)?;
-        let mut transforms = Vec::with_capacity(grams.len());
+        let none = Vec::new();
+        let mut patches = Vec::with_capacity(grams.len());
         in_batches(
             stage,
             grams.len(),
             || (),
             |(), i| {
-                let polynomials = space.n_polynomials(i);
-                transform(&grams[i], reductions.get(&i), polynomials)
+                LocalBasis::new(space, i, &grams[i], reductions.get(&i).unwrap_or(&none))
                     .map_err(|_| Halt::at(space.partition().support(i)))
             },
-            |_, transform| transforms.push(transform),
+            |_, basis| patches.push(basis),
         )?;
-        let sizes = transforms.iter().map(|t| t.matrix.nrows()).collect();
-        Ok(Self { transforms, sizes })
+        let sizes = patches.iter().map(LocalBasis::len).collect();
+        Ok(Self { patches, sizes })
     }
 
     /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions
@@ -73,10 +75,9 @@ impl StableBasis {
     /// Functions that are not finite, with their place; cancelled.
     pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
-            let matrix = &mut self.transforms[patch as usize].matrix;
-            let eigen = SymmetricEigen::new(gram.as_ref())
+            self.patches[patch as usize]
+                .damp(gram.as_ref())
                 .map_err(|_| Halt::at(space.partition().support(patch as usize)))?;
-            *matrix = &eigen.vectors * eigen.inverse_root(0.0) * &*matrix;
         }
         Ok(())
     }
@@ -102,9 +103,20 @@ impl StableBasis {
         grams
     }
 
-    /// Functions cut off, patch by patch.
-    pub(crate) fn dropped(&self) -> impl Iterator<Item = usize> + '_ {
-        self.transforms.iter().map(|t| t.dropped)
+    /// Of each patch, the number of unknowns.
+    pub(crate) fn unknowns(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
+        self.patches.iter().map(move |patch| patch.unknowns(components))
+    }
+
+    /// Of each patch, the number of unknowns cut off.
+    pub(crate) fn cut_off(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
+        self.patches.iter().map(move |patch| patch.cut_off(components))
+    }
+
+    /// Of a patch whose components share unknowns, what these are of each function in each component: [unknowns, components ·
+    /// functions], component by component.
+    pub(crate) fn tie(&self, patch: u32) -> Option<&Mat<f64>> {
+        self.patches[patch as usize].tie.as_ref()
     }
 
     /// Replaces plain shape functions of some patches by those of the basis.
@@ -113,7 +125,7 @@ impl StableBasis {
         out.resize(kept, plain.points);
         let (mut from, mut to) = (0, 0);
         for &patch in patches {
-            let t = &self.transforms[patch as usize].matrix;
+            let t = &self.patches[patch as usize].matrix;
             for (source, target) in
                 [(&plain.value, &mut out.value), (&plain.dx, &mut out.dx), (&plain.dy, &mut out.dy)]
             {
@@ -131,37 +143,16 @@ impl StableBasis {
     pub(crate) fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
         let mut rest = solution;
         let mut out = Vec::new();
-        for (patch, Transform { matrix: t, .. }) in self.transforms.iter().enumerate() {
-            for _ in 0..components {
-                let (part, tail) = rest.split_at(t.nrows());
-                rest = tail;
-                let coefficient = |a| (0..t.nrows()).map(|k| t[(k, a)] * part[k]).sum::<f64>();
-                let mut shifted: Vec<_> = (0..t.ncols()).map(coefficient).collect();
-                undo_shifts(space, patch, &mut shifted);
-                out.append(&mut shifted);
+        for (patch, basis) in self.patches.iter().enumerate() {
+            let (part, tail) = rest.split_at(basis.unknowns(components));
+            rest = tail;
+            for mut component in basis.plain(part, components) {
+                undo_shifts(space, patch, &mut component);
+                out.append(&mut component);
             }
         }
         out
     }
-}
-
-/// The transformation of a patch, of whose functions only some combinations may stay.
-fn transform(
-    gram: &Gram,
-    kept: Option<&Mat<f64>>,
-    polynomials: usize,
-) -> Result<Transform, EigenError> {
-    let Gram { weighted, plain, .. } = gram;
-    let Some(rows) = kept else {
-        return Transform::new(weighted.as_ref(), plain, polynomials, CUT_OFF);
-    };
-    let square = |k: usize| plain.iter().enumerate().map(|(j, n2)| rows[(k, j)].powi(2) * n2).sum();
-    let plain: Vec<f64> = (0..rows.nrows()).map(square).collect();
-    let weighted = rows * weighted * rows.transpose();
-    let Transform { matrix, dropped } =
-        Transform::new(weighted.as_ref(), &plain, polynomials, CUT_OFF)?;
-    let lost = rows.ncols() - rows.nrows();
-    Ok(Transform { matrix: matrix * rows, dropped: dropped + lost })
 }
 
 /// c (f − σ) = c f − σ c: takes the constant parts of a patch's functions to its polynomials. Jumps

@@ -55,6 +55,8 @@ const VANISHING: f64 = 1e-40;
 pub(crate) struct Transform {
     /// T, shape [kept, functions]: row k holds the new function k in the plain functions.
     pub(crate) matrix: Mat<f64>,
+    /// Number of new functions that are polynomials: the first ones.
+    pub(crate) polynomials: usize,
     /// Number of functions that were cut off.
     pub(crate) dropped: usize,
 }
@@ -91,7 +93,7 @@ impl Transform {
         for (j, scale) in d.into_iter().enumerate() {
             matrix.col_mut(j).iter_mut().for_each(|entry| *entry *= scale);
         }
-        Ok(Self { matrix, dropped: n - kept })
+        Ok(Self { matrix, polynomials: polynomials.nrows(), dropped: n - kept })
     }
 }
 

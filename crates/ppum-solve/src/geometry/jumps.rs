@@ -112,6 +112,15 @@ impl<'p> Jumps<'p> {
         others.any(|s| super::clip::distance(s, within) <= farthest)
     }
 
+    /// True if a box that does not hold a tip meets the straight extension of the crack's other end, on which the angle
+    /// at the tip jumps and nothing else does.
+    pub(crate) fn is_beyond(&self, tip: TipId, within: &Rect) -> bool {
+        let crack = &self.cracks[tip.crack as usize];
+        let other_end = if tip.end == End::Start { End::Last } else { End::Start };
+        let [a, b] = extension(crack, other_end, self.reach);
+        !inside(within, crack.end_point(tip.end)) && segment_inside(a, b, within) > 0.0
+    }
+
     /// The segments that meet a box.
     fn cut(&self, open: &Rect) -> Vec<(SegmentId, Segment)> {
         self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect()

@@ -12,7 +12,7 @@ mod spectrum;
 
 pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
 pub(crate) use cholesky::{Cholesky, fill};
-pub(crate) use dense::add_at;
+pub(crate) use dense::{add_at, product, taken};
 pub use eigen::EigenError;
 pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
 pub(crate) use pencil::largest_eigenvalue;

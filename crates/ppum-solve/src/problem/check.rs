@@ -15,8 +15,8 @@ use super::key::Key;
 use super::quantities::check_quantities;
 use super::scopes;
 use super::{
-    BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment, LocalEnrichment, Order,
-    Problem,
+    BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment, LocalEnrichment,
+    MOST_TERMS, Order, Problem,
 };
 use crate::geometry::Jumps;
 
@@ -171,7 +171,8 @@ fn check_components(problem: &Problem) -> Vec<MistakeAt> {
 
 fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
     let discretization = &problem.discretization;
-    let Discretization { overlap, enrichment, enrichment_radius, tip_degree, .. } = *discretization;
+    let Discretization { overlap, enrichment, enrichment_radius, tip_degree, tip_terms, .. } =
+        *discretization;
     let mut found: Vec<_> = check_cells(&discretization.cells).into_iter().collect();
     let mut rule = |holds: bool, name, message: String| {
         if !holds {
@@ -192,6 +193,22 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
         "tip_degree",
         format!("`tip_degree` is {tip_degree}, but must be 0 to {MAX_DEGREE}; 1 is the default"),
     );
+    if let Some(terms) = tip_terms {
+        rule(
+            (1..=MOST_TERMS).contains(&terms),
+            "tip_terms",
+            format!("`tip_terms` is {terms}, but must be 1 to {MOST_TERMS}"),
+        );
+        rule(
+            enrichment == Enrichment::Williams,
+            "tip_terms",
+            format!(
+                "`tip_terms` has no meaning with enrichment = \"{}\"; remove it, or write \
+                 enrichment = \"williams\"",
+                enrichment.name()
+            ),
+        );
+    }
     if let Some(radius) = enrichment_radius {
         rule(
             radius > 0.0 && radius.is_finite(),
@@ -199,12 +216,12 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
             format!("`enrichment_radius` is {radius}, but must be positive and finite"),
         );
         rule(
-            matches!(enrichment, Enrichment::Zone | Enrichment::AdditiveOnly)
+            enrichment.has_zones()
                 || problem.enrichments.iter().any(LocalEnrichment::has_default_zone),
             "enrichment_radius",
             format!(
                 "`enrichment_radius` has no meaning with enrichment = \"{}\"; remove it, or write \
-                 enrichment = \"zone\"",
+                 enrichment = \"williams\"",
                 enrichment.name()
             ),
         );

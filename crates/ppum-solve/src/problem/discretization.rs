@@ -29,7 +29,13 @@ pub struct Discretization {
     pub enrichment_radius: Option<f64>,
     /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
     pub tip_degree: usize,
+    /// Number of terms of Williams' series, r^½ to r^(N − ½), with [`Enrichment::Williams`]; `None` for as many as the order
+    /// of a patch asks for: the order itself, from 2 to 6.
+    pub tip_terms: Option<usize>,
 }
+
+/// Largest number of terms of Williams' series: their degrees are those of polynomials.
+pub const MOST_TERMS: usize = MAX_DEGREE + 1;
 
 /// The base cover's cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,15 +69,18 @@ pub enum Enrichment {
     TipPatch,
     /// Jumps on patches cut through, tip functions on all patches that meet the disc of the
     /// enrichment radius around a tip.
-    #[default]
     Zone,
+    /// As `Zone`, with Williams' series in place of its first term times polynomials: of each power r^(n − ½) the two
+    /// displacement fields that leave the faces free, an unknown each.
+    #[default]
+    Williams,
     /// As `Zone` but without jumps: figure 5 of Üffinger et al. 2011.
     AdditiveOnly,
 }
 
 impl Discretization {
-    /// Defaults on the given cells: order 2, α = 1.3, linear weights, enrichment in a zone, tip
-    /// functions times linear polynomials on the patches with a tip, refined at tips.
+    /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones around tips, refined at
+    /// tips.
     #[must_use]
     pub fn new(cells: Cells) -> Self {
         Self {
@@ -84,6 +93,7 @@ impl Discretization {
             interfaces: true,
             enrichment_radius: None,
             tip_degree: 1,
+            tip_terms: None,
         }
     }
 }
@@ -120,8 +130,8 @@ impl Order {
 
 impl Enrichment {
     /// All choices.
-    pub const ALL: [Self; 5] =
-        [Self::None, Self::Jumps, Self::TipPatch, Self::Zone, Self::AdditiveOnly];
+    pub const ALL: [Self; 6] =
+        [Self::None, Self::Jumps, Self::TipPatch, Self::Zone, Self::Williams, Self::AdditiveOnly];
 
     /// Name in problem files.
     #[must_use]
@@ -131,13 +141,20 @@ impl Enrichment {
             Self::Jumps => "jumps",
             Self::TipPatch => "tip-patch",
             Self::Zone => "zone",
+            Self::Williams => "williams",
             Self::AdditiveOnly => "additive-only",
         }
+    }
+
+    /// True if all patches in a zone around each tip hold its functions.
+    #[must_use]
+    pub fn has_zones(self) -> bool {
+        matches!(self, Self::Zone | Self::Williams | Self::AdditiveOnly)
     }
 
     /// True if patches that a crack cuts through hold its side.
     #[must_use]
     pub fn has_jumps(self) -> bool {
-        matches!(self, Self::Jumps | Self::TipPatch | Self::Zone)
+        matches!(self, Self::Jumps | Self::TipPatch | Self::Zone | Self::Williams)
     }
 }

@@ -64,7 +64,7 @@ pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use contacts::find_junctions;
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
-pub use discretization::{Cells, Discretization, Enrichment, Order, OrderError};
+pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Location, Mistake, ProblemError};
 pub use ppum::expression::Expression;
@@ -225,7 +225,7 @@ impl Problem {
 
     /// The problem with one more crack; its ends on the border, also on rims
     /// and in holes, become mouths, those on other cracks junctions, and all others tips. Ends of the cracks before
-    /// it that lie on it become junctions, too.
+    /// it that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`] makes many at once.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let points = points.iter().copied().map(Vec2::from).collect();

@@ -74,8 +74,7 @@ struct Work {
 impl Estimate {
     /// The estimate for the space of a problem.
     pub(crate) fn of_space(problem: &Problem, space: &Space<'_>) -> Self {
-        let components = problem.components();
-        let sizes: Vec<_> = space.sizes.iter().map(|size| size * components).collect();
+        let sizes: Vec<_> = (0..space.sizes.len()).map(|patch| space.unknowns(patch)).collect();
         let pattern = pattern(space);
         let fill = fill(&pattern, &sizes);
         let tips = if problem.equation.elastic().is_some() { n_tips(problem) } else { 0.0 };

@@ -2,7 +2,7 @@
 
 use super::SolveError;
 use super::clock::Clock;
-use crate::assembly::{Assembly, Gauge, Given, System, slivers};
+use crate::assembly::{Assembly, FreeModes, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
 use crate::law::Law;
@@ -86,9 +86,10 @@ impl Solving<'_> {
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
-        let mut system = System::new(assembly, given, &stage).map_err(SolveError::of_data)?;
-        let gauge =
-            Gauge::new(assembly, plate, &system.matrix, &stage).map_err(SolveError::of_data)?;
+        let free = FreeModes::new(plate);
+        let mut system =
+            System::new(assembly, given, &free, &stage).map_err(SolveError::of_data)?;
+        let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
         Ok(Assembled { basis, system, gauge })
@@ -111,9 +112,10 @@ impl Solving<'_> {
         stage.advance(1)?;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
-        let cut_off: Vec<_> = basis.dropped().map(|n| (n * components) as f64).collect();
+        let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
+        let kept: usize = basis.unknowns(components).sum();
         let report = SolverReport {
-            unknowns: Some((self.space.sizes.iter().sum::<usize>() * components) as f64),
+            unknowns: Some(kept as f64 + cut_off.iter().sum::<f64>()),
             cut_off: Some(cut_off.iter().sum()),
             residual: Some(solution.relative_residual),
             dependent: Some(solver.n_dependent() as f64),
@@ -127,7 +129,12 @@ impl Solving<'_> {
         Ok(Solution {
             coefficients: basis.plain(self.space, &solution.unknowns, components),
             cut_off,
-            reactions: system.reactions.of(self.problem, &system.matrix, &solution.unknowns),
+            reactions: system.reactions.of(
+                self.problem,
+                &basis,
+                &system.matrix,
+                &solution.unknowns,
+            ),
             unresolved: system.unresolved,
             report,
         })

@@ -4,6 +4,7 @@
 mod discretise;
 mod enrichment;
 mod inspect;
+mod williams;
 
 use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
@@ -22,6 +23,7 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
+pub(crate) use williams::Series;
 
 /// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
 /// linear weights.
@@ -47,6 +49,9 @@ pub struct Space<'d> {
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub(crate) shifts: Vec<f64>,
+    /// Of each patch, those functions that stand for Williams' series; empty if there are none anywhere.
+    series: Vec<Vec<Series>>,
+    equation: &'d Equation,
     smoothness: Smoothness,
     orders: Orders,
     /// Of each cell where formulas are probed, its rules once they are made.
@@ -64,7 +69,7 @@ impl<'d> Space<'d> {
     pub fn new(
         step: &'d Step,
         domain: &'d Domain,
-        equation: &Equation,
+        equation: &'d Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
         Self::on(Cow::Borrowed(step), domain, equation, tables)
@@ -77,6 +82,7 @@ impl<'d> Space<'d> {
     pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
         let Problem { domain, equation, tables, .. } = problem;
         let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
+        space.series = williams::series(problem, &space.step);
         if !problem.solver.kernels {
             let Step { functions, cracks, .. } = &*space.step;
             space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
@@ -87,7 +93,7 @@ impl<'d> Space<'d> {
     fn on(
         step: Cow<'d, Step>,
         domain: &'d Domain,
-        equation: &Equation,
+        equation: &'d Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
         let (partition, data) = (&step.partition, &step.fields[0]);
@@ -99,6 +105,8 @@ impl<'d> Space<'d> {
             coverers: coverers(partition),
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(&step, data),
+            series: Vec::new(),
+            equation,
             orders: orders(partition, smoothness.degree()),
             probed: vec![OnceLock::new(); partition.len()],
             smoothness,
@@ -109,6 +117,11 @@ impl<'d> Space<'d> {
     /// The step, whose coefficients play no part.
     pub(crate) fn step(&self) -> &Step {
         &self.step
+    }
+
+    /// The equation of the field.
+    pub(crate) fn equation(&self) -> &'d Equation {
+        self.equation
     }
 
     /// The partition of unity.

@@ -3,7 +3,7 @@
 use ppum::dataset::{Material, StressState};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
-use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
+use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem, cracks};
 use ppum_solve::solve::{Plan, SolveError, solve};
 
 const STEEL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
@@ -70,12 +70,14 @@ fn what_no_machine_holds_is_refused_without_a_cover() {
 #[test]
 fn many_cracks_are_refused_soon() {
     let mut problem = plate(2, 2);
-    problem.cracks.clear();
-    for k in 0..10_000 {
-        let (x, y) = (f64::from(k % 100), f64::from(k / 100));
-        let at = |x: f64, y: f64| [-0.99 + 0.0198 * x, -0.99 + 0.0198 * y];
-        problem = problem.with_crack(&[at(x + 0.2, y + 0.5), at(x + 0.8, y + 0.6)]);
-    }
+    let line = |k: u32| {
+        let at = |dx: f64, dy: f64| {
+            let (x, y) = (f64::from(k % 100) + dx, f64::from(k / 100) + dy);
+            vec2(-0.99 + 0.0198 * x, -0.99 + 0.0198 * y)
+        };
+        vec![at(0.2, 0.5), at(0.8, 0.6)]
+    };
+    problem.cracks = cracks((0..10_000).map(line), &problem.domain);
     assert_eq!(problem.check(), Ok(()));
     let plan = Plan::new(&problem, Some(1 << 28), unwatched());
     let error = plan.err().expect("too many").to_string();

@@ -324,6 +324,7 @@ fn a_singular_point_on_the_border() {
 fn williams_terms_as_enrichments() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5).with_term(3, 0.4, 0.3);
     let mut set = discretization(Cells::Level(2), 2);
+    set.enrichment = Enrichment::Zone;
     set.enrichment_radius = Some(10.0);
     set.tip_degree = 0;
     let problem = OBLIQUE.problem(&field, set);
@@ -351,6 +352,7 @@ fn williams_terms_as_enrichments() {
 fn built_in_and_own_tip_functions_are_one() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5);
     let mut set = discretization(Cells::Level(3), 2);
+    set.enrichment = Enrichment::Zone;
     set.enrichment_radius = Some(0.4);
     let built_in = OBLIQUE.problem(&field, set);
     let mut own = built_in.clone();

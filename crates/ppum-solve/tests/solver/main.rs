@@ -30,3 +30,4 @@ mod tip_terms;
 mod warnings;
 mod watched;
 mod weights;
+mod williams;

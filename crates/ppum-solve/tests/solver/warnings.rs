@@ -60,7 +60,7 @@ const STRAIGHT: &str = "[[-0.5, 0.0], [0.5, 0.0]]";
 #[test]
 fn lost_digits() {
     let cracks = format!("{STRAIGHT}\n[[crack]]\npoints = [[-0.4, 2e-4], [0.4, 2e-4]]");
-    let dataset = plate(&cracks, &tension(), "");
+    let dataset = plate(&cracks, &tension(), "enrichment = \"zone\"\n");
     let found = warnings(&dataset).iter().find(|w| w.kind == kind::RESIDUAL);
     let found = found.expect("a warning of the residual");
     assert!(found.value > found.limit && found.message.contains("nearly touch"), "{found:?}");

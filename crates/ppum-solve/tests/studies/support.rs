@@ -74,7 +74,7 @@ pub(crate) fn quantity(dataset: &Dataset, name: &str, at: Vec2) -> f64 {
     quantity.at(&mut field.at(at), Vec2::ZERO, Side::Above)
 }
 
-/// Coefficients of the first field.
+/// Unknowns of the first step.
 pub(crate) fn unknowns(dataset: &Dataset) -> usize {
-    dataset.steps[0].fields[0].coefficients.iter().map(Vec::len).sum()
+    dataset.steps[0].unknowns()
 }

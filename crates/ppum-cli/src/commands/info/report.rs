@@ -219,7 +219,7 @@ impl StepReport {
             quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
             cell_values: cells::names(&field),
-            unknowns: field.data.coefficients.iter().map(Vec::len).sum(),
+            unknowns: field.step.unknowns(),
             energy: SolverReport::of(history).energy.map(Number),
             history: history.iter().map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(dataset, index, t)).collect(),

@@ -74,15 +74,8 @@ fn exact_texts(dataset: &Dataset) -> Vec<&[String]> {
     fields.iter().map(|field| field.exact.as_slice()).collect()
 }
 
-fn record(step: &Step, name: &str) -> Option<f64> {
-    step.history.iter().find(|record| record.name == name).map(|record| record.value)
-}
-
-/// Unknowns: those of the report, or all coefficients.
 fn unknowns(step: &Step) -> f64 {
-    let coefficients =
-        || step.fields.first().map_or(0, |f| f.coefficients.iter().map(Vec::len).sum());
-    record(step, "unknowns").unwrap_or_else(|| coefficients() as f64)
+    step.unknowns() as f64
 }
 
 /// A step of a dataset.
@@ -140,7 +133,7 @@ fn distances(steps: &[&Step]) -> Vec<Curve> {
             curves.push(curve(label, points));
         }
     };
-    add("energy", &|step| record(step, "energy"));
+    add("energy", &|step| step.record("energy"));
     let number = last.intensities.len();
     for tip in 0..number {
         let label = if number > 1 { format!("K_{{I}} of tip {tip}") } else { "K_{I}".into() };

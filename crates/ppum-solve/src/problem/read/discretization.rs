@@ -13,7 +13,7 @@ use super::super::{points, scopes};
 use super::Files;
 use super::enrichment::is_word;
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "level",
     "cells",
     "points",
@@ -25,6 +25,7 @@ const KEYS: [&str; 11] = [
     "interfaces",
     "enrichment_radius",
     "tip_degree",
+    "tip_terms",
 ];
 
 /// Optional values that are wrong are reported, and left at their defaults.
@@ -52,6 +53,7 @@ pub(super) fn discretization(
     replace(&mut new.interfaces, get("interfaces").and_then(|value| value.boolean()));
     new.enrichment_radius = number("enrichment_radius");
     replace(&mut new.tip_degree, whole("tip_degree").map(|degree| degree as usize));
+    new.tip_terms = whole("tip_terms").map(|terms| terms as usize);
     Some(Discretization { cells: cells?, ..new })
 }
 

@@ -100,6 +100,7 @@ fn everything_said() {
         interfaces: false,
         enrichment_radius: Some(0.2),
         tip_degree: 0,
+        tip_terms: None,
     };
     assert_eq!(*discretization, expected);
 }

@@ -84,6 +84,8 @@ enum Degree {
     Fixed(u8),
     /// This degree on patches that hold the point, else 0.
     Holding(Vec2, u8),
+    /// That of so many terms of Williams' series, or as many as the patch's smooth polynomials ask for.
+    Series(Option<usize>),
 }
 
 /// The place of the functions of an enrichment, of which there may be several.
@@ -116,8 +118,12 @@ impl<'p> Enrichments<'p> {
         if let Some(at_tips) = westergaard(mode) {
             all.add(&at_tips);
         }
-        if mode == Enrichment::AdditiveOnly {
-            all.extend_along_cracks();
+        match mode {
+            Enrichment::AdditiveOnly => all.extend_along_cracks(),
+            Enrichment::Williams if problem.equation.is_uniform() => {
+                all.take_series(problem.discretization.tip_terms);
+            }
+            _ => {}
         }
         let first = all.instances.len();
         problem.enrichments.iter().for_each(|own| all.add(own));
@@ -161,6 +167,11 @@ impl<'p> Enrichments<'p> {
         self.instances.push(Instance { functions, tip, patches, degree });
     }
 
+    /// Gives the functions of the tips, so far the only instances, the degree of Williams' series of some number of terms.
+    fn take_series(&mut self, terms: Option<usize>) {
+        self.instances.iter_mut().for_each(|new| new.degree = Degree::Series(terms));
+    }
+
     /// Gives the functions of each tip, so far the only instances, to the patches along its part of
     /// the crack too.
     fn extend_along_cracks(&mut self) {
@@ -192,7 +203,8 @@ impl<'p> Enrichments<'p> {
 
     /// True if the functions of a tip jump in a box where nothing else does.
     fn misleads(&self, tip: TipId, open: &Rect) -> bool {
-        self.jumps.as_ref().is_some_and(|jumps| jumps.mislead(tip, open))
+        let mislead = |jumps: &Jumps<'_>| jumps.mislead(tip, open) || jumps.is_beyond(tip, open);
+        self.jumps.as_ref().is_some_and(mislead)
     }
 
     /// The functions that jump in a patch; those of its own come to the table.
@@ -213,6 +225,15 @@ impl<'p> Enrichments<'p> {
     }
 }
 
+/// Number of terms of Williams' series beside polynomials of a degree. Measured at orders 1 to 8 (docs/decisions/0016): fewer
+/// limit the rate at which errors fall, more gain nothing.
+fn terms(degree: usize) -> usize {
+    degree.clamp(FEWEST_TERMS, ENOUGH_TERMS)
+}
+
+const FEWEST_TERMS: usize = 2;
+const ENOUGH_TERMS: usize = 6;
+
 impl Degree {
     /// The degree on a patch whose smooth polynomials have the degree `degree`.
     fn on(self, patch: &Patch<'_>, degree: u8) -> u8 {
@@ -222,6 +243,7 @@ impl Degree {
             Self::Fixed(degree) => degree,
             Self::Holding(p, inside) if patch.holds(p) => inside,
             Self::Holding(..) => 0,
+            Self::Series(given) => (given.unwrap_or(terms(degree.into())) - 1) as u8,
         }
     }
 }
@@ -256,7 +278,7 @@ fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
     match mode {
         Enrichment::None | Enrichment::Jumps => None,
         Enrichment::TipPatch => Some(LocalEnrichment { region: Region::Near(0.0), ..new }),
-        Enrichment::Zone => Some(new),
+        Enrichment::Zone | Enrichment::Williams => Some(new),
         Enrichment::AdditiveOnly => Some(LocalEnrichment { degree: Some(0), ..new }),
     }
 }

@@ -1,0 +1,122 @@
+//! The basis of one patch.
+
+use super::Gram;
+use super::confined::{Part, matrix};
+use super::tie::{self, VectorField, tie};
+use super::transform::{CUT_OFF, Transform};
+use super::williams::{fields, parts};
+use crate::linear::{EigenError, SymmetricEigen};
+use crate::space::Space;
+use faer::{Mat, MatRef};
+use std::borrow::Cow;
+
+/// Functions N = T ψ of a patch, and what its unknowns are of them.
+#[derive(Clone, Debug)]
+pub(super) struct LocalBasis {
+    /// T, shape [kept, functions].
+    pub(super) matrix: Mat<f64>,
+    /// What the unknowns are of the functions of all components, where these share any: [unknowns, components · kept].
+    pub(super) tie: Option<Mat<f64>>,
+    /// Number of unknowns that were cut off for each component, or for all where they are tied.
+    dropped: usize,
+}
+
+impl LocalBasis {
+    /// The basis of a patch, of whose functions only some combinations may stay.
+    ///
+    /// # Errors
+    /// Functions that are not finite.
+    pub(super) fn new(
+        space: &Space<'_>,
+        patch: usize,
+        gram: &Gram,
+        confined: &[Part],
+    ) -> Result<Self, EigenError> {
+        let series = parts(space, patch);
+        let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
+        let all: Vec<Part> = confined.iter().cloned().chain(series).collect();
+        let rows = (!all.is_empty()).then(|| matrix(space.sizes[patch], &all));
+        let transform = transform(gram, rows.as_ref(), space.n_polynomials(patch))?;
+        let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
+        let dropped = transform.dropped + lost;
+        let (Some(tied), Some(rows)) = (fields(space, patch), &rows) else {
+            return Ok(Self { matrix: transform.matrix, tie: None, dropped });
+        };
+        let scalar = space.n_polynomials(patch)..rows.nrows() - n_series;
+        let fields: Vec<VectorField> =
+            scalar.flat_map(|j| of_each_component(rows, j)).chain(tied).collect();
+        let tie = tie(gram.weighted.as_ref(), &transform, &fields)?;
+        let wanted = fields.len() + 2 * (space.n_polynomials(patch) + lost);
+        let dropped = wanted - tie.nrows();
+        Ok(Self { matrix: transform.matrix, tie: Some(tie), dropped })
+    }
+
+    /// Number of functions.
+    pub(super) fn len(&self) -> usize {
+        self.matrix.nrows()
+    }
+
+    /// Number of unknowns.
+    pub(super) fn unknowns(&self, components: usize) -> usize {
+        self.tie.as_ref().map_or(components * self.len(), Mat::nrows)
+    }
+
+    /// Number of unknowns cut off.
+    pub(super) fn cut_off(&self, components: usize) -> usize {
+        if self.tie.is_some() { self.dropped } else { components * self.dropped }
+    }
+
+    /// Makes the functions orthonormal in their Gram matrix `gram`, and keeps their span.
+    ///
+    /// # Errors
+    /// Functions that are not finite.
+    pub(super) fn damp(&mut self, gram: MatRef<'_, f64>) -> Result<(), EigenError> {
+        let eigen = SymmetricEigen::new(gram)?;
+        let root = &eigen.vectors * eigen.inverse_root(0.0);
+        if let Some(tie) = &mut self.tie {
+            *tie = tie::renewed(tie, gram, root.as_ref())?;
+        }
+        self.matrix = root * &self.matrix;
+        Ok(())
+    }
+
+    /// The plain coefficients of each component from the unknowns.
+    pub(super) fn plain(&self, unknowns: &[f64], components: usize) -> Vec<Vec<f64>> {
+        let free = match &self.tie {
+            Some(tie) => Cow::Owned(times(tie.as_ref(), unknowns)),
+            None => Cow::Borrowed(unknowns),
+        };
+        (0..components)
+            .map(|i| times(self.matrix.as_ref(), &free[i * self.len()..(i + 1) * self.len()]))
+            .collect()
+    }
+}
+
+/// Aᵀ x
+fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
+    (0..a.ncols()).map(|j| (0..a.nrows()).map(|k| a[(k, j)] * x[k]).sum()).collect()
+}
+
+/// A combination of functions in one component and nothing in the other.
+fn of_each_component(rows: &Mat<f64>, j: usize) -> [VectorField; 2] {
+    let row: Vec<f64> = rows.row(j).iter().copied().collect();
+    let zero = vec![0.0; row.len()];
+    [[row.clone(), zero.clone()], [zero, row]]
+}
+
+/// The transformation of a patch, of whose functions only some combinations may stay.
+fn transform(
+    gram: &Gram,
+    kept: Option<&Mat<f64>>,
+    polynomials: usize,
+) -> Result<Transform, EigenError> {
+    let Gram { weighted, plain, .. } = gram;
+    let Some(rows) = kept else {
+        return Transform::new(weighted.as_ref(), plain, polynomials, CUT_OFF);
+    };
+    let square = |k: usize| plain.iter().enumerate().map(|(j, n2)| rows[(k, j)].powi(2) * n2).sum();
+    let plain: Vec<f64> = (0..rows.nrows()).map(square).collect();
+    let weighted = rows * weighted * rows.transpose();
+    let transform = Transform::new(weighted.as_ref(), &plain, polynomials, CUT_OFF)?;
+    Ok(Transform { matrix: transform.matrix * rows, ..transform })
+}
