@@ -30,7 +30,7 @@ pub struct Discretization {
     /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
     pub tip_degree: usize,
     /// Number of terms of Williams' series, r^½ to r^(N − ½), with [`Enrichment::Williams`]; `None` for as many as the order
-    /// of a patch asks for: the order itself, from 2 to 6.
+    /// of a patch asks for: the order itself, from 3 to 6.
     pub tip_terms: Option<usize>,
 }
 

@@ -196,9 +196,9 @@ fn sides_of_vertices() -> Dataset {
     with_functions(plate(2, 1, vec![crack; 64]), (0..64).map(side).collect())
 }
 
-/// Cracks that cross in every patch, each of which has functions of three of its four components: 1,728 of them.
+/// Cracks that cross in every patch, each of which has functions of three of its four components: 1,200 of them.
 fn junctions() -> Dataset {
-    const N: u32 = 24;
+    const N: u32 = 20;
     let through =
         |from: Vec2, to: Vec2| Crack { points: vec![from, to], ends: [CrackEnd::Mouth; 2] };
     let at = |k: u32| (f64::from(k) + 0.5) / f64::from(N);

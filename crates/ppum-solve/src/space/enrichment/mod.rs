@@ -231,7 +231,7 @@ fn terms(degree: usize) -> usize {
     degree.clamp(FEWEST_TERMS, ENOUGH_TERMS)
 }
 
-const FEWEST_TERMS: usize = 2;
+const FEWEST_TERMS: usize = 3;
 const ENOUGH_TERMS: usize = 6;
 
 impl Degree {
