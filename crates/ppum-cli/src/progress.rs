@@ -20,6 +20,9 @@ impl Bar {
 
     fn show(&self, progress: Progress) {
         if self.0.message() != progress.phase.name() {
+            if progress.step > 0 {
+                self.0.set_prefix(format!("{}step {}  ", within(), progress.step));
+            }
             self.0.set_message(progress.phase.name());
             self.0.set_style(style(progress.total > 1));
         }

@@ -60,6 +60,7 @@
 //!
 //! ```text
 //! solve                                            plan, system, solution, dataset
+//! adapt                                            estimated error; cells to divide, orders to raise
 //! assembly        diagnostics                      cells and border → K u = f; warnings
 //! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
 //! space                                            local spaces of a cover, enriched
@@ -69,6 +70,7 @@
 //! geometry        law             linear           quadrature      report
 //! ```
 
+mod adapt;
 mod assembly;
 mod basis;
 mod corner;

@@ -36,17 +36,66 @@ pub struct SolverReport {
     pub quadrature_points: Option<f64>,
     /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|².
     pub energy: Option<f64>,
+    /// Estimated error of the solution in the energy norm, as a part of the norm of the solution.
+    pub estimated_error: Option<f64>,
+    /// What has ended the adaptation, the [code](Stop::code) of a [`Stop`].
+    pub stop: Option<f64>,
     /// Relative error of stresses evaluated in double precision.
     pub rounding: Option<f64>,
     /// Seconds of each phase, in the order of the work.
     pub seconds: Vec<(Phase, f64)>,
 }
 
+/// What has ended an adaptation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The estimated error is as small as wanted.
+    Tolerance,
+    /// As many steps were made as wanted.
+    Steps,
+    /// The next step would have more unknowns than wanted.
+    Unknowns,
+    /// The memory does not hold the next step.
+    Memory,
+    /// No cell that is to be improved can be divided, and no order raised.
+    Limits,
+}
+
+impl Stop {
+    /// All reasons, in the order of their codes.
+    pub const ALL: [Self; 5] =
+        [Self::Tolerance, Self::Steps, Self::Unknowns, Self::Memory, Self::Limits];
+
+    /// The number that stands for it in a dataset's history, from 1.
+    #[must_use]
+    pub fn code(self) -> f64 {
+        Self::ALL.iter().position(|stop| *stop == self).map_or(0.0, |k| k as f64 + 1.0)
+    }
+
+    /// The reason with a code.
+    #[must_use]
+    pub fn of_code(code: f64) -> Option<Self> {
+        Self::ALL.into_iter().find(|stop| stop.code() == code)
+    }
+
+    /// A word for it, in JSON the key of the problem file where there is one.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Tolerance => "tolerance",
+            Self::Steps => "steps",
+            Self::Unknowns => "max_unknowns",
+            Self::Memory => "memory",
+            Self::Limits => "limits",
+        }
+    }
+}
+
 /// A number of the report by its name in files.
 type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [Entry; 12] = [
+const ENTRIES: [Entry; 14] = [
     ("crossed twice", |r| &mut r.crossed_twice),
     ("unknowns", |r| &mut r.unknowns),
     ("cut-off", |r| &mut r.cut_off),
@@ -58,12 +107,20 @@ const ENTRIES: [Entry; 12] = [
     ("imbalance", |r| &mut r.imbalance),
     ("quadrature points", |r| &mut r.quadrature_points),
     ("energy", |r| &mut r.energy),
+    ("estimated error", |r| &mut r.estimated_error),
+    ("adaptation stop", |r| &mut r.stop),
     ("rounding", |r| &mut r.rounding),
 ];
 
 /// Phases of a solution; their times are records with the unit `s`.
-const PHASES: [Phase; 5] =
-    [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution, Phase::Intensity];
+const PHASES: [Phase; 6] = [
+    Phase::Cover,
+    Phase::Basis,
+    Phase::Assembly,
+    Phase::Solution,
+    Phase::Estimation,
+    Phase::Intensity,
+];
 
 impl SolverReport {
     /// The report in a step's history. Of several records of one name the first counts; those of other

@@ -33,13 +33,21 @@ pub struct Progress {
     pub done: usize,
     /// Parts of the phase, at least 1.
     pub total: usize,
+    /// The solution that the phase belongs to, from 0, of a call that makes several one after the other.
+    pub step: usize,
 }
 
 impl Progress {
     /// So many parts of a phase are done, of so many.
     #[must_use]
     pub fn new(phase: Phase, done: usize, total: usize) -> Self {
-        Self { phase, done, total }
+        Self { phase, done, total, step: 0 }
+    }
+
+    /// The same of another solution.
+    #[must_use]
+    pub fn in_step(self, step: usize) -> Self {
+        Self { step, ..self }
     }
 
     /// The beginning of a phase of so many parts.
@@ -61,6 +69,8 @@ pub enum Phase {
     Assembly,
     /// Factorisation and solution.
     Solution,
+    /// The error of a solution.
+    Estimation,
     /// Stress intensity factors.
     Intensity,
     /// Evaluating a field at many points.
@@ -76,6 +86,7 @@ impl Phase {
             Self::Basis => "basis",
             Self::Assembly => "assembly",
             Self::Solution => "solution",
+            Self::Estimation => "estimate",
             Self::Intensity => "intensity",
             Self::Evaluation => "evaluation",
         }

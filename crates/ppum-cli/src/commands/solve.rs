@@ -5,9 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
-use ppum::dataset::{Dataset, Record};
+use ppum::dataset::{Dataset, Record, Step};
 use ppum_solve::problem::Problem;
-use ppum_solve::report::SolverReport;
+use ppum_solve::report::{SolverReport, Stop};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -131,7 +131,8 @@ impl Args {
         };
         let estimate = threads::with(self.threads, checked)??;
         writeln!(out, "{}: nothing wrong", standard::name(&self.problem))?;
-        writeln!(out, "{estimate}")?;
+        let of_what = if problem.adaptivity.is_some() { "the first step: " } else { "" };
+        writeln!(out, "{of_what}{estimate}")?;
         Ok(())
     }
 
@@ -149,6 +150,10 @@ struct Report {
     patches: usize,
     unknowns: usize,
     energy: Option<Number>,
+    /// In the energy norm, as a part of that of the solution.
+    estimated_error: Option<Number>,
+    /// What adaptation has done; null without.
+    adaptation: Option<Adaptation>,
     /// Of all phases.
     seconds: f64,
     phases: Vec<PhaseRow>,
@@ -158,6 +163,56 @@ struct Report {
     warnings: Vec<WarningRow>,
 }
 
+/// The course of an adaptation.
+#[derive(Debug, Serialize)]
+struct Adaptation {
+    /// What has ended it.
+    stop: &'static str,
+    /// The steps that are kept.
+    steps: Vec<StepRow>,
+}
+
+#[derive(Debug, Serialize)]
+struct StepRow {
+    patches: usize,
+    unknowns: usize,
+    energy: Option<Number>,
+    estimated_error: Option<Number>,
+}
+
+impl Adaptation {
+    /// None of a dataset that was solved once.
+    fn new(dataset: &Dataset) -> Option<Self> {
+        let last = SolverReport::of(&dataset.steps.last()?.history);
+        let stop = Stop::of_code(last.stop?)?.word();
+        Some(Self { stop, steps: dataset.steps.iter().map(StepRow::new).collect() })
+    }
+
+    /// A line for each step if there are several, and one for the end.
+    fn write(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+        if self.steps.len() > 1 {
+            writeln!(out, "step  patches  unknowns  estimated error")?;
+        }
+        for (k, step) in self.steps.iter().enumerate().filter(|_| self.steps.len() > 1) {
+            let error = step.estimated_error.as_ref().map_or(f64::NAN, |error| error.0);
+            writeln!(out, "{k:4}  {:7}  {:8}  {error:15.1e}", step.patches, step.unknowns)?;
+        }
+        Ok(writeln!(out, "adaptation ended: {}", self.stop)?)
+    }
+}
+
+impl StepRow {
+    fn new(step: &Step) -> Self {
+        let report = SolverReport::of(&step.history);
+        Self {
+            patches: step.partition.len(),
+            unknowns: step.fields[0].coefficients.iter().map(Vec::len).sum(),
+            energy: report.energy.map(Number),
+            estimated_error: report.estimated_error.map(Number),
+        }
+    }
+}
+
 #[derive(Debug, Serialize)]
 struct PhaseRow {
     name: String,
@@ -165,9 +220,10 @@ struct PhaseRow {
 }
 
 impl Report {
-    /// The solver makes one step with one field.
+    /// The solver makes steps with one field each, of which the last one counts.
     fn new(file: String, dataset: &Dataset) -> Self {
-        let step = &dataset.steps[0];
+        let last = dataset.steps.len() - 1;
+        let step = &dataset.steps[last];
         let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
         let phase = |r: &&Record| PhaseRow { name: r.name.clone(), seconds: r.value };
         let is_elastic = dataset.equation.elastic().is_some();
@@ -178,12 +234,14 @@ impl Report {
             patches: step.partition.len(),
             unknowns: step.unknowns(),
             energy: report.energy.map(Number),
+            estimated_error: report.estimated_error.map(Number),
+            adaptation: Adaptation::new(dataset),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),
-            tips: if is_elastic { all_tips(dataset, 0) } else { Vec::new() },
+            tips: if is_elastic { all_tips(dataset, last) } else { Vec::new() },
             reactions: reactions::rows(dataset, step),
-            warnings: rows(0, &step.warnings),
+            warnings: rows(last, &step.warnings),
         }
     }
 
@@ -192,7 +250,13 @@ impl Report {
         let Self { title, patches, unknowns, seconds, .. } = self;
         let patches = count(*patches, "patch", "patches");
         writeln!(out, "{title}")?;
-        writeln!(out, "{patches}, {unknowns} unknowns, solved in {seconds:.1} s")?;
+        let estimated =
+            |error: &Number| format!("; estimated error {:.1e} in the energy norm", error.0);
+        let error = self.estimated_error.as_ref().map_or(String::new(), estimated);
+        writeln!(out, "{patches}, {unknowns} unknowns, solved in {seconds:.1} s{error}")?;
+        if let Some(adaptation) = &self.adaptation {
+            adaptation.write(out)?;
+        }
         if !self.tips.is_empty() {
             table(out, &self.tips, &places(dataset))?;
         }

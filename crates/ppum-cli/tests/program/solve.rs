@@ -39,8 +39,7 @@ fn json_has_the_documented_shape() {
     let held = "on = \"bottom\"\ndisplacement = [0.0, 0.0]";
     lab.write("plate.toml", &CRACKED.replace("on = \"bottom\"\ntraction = [0.0, -1.0]", held));
     let told = lab.json("solve plate.toml");
-    let expected =
-        "energy file history patches phases reactions seconds tips title unknowns warnings";
+    let expected = "adaptation energy estimated_error file history patches phases reactions seconds tips title unknowns warnings";
     assert_eq!(keys(&told).join(" "), expected);
     assert_eq!((&told["file"], &told["title"]), (&json!("plate.h5"), &json!("Small plate")));
     let step = &lab.json("info plate.h5")["steps"][0];
@@ -57,6 +56,32 @@ fn json_has_the_documented_shape() {
     assert!(lab.fail("solve plate.toml --json --check").contains("cannot be used with"));
     lab.write("plane.toml", LINEAR);
     assert_eq!(lab.json("solve plane.toml")["tips"], json!([]));
+}
+
+/// All steps are told, kept and compared; of the one that is told as a whole the numbers are those of the last.
+#[test]
+fn adaptation_is_told() {
+    let lab = Lab::new();
+    let adaptive = |keys: &str| format!("{CRACKED}[adaptivity]\nsteps = 2\n{keys}\n");
+    lab.write("plate.toml", &adaptive("keep = \"all\""));
+    assert!(lab.run("solve plate.toml --check").contains("the first step: "));
+    let told = lab.json("solve plate.toml");
+    assert_eq!(told["adaptation"]["stop"], "steps");
+    let steps = told["adaptation"]["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 3);
+    for key in ["energy", "estimated_error", "patches", "unknowns"] {
+        assert_eq!(told[key], steps[2][key], "{key}");
+    }
+    assert_eq!(told["tips"], lab.json("info plate.h5")["steps"][2]["intensities"]);
+    let error = |k: usize| steps[k]["estimated_error"].as_f64().unwrap();
+    assert!(error(2) < error(1) && error(1) < error(0), "{steps:?}");
+    assert!(lab.run("plot plate.h5 --convergence -o plate.svg").contains("K_I of tip 1"));
+    lab.run("render plate.h5 -q indicator --step 1 --size 64x64 -o cells.png");
+    lab.write("plate.toml", &adaptive("tolerance = 0.001"));
+    let (text, warnings) = lab.warned("solve plate.toml");
+    assert!(text.contains("adaptation ended: steps"), "{text}");
+    assert!(warnings.contains("not 1e-3 as wanted"), "{warnings}");
+    assert_eq!(lab.json("info plate.h5")["steps"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -270,7 +270,7 @@ impl Moments {
 }
 
 /// The rules on a part of the border in one cell.
-pub(super) fn border_rules(
+pub(crate) fn border_rules(
     problem: &Problem,
     on: BorderPart,
     quadrature: &Quadrature<'_>,

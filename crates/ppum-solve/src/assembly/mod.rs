@@ -19,6 +19,7 @@ mod system;
 
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
+pub(crate) use loads::border_rules;
 pub(crate) use system::{System, pattern, slivers};
 
 use crate::basis::StableBasis;

@@ -91,6 +91,8 @@ pub mod kind {
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
     pub const SINGULAR_POINT: &str = "singular-point";
+    /// An adaptation has ended before the estimated error was as small as wanted.
+    pub const TOLERANCE: &str = "tolerance";
     /// A load or what is given on the border varies too fast to be integrated.
     pub const LOAD: &str = "load";
     /// A function or a coefficient varies too fast to be integrated.
@@ -169,15 +171,18 @@ impl Case<'_> {
         let stage = Stage::uncounted(watcher, Phase::Intensity)?;
         let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
         let cutters = Cutters::new(field.step, &dataset.domain);
+        let adaptivity = self.problem.and_then(|problem| problem.adaptivity.as_ref());
         let mut warnings = of_tips(tips, &field.step.cracks, &places);
         warnings.extend(of_faces(field, &places));
         stage.advance(0)?;
-        if let Some((problem, energy)) = self.problem.zip(self.report.energy) {
+        // an adaptation has looked for itself how small cells should be
+        let guided = self.problem.filter(|problem| problem.adaptivity.is_none());
+        if let Some((problem, energy)) = guided.zip(self.report.energy) {
             warnings.extend(of_corners(problem, field, space, (energy, &places)));
         }
         stage.advance(0)?;
         warnings.extend(of_interfaces(field, dataset, &places));
-        warnings.extend(of_report(self.report, cutters));
+        warnings.extend(of_report(self.report, adaptivity, cutters));
         stage.advance(0)?;
         let rounding = rounding(dataset, self.step)?;
         warnings.extend(of_digits(rounding, cutters, &places));

@@ -1,13 +1,18 @@
 //! Warnings about the solution as a whole, from the numbers of the solver's report.
 
 use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, kind, warning};
-use crate::report::SolverReport;
+use crate::problem::Adaptivity;
+use crate::report::{SolverReport, Stop};
 use ppum::dataset::{Step, Warning};
 use ppum::domain::Domain;
 
 /// The warnings about the solution as a whole, from the solver's report. What the report does not hold is not
 /// judged.
-pub(super) fn of_report(report: &SolverReport, cutters: Cutters) -> Vec<Warning> {
+pub(super) fn of_report(
+    report: &SolverReport,
+    adaptivity: Option<&Adaptivity>,
+    cutters: Cutters,
+) -> Vec<Warning> {
     let rules = [
         (kind::RESIDUAL, report.residual, LARGE_RESIDUAL, residual as Text),
         (kind::IMBALANCE, report.imbalance, LARGE_IMBALANCE, imbalance),
@@ -18,11 +23,29 @@ pub(super) fn of_report(report: &SolverReport, cutters: Cutters) -> Vec<Warning>
     let passed = rules.into_iter().filter_map(|(kind, value, limit, message)| {
         value.filter(|value| *value > limit).map(|value| (kind, value, limit, message))
     });
-    passed
-        .map(|(kind, value, limit, message)| {
-            warning(kind, None, [value, limit], message(value, cutters))
-        })
-        .collect()
+    let found = passed.map(|(kind, value, limit, message)| {
+        warning(kind, None, [value, limit], message(value, cutters))
+    });
+    found.chain(of_tolerance(report, adaptivity)).collect()
+}
+
+/// The warning about an adaptation that ended before the estimated error was as small as wanted.
+fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Option<Warning> {
+    let stop = Stop::of_code(report.stop?)?;
+    let (wanted, found) = (adaptivity?.tolerance?, report.estimated_error?);
+    let (reason, remedy) = match stop {
+        Stop::Tolerance => return None,
+        Stop::Steps => ("`steps` are made", "raise it"),
+        Stop::Unknowns => ("the next step would exceed `max_unknowns`", "raise it"),
+        Stop::Memory => ("the memory does not hold the next step", "give more of it"),
+        Stop::Limits => {
+            ("orders and cells are at their limits", "take another `kind` or smaller cells")
+        }
+    };
+    let message = format!(
+        "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `tolerance`"
+    );
+    Some(warning(kind::TOLERANCE, None, [found, wanted], message))
 }
 
 /// The meaning of a number of the report, on a plate with these cutters.

@@ -15,8 +15,8 @@ use super::key::Key;
 use super::quantities::check_quantities;
 use super::scopes;
 use super::{
-    BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment, LocalEnrichment,
-    MOST_TERMS, Order, Problem,
+    Adaptivity, BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment,
+    LocalEnrichment, MOST_TERMS, Order, Problem,
 };
 use crate::geometry::Jumps;
 
@@ -52,6 +52,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     let mut found = check_equation(&problem.equation, &problem.domain);
     found.extend(check_components(problem));
     found.extend(check_discretization(problem));
+    found.extend(problem.adaptivity.iter().flat_map(check_adaptivity));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
     let bounds = &problem.domain.bounds;
@@ -227,6 +228,33 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
         );
     }
     found
+}
+
+/// Most steps of an adaptation: each at least adds a cell to the one before, and most half as many again.
+const MAX_STEPS: usize = 100;
+
+fn check_adaptivity(set: &Adaptivity) -> Vec<MistakeAt> {
+    let Adaptivity { steps, fraction, max_unknowns, tolerance, .. } = *set;
+    let tolerance = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0));
+    let message = |value: f64| {
+        format!("`tolerance` is {value}, but must be above 0 and below 1, a part of the solution")
+    };
+    let rules = [
+        ((1..=MAX_STEPS).contains(&steps), "steps", {
+            format!("`steps` is {steps}, but must be 1 to {MAX_STEPS}; 10 is the default")
+        }),
+        (fraction > 0.0 && fraction <= 1.0, "fraction", {
+            format!(
+                "`fraction` is {fraction}, but must be above 0 and at most 1; 0.6 is the default"
+            )
+        }),
+        (max_unknowns > 0, "max_unknowns", "`max_unknowns` must be at least 1".to_owned()),
+        (tolerance.is_none(), "tolerance", tolerance.map_or(String::new(), message)),
+    ];
+    let broken = rules.into_iter().filter(|(holds, ..)| !holds);
+    broken
+        .map(|(_, name, message)| MistakeAt::new(Key::new("adaptivity").name(name), message))
+        .collect()
 }
 
 fn check_cells(cells: &Cells) -> Option<MistakeAt> {

@@ -27,6 +27,7 @@
 //! assert_eq!(problem.check(), Ok(()));
 //! ```
 
+mod adaptivity;
 mod boundary;
 mod check;
 mod contacts;
@@ -60,6 +61,7 @@ use ppum::domain::Domain;
 use ppum::formula::Table;
 use ppum::vec2::Vec2;
 
+pub use adaptivity::{AdaptKind, Adaptivity, Keep};
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use contacts::find_junctions;
 pub(crate) use cracks::touch;
@@ -100,6 +102,8 @@ pub struct Problem {
     pub enrichments: Vec<LocalEnrichment>,
     /// Cover, local spaces and enrichment.
     pub discretization: Discretization,
+    /// How the cover is improved by its own solutions; `None` solves once.
+    pub adaptivity: Option<Adaptivity>,
     /// The linear solver.
     pub solver: Solver,
     /// The problem file's text, if there was one.
@@ -217,6 +221,7 @@ impl Problem {
             tables: Vec::new(),
             enrichments: Vec::new(),
             discretization,
+            adaptivity: None,
             solver: Solver::default(),
             text: None,
             files: Vec::new(),
@@ -253,6 +258,13 @@ impl Problem {
     pub fn with_exact_boundary(self, edge: Edge) -> Self {
         let components = self.exact.iter().cloned().map(Condition::Dirichlet).collect();
         self.with_boundary(edge, components)
+    }
+
+    /// The problem whose cover is improved by its own solutions.
+    #[must_use]
+    pub fn with_adaptivity(mut self, adaptivity: Adaptivity) -> Self {
+        self.adaptivity = Some(adaptivity);
+        self
     }
 
     /// True if something acts on faces of cracks.

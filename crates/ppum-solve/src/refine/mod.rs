@@ -113,7 +113,8 @@ pub(crate) fn cover(
         if cover.n_cells() > most {
             return Err(RefineError::TooMany { most });
         }
-        let affordable = cover.n_cells() < wishes.most_cells;
+        // an adaptation finds by itself where small cells pay
+        let affordable = problem.adaptivity.is_none() && cover.n_cells() < wishes.most_cells;
         // who is to stop asks for nothing
         let asks = |cell: Rect, level: u8| {
             let goes_on = stage.advance(0).is_ok();

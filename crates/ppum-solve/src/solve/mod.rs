@@ -1,9 +1,11 @@
 //! From a problem to a dataset.
 
+mod adaptive;
 mod clock;
 mod error;
 mod estimate;
 mod solution;
+mod solved;
 
 pub use crate::equilibrium::UnbalancedError;
 pub use crate::geometry::Around;
@@ -11,21 +13,19 @@ pub use crate::linear::{EigenError, LinearError, Spectrum};
 pub use error::SolveError;
 pub use estimate::Estimate;
 
-use crate::diagnostics::Case;
-use crate::intensity::intensities_under;
-use crate::norms::energy;
 use crate::problem::Problem;
 use crate::refine::n_crossed_twice;
-use crate::report::{SolverReport, Unresolved};
-use crate::space::{Space, discretise_within};
+use crate::space::{Mesh, Space, discretise_on};
 use crate::watched::Stage;
+use adaptive::adapted;
 use clock::Clock;
 use ppum::dataset::{Dataset, Step};
-use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use solution::{Assembled, Solving, linear_solver};
+use solution::{Assembled, Solution, Solving, linear_solver};
+use solved::Solved;
 
-/// Solves a problem: one step, one field. The watcher is told how far the work has come.
+/// Solves a problem: one step, one field; several steps where the problem asks for adaptation and wants to keep
+/// all of them. The watcher is told how far the work has come.
 ///
 /// The coefficients belong to the plain functions; neither the transformed basis nor what it cut
 /// off is seen in the dataset. Results do not depend on the number of threads. The step's history is a
@@ -76,6 +76,9 @@ pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, So
 /// ```
 pub struct Plan<'p> {
     problem: &'p Problem,
+    mesh: Mesh,
+    /// The memory that may be used \[bytes\].
+    memory: Option<u64>,
     /// The dataset with all coefficients zero.
     dataset: Dataset,
     /// The space of its step: the only one from here to the last warning.
@@ -87,7 +90,8 @@ pub struct Plan<'p> {
 }
 
 impl<'p> Plan<'p> {
-    /// The plan of a problem, whose solution may take so much memory \[bytes\].
+    /// The plan of a problem, whose solution may take so much memory \[bytes\]. Of a problem that asks for adaptation
+    /// it is the plan of the first step.
     ///
     /// # Errors
     /// A space that cannot be built, functions that are not finite, a solution that takes more memory or could not
@@ -97,11 +101,21 @@ impl<'p> Plan<'p> {
         memory: Option<u64>,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
-        let mut clock = Clock::new();
+        let clock = Clock::new();
         let stage = Stage::uncounted(watcher, Phase::Cover)?;
         fits(Estimate::least(problem), memory)?;
-        let most = memory.map_or(usize::MAX, |memory| Estimate::most_cells(problem, memory));
-        let step = discretise_within(problem, most, &stage)?;
+        let mesh = Mesh::new(problem, most_cells(problem, memory), &stage)?;
+        Self::on(problem, mesh, memory, (clock, &stage))
+    }
+
+    /// The plan on a mesh.
+    fn on(
+        problem: &'p Problem,
+        mesh: Mesh,
+        memory: Option<u64>,
+        (mut clock, stage): (Clock, &Stage<'_>),
+    ) -> Result<Self, SolveError> {
+        let step = discretise_on(problem, &mesh, stage)?;
         let crossed_twice = n_crossed_twice(problem, &step.partition);
         let dataset = dataset(problem, step.clone());
         dataset.check()?;
@@ -109,7 +123,7 @@ impl<'p> Plan<'p> {
         let space = Space::of_problem(problem, step)?;
         let estimate = fits(Estimate::of_space(problem, &space), memory)?;
         clock.lap(Phase::Cover);
-        Ok(Self { problem, dataset, space, estimate, crossed_twice, clock })
+        Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, clock })
     }
 
     /// The effort of the solution.
@@ -133,48 +147,31 @@ impl<'p> Plan<'p> {
         self.solving(watcher).loaded().map(drop)
     }
 
-    /// Solves the problem.
+    /// Solves the problem, once, or step by step where it asks for adaptation.
     ///
     /// # Errors
     /// See [`SolveError`].
-    pub fn solve(mut self, watcher: &dyn Watcher) -> Result<Dataset, SolveError> {
+    pub fn solve(self, watcher: &dyn Watcher) -> Result<Dataset, SolveError> {
+        match &self.problem.adaptivity {
+            None => self.solved(watcher)?.finish(None, watcher),
+            Some(set) => adapted(self, set, watcher),
+        }
+    }
+
+    /// The solution with its estimated error.
+    fn solved(mut self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
         let Self { problem, ref space, .. } = self;
         let solving = Solving { problem, space, watcher };
         let mut solution = solving.solution(&mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
-        self.finish(solution.report, &solution.unresolved, watcher)
+        let Solution { report, unresolved, .. } = solution;
+        let mut solved = Solved { plan: self, report, unresolved, squares: Vec::new() };
+        solved.estimate(watcher)?;
+        Ok(solved)
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {
         Solving { problem: self.problem, space: &self.space, watcher }
-    }
-
-    /// The dataset of a solution with its stress intensity factors, its diagnosis and its report.
-    fn finish(
-        self,
-        mut report: SolverReport,
-        unresolved: &[Unresolved],
-        watcher: &dyn Watcher,
-    ) -> Result<Dataset, SolveError> {
-        let Self { problem, mut dataset, ref space, crossed_twice, mut clock, .. } = self;
-        let field = Field::new(&dataset, 0)?;
-        report.crossed_twice = Some(crossed_twice as f64);
-        report.energy = Some(energy(&field, space));
-        let problem = Some(problem);
-        let tips = intensities_under(problem, &dataset, &field, space, watcher)?;
-        let diagnosis = {
-            let (dataset, field, report) = (&dataset, &field, &report);
-            let case = Case { dataset, step: 0, field, space, problem, report, unresolved };
-            case.diagnose(&tips, watcher)?
-        };
-        clock.lap(Phase::Intensity);
-        report.rounding = Some(diagnosis.rounding);
-        report.seconds = clock.seconds;
-        let step = &mut dataset.steps[0];
-        step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
-        step.warnings = diagnosis.warnings;
-        step.history = report.records();
-        Ok(dataset)
     }
 }
 
@@ -184,6 +181,11 @@ fn fits(needs: Estimate, memory: Option<u64>) -> Result<Estimate, SolveError> {
         Some(memory) if needs.memory > memory as f64 => Err(SolveError::TooLarge { needs, memory }),
         _ => Ok(needs),
     }
+}
+
+/// The cells that a memory holds at most.
+fn most_cells(problem: &Problem, memory: Option<u64>) -> usize {
+    memory.map_or(usize::MAX, |memory| Estimate::most_cells(problem, memory))
 }
 
 fn dataset(problem: &Problem, step: Step) -> Dataset {

@@ -2,13 +2,14 @@
 
 use super::enrichment::{Block, Enrichments};
 use super::inspect::{InspectError, inspect};
+use super::mesh::Mesh;
 use crate::geometry::Placed;
 use crate::problem::quantities::field_names;
 use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
-use crate::refine::{RefineError, cover};
+use crate::refine::RefineError;
 use crate::watched::Stage;
-use ppum::dataset::{Attribute, FieldData, Partition, Step, monomials};
+use ppum::dataset::{Attribute, FieldData, MAX_DEGREE, Partition, Step, monomials};
 use ppum::domain::Hole;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
@@ -49,29 +50,30 @@ impl From<RefineError> for SpaceError {
 /// A cover that cannot be built or refined, an order formula that gives no order, a function that is
 /// not finite on its patches; cancelled.
 pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, SpaceError> {
-    discretise_within(problem, usize::MAX, &Stage::uncounted(watcher, Phase::Cover)?)
+    let stage = Stage::uncounted(watcher, Phase::Cover)?;
+    discretise_on(problem, &Mesh::new(problem, usize::MAX, &stage)?, &stage)
 }
 
-/// The same on a cover of at most so many cells, before those in holes are left out.
+/// The same on a mesh of the problem.
 ///
 /// # Errors
-/// See [`discretise`]; a cover with more cells.
-pub(crate) fn discretise_within(
+/// See [`discretise`].
+pub(crate) fn discretise_on(
     problem: &Problem,
-    most: usize,
+    mesh: &Mesh,
     stage: &Stage<'_>,
 ) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
-    let partition = cover(problem, most, stage)?
-        .partition(set.overlap, set.weight.clone())
-        .map_err(RefineError::from)?;
-    let partition = solid_part(partition, &problem.domain.holes)?;
+    let partition =
+        mesh.cover.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
+    let (partition, raised) = solid_part(partition, &mesh.raised, &problem.domain.holes)?;
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
     let mut blocks = Vec::with_capacity(partition.len());
-    for patch in 0..partition.len() {
+    for (patch, raised) in raised.into_iter().enumerate() {
         stage.advance(0)?;
-        let degree = set.order.at(partition.center[patch])? as u8;
+        let order = set.order.at(partition.center[patch])? as u8;
+        let degree = (order + raised).min(MAX_DEGREE as u8);
         blocks.push(enrichments.blocks(&partition, patch, degree));
     }
     let mut step = Step::new(partition).with_field(field(problem, &blocks));
@@ -85,10 +87,14 @@ pub(crate) fn discretise_within(
 /// Cells of which holes leave no more than this part are dropped: it is rounding.
 const LEAST_PART: f64 = 1e-12;
 
-/// A partition without the cells in holes and their patches.
-fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceError> {
+/// A partition and the raised orders of its cells without the cells in holes and their patches.
+fn solid_part(
+    partition: Partition,
+    raised: &[u8],
+    holes: &[Hole],
+) -> Result<(Partition, Vec<u8>), SpaceError> {
     if holes.is_empty() {
-        return Ok(partition);
+        return Ok((partition, raised.to_vec()));
     }
     let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
@@ -105,7 +111,8 @@ fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceEr
     if !solid.contains(&true) {
         return Err(SpaceError::Nothing);
     }
-    Ok(Partition {
+    let raised = kept(raised, &solid);
+    let partition = Partition {
         center: kept(&partition.center, &solid),
         half: kept(&partition.half, &solid),
         origin: kept(&partition.origin, &solid),
@@ -114,7 +121,8 @@ fn solid_part(partition: Partition, holes: &[Hole]) -> Result<Partition, SpaceEr
         level: kept(&partition.level, &solid),
         point: kept(&partition.point, &solid),
         ..partition
-    })
+    };
+    Ok((partition, raised))
 }
 
 /// Places of a cell in each direction that are looked at before its area is integrated.

@@ -4,16 +4,18 @@
 mod discretise;
 mod enrichment;
 mod inspect;
+mod mesh;
 mod williams;
 
 use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
 pub use crate::refine::RefineError;
 use crate::smoothness::Smoothness;
-pub(crate) use discretise::discretise_within;
+pub(crate) use discretise::discretise_on;
 pub use discretise::{SpaceError, discretise};
 pub(crate) use enrichment::KINK;
 pub use inspect::InspectError;
+pub(crate) use mesh::{Change, Mesh};
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side};
 use ppum::dataset::{Equation, FieldData, Partition, Step, monomials};
@@ -179,6 +181,11 @@ impl<'d> Space<'d> {
     /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
     pub(crate) fn degree(&self) -> usize {
         self.smoothness.degree()
+    }
+
+    /// Degree of the polynomials of a patch.
+    pub(crate) fn order(&self, patch: usize) -> usize {
+        self.data().block_degree[self.data().blocks(patch).start].into()
     }
 
     /// Number of polynomials of a patch: the functions of its first block.

@@ -1,8 +1,10 @@
 //! The solver against exact solutions and independent reference values.
 
+mod adaptive;
 mod awkward;
 mod corners;
 mod estimate;
+mod estimator;
 mod examples;
 mod faces;
 mod formulas;

@@ -53,8 +53,13 @@ const FLOORS: Floors<'_> = &[
         ),
     ],
     &[(
+        "adapt",
+        &["assembly", "corner", "geometry", "law", "problem", "quadrature", "space", "watched"],
+    )],
+    &[(
         "solve",
         &[
+            "adapt",
             "assembly",
             "basis",
             "diagnostics",

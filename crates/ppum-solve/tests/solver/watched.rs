@@ -37,8 +37,14 @@ level = 4
 order = 1
 "#;
 
-const PHASES: [Phase; 5] =
-    [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution, Phase::Intensity];
+const PHASES: [Phase; 6] = [
+    Phase::Cover,
+    Phase::Basis,
+    Phase::Assembly,
+    Phase::Solution,
+    Phase::Estimation,
+    Phase::Intensity,
+];
 
 fn plate() -> Problem {
     Problem::parse(PLATE, "plate.toml", Path::new("")).expect("a problem")

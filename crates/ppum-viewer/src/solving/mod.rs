@@ -116,8 +116,14 @@ impl From<SolveError> for Stopped {
 }
 
 /// Phases of a solution, in their order.
-pub const PHASES: [Phase; 5] =
-    [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution, Phase::Intensity];
+pub const PHASES: [Phase; 6] = [
+    Phase::Cover,
+    Phase::Basis,
+    Phase::Assembly,
+    Phase::Solution,
+    Phase::Estimation,
+    Phase::Intensity,
+];
 
 impl Solving {
     /// Nothing is written yet.

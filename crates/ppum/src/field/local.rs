@@ -23,6 +23,15 @@ pub struct LocalField<'f> {
     pub(super) patches: Vec<u32>,
 }
 
+/// The part of one patch in a field at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// φ_i with derivatives.
+    pub share: Jet<f64>,
+    /// The components of v_i with derivatives; zero beyond those of the field.
+    pub local: [Jet<f64>; 2],
+}
+
 /// The partition of unity at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covering {
@@ -124,6 +133,34 @@ impl<'f> LocalField<'f> {
         for sum in &mut out[..components] {
             *sum = sum.over::<D>(weight_sum);
         }
+    }
+
+    /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the point: what
+    /// [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Of a field of more than two components the
+    /// first two.
+    pub fn parts<const D: usize>(
+        &self,
+        offset: Vec2,
+        side: Side,
+        patches: &[u32],
+        out: &mut Vec<Part>,
+    ) {
+        out.clear();
+        let at = [offset.x, offset.y];
+        let mut functions = FunctionJets::new(&self.functions, at, side);
+        let (components, zero) = (self.field.components(), Jet::constant(0.0));
+        let mut weight_sum = zero;
+        for &patch in patches {
+            let patch = patch as usize;
+            let share = self.weight::<f64, D>(patch, at, patches.len() == 1);
+            weight_sum = weight_sum.plus::<D>(share);
+            let mut local = [zero; 2];
+            for (component, v) in local.iter_mut().enumerate().take(components) {
+                *v = self.local_field::<f64, D>(patch, component, at, &mut functions);
+            }
+            out.push(Part { share, local });
+        }
+        out.iter_mut().for_each(|part| part.share = part.share.over::<D>(weight_sum));
     }
 
     /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need not

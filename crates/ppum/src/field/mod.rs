@@ -20,7 +20,7 @@ use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
 use crate::domain::Domain;
 use crate::function::{FunctionError, FunctionTable};
 use crate::vec2::Vec2;
-pub use local::{Covering, LocalField};
+pub use local::{Covering, LocalField, Part};
 use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
 
 /// A field of a dataset at one step, ready to be evaluated.

@@ -14,16 +14,12 @@ use ppum_solve::space::Space;
 use super::Named;
 
 /// A curve for each error: those of the exact solution if all datasets have them, else the distances of energy and
-/// stress intensity factors from those of the dataset with most unknowns.
+/// stress intensity factors from those of the dataset with most unknowns. Of one dataset alone all steps are compared.
 pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
-    ensure!(datasets.len() >= 3, "--convergence compares three datasets or more");
-    let mut solutions = Vec::new();
-    for Named { name, dataset } in datasets {
-        let index = step.unwrap_or(dataset.steps.len() - 1);
-        let found = dataset.steps.get(index);
-        ensure!(found.is_some(), "{name}: there is no step {index}");
-        solutions.extend(found.map(|step| Solution { dataset, index, step }));
-    }
+    let mut solutions = match datasets {
+        [Named { dataset, .. }] if dataset.steps.len() >= 3 && step.is_none() => all_steps(dataset),
+        _ => one_step_each(datasets, step)?,
+    };
     of_one_problem(datasets)?;
     solutions.sort_by(|a, b| unknowns(a.step).total_cmp(&unknowns(b.step)));
     let mut sizes: Vec<f64> = solutions.iter().map(|solution| unknowns(solution.step)).collect();
@@ -46,6 +42,28 @@ pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Pl
     plot.title.clone_from(&datasets[0].dataset.title);
     plot.curves = curves;
     Ok(plot)
+}
+
+/// The steps of an adaptation.
+fn all_steps(dataset: &Dataset) -> Vec<Solution<'_>> {
+    let steps = dataset.steps.iter().enumerate();
+    steps.map(|(index, step)| Solution { dataset, index, step }).collect()
+}
+
+/// One step of each dataset, the last one unless another is asked for.
+fn one_step_each(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Vec<Solution<'_>>> {
+    ensure!(
+        datasets.len() >= 3,
+        "--convergence compares three datasets or more, or the steps of one that has three or more"
+    );
+    let mut solutions = Vec::new();
+    for Named { name, dataset } in datasets {
+        let index = step.unwrap_or(dataset.steps.len() - 1);
+        let found = dataset.steps.get(index);
+        ensure!(found.is_some(), "{name}: there is no step {index}");
+        solutions.extend(found.map(|step| Solution { dataset, index, step }));
+    }
+    Ok(solutions)
 }
 
 /// Datasets of different problems have no common solution that they could come near.

@@ -3,6 +3,7 @@
 //! Every reader of a table reports what is wrong and returns something harmless in its place (or
 //! `None` where nothing is harmless), so that one reading finds all mistakes.
 
+mod adaptivity;
 mod boundary;
 mod discretization;
 mod enrichment;
@@ -25,6 +26,7 @@ use super::document::{Report, Section, Value};
 use super::error::ProblemError;
 use super::stiffness::default_order;
 use super::{BorderPart, Order, Problem, Solver, SolverKind, scopes};
+use adaptivity::adaptivity;
 use boundary::boundary;
 use discretization::discretization;
 use enrichment::enrichments;
@@ -195,6 +197,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         tables,
         enrichments,
         discretization,
+        adaptivity: adaptivity(root),
         solver,
         text: None,
         files: Vec::new(),
@@ -204,8 +207,16 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
 /// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
 fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
     let mut known = vec!["title", "domain", "equation", "material", "crack", "hole", "boundary"];
-    known.extend(["exact", "discretization", "solver", "table", "enrichment", "quantity"]);
-    let mut remedies = ["adaptivity", "growth"].map(|key| (key, Later(&[]))).to_vec();
+    known.extend([
+        "exact",
+        "discretization",
+        "adaptivity",
+        "solver",
+        "table",
+        "enrichment",
+        "quantity",
+    ]);
+    let mut remedies = vec![("growth", Later(&[]))];
     match kind {
         Some(kind) => {
             known.push(kind.words().source);

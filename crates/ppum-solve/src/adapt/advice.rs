@@ -1,0 +1,86 @@
+//! Whether to divide a cell or to raise its order.
+
+use super::decay::{rate, squares};
+use crate::corner::corners;
+use crate::geometry::{Placed, around};
+use crate::problem::{AdaptKind, Problem};
+use crate::space::{Change, Space};
+use ppum::crack::tips;
+use ppum::dataset::{FieldData, MAX_DEGREE};
+use ppum::field::Field;
+use ppum::function::FunctionKind;
+use ppum::vec2::Vec2;
+
+/// The rate σ of the decay of Legendre coefficients from which on a field counts as smooth: each is less than
+/// exp(−1) of the one before.
+const SMOOTH: f64 = 1.0;
+
+/// Says what to do about cells.
+pub(crate) struct Adviser<'a> {
+    kind: AdaptKind,
+    field: &'a Field<'a>,
+    space: &'a Space<'a>,
+    /// Tips, and what else is singular: functions times a few polynomials do not make the rest smooth.
+    singular: Placed<Vec2>,
+}
+
+impl<'a> Adviser<'a> {
+    pub(crate) fn new(
+        kind: AdaptKind,
+        problem: &'a Problem,
+        field: &'a Field<'a>,
+        space: &'a Space<'a>,
+    ) -> Self {
+        let tip_points =
+            tips(&problem.cracks).map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end));
+        let others = corners(problem).into_iter().map(|corner| corner.at);
+        let singular = tip_points.chain(others).map(|point| (around(&[point]), point));
+        Self { kind, field, space, singular: Placed::new(singular) }
+    }
+
+    /// What to do about a cell, if that is possible.
+    pub(crate) fn advice(&self, cell: usize) -> Change {
+        let can_rise = self.space.order(cell) < MAX_DEGREE;
+        match self.kind {
+            AdaptKind::H => Change::Divide,
+            AdaptKind::P if can_rise => Change::Raise,
+            AdaptKind::P => Change::Keep,
+            AdaptKind::Hp if can_rise && self.is_smooth(cell) => Change::Raise,
+            AdaptKind::Hp => Change::Divide,
+        }
+    }
+
+    /// True if no singular point lies in a patch, and its coefficients decay fast. Of two orders nothing can be said:
+    /// a third one will tell.
+    fn is_smooth(&self, patch: usize) -> bool {
+        let support = self.space.partition().support(patch);
+        if self.singular.near(&support).next().is_some() {
+            return false;
+        }
+        rate(&self.squares(patch)).is_none_or(|rate| rate >= SMOOTH)
+    }
+
+    /// The squares of the Legendre coefficients of a patch by their degree: of its polynomials and of what jumps
+    /// across cracks, not of other functions.
+    fn squares(&self, patch: usize) -> Vec<f64> {
+        let data = self.field.data;
+        let partition = self.space.partition();
+        // the patch is [-1, 1]² in the coordinates of its polynomials
+        let part = 0.5 * partition.cell[patch].size().x / partition.scale[patch].x;
+        let mut sums = vec![0.0; self.space.order(patch) + 1];
+        for block in data.blocks(patch).filter(|&block| self.is_polynomial(data, block)) {
+            let degree = usize::from(data.block_degree[block]);
+            for component in 0..data.coefficients.len() {
+                let own = squares(data.block_coefficients(block, component), degree, part);
+                sums.iter_mut().zip(own).for_each(|(sum, square)| *sum += square);
+            }
+        }
+        sums
+    }
+
+    /// True if the function of a block is a constant on each side of cracks.
+    fn is_polynomial(&self, data: &FieldData, block: usize) -> bool {
+        let function = data.block_function[block] as usize;
+        !matches!(self.field.step.functions[function].kind, FunctionKind::Formula { .. })
+    }
+}

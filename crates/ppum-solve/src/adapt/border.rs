@@ -1,0 +1,87 @@
+//! The border of a plate in parts on each of which the same conditions hold, those that nobody speaks of among them.
+
+use crate::geometry::around;
+use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
+use ppum::crack::Side;
+use ppum::vec2::{Rect, Vec2};
+
+/// A part of the border with the conditions on it, by their numbers.
+pub(super) struct Part {
+    pub(super) on: BorderPart,
+    conditions: Vec<usize>,
+    bounds: Rect,
+}
+
+impl Part {
+    /// The parts of edges, the rims, and the faces of cracks.
+    pub(super) fn all(problem: &Problem) -> Vec<Self> {
+        let edges = Edge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));
+        let rims = (0..problem.domain.holes.len()).map(BorderPart::Hole);
+        let sides = [Side::Above, Side::Below];
+        let faces = (0..problem.cracks.len())
+            .flat_map(|crack| sides.map(|side| BorderPart::Crack { crack, face: Some(side) }));
+        edges.chain(rims).chain(faces).map(|on| Self::new(problem, on)).collect()
+    }
+
+    fn new(problem: &Problem, on: BorderPart) -> Self {
+        let speaks = |condition: &BoundaryCondition| match (condition.on, on) {
+            (
+                BorderPart::Edge { edge, from, to },
+                BorderPart::Edge { edge: own, from: a, to: b },
+            ) => edge == own && from <= a && b <= to,
+            (BorderPart::Hole(hole), BorderPart::Hole(own)) => hole == own,
+            (BorderPart::Crack { crack, face }, BorderPart::Crack { crack: own, face: side }) => {
+                crack == own && (face.is_none() || face == side)
+            }
+            _ => false,
+        };
+        let all = problem.boundary.iter().enumerate();
+        let conditions = all.filter(|(_, condition)| speaks(condition)).map(|(k, _)| k).collect();
+        Self { on, conditions, bounds: bounds(problem, on) }
+    }
+
+    /// False if the part certainly stays away from a box.
+    pub(super) fn may_meet(&self, rect: &Rect) -> bool {
+        let (a, b) = (&self.bounds, rect);
+        a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
+    }
+
+    /// Of each component whether its value is given, and that value or the traction (flux): zero where nothing is said.
+    pub(super) fn given(&self, problem: &Problem, x: Vec2, normal: Vec2) -> ([bool; 2], [f64; 2]) {
+        let (mut held, mut values) = ([false; 2], [0.0; 2]);
+        for condition in self.conditions.iter().map(|&k| &problem.boundary[k]) {
+            let (own, given) = (condition.held(), condition.values(x, normal));
+            for k in 0..2 {
+                held[k] |= own[k];
+                values[k] += given[k];
+            }
+        }
+        (held, values)
+    }
+}
+
+/// The pieces of an edge between the ends of its conditions.
+fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
+    let mut ends = edge.range(&problem.domain.bounds).to_vec();
+    for condition in &problem.boundary {
+        if let BorderPart::Edge { edge: own, from, to } = condition.on
+            && own == edge
+        {
+            ends.extend([from, to]);
+        }
+    }
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    ends.windows(2).map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
+}
+
+fn bounds(problem: &Problem, on: BorderPart) -> Rect {
+    let domain = &problem.domain;
+    match on {
+        BorderPart::Edge { edge, from, to } => {
+            around(&[from, to].map(|s| edge.point(&domain.bounds, s)))
+        }
+        BorderPart::Hole(hole) => domain.holes[hole].bounds(),
+        BorderPart::Crack { crack, .. } => around(&problem.cracks[crack].points),
+    }
+}

@@ -1,0 +1,129 @@
+//! What is given and not seen in a solution: sources, tractions and values.
+
+use super::border::Part;
+use super::span::unseen;
+use crate::assembly::border_rules;
+use crate::law::Law;
+use crate::problem::Problem;
+use crate::quadrature::{EdgeRule, Quadrature, Rule};
+use crate::space::Space;
+use crate::watched::{Halt, Stage, in_batches};
+use ppum::crack::Side;
+use ppum::field::Field;
+use ppum::jet::Jet;
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::PI;
+
+/// The squares of what each cell misses of the data. Advances the stage by their number.
+///
+/// # Errors
+/// Cancelled.
+pub(super) fn unseen_data(
+    problem: &Problem,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    stage: &Stage<'_>,
+) -> Result<Vec<f64>, Halt> {
+    let n = space.partition().len();
+    let data = Data {
+        problem,
+        field,
+        space,
+        law: Law::new(field.equation),
+        quadrature: space.quadrature(0),
+        border: Part::all(problem),
+        has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
+    };
+    let mut squares = Vec::with_capacity(n);
+    let work = |(): &mut (), cell: usize| Ok(data.in_cell(cell));
+    in_batches(stage, n, || (), work, |_, square| squares.push(square))?;
+    Ok(squares)
+}
+
+/// What is given, and the field that should obey it.
+struct Data<'a> {
+    problem: &'a Problem,
+    field: &'a Field<'a>,
+    space: &'a Space<'a>,
+    law: Law<'a>,
+    quadrature: Quadrature<'a>,
+    border: Vec<Part>,
+    /// True if the source varies: a constant is a polynomial.
+    has_source: bool,
+}
+
+impl Data<'_> {
+    fn in_cell(&self, cell: usize) -> f64 {
+        let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
+        let near = self.border.iter().filter(|part| part.may_meet(rect));
+        let on_border = near.map(|part| {
+            let coverers = &self.space.coverers[cell];
+            let rules = border_rules(self.problem, part.on, &self.quadrature, rect, coverers);
+            rules.iter().map(|rule| self.on_border(part, rule, rect, order)).sum::<f64>()
+        });
+        let on_border: f64 = on_border.sum();
+        if self.has_source { on_border + self.of_source(cell, rect, order) } else { on_border }
+    }
+
+    /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a degree below the order p: of
+    /// order 1 the bound of Payne and Weinberger (1960) for what the rest of the source does to the energy.
+    fn of_source(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
+        let rules = self.space.rules(&self.quadrature, cell);
+        let (places, mut values) = self.source_values(&rules, rect);
+        let d = rect.size().length() / (PI * order.max(1) as f64);
+        d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
+    }
+
+    /// The points of a cell, in units of half its size, with the roots of their weights, and the source there.
+    fn source_values(&self, rules: &[Rule], rect: &Rect) -> (Vec<(Vec2, f64)>, Vec<Vec<f64>>) {
+        let (center, half) = (rect.center(), rect.size() * 0.5);
+        let (mut places, mut values) = (Vec::new(), vec![Vec::new(); self.law.components]);
+        for rule in rules {
+            for (&offset, weight) in rule.offsets.iter().zip(&rule.weights) {
+                let (x, root) = (rule.anchor + offset, weight.sqrt());
+                let way = x - center;
+                places.push((vec2(way.x / half.x, way.y / half.y), root));
+                let source = self.problem.source_at(x);
+                values.iter_mut().zip(source).for_each(|(values, f)| values.push(root * f));
+            }
+        }
+        (places, values)
+    }
+
+    /// The squares of what the field misses of the tractions and values at the points of a rule.
+    fn on_border(&self, part: &Part, rule: &EdgeRule, rect: &Rect, order: usize) -> f64 {
+        let h = rect.size().x.max(rect.size().y);
+        let (p, tips) = (order as f64, self.tips(rule));
+        let (local, side) = match rule.face {
+            Some(face) => (self.field.on(face.segment, rule.anchor), face.side),
+            None => (self.field.at(rule.anchor), Side::Above),
+        };
+        let mut sum = 0.0;
+        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
+            let (mut u, x, n) = ([Jet::constant(0.0); 2], rule.anchor + offset, rule.normals[q]);
+            local.over_patches::<f64, 1>([offset.x, offset.y], side, &rule.patches, &mut u);
+            let law = self.law.at(x);
+            let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
+            let (held, given) = part.given(self.problem, x, n);
+            let to_tip = tips.iter().map(|&tip| (x - tip).length()).fold(f64::INFINITY, f64::min);
+            let width = (h / (2.0 * (p + 1.0))).min(to_tip);
+            for i in 0..law.components() {
+                sum += weight
+                    * if held[i] {
+                        law.modulus(i) * (p * p + 1.0) / h * (u[i].v - given[i]).powi(2)
+                    } else {
+                        let traction = flux[i][0] * n.x + flux[i][1] * n.y;
+                        width / law.modulus(i) * (traction - given[i]).powi(2)
+                    };
+            }
+        }
+        sum
+    }
+
+    /// The tips of the crack whose face a rule lies on: the tractions of tip functions one by one are not square
+    /// integrable there, but are with the distance as their weight.
+    fn tips(&self, rule: &EdgeRule) -> Vec<Vec2> {
+        let crack = rule.face.map(|face| &self.field.step.cracks[face.segment.crack as usize]);
+        crack.iter().flat_map(|crack| crack.tips().map(|end| crack.end_point(end))).collect()
+    }
+}

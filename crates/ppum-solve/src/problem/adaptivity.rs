@@ -1,0 +1,64 @@
+//! How a cover is improved by its own solutions.
+
+/// Solve, estimate the error, improve the cover where it is large, again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Adaptivity {
+    /// Most times that the cover is improved.
+    pub steps: usize,
+    /// θ: the cells that make up this part of the square of the estimated error are improved, in (0, 1].
+    pub fraction: f64,
+    /// Most unknowns of a step.
+    pub max_unknowns: usize,
+    /// Estimated error that is small enough, in the energy norm, as a part of the norm of the solution.
+    pub tolerance: Option<f64>,
+    /// What is done to a cell.
+    pub kind: AdaptKind,
+    /// The steps that the dataset keeps.
+    pub keep: Keep,
+}
+
+/// What is done to cells with large errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AdaptKind {
+    /// They are divided.
+    #[default]
+    H,
+    /// Their order is raised.
+    P,
+    /// Their order is raised where the field is smooth, others are divided.
+    Hp,
+}
+
+/// The steps of an adaptation that a dataset keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// The last one.
+    #[default]
+    Last,
+    /// All of them.
+    All,
+}
+
+/// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in less than a minute;
+/// θ = 0.6; the cells are divided.
+impl Default for Adaptivity {
+    fn default() -> Self {
+        Self {
+            steps: 10,
+            fraction: 0.6,
+            max_unknowns: 100_000,
+            tolerance: None,
+            kind: AdaptKind::default(),
+            keep: Keep::default(),
+        }
+    }
+}
+
+impl Adaptivity {
+    /// The defaults for one kind.
+    #[must_use]
+    pub fn new(kind: AdaptKind) -> Self {
+        Self { kind, ..Self::default() }
+    }
+}

@@ -1,0 +1,108 @@
+//! Solutions on covers that are improved where the one before errs.
+
+use super::clock::Clock;
+use super::solved::Solved;
+use super::{Plan, SolveError, most_cells};
+use crate::adapt::{Adviser, mark};
+use crate::problem::{Adaptivity, Keep};
+use crate::report::Stop;
+use crate::space::{Change, Mesh};
+use crate::watched::Stage;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::{Phase, Progress, Verdict, Watcher};
+
+/// A watcher of one step, which it tells the number of.
+struct InStep<'w> {
+    watcher: &'w dyn Watcher,
+    step: usize,
+}
+
+impl Watcher for InStep<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.watcher.hear(progress.in_step(self.step))
+    }
+}
+
+/// The next step, or why there is none.
+enum Next<'p> {
+    Plan(Box<Plan<'p>>),
+    Stop(Stop),
+}
+
+/// Solves step by step: solve, estimate, mark, improve, from a plan of the first step.
+///
+/// # Errors
+/// See [`SolveError`].
+pub(super) fn adapted(
+    first: Plan<'_>,
+    set: &Adaptivity,
+    watcher: &dyn Watcher,
+) -> Result<Dataset, SolveError> {
+    let (mut plan, mut kept) = (first, Vec::new());
+    for step in 0.. {
+        let here = InStep { watcher, step };
+        let solved = plan.solved(&here)?;
+        match solved.next(set, step, &InStep { watcher, step: step + 1 })? {
+            Next::Plan(next) => {
+                if set.keep == Keep::All {
+                    kept.append(&mut solved.finish(None, &here)?.steps);
+                }
+                plan = *next;
+            }
+            Next::Stop(stop) => {
+                let mut dataset = solved.finish(Some(stop), &here)?;
+                kept.append(&mut dataset.steps);
+                dataset.steps = kept;
+                return Ok(dataset);
+            }
+        }
+    }
+    unreachable!("steps have no end but that of the loop")
+}
+
+impl<'p> Solved<'p> {
+    /// The plan of the step after this one, or what ends the adaptation.
+    fn next(
+        &self,
+        set: &Adaptivity,
+        step: usize,
+        watcher: &dyn Watcher,
+    ) -> Result<Next<'p>, SolveError> {
+        let error = self.report.estimated_error.unwrap_or(0.0);
+        if error == 0.0 || set.tolerance.is_some_and(|tolerance| error <= tolerance) {
+            return Ok(Next::Stop(Stop::Tolerance));
+        }
+        if step >= set.steps {
+            return Ok(Next::Stop(Stop::Steps));
+        }
+        let clock = Clock::new();
+        let stage = Stage::uncounted(watcher, Phase::Cover)?;
+        let Some(mesh) = self.improved(set)? else {
+            return Ok(Next::Stop(Stop::Limits));
+        };
+        let Plan { problem, memory, .. } = self.plan;
+        if mesh.n_cells() > most_cells(problem, memory) {
+            return Ok(Next::Stop(Stop::Memory));
+        }
+        match Plan::on(problem, mesh, memory, (clock, &stage)) {
+            Err(SolveError::TooLarge { .. }) => Ok(Next::Stop(Stop::Memory)),
+            Ok(plan) if plan.estimate.unknowns > set.max_unknowns as f64 => {
+                Ok(Next::Stop(Stop::Unknowns))
+            }
+            other => Ok(Next::Plan(Box::new(other?))),
+        }
+    }
+
+    /// The mesh of the next step; none if nothing can be improved where it is needed.
+    fn improved(&self, set: &Adaptivity) -> Result<Option<Mesh>, SolveError> {
+        let Plan { problem, mesh, dataset, space, .. } = &self.plan;
+        let field = Field::new(dataset, 0)?;
+        let adviser = Adviser::new(set.kind, problem, &field, space);
+        let mut changes = vec![Change::Keep; self.squares.len()];
+        for cell in mark(&self.squares, set.fraction) {
+            changes[cell] = adviser.advice(cell);
+        }
+        Ok(mesh.changed(space.partition(), &changes)?)
+    }
+}

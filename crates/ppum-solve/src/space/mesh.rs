@@ -1,0 +1,93 @@
+//! The cells of a problem with what adaptation has made of them.
+
+use super::SpaceError;
+use crate::problem::Problem;
+use crate::refine::{RefineError, cover};
+use crate::watched::Stage;
+use ppum::cover::{Cover, CoverError};
+use ppum::dataset::Partition;
+use ppum::vec2::Rect;
+
+/// What is to be done to a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Change {
+    Keep,
+    /// Its four quarters take its place.
+    Divide,
+    /// The order of its polynomials grows by one.
+    Raise,
+}
+
+/// A cover, and of each of its cells by how much the order is raised above the one that the problem gives.
+#[derive(Clone, Debug)]
+pub(crate) struct Mesh {
+    pub(super) cover: Cover,
+    pub(super) raised: Vec<u8>,
+}
+
+impl Mesh {
+    /// The cover of a problem, of at most so many cells.
+    ///
+    /// # Errors
+    /// A cover that cannot be built or refined; cancelled.
+    pub(crate) fn new(
+        problem: &Problem,
+        most: usize,
+        stage: &Stage<'_>,
+    ) -> Result<Self, SpaceError> {
+        let cover = cover(problem, most, stage)?;
+        let raised = vec![0; cover.n_cells()];
+        Ok(Self { cover, raised })
+    }
+
+    /// Number of cells, those in holes among them.
+    pub(crate) fn n_cells(&self) -> usize {
+        self.raised.len()
+    }
+
+    /// The mesh after changes to the cells of a partition, which is this mesh's but for cells in holes. Cells beside
+    /// those that are divided may have to be divided, too. None if nothing can be changed.
+    ///
+    /// # Errors
+    /// Too many cells.
+    pub(crate) fn changed(
+        &self,
+        partition: &Partition,
+        changes: &[Change],
+    ) -> Result<Option<Self>, SpaceError> {
+        let cells = self.cover.cells();
+        let mut change = vec![Change::Keep; cells.len()];
+        let mut own = partition.cell.iter().zip(changes).peekable();
+        for ((cell, _), change) in cells.iter().zip(&mut change) {
+            if let Some((_, wanted)) = own.next_if(|(solid, _)| *solid == cell) {
+                *change = *wanted;
+            }
+        }
+        if change.iter().all(|change| *change == Change::Keep) {
+            return Ok(None);
+        }
+        let mut cover = self.cover.clone();
+        let mut divide = change.iter().map(|change| *change == Change::Divide);
+        match cover.refine(|_, _| divide.next() == Some(true)) {
+            // as small as numbers allow: not an error of the problem
+            Err(CoverError::TooSmall { .. }) => return Ok(None),
+            other => other.map_err(RefineError::from)?,
+        };
+        let raise = |(raised, change): (&u8, &Change)| raised + u8::from(*change == Change::Raise);
+        let raised: Vec<u8> = self.raised.iter().zip(&change).map(raise).collect();
+        let raised = inherited(&cells, &raised, &cover.cells());
+        Ok(Some(Self { cover, raised }))
+    }
+}
+
+/// What cells have from those that they lie in. Both lists are in the order of one tree.
+fn inherited(old: &[(Rect, u8)], of_old: &[u8], new: &[(Rect, u8)]) -> Vec<u8> {
+    let mut at = 0;
+    let of = |(cell, _): &(Rect, u8)| {
+        while !old[at].0.contains(cell.center()) {
+            at += 1;
+        }
+        of_old[at]
+    };
+    new.iter().map(of).collect()
+}
