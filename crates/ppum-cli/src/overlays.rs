@@ -49,6 +49,8 @@ enum Word {
     Patches,
     /// Borders of the cover's cells
     Cells,
+    /// Boxes of the cells, coloured by the kind of enrichment
+    Boxes,
     /// Points the cover was made from
     Points,
     /// Centres of the cells, coloured by the kind of enrichment
@@ -68,6 +70,7 @@ impl From<Word> for Overlay {
         match word {
             Word::Patches => Self::Patches,
             Word::Cells => Self::Cells,
+            Word::Boxes => Self::Boxes,
             Word::Points => Self::Points,
             Word::Centers => Self::Centers,
             Word::Rings => Self::Rings,

@@ -127,17 +127,22 @@ impl<'a> Drawing<'a> {
         let view = &picture.view;
         let wanted = self.wanted();
         let glyphs = self.glyphs(|spacing| Lattice::new(field, view, spacing))?;
-        let mut centers = Vec::new();
-        if wanted.contains(&Overlay::Centers) {
-            let (items, entries) = overlay::centers(view, field);
-            centers = items;
-            self.layers.legend.extend(entries);
+        let (mut centers, mut boxes) = (Vec::new(), Vec::new());
+        let mut entries = Vec::new();
+        if wanted.contains(&Overlay::Boxes) {
+            (boxes, entries) = overlay::boxes(view, field);
         }
+        if wanted.contains(&Overlay::Centers) {
+            // the same colours
+            (centers, entries) = overlay::centers(view, field);
+        }
+        self.layers.legend.extend(entries);
         self.isolines()?;
         self.layers.items.extend(glyphs);
         let stations = self.stations();
         for wanted in wanted {
             let items = match wanted {
+                Overlay::Boxes => std::mem::take(&mut boxes),
                 Overlay::Centers => std::mem::take(&mut centers),
                 other => self.overlay(other, &stations),
             };
@@ -162,6 +167,7 @@ impl<'a> Drawing<'a> {
             Overlay::Patches => overlay::patches(view, &step.partition),
             Overlay::Cells => overlay::cells(view, &step.partition),
             Overlay::Points => overlay::points(view, &step.partition),
+            Overlay::Boxes => overlay::boxes(view, field).0,
             Overlay::Centers => overlay::centers(view, field).0,
             Overlay::Rings => overlay::rings(view, &step.cracks, &step.intensities),
             Overlay::Cracks => {

@@ -33,6 +33,8 @@ pub enum Overlay {
     Patches,
     /// Borders of the cover's cells.
     Cells,
+    /// Boxes of the cells, coloured by the kind of enrichment.
+    Boxes,
     /// Points the cover was made from.
     Points,
     /// Centres of the cells, coloured by the kind of enrichment.
@@ -49,9 +51,10 @@ pub enum Overlay {
 
 impl Overlay {
     /// All of them, the lowest first.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Patches,
         Self::Cells,
+        Self::Boxes,
         Self::Points,
         Self::Centers,
         Self::Rings,
@@ -66,6 +69,7 @@ impl Overlay {
         match self {
             Self::Patches => "patches",
             Self::Cells => "cells",
+            Self::Boxes => "boxes",
             Self::Points => "points",
             Self::Centers => "centers",
             Self::Rings => "rings",
@@ -81,6 +85,7 @@ impl Overlay {
         match self {
             Self::Patches => "Supports of the patches, which overlap",
             Self::Cells => "Borders of the cover's cells",
+            Self::Boxes => "Boxes of the cells, coloured by the kind of enrichment",
             Self::Points => "Points the cover was made from",
             Self::Centers => "Centres of the cells, coloured by the kind of enrichment",
             Self::Rings => "Rings that the stress intensity factors are integrated over",

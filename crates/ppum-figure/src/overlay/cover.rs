@@ -157,6 +157,42 @@ pub fn centers(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
     (items, entries)
 }
 
+/// Widest line of a box, as a part of its side: what is inside is to be seen.
+const BOX_PART: f64 = 0.1;
+
+/// Opacity of the boxes of patches that have nothing but polynomials.
+const PLAIN: u8 = 110;
+
+/// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two boxes that share a side
+/// both show theirs. Üffinger et al. 2011, figure 8.
+#[must_use]
+pub fn boxes(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+    let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
+    let (mut items, mut entries) = (Vec::new(), Vec::new());
+    for kind in Enrichment::ALL {
+        let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
+        let seen: Vec<_> = of_kind.filter(|cell| is_near(view, *cell)).collect();
+        if seen.is_empty() {
+            continue;
+        }
+        let [r, g, b, opaque] = kind.color();
+        let color = if kind == Enrichment::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
+        entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
+        items.extend(seen.into_iter().map(|cell| frame_inside(view, cell, color)));
+    }
+    (items, entries)
+}
+
+/// The border of a cell, drawn within it.
+fn frame_inside(view: &View, cell: Rect, color: [u8; 4]) -> Item {
+    let side = cell.size().x.min(cell.size().y) / view.pixel_size();
+    let width = (1.5 * WIDTH * line_scale(view.pixels)).min(BOX_PART * side);
+    let inset = 0.5 * width * view.pixel_size();
+    let mut path = Path::default();
+    frame(&mut path, view, Rect::new(cell.min + vec2(inset, inset), cell.max - vec2(inset, inset)));
+    Item::Line { path, pen: Pen::new(color, width) }
+}
+
 /// Adds a box that may be larger than the view by far.
 fn frame(path: &mut Path, view: &View, rect: Rect) {
     let around = reach(view);

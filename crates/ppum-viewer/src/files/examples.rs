@@ -34,7 +34,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 21] = [
+pub const ALL: [Example; 23] = [
     example!("centre-crack"),
     example!("edge-crack"),
     example!("slanted-crack"),
@@ -48,6 +48,8 @@ pub const ALL: [Example; 21] = [
     example!("kinked-in-plane"),
     example!("centre-crack-tension"),
     example!("paper-centre-crack"),
+    example!("paper-adaptive-1"),
+    example!("paper-adaptive-2"),
     example!("paper-enrichment"),
     example!("paper-tip-functions"),
     example!("poisson-slit"),

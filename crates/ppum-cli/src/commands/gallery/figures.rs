@@ -80,4 +80,17 @@ pub(super) const ALL: &[Figure] = &[
             "render @/meeting-cracks.h5 -o @/figure-6-junction.png --figure --center=-0.246,0.258 --width 1e-9 --overlay cracks --size 700x600",
         ],
     },
+    Figure {
+        number: 8,
+        title: "covers that adapt, order 1 beside order 2",
+        files: &[example!("paper-adaptive-1.toml"), example!("paper-adaptive-2.toml")],
+        lines: &[
+            "solve @/paper-adaptive-1.toml",
+            "solve @/paper-adaptive-2.toml",
+            "render @/paper-adaptive-1.h5 -o @/figure-8-order-1.png --figure --range 0,400 --overlay boxes --size 800x700",
+            "render @/paper-adaptive-2.h5 -o @/figure-8-order-2.png --figure --range 0,400 --overlay boxes --size 800x700",
+            "render @/paper-adaptive-1.h5 -o @/figure-8-order-1-tip.png --figure --range 0,400 --overlay boxes --center=-0.75,0.35 --width 0.3 --size 800x700",
+            "render @/paper-adaptive-2.h5 -o @/figure-8-order-2-tip.png --figure --range 0,400 --overlay boxes --center=-0.75,0.35 --width 0.3 --size 800x700",
+        ],
+    },
 ];
