@@ -41,6 +41,8 @@ pub(crate) struct Tip {
     g: Number,
     /// Direction of the largest hoop stress, radians from `angle`.
     growth_angle: Number,
+    /// Estimated error of (K_I, K_II).
+    error: Number,
     /// Largest relative difference of two rings: no estimate of the error.
     spread: Number,
     rings: Vec<RingRow>,
@@ -62,7 +64,7 @@ impl Tip {
 
     /// The intensities of a tip of step number `index`.
     pub(crate) fn new(dataset: &Dataset, index: usize, intensity: &TipIntensity) -> Self {
-        let TipIntensity { tip, k1, k2, t_stress, j, rings } = intensity;
+        let TipIntensity { tip, k1, k2, t_stress, j, error, rings } = intensity;
         let crack = &dataset.steps[index].cracks[tip.crack as usize];
         let axis = crack.growth_direction(tip.end);
         let at = crack.end_point(tip.end);
@@ -79,6 +81,7 @@ impl Tip {
             j: known(*j),
             g: known(elastic.map(|body| intensity.energy_release(&body.at(at)))),
             growth_angle: known(intensity.growth_angle()),
+            error: known(*error),
             spread: Number(intensity.spread()),
             rings: rings.iter().map(RingRow::new).collect(),
         }
@@ -95,13 +98,15 @@ impl Tip {
         };
         // where T is zero, it is found as rounding of the stresses in the disc
         let size = self.k1.0.hypot(self.k2.0) / self.reach().sqrt();
-        let check = match (self.j.0 / self.g.0 - 1.0).abs() {
-            check if check.is_finite() => format!("{check:.0e}"),
+        let part = |part: f64| match part {
+            part if part.is_finite() => format!("{part:.0e}"),
             _ => DASH.into(),
         };
+        let error = part(self.error.0 / self.k1.0.hypot(self.k2.0));
+        let check = part((self.j.0 / self.g.0 - 1.0).abs());
         let t_stress = number(beside(self.t_stress.0, size));
         let at = places.show(Vec2::from(self.tip));
-        vec![at, k1, k2, t_stress, number(self.g.0), angle, spread, check]
+        vec![at, k1, k2, t_stress, number(self.g.0), angle, error, spread, check]
     }
 
     /// Radius of the largest disc.
@@ -132,11 +137,10 @@ pub(crate) fn all_tips(dataset: &Dataset, index: usize) -> Vec<Tip> {
 const DASH: &str = "–";
 
 /// Heads of the columns after the numbers of tip and crack.
-const HEADS: [&str; 8] = ["position", "K_I", "K_II", "T", "G", "angle", "spread", "J/G-1"];
+const HEADS: [&str; 9] = ["position", "K_I", "K_II", "T", "G", "angle", "error", "spread", "J/G-1"];
 
 /// What they mean.
-const MEANING: &str =
-    "angle: of growth by the hoop stress; spread, J/G-1: checks, each no estimate of the error";
+const MEANING: &str = "angle: of growth by the hoop stress; error: of K, estimated, relative; spread, J/G-1: checks alone";
 
 /// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
 /// is shown as zero.

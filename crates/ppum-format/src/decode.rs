@@ -257,10 +257,11 @@ fn intensities(group: &mut Group) -> Read<Vec<TipIntensity>> {
     let rings: Vec<Ring> = group.rows("rings")?.into_iter().map(ring).collect();
     let parts = group.offsets("ring_offsets", n, rings.len())?;
     let (t_stress, j) = (known(group, "t_stress", n)?, known(group, "j", n)?);
+    let error = known(group, "error", n)?;
     let intensity = |(k, part): (usize, std::ops::Range<usize>)| {
         let tip = TipId { crack: crack[k], end: group.word(ENDS, &end[k], "end")? };
         let (k1, k2, rings) = (k1[k], k2[k], rings[part].to_vec());
-        Ok(TipIntensity { tip, k1, k2, t_stress: t_stress[k], j: j[k], rings })
+        Ok(TipIntensity { tip, k1, k2, t_stress: t_stress[k], j: j[k], error: error[k], rings })
     };
     parts.into_iter().enumerate().map(intensity).collect()
 }

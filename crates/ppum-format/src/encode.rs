@@ -360,6 +360,7 @@ fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {
     group.array("rings", Array::rows(rings.map(|r| [r.r1, r.r2, r.k1, r.k2])));
     known(group, "t_stress", intensities.iter().map(|i| i.t_stress));
     known(group, "j", intensities.iter().map(|i| i.j));
+    known(group, "error", intensities.iter().map(|i| i.error));
     Ok(())
 }
 

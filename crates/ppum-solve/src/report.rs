@@ -38,6 +38,8 @@ pub struct SolverReport {
     pub energy: Option<f64>,
     /// Estimated error of the solution in the energy norm, as a part of the norm of the solution.
     pub estimated_error: Option<f64>,
+    /// Largest estimated error of the stress intensity factors of a tip, as a part of their size.
+    pub factor_error: Option<f64>,
     /// What has ended the adaptation, the [code](Stop::code) of a [`Stop`].
     pub stop: Option<f64>,
     /// Relative error of stresses evaluated in double precision.
@@ -95,7 +97,7 @@ impl Stop {
 type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [Entry; 14] = [
+const ENTRIES: [Entry; 15] = [
     ("crossed twice", |r| &mut r.crossed_twice),
     ("unknowns", |r| &mut r.unknowns),
     ("cut-off", |r| &mut r.cut_off),
@@ -108,6 +110,7 @@ const ENTRIES: [Entry; 14] = [
     ("quadrature points", |r| &mut r.quadrature_points),
     ("energy", |r| &mut r.energy),
     ("estimated error", |r| &mut r.estimated_error),
+    ("estimated error of factors", |r| &mut r.factor_error),
     ("adaptation stop", |r| &mut r.stop),
     ("rounding", |r| &mut r.rounding),
 ];

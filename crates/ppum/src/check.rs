@@ -413,6 +413,10 @@ fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
     check_number("k2", intensity.k2)?;
     check_number("t_stress", intensity.t_stress.unwrap_or(0.0))?;
     check_number("j", intensity.j.unwrap_or(0.0))?;
+    let error = intensity.error.unwrap_or(0.0);
+    require(error >= 0.0 && error.is_finite(), "error", || {
+        format!("the estimated error is {error}, but must be finite and not negative")
+    })?;
     require(intensity.rings.len() <= MAX_RINGS, "rings", || {
         format!("there are {} rings, but at most {MAX_RINGS} may be", intensity.rings.len())
     })?;
@@ -632,5 +636,11 @@ mod tests {
             place_after(|d| d.steps[0].intensities[0].t_stress = Some(f64::NAN)),
             "steps[0].intensities[0].t_stress"
         );
+        for error in [f64::NAN, -1e-9] {
+            assert_eq!(
+                place_after(|d| d.steps[0].intensities[0].error = Some(error)),
+                "steps[0].intensities[0].error"
+            );
+        }
     }
 }

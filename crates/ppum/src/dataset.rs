@@ -385,6 +385,8 @@ pub struct TipIntensity {
     /// The J-integral, found without the factors: the energy released per length of growth and thickness, which is
     /// [G](Self::energy_release) \[stress·length\]. None where it is not known.
     pub j: Option<f64>,
+    /// Estimated error of (K_I, K_II), the length of the difference \[stress·length^½\]. None where it is not known.
+    pub error: Option<f64>,
     /// All rings. That they agree is a check of the integrals, no estimate of the error of K.
     pub rings: Vec<Ring>,
 }
@@ -396,7 +398,7 @@ impl TipIntensity {
     /// The factors of a tip of which nothing else is known.
     #[must_use]
     pub fn new(tip: TipId, k1: f64, k2: f64) -> Self {
-        Self { tip, k1, k2, t_stress: None, j: None, rings: Vec::new() }
+        Self { tip, k1, k2, t_stress: None, j: None, error: None, rings: Vec::new() }
     }
 
     /// G = (K_I² + K_II²) / E′, the energy released per length of growth and thickness, in the material at the tip.

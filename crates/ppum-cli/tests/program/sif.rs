@@ -13,7 +13,7 @@ fn json_has_the_documented_shape() {
     let tips = report["tips"].as_array().unwrap();
     assert_eq!(tips.len(), 2);
     for (tip, [x, angle]) in tips.iter().zip([[-0.5, std::f64::consts::PI], [0.5, 0.0]]) {
-        let factors = ["angle", "crack", "g", "growth_angle", "j", "k1", "k2", "rings"];
+        let factors = ["angle", "crack", "error", "g", "growth_angle", "j", "k1", "k2", "rings"];
         assert_eq!(keys(tip), [&factors[..], &["spread", "step", "t_stress", "tip"]].concat());
         assert_eq!(tip["tip"], json!([x, 0.0]));
         assert_eq!(tip["angle"].as_f64(), Some(angle));
@@ -25,6 +25,8 @@ fn json_has_the_documented_shape() {
         let k1 = tip["k1"].as_f64().unwrap();
         let exact = 1.333_712 * (0.5 * std::f64::consts::PI).sqrt();
         assert!((k1 / exact - 1.0).abs() < 0.05, "{k1} {exact}");
+        let [error, found] = [(k1 - exact).abs(), tip["error"].as_f64().unwrap()];
+        assert!((0.3 * error..10.0 * error).contains(&found), "{error} {found}");
         assert!(tip["k2"].as_f64().unwrap().abs() < 1e-6 * k1, "symmetry");
         assert!(tip["growth_angle"].as_f64().unwrap().abs() < 1e-6, "straight on");
         // E′ = 1 / 0.91; J is another integral over the same field, and T about minus the load

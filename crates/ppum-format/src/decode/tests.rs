@@ -22,7 +22,8 @@ fn complaint(content: Content) -> Option<String> {
 #[test]
 fn a_missing_item_is_named() {
     let optional = ["problem", "@format", "@format_version"];
-    let results = ["exact", "intensities/t_stress", "intensities/j"];
+    let of_tips = ["intensities/t_stress", "intensities/j", "intensities/error"];
+    let results = [&["exact"], &of_tips[..]].concat();
     for key in content().keys() {
         let mut damaged = content();
         damaged.remove(key);
@@ -296,15 +297,16 @@ fn plain_files_differ_from_version_1_0_in_the_version_alone() {
 fn terms_of_tips_that_are_not_known() {
     let known = |content: Content| {
         let step = &dataset(content).expect("a dataset").steps[0];
-        step.intensities.iter().map(|tip| (tip.t_stress, tip.j)).collect::<Vec<_>>()
+        let terms = |tip: &TipIntensity| [tip.t_stress, tip.j, tip.error];
+        step.intensities.iter().map(terms).collect::<Vec<_>>()
     };
     let all = known(content());
-    assert!(all.len() > 1 && all.iter().all(|(t, _)| t.is_some()));
-    assert!(all[0].1.is_some() && all[1].1.is_none());
-    let names = ["t_stress", "j"].map(|name| format!("steps/0000/intensities/{name}"));
+    assert!(all.len() > 1 && all.iter().all(|[t, ..]| t.is_some()));
+    assert!((1..3).all(|k| all[0][k].is_some() && all[1][k].is_none()));
+    let names = ["t_stress", "j", "error"].map(|name| format!("steps/0000/intensities/{name}"));
     let mut older = content();
     names.iter().for_each(|name| assert!(older.remove(name).is_some()));
-    assert!(known(older.clone()).iter().all(|(t, j)| t.is_none() && j.is_none()));
+    assert!(known(older.clone()).iter().all(|terms| terms.iter().all(Option::is_none)));
     let again = encode::content(&dataset(older).expect("a dataset")).expect("valid");
     assert!(names.iter().all(|name| !again.contains_key(name)));
 }

@@ -4,8 +4,8 @@ use super::decay::{rate, squares};
 use crate::corner::corners;
 use crate::geometry::{Placed, around};
 use crate::problem::{AdaptKind, Problem};
-use crate::space::{Change, Space};
-use ppum::crack::tips;
+use crate::space::{Change, Space, has_series};
+use ppum::crack::{TipId, tips};
 use ppum::dataset::{FieldData, MAX_DEGREE};
 use ppum::field::Field;
 use ppum::function::FunctionKind;
@@ -31,10 +31,11 @@ impl<'a> Adviser<'a> {
         field: &'a Field<'a>,
         space: &'a Space<'a>,
     ) -> Self {
-        let tip_points =
-            tips(&problem.cracks).map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end));
+        let place = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
+        // where tips have their series, the rest of the field is smooth
+        let bare_tips = tips(&problem.cracks).filter(|_| !has_series(problem)).map(place);
         let others = corners(problem).into_iter().map(|corner| corner.at);
-        let singular = tip_points.chain(others).map(|point| (around(&[point]), point));
+        let singular = bare_tips.chain(others).map(|point| (around(&[point]), point));
         Self { kind, field, space, singular: Placed::new(singular) }
     }
 

@@ -30,19 +30,29 @@ use crate::space::Space;
 use crate::watched::{Halt, Stage};
 use data::unseen_data;
 use overlap::disagreement;
+pub(crate) use overlap::shared_disagreement;
 use ppum::field::Field;
 
-/// The squares η_j² of the estimated error in the energy norm, cell by cell. Advances the stage by twice their number.
+/// The estimated error in the energy norm, cell by cell.
+pub(crate) struct Estimated {
+    /// The squares η_j².
+    pub(crate) squares: Vec<f64>,
+    /// The parts of the squares that stand for what cells do not see of the data.
+    pub(crate) unseen: Vec<f64>,
+}
+
+/// The estimated error of a field. Advances the stage by twice the number of cells.
 ///
 /// # Errors
 /// Cancelled.
-pub(crate) fn estimated_squares(
+pub(crate) fn estimated(
     problem: &Problem,
     field: &Field<'_>,
     space: &Space<'_>,
     stage: &Stage<'_>,
-) -> Result<Vec<f64>, Halt> {
+) -> Result<Estimated, Halt> {
     let of_fields = disagreement(field, space, stage)?;
-    let of_data = unseen_data(problem, field, space, stage)?;
-    Ok(of_fields.iter().zip(&of_data).map(|(a, b)| a + b).collect())
+    let unseen = unseen_data(problem, field, space, stage)?;
+    let squares = of_fields.iter().zip(&unseen).map(|(a, b)| a + b).collect();
+    Ok(Estimated { squares, unseen })
 }

@@ -10,6 +10,7 @@
 mod border;
 mod cell;
 mod cell_system;
+mod dual;
 mod functions;
 mod gauge;
 mod given;
@@ -17,6 +18,7 @@ mod loads;
 mod reaction;
 mod system;
 
+pub(crate) use dual::dual_loads;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use loads::border_rules;

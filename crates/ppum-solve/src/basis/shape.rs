@@ -80,6 +80,23 @@ impl Shapes {
         }
     }
 
+    /// Adds G : ∇(N e_i) at point `q` to a load over the functions of a cell, of which `numbers` are those of the rows;
+    /// component i of function a is entry 2 a + i.
+    pub(crate) fn add_slopes(
+        &self,
+        q: usize,
+        numbers: &[usize],
+        kernel: &[Vec2; 2],
+        load: &mut [f64],
+    ) {
+        for (k, &number) in numbers.iter().enumerate() {
+            let at = k * self.points + q;
+            for (i, g) in kernel.iter().enumerate() {
+                load[number * 2 + i] += g.x * self.dx[at] + g.y * self.dy[at];
+            }
+        }
+    }
+
     fn set(&mut self, function: usize, point: usize, jet: Jet<f64>) {
         let at = function * self.points + point;
         (self.value[at], self.dx[at], self.dy[at]) = (jet.v, jet.x, jet.y);

@@ -32,7 +32,12 @@ pub(super) fn of_report(
 /// The warning about an adaptation that ended before the estimated error was as small as wanted.
 fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Option<Warning> {
     let stop = Stop::of_code(report.stop?)?;
-    let (wanted, found) = (adaptivity?.tolerance?, report.estimated_error?);
+    let adaptivity = adaptivity?;
+    let of_energy = report.estimated_error?.powi(2);
+    let (key, wanted, found) = match (adaptivity.accuracy, adaptivity.tolerance) {
+        (Some(wanted), _) => ("accuracy", wanted, report.factor_error.unwrap_or(of_energy)),
+        (None, tolerance) => ("tolerance", tolerance?, report.estimated_error?),
+    };
     let (reason, remedy) = match stop {
         Stop::Tolerance => return None,
         Stop::Steps => ("`steps` are made", "raise it"),
@@ -43,7 +48,7 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
         }
     };
     let message = format!(
-        "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `tolerance`"
+        "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `{key}`"
     );
     Some(warning(kind::TOLERANCE, None, [found, wanted], message))
 }

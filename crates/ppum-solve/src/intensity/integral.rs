@@ -67,7 +67,7 @@ impl Found {
     pub(super) fn factors(&self, tip: TipId) -> TipIntensity {
         let Ring { k1, k2, .. } = self.rings[RINGS - 1];
         let Self { t_stress, j, .. } = *self;
-        TipIntensity { tip, k1, k2, t_stress, j, rings: self.rings.to_vec() }
+        TipIntensity { tip, k1, k2, t_stress, j, error: None, rings: self.rings.to_vec() }
     }
 }
 
@@ -81,7 +81,7 @@ pub(super) struct Interaction<'a> {
     pub(super) body: Body,
     /// The crack in the discs.
     pub(super) course: Course,
-    center: Vec2,
+    pub(super) center: Vec2,
     /// The direction of growth.
     axis: Vec2,
     /// Radii of the discs, ascending.
@@ -133,7 +133,7 @@ impl<'a> Interaction<'a> {
     }
 
     /// The cells that meet the largest disc.
-    fn cells(&self, cells: &Placed<usize>) -> impl Iterator<Item = usize> {
+    pub(super) fn cells(&self, cells: &Placed<usize>) -> impl Iterator<Item = usize> {
         let (all, radius) = (&self.space.partition().cell, self.largest());
         let square = Rect::around(self.center, vec2(radius, radius));
         let near = cells.near(&square).copied().collect::<Vec<_>>().into_iter();
@@ -167,7 +167,15 @@ impl<'a> Interaction<'a> {
         seen: &mut Option<LocalField<'a>>,
         c: usize,
     ) -> Integrals {
-        let cell = &self.space.partition().cell[c];
+        let rules = self.rules(quadrature, c);
+        let parts = rules.iter().map(|rule| self.rule(rule, seen));
+        let mut sums = parts.fold(Integrals::default(), Integrals::plus);
+        rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
+        sums
+    }
+
+    /// The rules for a cell.
+    pub(super) fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<Rule> {
         let disc = Disc {
             center: self.center,
             radius: self.largest(),
@@ -175,11 +183,7 @@ impl<'a> Interaction<'a> {
             order: ORDER,
             least: self.space.degree() + 4,
         };
-        let rules = quadrature.disc(cell, &self.space.coverers[c], disc);
-        let parts = rules.iter().map(|rule| self.rule(rule, seen));
-        let mut sums = parts.fold(Integrals::default(), Integrals::plus);
-        rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
-        sums
+        quadrature.disc(&self.space.partition().cell[c], &self.space.coverers[c], disc)
     }
 
     /// The part of a rule's points inside the largest disc. `seen` is the field as it was last looked at: most rules around a
@@ -217,9 +221,24 @@ impl<'a> Interaction<'a> {
     /// With q,_j = q′/r x_j the parts without q are the same for all discs.
     fn add(&self, place: &Place, weight: f64, sums: &mut Integrals) {
         let Place { point, u, .. } = place;
-        let along = vec2(point.x, point.y);
+        let Integrands { stresses, flows, sources } = self.integrands(place);
+        for (modes, radius) in sums.modes.iter_mut().zip(self.radii) {
+            let (q, slope) = cut_off(square(point), radius);
+            for (sum, (flow, source)) in modes.iter_mut().zip(flows.iter().zip(sources)) {
+                *sum += weight * (slope * flow + q * source);
+            }
+        }
+        let (q, slope) = cut_off(square(point), self.largest());
+        let energy = energy_flow(&stresses.own, u).dot(vec2(point.x, point.y));
+        sums.j -= weight * (slope * energy + q * self.energy_source(place));
+        sums.energy += weight * work(&stresses.own, u);
+    }
+
+    /// P_j x_j, which times q′/r is P_j q_,j, and P_j,j.
+    pub(super) fn integrands(&self, place: &Place) -> Integrands {
+        let Place { point, u, .. } = place;
         let stresses = self.stresses(place);
-        let through = self.through(&stresses, u, along);
+        let through = self.through(&stresses, u, vec2(point.x, point.y));
         let auxiliary = self.auxiliary(point);
         let flows =
             auxiliary.map(|a| through[0].dot(a.gradient[0]) + through[1].dot(a.gradient[1]));
@@ -228,16 +247,12 @@ impl<'a> Interaction<'a> {
         } else {
             [0.0; MODES]
         };
-        for (modes, radius) in sums.modes.iter_mut().zip(self.radii) {
-            let (q, slope) = cut_off(square(point), radius);
-            for (sum, (flow, source)) in modes.iter_mut().zip(flows.iter().zip(sources)) {
-                *sum += weight * (slope * flow + q * source);
-            }
-        }
-        let (q, slope) = cut_off(square(point), self.largest());
-        let energy = energy_flow(&stresses.own, u).dot(along);
-        sums.j -= weight * (slope * energy + q * self.energy_source(place));
-        sums.energy += weight * work(&stresses.own, u);
+        Integrands { stresses, flows, sources }
+    }
+
+    /// E′ at the tip.
+    pub(super) fn modulus(&self) -> f64 {
+        self.material.effective_young()
     }
 
     /// False where all flows have no divergence.
@@ -288,7 +303,7 @@ impl<'a> Interaction<'a> {
     /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the force sees ε_11 by its work,
     /// and σ_22 by the opening of its own field, u_2(−π) − u_2(π) = (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
     fn found(&self, integrals: &Integrals) -> Found {
-        let modulus = self.material.effective_young();
+        let modulus = self.modulus();
         let rings = std::array::from_fn(|k| {
             let [m1, m2, _] = integrals.modes[k];
             Ring { r1: 0.0, r2: self.radii[k], k1: 0.5 * modulus * m1, k2: 0.5 * modulus * m2 }
@@ -306,11 +321,18 @@ impl<'a> Interaction<'a> {
 }
 
 /// A point, and the field there in the tip's frame.
-struct Place {
-    point: TipPoint<f64>,
-    world: Vec2,
-    u: Gradients,
-    force: Vec2,
+pub(super) struct Place {
+    pub(super) point: TipPoint<f64>,
+    pub(super) world: Vec2,
+    pub(super) u: Gradients,
+    pub(super) force: Vec2,
+}
+
+/// The integrands of all modes at a point.
+pub(super) struct Integrands {
+    stresses: Stresses,
+    pub(super) flows: [f64; MODES],
+    pub(super) sources: [f64; MODES],
 }
 
 /// Stresses of one strain.

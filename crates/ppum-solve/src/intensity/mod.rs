@@ -51,6 +51,7 @@ mod bent;
 mod course;
 mod faces;
 mod integral;
+mod sensitivity;
 mod slope;
 
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
@@ -65,6 +66,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
+pub(crate) use sensitivity::{FACTORS, Sensitivity, sensitivities};
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages most.
 const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
@@ -121,6 +123,11 @@ impl Outcome {
     pub fn needed(&self) -> f64 {
         LEAST_CLEARANCE * self.cell
     }
+
+    /// True if there is room for factors.
+    fn has_room(&self) -> bool {
+        self.clearance.radius >= self.needed()
+    }
 }
 
 /// The stress intensity factors of all tips of a step, each at three radii chosen in the tip's
@@ -147,7 +154,7 @@ pub fn intensities(
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
     let outcome = |tip| stage.advance(0).map(|()| Outcome::new(dataset, space, tip));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
-    let wanted: Vec<_> = tips.iter_mut().filter(|o| o.clearance.radius >= o.needed()).collect();
+    let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))

@@ -12,6 +12,9 @@ pub struct Adaptivity {
     pub max_unknowns: usize,
     /// Estimated error that is small enough, in the energy norm, as a part of the norm of the solution.
     pub tolerance: Option<f64>,
+    /// Estimated relative error of the stress intensity factors that is small enough, without tips of the energy: the goal, for
+    /// which cells are improved instead of for the energy norm.
+    pub accuracy: Option<f64>,
     /// What is done to a cell.
     pub kind: AdaptKind,
     /// The steps that the dataset keeps.
@@ -49,13 +52,24 @@ impl Default for Adaptivity {
             fraction: 0.6,
             max_unknowns: 100_000,
             tolerance: None,
+            accuracy: None,
             kind: AdaptKind::default(),
             keep: Keep::default(),
         }
     }
 }
 
+/// Steps to an accuracy: each halves the error at least, most take more of it.
+const STEPS_TO_GOAL: usize = 30;
+
 impl Adaptivity {
+    /// The steps to a relative error of the factors, or without tips of the energy: orders are raised and cells divided.
+    #[must_use]
+    pub fn to(accuracy: f64) -> Self {
+        let (steps, accuracy) = (STEPS_TO_GOAL, Some(accuracy));
+        Self { steps, accuracy, ..Self::new(AdaptKind::Hp) }
+    }
+
     /// The defaults for one kind.
     #[must_use]
     pub fn new(kind: AdaptKind) -> Self {

@@ -234,7 +234,12 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
 const MAX_STEPS: usize = 100;
 
 fn check_adaptivity(set: &Adaptivity) -> Vec<MistakeAt> {
-    let Adaptivity { steps, fraction, max_unknowns, tolerance, .. } = *set;
+    let Adaptivity { steps, fraction, max_unknowns, tolerance, accuracy, .. } = *set;
+    let of_accuracy =
+        accuracy.filter(|accuracy| !(*accuracy > 0.0 && *accuracy < 1.0)).map(|value| {
+            let key = Key::new("discretization").name("accuracy");
+            MistakeAt::new(key, format!("`accuracy` is {value}, but must be above 0 and below 1"))
+        });
     let tolerance = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0));
     let message = |value: f64| {
         format!("`tolerance` is {value}, but must be above 0 and below 1, a part of the solution")
@@ -254,6 +259,7 @@ fn check_adaptivity(set: &Adaptivity) -> Vec<MistakeAt> {
     let broken = rules.into_iter().filter(|(holds, ..)| !holds);
     broken
         .map(|(_, name, message)| MistakeAt::new(Key::new("adaptivity").name(name), message))
+        .chain(of_accuracy)
         .collect()
 }
 

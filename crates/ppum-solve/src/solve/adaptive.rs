@@ -70,7 +70,10 @@ impl<'p> Solved<'p> {
         watcher: &dyn Watcher,
     ) -> Result<Next<'p>, SolveError> {
         let error = self.report.estimated_error.unwrap_or(0.0);
-        if error == 0.0 || set.tolerance.is_some_and(|tolerance| error <= tolerance) {
+        let (of_goal, parts) = self.goal();
+        let is_enough = set.tolerance.is_some_and(|tolerance| error <= tolerance)
+            || set.accuracy.is_some_and(|accuracy| of_goal <= accuracy);
+        if error == 0.0 || is_enough {
             return Ok(Next::Stop(Stop::Tolerance));
         }
         if step >= set.steps {
@@ -78,7 +81,8 @@ impl<'p> Solved<'p> {
         }
         let clock = Clock::new();
         let stage = Stage::uncounted(watcher, Phase::Cover)?;
-        let Some(mesh) = self.improved(set)? else {
+        let parts = if set.accuracy.is_some() { &parts } else { &self.squares };
+        let Some(mesh) = self.improved(set, parts)? else {
             return Ok(Next::Stop(Stop::Limits));
         };
         let Plan { problem, memory, .. } = self.plan;
@@ -94,13 +98,14 @@ impl<'p> Solved<'p> {
         }
     }
 
-    /// The mesh of the next step; none if nothing can be improved where it is needed.
-    fn improved(&self, set: &Adaptivity) -> Result<Option<Mesh>, SolveError> {
+    /// The mesh of the next step, given the parts that the cells have in the error; none if nothing can be improved where
+    /// it is needed.
+    fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<Mesh>, SolveError> {
         let Plan { problem, mesh, dataset, space, .. } = &self.plan;
         let field = Field::new(dataset, 0)?;
         let adviser = Adviser::new(set.kind, problem, &field, space);
-        let mut changes = vec![Change::Keep; self.squares.len()];
-        for cell in mark(&self.squares, set.fraction) {
+        let mut changes = vec![Change::Keep; parts.len()];
+        for cell in mark(parts, set.fraction) {
             changes[cell] = adviser.advice(cell);
         }
         Ok(mesh.changed(space.partition(), &changes)?)

@@ -4,6 +4,7 @@ mod adaptive;
 mod clock;
 mod error;
 mod estimate;
+mod goal;
 mod solution;
 mod solved;
 
@@ -21,7 +22,7 @@ use adaptive::adapted;
 use clock::Clock;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::{Phase, Watcher};
-use solution::{Assembled, Solution, Solving, linear_solver};
+use solution::{Assembled, Solving, linear_solver};
 use solved::Solved;
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and wants to keep
@@ -162,12 +163,9 @@ impl<'p> Plan<'p> {
     fn solved(mut self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
         let Self { problem, ref space, .. } = self;
         let solving = Solving { problem, space, watcher };
-        let mut solution = solving.solution(&mut self.clock)?;
+        let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
-        let Solution { report, unresolved, .. } = solution;
-        let mut solved = Solved { plan: self, report, unresolved, squares: Vec::new() };
-        solved.estimate(watcher)?;
-        Ok(solved)
+        Solved::new(self, solution, watcher)
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {

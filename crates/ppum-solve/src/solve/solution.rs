@@ -2,6 +2,7 @@
 
 use super::SolveError;
 use super::clock::Clock;
+use super::goal::Duals;
 use crate::assembly::{Assembly, FreeModes, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
@@ -11,7 +12,7 @@ use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
 use crate::space::{Space, SpaceError};
 use crate::watched::Stage;
-use ppum::dataset::{Attribute, FieldData, Reaction, Step};
+use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
 use ppum::progress::{Phase, Watcher};
 
 /// The solution of a problem on a space.
@@ -23,6 +24,8 @@ pub(super) struct Solution {
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
+    /// The dual solutions of stress intensity factors, if there are any.
+    pub(super) duals: Option<Duals>,
     /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
 }
@@ -95,11 +98,15 @@ impl Solving<'_> {
         Ok(Assembled { basis, system, gauge })
     }
 
-    /// The solution of the problem.
+    /// The solution of the problem, whose dataset has no coefficients yet.
     ///
     /// # Errors
     /// See [`SolveError`].
-    pub(super) fn solution(&self, clock: &mut Clock) -> Result<Solution, SolveError> {
+    pub(super) fn solution(
+        &self,
+        dataset: &Dataset,
+        clock: &mut Clock,
+    ) -> Result<Solution, SolveError> {
         let (given, plate) = self.loaded()?;
         let Assembled { basis, system, gauge } = self.assemble(&given, &plate, clock)?;
         let located = |error| self.located(error);
@@ -110,6 +117,7 @@ impl Solving<'_> {
         stage.advance(1)?;
         gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         stage.advance(1)?;
+        let duals = self.duals(dataset, (&basis, &system.matrix), &solver)?;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
@@ -136,6 +144,7 @@ impl Solving<'_> {
                 &solution.unknowns,
             ),
             unresolved: system.unresolved,
+            duals,
             report,
         })
     }
@@ -168,7 +177,7 @@ impl Solution {
 }
 
 /// Writes coefficients that stand patch by patch and in each patch component by component.
-fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
+pub(super) fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
     let mut rest = coefficients;
     for patch in 0..data.patch_blocks.len() - 1 {
         for component in data.coefficients_mut(patch) {

@@ -1,46 +1,84 @@
 //! A solution with its estimated error, and what is made of it.
 
+use super::goal::Goal;
+use super::solution::Solution;
 use super::{Plan, SolveError};
-use crate::adapt::estimated_squares;
+use crate::adapt::estimated;
 use crate::diagnostics::Case;
-use crate::intensity::intensities_under;
+use crate::intensity::{Outcome, intensities_under};
 use crate::norms::energy;
 use crate::report::{SolverReport, Stop, Unresolved};
 use crate::watched::Stage;
-use ppum::dataset::{Attribute, Dataset};
+use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
+
+/// Part of the largest factors that those of a tip count as nothing: their own errors are no measure.
+const NOTHING: f64 = 1e-3;
 
 /// A plan whose dataset has its coefficients.
 pub(super) struct Solved<'p> {
     pub(super) plan: Plan<'p>,
     pub(super) report: SolverReport,
     /// Integrands that quadrature did not resolve.
-    pub(super) unresolved: Vec<Unresolved>,
+    unresolved: Vec<Unresolved>,
     /// The squares of the estimated error, cell by cell.
     pub(super) squares: Vec<f64>,
+    /// What is known of the tips.
+    tips: Vec<Outcome>,
+    goal: Goal,
 }
 
-impl Solved<'_> {
-    /// Finds the energy and the estimated error. The attribute `indicator` is η_j / ‖u‖ in the energy norm: the
-    /// root of the sum of its squares is the estimated error.
-    pub(super) fn estimate(&mut self, watcher: &dyn Watcher) -> Result<(), SolveError> {
-        let Plan { problem, dataset, space, clock, .. } = &mut self.plan;
-        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
+impl<'p> Solved<'p> {
+    /// Finds the energy, the factors and the estimated errors of all.
+    pub(super) fn new(
+        mut plan: Plan<'p>,
+        solution: Solution,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        let Solution { mut report, unresolved, duals, .. } = solution;
+        let Plan { problem, dataset, space, clock, .. } = &mut plan;
+        let passes = if duals.is_some() { 4 } else { 2 };
+        let stage = Stage::new(watcher, Phase::Estimation, passes * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let energy = energy(&field, space);
-        self.squares =
-            estimated_squares(problem, &field, space, &stage).map_err(SolveError::of_data)?;
-        self.report.energy = Some(energy);
+        let found = estimated(problem, &field, space, &stage).map_err(SolveError::of_data)?;
+        let goal = match duals {
+            Some(duals) => duals.goal(dataset, space, &found, &stage)?,
+            None => Goal::default(),
+        };
+        report.energy = Some(energy);
+        clock.lap(Phase::Estimation);
+        let mut tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
+        let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
+        factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
+        clock.lap(Phase::Intensity);
+        let squares = found.squares;
         // nothing is a part of no energy
         if energy > 0.0 {
-            let parts = self.squares.iter().map(|square| square / (2.0 * energy));
-            self.report.estimated_error = Some(parts.clone().sum::<f64>().sqrt());
-            let values = parts.map(f64::sqrt).collect();
-            dataset.steps[0].attributes.push(Attribute { name: "indicator".into(), values });
+            report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
+            dataset.steps[0].attributes.push(indicator(&squares, energy));
         }
-        clock.lap(Phase::Estimation);
-        Ok(())
+        let mut solved = Self { plan, report, unresolved, squares, tips, goal };
+        if !solved.goal.errors.is_empty() {
+            solved.report.factor_error = Some(solved.goal().0);
+        }
+        Ok(solved)
+    }
+
+    /// The largest estimated error of the factors of a tip, as a part of their size, and of each cell its part in the sum of all;
+    /// without tips those of the energy.
+    pub(super) fn goal(&self) -> (f64, Vec<f64>) {
+        let sizes: Vec<f64> =
+            self.tips.iter().filter_map(|o| o.factors.as_ref()).map(size).collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        if largest == 0.0 {
+            return (self.report.estimated_error.unwrap_or(0.0).powi(2), self.squares.clone());
+        }
+        let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
+        let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
+        let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
+        (errors.fold(0.0, f64::max), cells.collect())
     }
 
     /// The dataset of a solution with its stress intensity factors, its diagnosis and its report; of the last step of
@@ -50,13 +88,12 @@ impl Solved<'_> {
         stop: Option<Stop>,
         watcher: &dyn Watcher,
     ) -> Result<Dataset, SolveError> {
-        let Self { plan, mut report, unresolved, .. } = self;
+        let Self { plan, mut report, unresolved, tips, .. } = self;
         let Plan { problem, mut dataset, ref space, crossed_twice, mut clock, .. } = plan;
         let field = Field::new(&dataset, 0)?;
         report.crossed_twice = Some(crossed_twice as f64);
         report.stop = stop.map(Stop::code);
         let problem = Some(problem);
-        let tips = intensities_under(problem, &dataset, &field, space, watcher)?;
         let diagnosis = {
             let (dataset, field, report) = (&dataset, &field, &report);
             let unresolved = &unresolved;
@@ -72,4 +109,15 @@ impl Solved<'_> {
         step.history = report.records();
         Ok(dataset)
     }
+}
+
+/// |(K_I, K_II)|
+fn size(tip: &TipIntensity) -> f64 {
+    tip.k1.hypot(tip.k2)
+}
+
+/// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is the estimated error.
+fn indicator(squares: &[f64], energy: f64) -> Attribute {
+    let values = squares.iter().map(|square| (square / (2.0 * energy)).sqrt()).collect();
+    Attribute { name: "indicator".into(), values }
 }

@@ -25,7 +25,7 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
-pub(crate) use williams::Series;
+pub(crate) use williams::{Series, has_series};
 
 /// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
 /// linear weights.

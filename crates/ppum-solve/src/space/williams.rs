@@ -30,10 +30,14 @@ impl Series {
     }
 }
 
+/// True if tips have Williams' series.
+pub(crate) fn has_series(problem: &Problem) -> bool {
+    problem.discretization.enrichment == Enrichment::Williams && problem.equation.is_uniform()
+}
+
 /// The series of all patches of a problem's step; none where the material varies, as its terms are others then.
 pub(super) fn series(problem: &Problem, step: &Step) -> Vec<Vec<Series>> {
-    let Problem { discretization, equation, .. } = problem;
-    if discretization.enrichment != Enrichment::Williams || !equation.is_uniform() {
+    if !has_series(problem) {
         return Vec::new();
     }
     let first = first_functions(step);

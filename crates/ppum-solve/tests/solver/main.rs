@@ -8,6 +8,7 @@ mod estimator;
 mod examples;
 mod faces;
 mod formulas;
+mod goal;
 mod graded;
 mod holes;
 mod incompressible;

@@ -13,7 +13,7 @@ use super::super::{points, scopes};
 use super::Files;
 use super::enrichment::is_word;
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "level",
     "cells",
     "points",
@@ -26,7 +26,11 @@ const KEYS: [&str; 12] = [
     "enrichment_radius",
     "tip_degree",
     "tip_terms",
+    "accuracy",
 ];
+
+/// Level of the cover that the steps to an accuracy begin with.
+const FIRST_LEVEL: u32 = 2;
 
 /// Optional values that are wrong are reported, and left at their defaults.
 pub(super) fn discretization(
@@ -110,6 +114,8 @@ fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
                 dataset.steps.first().map(|step| Cells::Points(step.partition.points.clone()))
             }
         },
+        // the steps to an accuracy begin somewhere
+        [None, None, None] if section.mentions("accuracy") => Some(Cells::Level(FIRST_LEVEL)),
         [None, None, None] => {
             if !["level", "cells", "points"].iter().any(|key| section.mentions(key)) {
                 section.error("[discretization] has no cells; add e.g. `level = 5`");

@@ -13,6 +13,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use super::williams::has_series;
 use crate::geometry::{
     Jump, Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
 };
@@ -120,7 +121,7 @@ impl<'p> Enrichments<'p> {
         }
         match mode {
             Enrichment::AdditiveOnly => all.extend_along_cracks(),
-            Enrichment::Williams if problem.equation.is_uniform() => {
+            Enrichment::Williams if has_series(problem) => {
                 all.take_series(problem.discretization.tip_terms);
             }
             _ => {}

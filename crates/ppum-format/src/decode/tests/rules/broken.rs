@@ -429,6 +429,12 @@ pub(super) const RULES: &[Rule] = &[
         &["steps[0].intensities[0].t_stress"],
     ),
     (
+        "an error is not negative",
+        FULL,
+        |c| set(c, "steps/0000/intensities/error", 0, -1.0),
+        &["steps[0].intensities[0].error"],
+    ),
+    (
         "a place has two coordinates or none",
         FULL,
         |c| set(c, "steps/0000/warnings/at", 0, 0.5),
