@@ -13,6 +13,7 @@ use super::enrichment::check_enrichments;
 use super::holes::check_holes;
 use super::key::Key;
 use super::quantities::check_quantities;
+use super::refinement::check_refinements;
 use super::scopes;
 use super::{
     Adaptivity, BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment,
@@ -61,6 +62,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
         found.extend(check_points(&problem.discretization.cells, bounds));
         found.extend(check_order(&problem.discretization.order, bounds));
         found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_refinements(problem));
         found.extend(check_additive(problem));
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
@@ -394,7 +396,7 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
 }
 
 /// A number of things in words.
-fn numbered(count: usize, table: &str) -> String {
+pub(super) fn numbered(count: usize, table: &str) -> String {
     match count {
         0 => format!("the problem has no {table}"),
         1 => format!("the only {table} has the number 0"),

@@ -1,7 +1,7 @@
 //! The discretisation of a problem.
 
 use ppum::dataset::MAX_DEGREE;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
 use ppum::expression::Expression;
@@ -46,6 +46,32 @@ pub enum Cells {
     Grid([u32; 2]),
     /// A quadtree split until a cell holds at most one of these points.
     Points(Vec<Vec2>),
+}
+
+impl Cells {
+    /// The cells of the base cover as a grid of roots, each halved so often along both sides; nothing for points.
+    ///
+    /// A level makes 4^level equal cells, none more than twice as long as wide unless the domain is longer than that
+    /// allows: 4^k root cells along a long domain, each halved level − k times.
+    pub(crate) fn roots(&self, domain: &Rect) -> Option<([u32; 2], u32)> {
+        let level = match *self {
+            Self::Level(level) => level,
+            Self::Grid(cells) => return Some((cells, 0)),
+            Self::Points(_) => return None,
+        };
+        let size = domain.size();
+        let halvings = (0.5 * (size.x / size.y).log2().abs() - 0.5).ceil().max(0.0);
+        let k = (halvings as u32).min(level);
+        let roots = 1 << (2 * k);
+        Some((if size.x > size.y { [roots, 1] } else { [1, roots] }, level - k))
+    }
+
+    /// Width and height of the base cover's cells, which those around points do not share.
+    pub(super) fn size(&self, domain: &Rect) -> Option<Vec2> {
+        let ([nx, ny], halvings) = self.roots(domain)?;
+        let part = 0.5f64.powi(halvings as i32);
+        Some(vec2(domain.size().x / f64::from(nx), domain.size().y / f64::from(ny)) * part)
+    }
 }
 
 /// Degree of the local polynomials, 0 to [`MAX_DEGREE`].

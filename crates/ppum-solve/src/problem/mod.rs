@@ -44,6 +44,7 @@ mod nearby;
 mod points;
 pub(crate) mod quantities;
 mod read;
+mod refinement;
 mod restraint;
 mod scopes;
 mod stations;
@@ -70,6 +71,8 @@ pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, O
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Location, Mistake, ProblemError};
 pub use ppum::expression::Expression;
+pub(crate) use refinement::{DEEPEST, nine};
+pub use refinement::{LocalRefinement, Place};
 pub use restraint::restraint_center;
 pub(crate) use restraint::restraint_words;
 pub use stations::Station;
@@ -104,6 +107,8 @@ pub struct Problem {
     pub discretization: Discretization,
     /// How the cover is improved by its own solutions; `None` solves once.
     pub adaptivity: Option<Adaptivity>,
+    /// Where cells are divided by hand.
+    pub refinements: Vec<LocalRefinement>,
     /// The linear solver.
     pub solver: Solver,
     /// The problem file's text, if there was one.
@@ -222,6 +227,7 @@ impl Problem {
             enrichments: Vec::new(),
             discretization,
             adaptivity: None,
+            refinements: Vec::new(),
             solver: Solver::default(),
             text: None,
             files: Vec::new(),

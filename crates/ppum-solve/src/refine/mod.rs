@@ -1,4 +1,4 @@
-//! The cover of a problem, refined by itself where cracks need it.
+//! The cover of a problem, divided where it says so ([`by_hand`]), and by itself where cracks and rims need it.
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
@@ -14,6 +14,7 @@
 //! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
 //! Other singular points, and round rims, have no such functions: cells are graded towards them.
 
+mod by_hand;
 mod graded;
 mod ligament;
 
@@ -22,7 +23,7 @@ use crate::geometry::{
     AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, interface_distance, rim_crossings,
     runs_of_rim, wider,
 };
-use crate::problem::{Cells, Enrichment, Problem, touch};
+use crate::problem::{Cells, DEEPEST, Enrichment, Problem, touch};
 use crate::smoothness::Interfaces;
 use crate::watched::Stage;
 use graded::{Graded, graded};
@@ -32,13 +33,11 @@ use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::domain::{Domain, Hole};
 use ppum::progress::Cancelled;
+use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 
 /// Part of a hole's size below which cells are not divided to part the sides of its rim.
 const LEAST_GAP: f64 = 1.0 / 128.0;
-
-/// Refinements below the base cover after which a problem counts as unresolvable.
-const DEEPEST: usize = 16;
 
 /// Cells that are added without asking, for all but tips; beyond them, and four times the base cover, all is
 /// resolved less finely.
@@ -61,6 +60,11 @@ const AT_INTERFACES: u8 = 3;
 /// Lengths below this part of the domain's size are rounding of the end of a crack on a rim.
 const BEYOND: f64 = 1e-8;
 
+/// A place in a message.
+fn shown(p: Vec2) -> String {
+    format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
+}
+
 /// The cover of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -74,6 +78,35 @@ pub enum RefineError {
          tip and a kink, are too close together: move them apart or start from smaller cells"
     )]
     Unresolved,
+    /// The size of cells that are divided by hand is none somewhere.
+    #[error(
+        "the `size` of [[refine]] {refinement}, counted from 0, is {value} at {at}, but must be positive and finite; \
+         change the formula, e.g. add a constant",
+        at = shown(*.at)
+    )]
+    Size {
+        /// Number of the refinement.
+        refinement: usize,
+        /// The value.
+        value: f64,
+        /// The place.
+        at: Vec2,
+    },
+    /// Cells that are divided by hand would be smaller than there may be.
+    #[error(
+        "the `size` of [[refine]] {refinement}, counted from 0, asks for cells smaller than {longest:.3e} around {at}, \
+         which {DEEPEST} divisions of the base cells, the most there may be, do not give; give a larger size, or smaller \
+         base cells",
+        at = shown(*.at)
+    )]
+    TooFine {
+        /// Number of the refinement.
+        refinement: usize,
+        /// The place.
+        at: Vec2,
+        /// Longest side of the cell there.
+        longest: f64,
+    },
     /// More cells than the memory holds.
     #[error(
         "the cover needs more than {most} cells, and the memory does not hold the system on them; leave out \
@@ -88,17 +121,23 @@ pub enum RefineError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The cover of a problem, refined at its tips unless the problem says otherwise, of at most so many cells.
+/// The cover of a problem, divided by hand where it says so and, unless it says otherwise, by itself, of at most so many
+/// cells.
 pub(crate) fn cover(
     problem: &Problem,
     most: usize,
     stage: &Stage<'_>,
 ) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
+    let cells = cover.cells();
+    by_hand::divide(&mut cover, problem, most, stage)?;
     if !problem.discretization.refine {
         return Ok(cover);
     }
-    let (needs, wishes) = (Needs::new(problem), Wishes::new(problem, &cover));
+    let needs = Needs::new(problem);
+    // what is divided by hand takes nothing from what the program may add
+    let mut wishes = Wishes::new(problem, &cells);
+    wishes.most_cells += cover.n_cells() - cells.len();
     let rims = Rims::new(problem);
     let bounds = &problem.domain.bounds;
     let jumps = Jumps::new(&problem.cracks, &problem.domain, touch(bounds));
@@ -190,8 +229,7 @@ struct Wishes<'p> {
 }
 
 impl<'p> Wishes<'p> {
-    fn new(problem: &'p Problem, base: &Cover) -> Self {
-        let cells = base.cells();
+    fn new(problem: &'p Problem, cells: &[(Rect, u8)]) -> Self {
         let size = cells.iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
         let mut graded = graded(problem, &corners(problem), size);
         let mut ligaments = ligaments(problem, size);
@@ -239,24 +277,15 @@ pub(crate) fn resolves_interfaces(problem: &Problem) -> bool {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Level(level) => uniform(problem.domain.bounds, *level),
-        Cells::Grid(cells) => Cover::grid(problem.domain.bounds, *cells),
         Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
+        cells => {
+            let bounds = problem.domain.bounds;
+            let (roots, halvings) = cells.roots(&bounds).unwrap_or(([1, 1], 0));
+            let mut cover = Cover::grid(bounds, roots)?;
+            while cover.refine(|_, level| u32::from(level) < halvings)? > 0 {}
+            Ok(cover)
+        }
     }
-}
-
-/// 4^level equal cells, none more than twice as long as wide unless the domain is longer than that
-/// allows: 4^k root cells along a long domain, each halved level − k times.
-fn uniform(domain: Rect, level: u32) -> Result<Cover, CoverError> {
-    let size = domain.size();
-    let halvings = (0.5 * (size.x / size.y).log2().abs() - 0.5).ceil().max(0.0);
-    let k = (halvings as u32).min(level);
-    let roots = 1 << (2 * k);
-    let grid = if size.x > size.y { [roots, 1] } else { [1, roots] };
-    let mut cover = Cover::grid(domain, grid)?;
-    let deepest = (level - k) as u8;
-    while cover.refine(|_, level| level < deepest)? > 0 {}
-    Ok(cover)
 }
 
 /// Number of patches that still hold several runs of a rim: two of the parts they are cut into

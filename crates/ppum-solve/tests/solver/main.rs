@@ -25,6 +25,7 @@ mod positions;
 mod problem_files;
 mod random;
 mod reactions;
+mod refined;
 mod rooms;
 mod slivers;
 #[path = "../studies/mod.rs"]

@@ -109,9 +109,14 @@ impl<'a> Value<'a> {
 
     /// An array of two values; `what` it should be, for the message.
     pub(in super::super) fn pair(&self, what: &str) -> Option<[Value<'a>; 2]> {
+        self.array(what)
+    }
+
+    /// An array of so many values; `what` it should be, for the message.
+    pub(in super::super) fn array<const N: usize>(&self, what: &str) -> Option<[Value<'a>; N]> {
         let items = self.item.get_ref().as_array().map(|array| self.elements(array));
-        let pair = items.and_then(|items| <[Value<'a>; 2]>::try_from(items).ok());
-        pair.or_else(|| self.expected(what))
+        let all = items.and_then(|items| <[Value<'a>; N]>::try_from(items).ok());
+        all.or_else(|| self.expected(what))
     }
 
     /// An array of any length; `what` it should be, for the message.

@@ -9,6 +9,7 @@ mod discretization;
 mod enrichment;
 mod hole;
 mod quantity;
+mod refinement;
 mod table;
 
 use std::collections::BTreeSet;
@@ -25,7 +26,7 @@ use super::document::Remedy::{self, Instead, Later};
 use super::document::{Report, Section, Value};
 use super::error::ProblemError;
 use super::stiffness::default_order;
-use super::{BorderPart, Order, Problem, Solver, SolverKind, scopes};
+use super::{BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
 use adaptivity::adaptivity;
 use boundary::boundary;
 use discretization::discretization;
@@ -33,6 +34,7 @@ use enrichment::enrichments;
 use hole::holes;
 use ppum::expression::Expression;
 use quantity::quantities;
+use refinement::refinements;
 use table::tables;
 
 /// The folder of the files that a text names.
@@ -169,6 +171,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     let holes = holes(root);
     let names = enrichment::Names { cracks: cracks.len(), tables: &tables };
     let enrichments = enrichments(root, &names);
+    let mut refinements = refinements(root, &tables);
     let kind = kind?;
     let exact = exact(root, kind, &scope);
     let source = source(root, kind, &scope);
@@ -179,6 +182,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
+        refinements.retain(|new| !matches!(new.place, Place::Crack(_)));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
     let mut discretization = discretization?;
@@ -198,6 +202,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         enrichments,
         discretization,
         adaptivity: adaptivity(root),
+        refinements,
         solver,
         text: None,
         files: Vec::new(),
@@ -211,6 +216,7 @@ fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
         "exact",
         "discretization",
         "adaptivity",
+        "refine",
         "solver",
         "table",
         "enrichment",

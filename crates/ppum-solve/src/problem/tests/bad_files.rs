@@ -12,8 +12,8 @@ macro_rules! files {
         )),*]
     };
 }
-const FILES: [(&str, &str, &str); 6] =
-    files!["centre_crack", "formulas", "holes", "membrane", "plate", "table"];
+const FILES: [(&str, &str, &str); 7] =
+    files!["centre_crack", "formulas", "holes", "membrane", "plate", "refine", "table"];
 
 /// One case: a part of the good file, what replaces it, and what is then found wrong.
 struct Case {
