@@ -11,6 +11,7 @@ mod faces;
 mod interfaces;
 mod locking;
 mod report;
+mod rims;
 mod tips;
 
 pub use digits::{FEW_DIGITS, rounding};
@@ -31,6 +32,7 @@ use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::text::{Places, trimmed_to};
 use ppum::vec2::Vec2;
 use report::{Cutters, of_report};
+use rims::of_rims;
 use tips::of_tips;
 
 /// Relative residual of the linear system above which it is not solved as well as it should be:
@@ -93,6 +95,8 @@ pub mod kind {
     pub const SINGULAR_POINT: &str = "singular-point";
     /// An adaptation has ended before the estimated error was as small as wanted.
     pub const TOLERANCE: &str = "tolerance";
+    /// The cells at the rim of a hole are too large for the stress there.
+    pub const COARSE_HOLE: &str = "coarse-hole";
     /// A load or what is given on the border varies too fast to be integrated.
     pub const LOAD: &str = "load";
     /// A function or a coefficient varies too fast to be integrated.
@@ -180,6 +184,8 @@ impl Case<'_> {
         if let Some((problem, energy)) = guided.zip(self.report.energy) {
             warnings.extend(of_corners(problem, field, space, (energy, &places)));
         }
+        stage.advance(0)?;
+        warnings.extend(of_rims(field, &dataset.domain.holes, &places));
         stage.advance(0)?;
         warnings.extend(of_interfaces(field, dataset, &places));
         warnings.extend(of_report(self.report, adaptivity, cutters));

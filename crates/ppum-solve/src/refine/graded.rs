@@ -5,6 +5,7 @@
 //! from what is next: it vanishes with the singularity. What remains beside that is missed ring by ring, the
 //! same part in each, and does not depend on the finest size.
 
+use super::rim::{Bend, FOR_ENERGY, bends, finest};
 use crate::corner::{Corner, Nature};
 use crate::geometry::{around, wider};
 use crate::problem::Problem;
@@ -17,10 +18,6 @@ const MISSED: f64 = 1e-4;
 /// Exponent, that of 42°, from which on a kink of a crack is gentle: the field along a free crack hardly sees
 /// it. At 41° factors are right to 3e-5 without finer cells, at 90° they are off by 0.7 %.
 const GENTLE: f64 = 0.685;
-
-/// Largest cells at a round rim, in its radii: energies are right to 2e-4 then. Cells of 0.23 radii had 1.3e-3 under
-/// bending.
-const ROUND: f64 = 0.22;
 
 /// Largest cells at a distance, in parts of it.
 const SLOPE: f64 = 1.0;
@@ -38,6 +35,13 @@ pub(super) const SMALLEST: f64 = 1.0 / 16_384.0;
 /// Cells of a ring around a point, at slope 1.
 const RING: f64 = 12.0;
 
+/// Cells along a rim, times their size over its length: two to three layers, and what they take to the size of the
+/// others. Rims in cells of 1/4 to 20 radii had 5 to 8.
+const ON_RIM: f64 = 8.0;
+
+/// Step by which rims are coarsened: less than the factor of two between cells, as they are of different radii.
+const STEP: f64 = 1.25;
+
 /// The demand of one point or rim on the cells.
 pub(super) struct Graded {
     from: Shape,
@@ -50,13 +54,14 @@ pub(super) struct Graded {
 enum Shape {
     Point(Vec2),
     Circle(Vec2, f64),
+    Bend(Bend),
 }
 
 /// The demands of the singular points and the round rims of a problem on a base cover with cells of the given size.
 pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
     let plate = problem.domain.bounds.size();
     let at_corners = corners.iter().filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
-    let rims = problem.domain.holes.iter().filter_map(Graded::rim);
+    let rims = problem.domain.holes.iter().flat_map(|hole| Graded::rim(hole, problem));
     let mut all: Vec<_> = at_corners.chain(rims).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));
     all
@@ -79,14 +84,16 @@ impl Graded {
         Some(Self { from: Shape::Point(at), finest, slope })
     }
 
-    /// The demand of the rim of a round hole.
-    fn rim(hole: &Hole) -> Option<Self> {
+    /// The demands of the rim of a hole where it is curved.
+    fn rim(hole: &Hole, problem: &Problem) -> Vec<Self> {
+        let part = finest(&problem.discretization.order, &hole.bounds());
+        let of = |from, radius: f64| Self { from, finest: part * radius, slope: SLOPE };
         match *hole {
-            Hole::Circle { center, radius } => {
-                let from = Shape::Circle(center, radius);
-                Some(Self { from, finest: ROUND * radius, slope: SLOPE })
+            Hole::Circle { center, radius } => vec![of(Shape::Circle(center, radius), radius)],
+            Hole::Polygon { .. } => {
+                let all = bends(hole).into_iter();
+                all.map(|bend| of(Shape::Bend(bend), bend.radius)).collect()
             }
-            Hole::Polygon { .. } => None,
         }
     }
 
@@ -96,7 +103,7 @@ impl Graded {
     /// The box of what cells are graded towards.
     pub(super) fn place(&self) -> Rect {
         match self.from {
-            Shape::Point(p) => around(&[p]),
+            Shape::Point(p) | Shape::Bend(Bend { at: p, .. }) => around(&[p]),
             Shape::Circle(center, radius) => wider(&around(&[center]), radius),
         }
     }
@@ -112,21 +119,34 @@ impl Graded {
         self.finest *= 2.0;
     }
 
+    /// Asks for coarser cells at a rim, as far as its energy bears them; false if it bears no coarser ones.
+    pub(super) fn coarsen_rim(&mut self) -> bool {
+        let radius = match self.from {
+            Shape::Point(_) => return false,
+            Shape::Circle(_, radius) | Shape::Bend(Bend { radius, .. }) => radius,
+        };
+        let is_finer = self.finest * STEP <= FOR_ENERGY * radius;
+        self.finest *= if is_finer { STEP } else { 1.0 };
+        is_finer
+    }
+
     /// About how many cells are added to cells of a size.
     pub(super) fn cells(&self, size: f64) -> f64 {
         let rings = (size / self.finest).log2().max(0.0);
-        let on_rim = match self.from {
-            Shape::Circle(_, radius) if rings > 0.0 => radius / self.finest,
-            _ => 0.0,
+        let length = match self.from {
+            _ if rings == 0.0 => 0.0,
+            Shape::Point(_) => return RING * rings / (self.slope * self.slope),
+            Shape::Circle(_, radius) => std::f64::consts::TAU * radius,
+            Shape::Bend(bend) => bend.length,
         };
-        RING * (rings + on_rim) / (self.slope * self.slope)
+        ON_RIM * length / self.finest
     }
 }
 
 impl Shape {
     fn distance(&self, cell: &Rect) -> f64 {
         match *self {
-            Self::Point(p) => cell.distance(p),
+            Self::Point(p) | Self::Bend(Bend { at: p, .. }) => cell.distance(p),
             Self::Circle(center, radius) => {
                 let away = cell.center() - center;
                 let farthest = vec2(away.x.abs(), away.y.abs()) + cell.size() * 0.5;

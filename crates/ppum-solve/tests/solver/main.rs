@@ -26,6 +26,7 @@ mod problem_files;
 mod random;
 mod reactions;
 mod refined;
+mod rims;
 mod rooms;
 mod slivers;
 #[path = "../studies/mod.rs"]
