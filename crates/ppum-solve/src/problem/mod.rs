@@ -33,6 +33,7 @@ mod check;
 mod contacts;
 mod cracks;
 mod csv;
+mod curve;
 mod discretization;
 mod document;
 mod enrichment;

@@ -11,6 +11,7 @@ use crate::geometry::{around, wider};
 use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
+use std::collections::BTreeSet;
 
 /// Part of the energy around a singular point that its cells may miss.
 const MISSED: f64 = 1e-4;
@@ -60,7 +61,12 @@ enum Shape {
 /// The demands of the singular points and the round rims of a problem on a base cover with cells of the given size.
 pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
     let plate = problem.domain.bounds.size();
-    let at_corners = corners.iter().filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
+    let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
+    let on_curves: BTreeSet<_> =
+        problem.domain.holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
+    // what follows a curve has its radius, and is no corner
+    let sharp = corners.iter().filter(|corner| !on_curves.contains(&bits(corner.at)));
+    let at_corners = sharp.filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
     let rims = problem.domain.holes.iter().flat_map(|hole| Graded::rim(hole, problem));
     let mut all: Vec<_> = at_corners.chain(rims).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));

@@ -21,8 +21,8 @@ mod rim;
 
 use crate::corner::corners;
 use crate::geometry::{
-    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, interface_distance, rim_crossings,
-    runs_of_rim, wider,
+    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, interface_distance,
+    rim_crossings, runs_of_rim, wider,
 };
 use crate::problem::{Cells, DEEPEST, Enrichment, Problem, touch};
 use crate::smoothness::Interfaces;
@@ -353,6 +353,9 @@ impl Need {
         let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
         let clearance = TipClearance::among(near, &problem.domain, (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
+        // beyond the other end there is nothing of it
+        let mut apart = bent_part(crack, id.end);
+        apart.pop();
         let interface = elastic.and_then(|body| interface_distance(body, tip, clearance));
         let clearance = interface.unwrap_or(clearance);
         Self {
@@ -360,7 +363,7 @@ impl Need {
             largest: (clearance / AMPLE_CLEARANCE).clamp(SMALLEST * share, LARGEST * share),
             ample: LARGEST * share,
             near: NEAR * share,
-            apart: crack.points[1..crack.points.len() - 1].to_vec(),
+            apart,
         }
     }
 

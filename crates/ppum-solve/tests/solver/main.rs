@@ -3,6 +3,7 @@
 mod adaptive;
 mod awkward;
 mod corners;
+mod curved;
 mod estimate;
 mod estimator;
 mod examples;

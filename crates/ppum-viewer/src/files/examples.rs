@@ -43,6 +43,8 @@ pub const ALL: [Example; 23] = [
     example!("meeting-cracks"),
     example!("cracked-hole"),
     example!("plate-with-hole"),
+    example!("arc-crack"),
+    example!("elliptic-hole"),
     example!("bimaterial-plate"),
     example!("edge-shear"),
     example!("kinked-in-plane"),

@@ -64,6 +64,8 @@ impl<'a> Report<'a> {
     pub(super) fn into_findings(self) -> Vec<Mistake> {
         let mut mistakes = self.mistakes.into_inner();
         mistakes.sort_by_key(|(offset, _)| *offset);
+        // of a curve each vertex has the place of all
+        mistakes.dedup_by(|a, b| a.0 == b.0 && a.1.message == b.1.message);
         mistakes.into_iter().map(|(_, mistake)| mistake).collect()
     }
 }

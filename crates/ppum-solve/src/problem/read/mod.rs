@@ -5,6 +5,7 @@
 
 mod adaptivity;
 mod boundary;
+mod curve;
 mod discretization;
 mod enrichment;
 mod hole;
@@ -29,6 +30,7 @@ use super::stiffness::default_order;
 use super::{BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
 use adaptivity::adaptivity;
 use boundary::boundary;
+use curve::{Course, course};
 use discretization::discretization;
 use enrichment::enrichments;
 use hole::holes;
@@ -185,6 +187,8 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         refinements.retain(|new| !matches!(new.place, Place::Crack(_)));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
+    let touch = super::cracks::touch(&domain.bounds);
+    let cracks = cracks.into_iter().map(|course| course.on_edges(&domain.bounds, touch));
     let mut discretization = discretization?;
     if root.section("discretization").is_some_and(|section| !section.mentions("order")) {
         discretization.order = Order::Uniform(default_order(&equation, &domain));
@@ -297,15 +301,13 @@ fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
     }
 }
 
-/// The polylines; none at all if one of them cannot be read, as the checks count them.
-fn cracks(root: &Section<'_>) -> Vec<Vec<Vec2>> {
-    let polyline = |section: Section<'_>| {
-        let section = section.only(&["points"], &[]);
-        let example = "points = [[-0.5, 0.0], [0.5, 0.0]]";
-        let list = section.require("points", example)?.list("a list of points [[x, y], …]")?;
-        all(list.iter().map(Value::point))
-    };
-    all(root.sections("crack").into_iter().map(polyline)).unwrap_or_default()
+/// The cracks; none at all if one of them cannot be read, as the checks count them.
+fn cracks(root: &Section<'_>) -> Vec<Course> {
+    all(root.sections("crack").into_iter().map(course)).unwrap_or_default()
+}
+
+fn points(value: &Value<'_>) -> Option<Vec<Vec2>> {
+    all(value.list("a list of points [[x, y], …]")?.iter().map(Value::point))
 }
 
 fn source(root: &Section<'_>, kind: Kind, scope: &Scope) -> Vec<Expression> {
