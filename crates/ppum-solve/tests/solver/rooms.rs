@@ -45,6 +45,7 @@ const FLOORS: Floors<'_> = &[
                 "law",
                 "norms",
                 "problem",
+                "refine",
                 "report",
                 "smoothness",
                 "space",
