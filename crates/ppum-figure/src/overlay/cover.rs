@@ -251,6 +251,23 @@ mod tests {
         }
     }
 
+    /// Each box keeps its colour beside its neighbour's, and what is inside is seen, however small the boxes are.
+    #[test]
+    fn boxes_that_share_a_side_both_show_theirs() {
+        let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
+        let [red, blue] = [[200, 0, 0, 255], [0, 0, 200, 255]];
+        let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
+        let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
+        let items = vec![frame_inside(&view, unit, red), frame_inside(&view, next, blue)];
+        let image = on([255; 4], &view, items);
+        let [left, right] = [99, 101].map(|column| image.pixel(column, 50));
+        assert!(left[0] > left[2] && right[2] > right[0], "{left:?} {right:?}");
+        assert_eq!(image.pixel(50, 50), [255; 4]);
+        let small = Rect::new(vec2(1.0, 0.5), vec2(1.1, 0.6));
+        let image = on([255; 4], &view, vec![frame_inside(&view, small, red)]);
+        assert_eq!(image.pixel(105, 45), [255; 4]);
+    }
+
     #[test]
     fn cell_borders_are_in_place_at_a_width_of_1e_12() {
         let corner = vec2(0.3, 0.7);
