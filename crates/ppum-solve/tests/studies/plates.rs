@@ -2,7 +2,7 @@
 //! finite plates, cross-checked with handbooks; closed forms in the plane.
 
 use super::support::{solved, strain_energy, unknowns};
-use ppum::dataset::{Dataset, Material, StressState, TipIntensity};
+use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Expression, Order, Problem};
 use ppum_testkit::exact::CollinearCracks;
@@ -18,7 +18,7 @@ pub(crate) struct Plate {
     /// Its covers.
     covers: Covers,
     /// K is divided by this.
-    scale: f64,
+    pub(crate) scale: f64,
     /// The known answers.
     pub(crate) known: Vec<Known>,
 }
@@ -63,9 +63,9 @@ pub(crate) struct Known {
     /// Name.
     pub(crate) name: &'static str,
     /// Tip, as they are numbered in the dataset.
-    tip: usize,
+    pub(crate) tip: usize,
     /// 0 for K_I, 1 for K_II.
-    mode: usize,
+    pub(crate) mode: usize,
     /// Its value, over the plate's scale.
     pub(crate) value: f64,
 }
@@ -92,23 +92,6 @@ impl Plate {
         };
         let values = self.known.iter().map(value).collect();
         Solved { values, dataset }
-    }
-}
-
-impl Plate {
-    /// Of each tip with known factors, the lengths of (K_I, K_II), of its error and of the estimated error; a factor that is not known
-    /// vanishes.
-    pub(crate) fn errors_of_factors(&self, dataset: &Dataset) -> Vec<[f64; 3]> {
-        let tips = dataset.steps[0].intensities.iter().enumerate();
-        let of_tip = |(k, found): (usize, &TipIntensity)| {
-            let mut exact = [0.0; 2];
-            let known = self.known.iter().filter(|known| known.tip == k);
-            known.for_each(|known| exact[known.mode] = known.value * self.scale);
-            let error = (found.k1 - exact[0]).hypot(found.k2 - exact[1]);
-            let size = exact[0].hypot(exact[1]);
-            (size > 0.0).then(|| [size, error, found.error.expect("an estimate")])
-        };
-        tips.filter_map(of_tip).collect()
     }
 }
 
