@@ -34,7 +34,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 23] = [
+pub const ALL: [Example; 25] = [
     example!("centre-crack"),
     example!("edge-crack"),
     example!("slanted-crack"),
