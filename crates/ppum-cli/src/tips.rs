@@ -140,7 +140,8 @@ const DASH: &str = "–";
 const HEADS: [&str; 9] = ["position", "K_I", "K_II", "T", "G", "angle", "error", "spread", "J/G-1"];
 
 /// What they mean.
-const MEANING: &str = "angle: of growth by the hoop stress; error: of K, estimated, relative; spread, J/G-1: checks alone";
+const MEANING: &str =
+    "angle: of growth (hoop stress); error: of K, estimated, relative; spread, J/G-1: checks alone";
 
 /// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
 /// is shown as zero.

@@ -220,6 +220,6 @@ mod tests {
         assert!(Overlay::ALL.is_sorted());
         let mut names = Overlay::ALL.map(Overlay::name).to_vec();
         names.dedup();
-        assert_eq!(names.len(), 8);
+        assert_eq!(names.len(), 9);
     }
 }

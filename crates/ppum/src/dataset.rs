@@ -278,14 +278,25 @@ impl FieldData {
     /// The coefficients of a patch, one slice per component, block after block, where these follow each
     /// other as [`push_patch`](Self::push_patch) lays them.
     pub fn coefficients_mut(&mut self, patch: usize) -> impl Iterator<Item = &mut [f64]> {
+        let range = self.range(patch);
+        self.coefficients.iter_mut().map(move |component| &mut component[range.clone()])
+    }
+
+    /// From the first coefficient of a patch's first block to the last one of its last.
+    fn range(&self, patch: usize) -> std::ops::Range<usize> {
         let blocks = self.blocks(patch);
         let end =
             |b: usize| self.block_offset[b] as usize + monomials(self.block_degree[b] as usize);
-        let range = match blocks.clone().last() {
+        match blocks.clone().last() {
             Some(last) => self.block_offset[blocks.start] as usize..end(last),
             None => 0..0,
-        };
-        self.coefficients.iter_mut().map(move |component| &mut component[range.clone()])
+        }
+    }
+
+    /// The coefficients of a patch, component by component, where its blocks have theirs behind one another.
+    pub fn coefficients_of(&self, patch: usize) -> impl Iterator<Item = &[f64]> {
+        let range = self.range(patch);
+        self.coefficients.iter().map(move |component| &component[range.clone()])
     }
 
     /// The blocks of a patch as a range of block indices.

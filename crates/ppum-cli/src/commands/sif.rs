@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
-use ppum::crack::tips;
-use ppum::dataset::{Dataset, Warning};
+use ppum::crack::{TipId, tips};
+use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
@@ -128,8 +128,14 @@ fn computed(
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let (outcomes, warnings) = recompute(dataset, index, problem, &Bar::new())?;
+    // the error is that of the stored field, which only its solver can estimate
+    let stored = &dataset.steps[index].intensities;
+    let error = |tip: TipId| stored.iter().find(|known| known.tip == tip)?.error;
     let tip = |outcome: &Outcome| match &outcome.factors {
-        Some(factors) => Tip::new(dataset, index, factors),
+        Some(factors) => {
+            let factors = TipIntensity { error: error(outcome.tip), ..factors.clone() };
+            Tip::new(dataset, index, &factors)
+        }
         None => Tip::without_factors(dataset, index, outcome.tip),
     };
     Ok((outcomes.iter().map(tip).collect(), warnings))

@@ -206,7 +206,7 @@ impl StepRow {
         let report = SolverReport::of(&step.history);
         Self {
             patches: step.partition.len(),
-            unknowns: step.fields[0].coefficients.iter().map(Vec::len).sum(),
+            unknowns: step.unknowns(),
             energy: report.energy.map(Number),
             estimated_error: report.estimated_error.map(Number),
         }

@@ -94,7 +94,7 @@ fn text_has_a_line_for_each_tip() {
     // the head, two tips, what the columns are
     assert_eq!(text.lines().count(), 4, "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-    assert!(text.contains("no estimate of the error"), "{text}");
+    assert!(text.contains("error: of K, estimated"), "{text}");
     assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
 }
 

@@ -66,8 +66,12 @@ impl Data<'_> {
     }
 
     /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a degree below the order p: of
-    /// order 1 the bound of Payne and Weinberger (1960) for what the rest of the source does to the energy.
+    /// order 1 the bound of Payne and Weinberger (1960) for what the rest of the source does to the energy. Nothing is said of
+    /// cells with functions of the user's own: they are there to see what polynomials do not.
     fn of_source(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
+        if self.space.coverers[cell].iter().any(|&patch| self.space.has_own_functions(patch)) {
+            return 0.0;
+        }
         let rules = self.space.rules(&self.quadrature, cell);
         let (places, mut values) = self.source_values(&rules, rect);
         let d = rect.size().length() / (PI * order.max(1) as f64);
@@ -102,6 +106,10 @@ impl Data<'_> {
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let (mut u, x, n) = ([Jet::constant(0.0); 2], rule.anchor + offset, rule.normals[q]);
             local.over_patches::<f64, 1>([offset.x, offset.y], side, &rule.patches, &mut u);
+            if !u.iter().all(|jet| jet.v.is_finite()) {
+                // a place between patches, up to rounding
+                continue;
+            }
             let law = self.law.at(x);
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
             let (held, given) = part.given(self.problem, x, n);

@@ -11,7 +11,7 @@
 //!
 //! None of it is a bound. Fields that are smooth have errors of 0.4 to 1.1 η, those with singular points up to 1.3 η.
 //!
-//! [`mark`] takes the cells that make up a part of the estimated error (Dörfler 1996); [`Adviser`] says of each
+//! [`mark()`] takes the cells that make up a part of the estimated error (Dörfler 1996); [`Adviser`] says of each
 //! whether to divide it or to raise its order.
 
 mod advice;
@@ -29,8 +29,9 @@ use crate::problem::Problem;
 use crate::space::Space;
 use crate::watched::{Halt, Stage};
 use data::unseen_data;
-use overlap::disagreement;
-pub(crate) use overlap::shared_disagreement;
+use faer::Mat;
+use overlap::disagreements;
+use ppum::dataset::FieldData;
 use ppum::field::Field;
 
 /// The estimated error in the energy norm, cell by cell.
@@ -39,20 +40,26 @@ pub(crate) struct Estimated {
     pub(crate) squares: Vec<f64>,
     /// The parts of the squares that stand for what cells do not see of the data.
     pub(crate) unseen: Vec<f64>,
+    /// The products of the disagreements of the field and of all dual fields: a row for each of them.
+    pub(crate) products: Vec<Mat<f64>>,
 }
 
-/// The estimated error of a field. Advances the stage by twice the number of cells.
+/// The estimated error of a field, and what it has in common with those of dual fields. Local fields do not count
+/// where one of the patch's lonely functions is other than zero. Advances the stage by twice the number of cells.
 ///
 /// # Errors
 /// Cancelled.
 pub(crate) fn estimated(
     problem: &Problem,
     field: &Field<'_>,
+    duals: &[FieldData],
+    lonely: &[Vec<usize>],
     space: &Space<'_>,
     stage: &Stage<'_>,
 ) -> Result<Estimated, Halt> {
-    let of_fields = disagreement(field, space, stage)?;
+    let all: Vec<&FieldData> = std::iter::once(field.data).chain(duals).collect();
+    let products = disagreements(&all, lonely, space, stage)?;
     let unseen = unseen_data(problem, field, space, stage)?;
-    let squares = of_fields.iter().zip(&unseen).map(|(a, b)| a + b).collect();
-    Ok(Estimated { squares, unseen })
+    let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
+    Ok(Estimated { squares, unseen, products })
 }

@@ -7,6 +7,7 @@
 use super::Assembly;
 use super::border::{Border, BorderPiece};
 use super::cell_system::CellSystem;
+use super::dual::Duals;
 use super::functions::CellFunctions;
 use super::gauge::FreeModes;
 use crate::basis::{BasisEvaluator, Shapes};
@@ -27,19 +28,26 @@ pub(crate) struct Source<'a> {
     pub(crate) rules: Option<&'a [Rule]>,
 }
 
+/// Functionals whose values for all functions are integrated with the system.
+#[derive(Clone, Copy)]
+pub(crate) struct Functionals<'a> {
+    pub(crate) free: &'a FreeModes<'a>,
+    pub(crate) duals: &'a Duals<'a>,
+}
+
 /// Assembles the systems of cells; keeps what belongs to the last one.
 pub(crate) struct CellAssembler<'s> {
     assembly: Assembly<'s>,
-    /// The free modes whose moments are wanted, if any are.
-    free: Option<&'s FreeModes<'s>>,
+    /// The functionals that are wanted, if any are.
+    functionals: Option<Functionals<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
 }
 
 impl<'s> CellAssembler<'s> {
-    pub(crate) fn new(assembly: Assembly<'s>, free: Option<&'s FreeModes<'s>>) -> Self {
+    pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        Self { assembly, free, evaluator, shapes: Shapes::default() }
+        Self { assembly, functionals, evaluator, shapes: Shapes::default() }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border.
@@ -55,10 +63,12 @@ impl<'s> CellAssembler<'s> {
     ) -> Result<CellSystem, EigenError> {
         let functions = CellFunctions::new(&self.assembly, cell);
         let (n, components) = (functions.len(), self.assembly.law.components);
+        let zeros = |count: usize| vec![vec![0.0; n * components]; count];
         let mut system = CellSystem {
             matrix: Mat::zeros(n * components, n * components),
             load: vec![0.0; n * components],
-            moments: vec![vec![0.0; n * components]; self.free.map_or(0, FreeModes::len)],
+            moments: zeros(self.functionals.map_or(0, |all| all.free.len())),
+            duals: zeros(self.functionals.map_or(0, |all| all.duals.len())),
             penalty: 0.0,
             reactions: Vec::new(),
             functions,
@@ -69,7 +79,7 @@ impl<'s> CellAssembler<'s> {
         let own = source.and_then(|source| Some((source.values, source.rules?)));
         let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
         for rule in rules {
-            self.volume(rule, shared, &mut products, &mut system);
+            self.volume((cell, rule), shared, &mut products, &mut system);
         }
         if let Some((values, rules)) = own {
             for rule in rules {
@@ -109,7 +119,7 @@ impl<'s> CellAssembler<'s> {
 
     fn volume(
         &mut self,
-        rule: &Rule,
+        (cell, rule): (usize, &Rule),
         source: Option<Data<'_>>,
         products: &mut [Products],
         system: &mut CellSystem,
@@ -120,8 +130,9 @@ impl<'s> CellAssembler<'s> {
         }
         let shapes = &mut self.shapes;
         let numbers = system.functions.numbers(&rule.patches);
-        if let Some(free) = self.free {
+        if let Some(Functionals { free, duals }) = self.functionals {
             free.add(rule, shapes, &numbers, self.assembly.law.components, &mut system.moments);
+            duals.add((cell, rule), shapes, &numbers, &mut system.duals);
         }
         if self.assembly.law.is_uniform() {
             shapes.scale(&rule.weights);

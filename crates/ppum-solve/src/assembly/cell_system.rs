@@ -17,6 +17,8 @@ pub(crate) struct CellSystem {
     pub(crate) load: Vec<f64>,
     /// ∫ N·m of each free mode m.
     pub(crate) moments: Vec<Vec<f64>>,
+    /// K(N) of both modes, if the cell is in a disc of a tip.
+    pub(crate) duals: Vec<Vec<f64>>,
     /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.
     pub(crate) penalty: f64,
     /// Forces of the restraints in the cell, one entry per condition that gives values.

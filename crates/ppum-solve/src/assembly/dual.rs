@@ -1,54 +1,50 @@
 //! Loads whose solutions are dual to stress intensity factors: K(v) = a(v, z) for all v.
 
-use super::Assembly;
-use super::functions::CellFunctions;
-use crate::basis::{BasisEvaluator, Shapes};
+use crate::basis::Shapes;
 use crate::geometry::Placed;
 use crate::intensity::{FACTORS, Sensitivity};
-use crate::linear::BlockMatrix;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::Rule;
+use crate::space::Space;
 
-/// K(N) of both modes, in the order of the matrix, summed over all tips. Advances the stage by the number of pairs of a tip and
-/// a cell.
-///
-/// # Errors
-/// Cancelled.
-pub(crate) fn dual_loads(
-    assembly: Assembly<'_>,
-    matrix: &BlockMatrix,
-    tips: &[Sensitivity<'_>],
-    stage: &Stage<'_>,
-) -> Result<[Vec<f64>; FACTORS], Halt> {
-    let Assembly { space, basis, .. } = assembly;
-    let (quadrature, c) = (space.quadrature(0), assembly.components());
-    let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
-    let work: Vec<_> =
-        tips.iter().flat_map(|tip| tip.cells(&near).into_iter().map(move |c| (tip, c))).collect();
-    let mut loads = [0, 1].map(|_| vec![0.0; matrix.n_unknowns()]);
-    in_batches(
-        stage,
-        work.len(),
-        || (BasisEvaluator::new(space, basis), Shapes::default()),
-        |(evaluator, shapes), k| {
-            let (tip, cell) = work[k];
-            let functions = CellFunctions::new(&assembly, cell);
-            let mut parts = [0, 1].map(|_| vec![0.0; functions.len() * c]);
-            for rule in tip.rules(&quadrature, cell) {
-                evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-                let numbers = functions.numbers(&rule.patches);
-                for (q, kernels) in tip.kernels(&rule).iter().enumerate() {
-                    for (kernel, part) in kernels.iter().zip(&mut parts) {
-                        shapes.add_slopes(q, &numbers, kernel, part);
-                    }
+/// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed over the tips.
+pub(crate) struct Duals<'a> {
+    tips: &'a [Sensitivity<'a>],
+    /// Of each cell, the tips whose discs it meets.
+    near: Vec<Vec<u32>>,
+}
+
+impl<'a> Duals<'a> {
+    pub(crate) fn new(tips: &'a [Sensitivity<'a>], space: &Space<'_>) -> Self {
+        let cells = &space.partition().cell;
+        let mut near = vec![Vec::new(); cells.len()];
+        let placed = Placed::new(cells.iter().copied().zip(0..));
+        for (k, tip) in (0..).zip(tips) {
+            tip.cells(&placed).into_iter().for_each(|cell| near[cell].push(k));
+        }
+        Self { tips, near }
+    }
+
+    /// Number of functionals.
+    pub(super) fn len(&self) -> usize {
+        if self.tips.is_empty() { 0 } else { FACTORS }
+    }
+
+    /// Adds the points of a rule of a cell to the parts of both modes; shapes are those of the rule's patches, `numbers` their
+    /// places in a part.
+    pub(super) fn add(
+        &self,
+        (cell, rule): (usize, &Rule),
+        shapes: &Shapes,
+        numbers: &[usize],
+        parts: &mut [Vec<f64>],
+    ) {
+        for &tip in &self.near[cell] {
+            let kernels = self.tips[tip as usize].kernels(rule);
+            for (q, kernels) in kernels.iter().enumerate() {
+                for (kernel, part) in kernels.iter().zip(parts.iter_mut()) {
+                    shapes.add_slopes(q, numbers, kernel, part);
                 }
             }
-            Ok((functions, parts))
-        },
-        |_, (functions, parts)| {
-            for (sum, part) in loads.iter_mut().zip(&parts) {
-                functions.add_to(basis, matrix, c, part, sum);
-            }
-        },
-    )?;
-    Ok(loads)
+        }
+    }
 }

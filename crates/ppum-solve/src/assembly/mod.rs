@@ -18,7 +18,8 @@ mod loads;
 mod reaction;
 mod system;
 
-pub(crate) use dual::dual_loads;
+pub(crate) use cell::Functionals;
+pub(crate) use dual::Duals;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use loads::border_rules;

@@ -2,9 +2,8 @@
 
 use super::Assembly;
 use super::border::BorderPiece;
-use super::cell::CellAssembler;
+use super::cell::{CellAssembler, Functionals};
 use super::cell_system::CellSystem;
-use super::gauge::FreeModes;
 use super::given::Given;
 use super::reaction::Reactions;
 use crate::basis::Penalty;
@@ -23,6 +22,8 @@ pub(crate) struct System {
     pub(crate) load: Vec<f64>,
     /// ∫ N·m of each free mode m, in the same order.
     pub(crate) moments: Vec<Vec<f64>>,
+    /// K(N) of both modes summed over the tips, in the same order; none without tips.
+    pub(crate) duals: Vec<Vec<f64>>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub(crate) nitsche: f64,
     /// Forces of the restraints on the plate.
@@ -95,23 +96,23 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    /// Assembles the system of what is given, and the moments of free modes. Advances the stage by the number of cells.
+    /// Assembles the system of what is given, and functionals. Advances the stage by the number of cells.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
     pub(crate) fn new(
         assembly: Assembly<'_>,
         given: &Given<'_>,
-        free: &FreeModes<'_>,
+        functionals: Functionals<'_>,
         stage: &Stage<'_>,
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
         let quadrature = space.quadrature(0);
-        let (mut system, mut doubt) = (Self::zero(&assembly, free.len()), Doubt::default());
+        let (mut system, mut doubt) = (Self::zero(&assembly, functionals), Doubt::default());
         in_batches(
             stage,
             assembly.n_cells(),
-            || CellAssembler::new(assembly, Some(free)),
+            || CellAssembler::new(assembly, Some(functionals)),
             |assembler, cell| {
                 let rules = space.rules(&quadrature, cell);
                 let pieces = given.border(space, &quadrature, cell);
@@ -140,12 +141,13 @@ impl System {
         Ok(system)
     }
 
-    fn zero(assembly: &Assembly<'_>, modes: usize) -> Self {
+    fn zero(assembly: &Assembly<'_>, Functionals { free, duals }: Functionals<'_>) -> Self {
         let sizes = assembly.basis.unknowns(assembly.components());
         let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
         Self {
             load: vec![0.0; matrix.n_unknowns()],
-            moments: vec![vec![0.0; matrix.n_unknowns()]; modes],
+            moments: vec![vec![0.0; matrix.n_unknowns()]; free.len()],
+            duals: vec![vec![0.0; matrix.n_unknowns()]; duals.len()],
             matrix,
             nitsche: 0.0,
             reactions: Reactions::default(),
@@ -157,8 +159,9 @@ impl System {
     fn add(&mut self, part: CellSystem, blocks: &[Mat<f64>], assembly: &Assembly<'_>) {
         let (basis, components) = (assembly.basis, assembly.components());
         part.functions.add_to(basis, &self.matrix, components, &part.load, &mut self.load);
-        for (sum, moments) in self.moments.iter_mut().zip(&part.moments) {
-            part.functions.add_to(basis, &self.matrix, components, moments, sum);
+        let functionals = part.moments.iter().chain(&part.duals);
+        for (sum, part_of) in self.moments.iter_mut().chain(&mut self.duals).zip(functionals) {
+            part.functions.add_to(basis, &self.matrix, components, part_of, sum);
         }
         let patches = &part.functions.patches;
         let pairs =

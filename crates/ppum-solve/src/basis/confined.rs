@@ -59,7 +59,8 @@ pub(super) fn reductions(
     grams: &[Gram],
     stage: &Stage<'_>,
 ) -> Result<BTreeMap<usize, Vec<Part>>, Halt> {
-    let jumps: Vec<Jump> = (0..grams.len()).flat_map(|i| lonely(space, i, &grams[i])).collect();
+    let jumps: Vec<Jump> =
+        (0..grams.len()).flat_map(|i| lonely_jumps(space, i, &grams[i], is_jump)).collect();
     let shared = Shared { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
     let mut kept = BTreeMap::new();
     for i in shared.all() {
@@ -178,15 +179,30 @@ pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     matrix
 }
 
-/// The jumps of a patch of which nearly nothing lies where it is alone.
-fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<Jump> {
+/// The first functions of the components of a patch of which nearly nothing lies where it is alone.
+pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
+    let is_component = |kind: &FunctionKind| matches!(kind, FunctionKind::Component { .. });
+    let jumps = lonely_jumps(space, patch, gram, is_component);
+    jumps.into_iter().map(|jump| jump.functions.start).collect()
+}
+
+fn is_jump(kind: &FunctionKind) -> bool {
+    matches!(kind, FunctionKind::Side { .. } | FunctionKind::Component { .. })
+}
+
+/// The jumps of some kinds of a patch of which nearly nothing lies where it is alone.
+fn lonely_jumps(
+    space: &Space<'_>,
+    patch: usize,
+    gram: &Gram,
+    is_meant: impl Fn(&FunctionKind) -> bool,
+) -> Vec<Jump> {
     let (data, mut first, mut found) = (space.data(), 0, Vec::new());
     for block in data.blocks(patch) {
         let functions = first..first + monomials(data.block_degree[block].into());
         let kind = &space.step().functions[data.block_function[block] as usize].kind;
-        let jumps = matches!(kind, FunctionKind::Side { .. } | FunctionKind::Component { .. });
         let square = gram.plain[first];
-        if jumps && gram.alone[first] <= OUTSIDE * square {
+        if is_meant(kind) && gram.alone[first] <= OUTSIDE * square {
             found.push(Jump { patch, functions: functions.clone(), square });
         }
         first = functions.end;

@@ -16,14 +16,13 @@ mod williams;
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
-use confined::reductions;
+use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use local::LocalBasis;
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
-use shape::ShapeEvaluator;
-pub(crate) use shape::Shapes;
+pub(crate) use shape::{ShapeEvaluator, Shapes};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -41,6 +40,8 @@ pub(crate) struct StableBasis {
     patches: Vec<LocalBasis>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
+    /// Of each patch, the first functions of components of which nearly nothing lies where it is alone.
+    pub(crate) lonely: Vec<Vec<usize>>,
 }
 
 impl StableBasis {
@@ -64,7 +65,8 @@ impl StableBasis {
             |_, basis| patches.push(basis),
         )?;
         let sizes = patches.iter().map(LocalBasis::len).collect();
-        Ok(Self { patches, sizes })
+        let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
+        Ok(Self { patches, sizes, lonely })
     }
 
     /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions

@@ -175,7 +175,7 @@ impl<'a> Interaction<'a> {
     }
 
     /// The rules for a cell.
-    pub(super) fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<Rule> {
+    fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<Rule> {
         let disc = Disc {
             center: self.center,
             radius: self.largest(),

@@ -10,7 +10,7 @@
 use super::integral::{Interaction, Place, cut_off, in_frame, square};
 use super::{Loads, Outcome, RADII};
 use crate::geometry::Placed;
-use crate::quadrature::{Quadrature, Rule};
+use crate::quadrature::Rule;
 use crate::space::Space;
 use ppum::crack::{Side, tips};
 use ppum::dataset::Dataset;
@@ -50,11 +50,6 @@ impl Sensitivity<'_> {
     /// The cells that meet the disc.
     pub(crate) fn cells(&self, cells: &Placed<usize>) -> Vec<usize> {
         self.0.cells(cells).collect()
-    }
-
-    /// The rules for a cell.
-    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Vec<Rule> {
-        self.0.rules(quadrature, cell)
     }
 
     /// G of both modes at the points of a rule; zero outside the disc.

@@ -54,6 +54,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     found.extend(check_components(problem));
     found.extend(check_discretization(problem));
     found.extend(problem.adaptivity.iter().flat_map(check_adaptivity));
+    found.extend(check_goal(problem));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
     let bounds = &problem.domain.bounds;
@@ -235,13 +236,15 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
 /// Most steps of an adaptation: each at least adds a cell to the one before, and most half as many again.
 const MAX_STEPS: usize = 100;
 
+/// Accuracies that one may ask for: double precision ends below.
+const ACCURACY: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
+
 fn check_adaptivity(set: &Adaptivity) -> Vec<MistakeAt> {
     let Adaptivity { steps, fraction, max_unknowns, tolerance, accuracy, .. } = *set;
-    let of_accuracy =
-        accuracy.filter(|accuracy| !(*accuracy > 0.0 && *accuracy < 1.0)).map(|value| {
-            let key = Key::new("discretization").name("accuracy");
-            MistakeAt::new(key, format!("`accuracy` is {value}, but must be above 0 and below 1"))
-        });
+    let of_accuracy = accuracy.filter(|accuracy| !ACCURACY.contains(accuracy)).map(|value| {
+        let key = Key::new("discretization").name("accuracy");
+        MistakeAt::new(key, format!("`accuracy` is {value:?}, but must be 1e-9 to 0.5"))
+    });
     let tolerance = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0));
     let message = |value: f64| {
         format!("`tolerance` is {value}, but must be above 0 and below 1, a part of the solution")
@@ -263,6 +266,22 @@ fn check_adaptivity(set: &Adaptivity) -> Vec<MistakeAt> {
         .map(|(_, name, message)| MistakeAt::new(Key::new("adaptivity").name(name), message))
         .chain(of_accuracy)
         .collect()
+}
+
+/// Cells as small as there may be do not stand for functions of cracks.
+fn check_goal(problem: &Problem) -> Option<MistakeAt> {
+    problem.adaptivity.as_ref()?.accuracy?;
+    let name = match problem.discretization.enrichment {
+        Enrichment::None => "none",
+        Enrichment::AdditiveOnly => "additive-only",
+        _ => return None,
+    };
+    let message = format!(
+        "no accuracy can be had with `enrichment = \"{name}\"`, which leaves out how fields jump across cracks; \
+         leave `enrichment` or `accuracy` out"
+    );
+    let key = Key::new("discretization").name("accuracy");
+    (!problem.cracks.is_empty()).then(|| MistakeAt::new(key, message))
 }
 
 fn check_cells(cells: &Cells) -> Option<MistakeAt> {

@@ -2,7 +2,8 @@
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
-use ppum::segment::{Segment, gap};
+use ppum::segment::{Segment, distance, gap};
+use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
@@ -112,7 +113,7 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
         let message = "a crack needs at least two points; add `[x, y]`";
         return vec![MistakeAt::new(key.clone(), message)];
     }
-    let mut found = check_places(points, domain, touch, key);
+    let mut found: Vec<MistakeAt> = check_places(points, domain, touch, key).into_iter().collect();
     found.extend(check_segments(points, domain, touch, key));
     if found.is_empty() {
         found.extend(check_whole(points, touch, key));
@@ -120,8 +121,9 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
     found
 }
 
-/// Each point inside the closed box; on its border only the ends, and then exactly.
-fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
+/// Each point inside the closed box; on its border only the ends, and then exactly. The first that is not is told: a curve has
+/// many.
+fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();
         let near = edges_at(*p, domain, touch).next();
@@ -133,17 +135,34 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mi
                 edge.depth(domain, *p).abs()
             ),
             _ if !domain.contains(*p) => {
-                "the point lies outside the domain; move it in, or enlarge the domain".to_owned()
+                format!("{} lies outside the domain; move it in, or enlarge the domain", shown(*p))
             }
             Some(edge) if !is_end => format!(
-                "the crack touches the {} edge between its ends; only an end may lie on the border",
-                edge.name()
+                "the crack touches the {} edge between its ends, at {}; only an end may lie on the border",
+                edge.name(),
+                shown(*p)
             ),
             _ => return None,
         };
         Some(MistakeAt::new(key.clone().index(index), message))
     };
-    points.iter().enumerate().filter_map(place).collect()
+    points.iter().enumerate().find_map(place)
+}
+
+/// Where two segments meet: where they cross, else the end of one that is the nearest to the other.
+pub(super) fn place(s: Segment, t: Segment) -> Vec2 {
+    let (along, other) = (s[1] - s[0], t[1] - t[0]);
+    let at = (t[0] - s[0]).cross(other) / along.cross(other);
+    let crossing = s[0] + along * at;
+    let ends = s.map(|p| (distance(t, p), p)).into_iter().chain(t.map(|p| (distance(s, p), p)));
+    let crosses = (distance(s, crossing).max(distance(t, crossing)), crossing);
+    let all = ends.chain((at.is_finite()).then_some(crosses));
+    all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(s[0], |(_, p)| p)
+}
+
+/// `[0.5, -0.25]`
+pub(super) fn shown(p: Vec2) -> String {
+    format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
 }
 
 /// Each segment of positive length, and not along the border.
@@ -154,7 +173,11 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
             .find(|edge| edges_at(b, domain, touch).any(|other| other == *edge));
         let (at, message) = match along {
             _ if (b - a).length() <= touch => {
-                (index + 1, "the point equals the one before it; remove it".to_owned())
+                let message = format!(
+                    "the point equals the one before it, {}, up to rounding; remove it, or make the crack larger",
+                    shown(a)
+                );
+                (index + 1, message)
             }
             Some(edge) => (
                 index,
@@ -174,8 +197,9 @@ fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<MistakeAt> {
     };
     touching.map(|(first, second)| {
         let message = format!(
-            "the crack crosses, touches or folds back on itself: its segments {} and {} meet; \
+            "the crack crosses, touches or folds back on itself around {}: its segments {} and {} meet; \
              separate them, or give the second one as a crack of its own: cracks may meet others",
+            shown(place([points[first], points[first + 1]], [points[second], points[second + 1]])),
             first + 1,
             second + 1
         );

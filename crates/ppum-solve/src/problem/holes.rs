@@ -4,7 +4,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
 use super::check::MistakeAt;
-use super::cracks::{TOUCH, crosses_itself};
+use super::cracks::{TOUCH, crosses_itself, place, shown};
 use super::key::Key;
 use super::nearby::TooDense;
 use crate::geometry::meets;
@@ -76,8 +76,9 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
     };
     if let Some((first, second)) = crossing {
         return Some(format!(
-            "the polygon crosses or touches itself: its sides {first} and {second} meet; give its \
-             corners in order, once each"
+            "the rim crosses or touches itself around {}: its sides {first} and {second} meet; give its \
+             corners in order, once each",
+            shown(place(sides[first], sides[second]))
         ));
     }
     let met = sides.iter().any(|side| meets(*side, bounds));

@@ -179,8 +179,8 @@ fn bad_size(new: &LocalRefinement, problem: &Problem) -> Option<String> {
     let (size, least) = (new.size.constant()?, smallest(problem)?);
     (size < least).then(|| {
         format!(
-            "`size` is {size}, but {DEEPEST} divisions of the base cells, the most there may be, give cells of \
-             {least}; give a larger size, or smaller base cells"
+            "`size` is {size:?}, but {DEEPEST} divisions of the base cells, the most there may be, give cells of \
+             {least:?}; give a larger size, or smaller base cells"
         )
     })
 }

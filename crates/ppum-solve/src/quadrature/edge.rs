@@ -4,12 +4,13 @@ use super::adapt::{Demand, Part as _, Refined, refined};
 use super::doubt::Doubt;
 use super::gauss::gauss;
 use super::orders::Active;
+use super::polygon::Cut;
 use super::polygon::line_side;
 use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use super::{Kink, Level, Quadrature, Singular, TOLERANCE, cutting_line};
+use super::{Kink, Level, Quadrature, Singular, TOLERANCE, straight_cut};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
@@ -273,16 +274,18 @@ impl Run<'_> {
         }
     }
 
-    /// Crossings of the line with the lines of crack segments that meet the cell, and with kinks.
+    /// Crossings of the line with crack segments that meet the cell, and with kinks.
     fn crossings(&self, lo: f64, hi: f64, kinks: &[&Kink]) -> Vec<f64> {
         let point = |s: f64| self.line.foot + self.line.tangent * s;
-        let crossing = |[a, b]: [Vec2; 2]| {
-            let (a, b) = (a - self.line.anchor, b - self.line.anchor);
-            let (from, to) = (line_side(a, b, point(lo)), line_side(a, b, point(hi)));
-            (from != to).then(|| lo + (hi - lo) * (from / (from - to)))
+        let crossing = |cut: Cut| {
+            let cut = cut.seen_from(self.line.anchor);
+            let [from, to] = [lo, hi].map(|s| line_side(cut.ends[0], cut.ends[1], point(s)));
+            let at = (from != to).then(|| lo + (hi - lo) * (from / (from - to)))?;
+            cut.passes(point(at)).then_some(at)
         };
-        let straight = kinks.iter().filter_map(|kink| cutting_line(kink, self.cell));
-        let others = self.quadrature.segments_near(self.cell).filter(|s| *s != self.line.segment);
+        let straight = kinks.iter().filter_map(|kink| straight_cut(kink, self.cell));
+        let others = self.quadrature.cuts_near(self.cell);
+        let others = others.filter(|cut| cut.ends != self.line.segment);
         let lines = others.chain(straight);
         let levels = kinks.iter().filter_map(|kink| match kink {
             Kink::Curve(level) => Some(level),

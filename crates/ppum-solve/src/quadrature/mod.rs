@@ -5,9 +5,9 @@
 //!
 //! 1. rectangles with a constant set of covering patches;
 //! 2. cut at kinks of the partition functions, where these do not cancel;
-//! 3. cut by the lines of the crack segments that meet the rectangle, extended through it (harmless,
-//!    and all pieces are convex and on one side of each segment), and by straight kinks of the active
-//!    functions and of the material in the same way;
+//! 3. cut by the crack segments that meet the rectangle, each of which divides the pieces that it meets along its
+//!    line, so that all of them stay convex; the straight extensions of cracks, across which sides jump, cut too, and
+//!    straight kinks of the active functions and of the material;
 //! 4. near a point at which an active function is singular, triangles with their apex there and a
 //!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to it
 //!    than their diameter;
@@ -50,7 +50,7 @@ pub(crate) use orders::Orders;
 pub(crate) use roots::{sign_changes, tame};
 
 use orders::Active;
-use polygon::{Polygon, line_side};
+use polygon::{Cut, Polygon, line_side};
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -123,7 +123,7 @@ pub(crate) struct Quadrature<'a> {
     geometry: Geometry<'a>,
     orders: Orders,
     /// Segments of cracks and sides of holes.
-    segments: Vec<[Vec2; 2]>,
+    segments: Vec<Cut>,
     /// Round rims: at least as many as there are round holes.
     circles: Vec<Arc<Level>>,
     /// Boxes of the holes, and of the round ones.
@@ -164,9 +164,8 @@ impl<'a> Quadrature<'a> {
     /// The quadrature for a geometry.
     #[must_use]
     pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
-        let of_crack = |c: &Crack| c.points.windows(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
-        let of_cracks = geometry.cracks.iter().flat_map(of_crack);
-        let segments = of_cracks.chain(geometry.holes.iter().flat_map(Hole::sides)).collect();
+        let sides = geometry.holes.iter().flat_map(Hole::sides).map(Cut::segment);
+        let segments = geometry.cracks.iter().flat_map(cuts).chain(sides).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
         let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
         let circle_boxes = round.map(Hole::bounds).collect();
@@ -213,7 +212,7 @@ impl<'a> Quadrature<'a> {
         orders: Orders,
         disc: Option<Disc>,
     ) -> Vec<Rule> {
-        let segments = self.segments_near(cell).collect();
+        let segments = self.cuts_near(cell).collect();
         let boxes = self.boxes.iter().zip(self.geometry.holes);
         let holes = boxes.filter(|(b, _)| b.overlaps(cell)).map(|(_, hole)| hole).collect();
         let size = cell.size();
@@ -236,9 +235,16 @@ impl<'a> Quadrature<'a> {
     }
 
     /// The segments of cracks and sides of holes that meet the closed box.
-    fn segments_near(&self, rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
-        self.segments.iter().copied().filter(|&[a, b]| meets(rect, a, b))
+    fn cuts_near(&self, rect: &Rect) -> impl Iterator<Item = Cut> {
+        self.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
     }
+}
+
+/// The segments of a crack, which goes on beyond its ends.
+fn cuts(crack: &Crack) -> impl Iterator<Item = Cut> {
+    let last = crack.points.len().saturating_sub(2);
+    let segments = crack.points.windows(2).enumerate();
+    segments.map(move |(k, s)| Cut { ends: [s[0], s[1]], goes_on: [k == 0, k == last] })
 }
 
 /// True if the segment meets the closed box, up to rounding.
@@ -257,7 +263,7 @@ struct Run<'a> {
     cell: &'a Rect,
     orders: Orders,
     disc: Option<Disc>,
-    segments: Vec<[Vec2; 2]>,
+    segments: Vec<Cut>,
     /// The holes whose boxes meet the cell.
     holes: Vec<&'a Hole>,
     least: f64,
@@ -319,13 +325,13 @@ impl Run<'_> {
         }
     }
 
-    /// The rectangle cut by the lines of the segments that meet it and by straight kinks,
-    /// relative to the anchor.
+    /// The rectangle cut by the segments that meet it and by straight kinks, relative to the anchor.
     fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
-        let meeting = self.segments.iter().filter(|[a, b]| meets(rect, *a, *b)).copied();
-        let straight = kinks.iter().filter_map(|kink| cutting_line(kink, rect));
-        let lines: Vec<_> = meeting.chain(straight).map(|s| s.map(|p| p - anchor)).collect();
-        Polygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&lines, self.least)
+        let meets = |cut: &&Cut| meets(rect, cut.ends[0], cut.ends[1]);
+        let meeting = self.segments.iter().filter(meets).copied();
+        let straight = kinks.iter().filter_map(|kink| straight_cut(kink, rect));
+        let cuts: Vec<_> = meeting.chain(straight).map(|cut| cut.seen_from(anchor)).collect();
+        Polygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&cuts, self.least)
     }
 
     /// The distinct singular points, the nearest first.
@@ -349,11 +355,11 @@ fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
     distinct
 }
 
-/// Two points on the line along which a straight kink cuts a rectangle, if it does.
-fn cutting_line(kink: &Kink, rect: &Rect) -> Option<[Vec2; 2]> {
+/// The cut of a straight kink through a rectangle, if it meets that.
+fn straight_cut(kink: &Kink, rect: &Rect) -> Option<Cut> {
     match *kink {
-        Kink::Line(line) => Some(line),
-        Kink::Segment([a, b]) => meets(rect, a, b).then_some([a, b]),
+        Kink::Line(line) => Some(Cut::line(line)),
+        Kink::Segment([a, b]) => meets(rect, a, b).then_some(Cut::segment([a, b])),
         Kink::Curve(_) => None,
     }
 }

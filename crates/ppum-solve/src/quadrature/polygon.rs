@@ -3,7 +3,8 @@
 //! Vertices run counter-clockwise, as offsets from an anchor the caller knows.
 
 use ppum::segment;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
+use std::cmp::Ordering;
 
 /// Distances below this part of a polygon's diameter are rounding.
 const TOUCH: f64 = 1e-14;
@@ -11,9 +12,51 @@ const TOUCH: f64 = 1e-14;
 /// Rounding of a cross product of two differences, relative to the size of its terms.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Part of a segment beyond its ends at which it may still be met.
+const SLACK: f64 = 1e-6;
+
+/// Area of a sliver in squares of its length.
+const SLENDER: f64 = 1e-2;
+
+/// Cuts from which on a polygon is halved before.
+const MANY: usize = 10;
+
+/// Most halvings of a polygon.
+const DEEPEST: usize = 40;
+
 /// A convex polygon.
 #[derive(Clone, Debug)]
 pub(super) struct Polygon(pub(super) Vec<Vec2>);
+
+/// A segment that cuts polygons along its line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cut {
+    pub(super) ends: [Vec2; 2],
+    /// Whether it also cuts what it meets only beyond this end.
+    pub(super) goes_on: [bool; 2],
+}
+
+impl Cut {
+    pub(super) fn line(ends: [Vec2; 2]) -> Self {
+        Self { ends, goes_on: [true; 2] }
+    }
+
+    pub(super) fn segment(ends: [Vec2; 2]) -> Self {
+        Self { ends, goes_on: [false; 2] }
+    }
+
+    /// True if a point of the line is one at which it cuts, up to rounding.
+    pub(super) fn passes(&self, p: Vec2) -> bool {
+        let along = self.ends[1] - self.ends[0];
+        let at = (p - self.ends[0]).dot(along) / along.dot(along);
+        (self.goes_on[0] || at > -SLACK) && (self.goes_on[1] || at < 1.0 + SLACK)
+    }
+
+    /// The cut seen from an anchor.
+    pub(super) fn seen_from(self, anchor: Vec2) -> Self {
+        Self { ends: self.ends.map(|p| p - anchor), ..self }
+    }
+}
 
 /// |b − a| times the signed distance of `p` to the line from `a` to `b`, positive on the left; zero
 /// where only rounding tells it from zero.
@@ -39,9 +82,17 @@ impl Polygon {
     }
 
     pub(super) fn diameter(&self) -> f64 {
+        let [a, b] = self.farthest();
+        (b - a).length()
+    }
+
+    /// The two vertices that are the farthest apart.
+    fn farthest(&self) -> [Vec2; 2] {
         let ends =
-            self.0.iter().enumerate().flat_map(|(i, &a)| self.0[..i].iter().map(move |&b| a - b));
-        ends.map(Vec2::length).fold(0.0, f64::max)
+            self.0.iter().enumerate().flat_map(|(i, &a)| self.0[..i].iter().map(move |&b| [a, b]));
+        let length = |[a, b]: [Vec2; 2]| (b - a).length();
+        let longer = |kept, new| if length(new) > length(kept) { new } else { kept };
+        ends.fold([self.0[0]; 2], longer)
     }
 
     /// True if `p` lies in the closed polygon, up to rounding.
@@ -87,21 +138,79 @@ impl Polygon {
         Some([Self(left), Self(right)])
     }
 
-    /// The polygon cut by the lines of several segments, without the parts smaller than `least`.
-    pub(super) fn pieces(self, segments: &[[Vec2; 2]], least: f64) -> Vec<Self> {
-        let mut pieces = vec![self];
-        for &[a, b] in segments {
-            pieces = pieces
-                .into_iter()
-                .flat_map(|p| p.cut(a, b).map_or_else(|| vec![p], Vec::from))
-                .collect();
+    /// True if a cut has a part of positive length in the polygon.
+    fn is_met(&self, cut: &Cut) -> bool {
+        let ([a, b], [before, behind]) = (cut.ends, cut.goes_on);
+        let mut from = if before { f64::NEG_INFINITY } else { 0.0 };
+        let mut to = if behind { f64::INFINITY } else { 1.0 };
+        for (v, w) in self.edges() {
+            let (s, t) = (line_side(v, w, a), line_side(v, w, b));
+            match s.total_cmp(&t) {
+                Ordering::Less => from = f64::max(from, s / (s - t)),
+                Ordering::Greater => to = f64::min(to, s / (s - t)),
+                Ordering::Equal if s < 0.0 => return false,
+                Ordering::Equal => {}
+            }
         }
+        from < to
+    }
+
+    /// The polygon divided so that no cut runs through the inside of a part, without the parts smaller than `least`.
+    ///
+    /// A cut divides the parts that it meets, each along the whole of its line. Where there are many, the polygon is halved
+    /// before: of a chain of n segments that lie on one line but for noise, some n parts are left, none of them much
+    /// longer than the segments.
+    pub(super) fn pieces(self, cuts: &[Cut], least: f64) -> Vec<Self> {
+        let mut pieces = Vec::new();
+        self.add_pieces(cuts.to_vec(), DEEPEST, &mut pieces);
         pieces.retain(|p| p.area() > least);
         pieces
     }
 
-    /// Two or more smaller polygons: triangles, or a triangle's halves across its longest edge.
+    fn add_pieces(self, cuts: Vec<Cut>, depth: usize, pieces: &mut Vec<Self>) {
+        let met: Vec<Cut> = cuts.into_iter().filter(|cut| self.is_met(cut)).collect();
+        if met.len() > MANY
+            && depth > 0
+            && let Some(halves) = self.halves()
+        {
+            let counts =
+                halves.each_ref().map(|half| met.iter().filter(|c| half.is_met(c)).count());
+            if counts.contains(&0) || counts.iter().all(|count| *count < met.len()) {
+                return halves
+                    .into_iter()
+                    .for_each(|h| h.add_pieces(met.clone(), depth - 1, pieces));
+            }
+        }
+        pieces.extend(self.cut_by(&met));
+    }
+
+    /// The parts on either side of the middle of its longer side along the axes.
+    fn halves(&self) -> Option<[Self; 2]> {
+        let (min, max) =
+            self.0.iter().fold((self.0[0], self.0[0]), |(a, b), v| (a.min(*v), b.max(*v)));
+        let (middle, size) = ((min + max) * 0.5, max - min);
+        let along = if size.x > size.y { vec2(0.0, size.x) } else { vec2(size.y, 0.0) };
+        self.cut(middle, middle + along)
+    }
+
+    fn cut_by(self, cuts: &[Cut]) -> Vec<Self> {
+        let mut pieces = vec![self];
+        for cut in cuts {
+            let parts = |p: Self| match p.is_met(cut).then(|| p.cut(cut.ends[0], cut.ends[1])) {
+                Some(Some(parts)) => Vec::from(parts),
+                _ => vec![p],
+            };
+            pieces = pieces.into_iter().flat_map(parts).collect();
+        }
+        pieces
+    }
+
+    /// Two or more smaller polygons: triangles, or a triangle's halves across its longest edge; of a sliver the halves of its
+    /// length, as its triangles would lie beside each other again and again.
     pub(super) fn parts(&self) -> Vec<Self> {
+        if let Some(halves) = self.halves_of_sliver() {
+            return halves.into();
+        }
         let v = &self.0;
         if v.len() > 3 {
             return (2..v.len()).map(|k| Self(vec![v[0], v[k - 1], v[k]])).collect();
@@ -112,12 +221,19 @@ impl Polygon {
         let mid = (a + b) * 0.5;
         vec![Self(vec![a, mid, c]), Self(vec![mid, b, c])]
     }
+
+    fn halves_of_sliver(&self) -> Option<[Self; 2]> {
+        let [a, b] = self.farthest();
+        let (along, middle) = (b - a, (a + b) * 0.5);
+        let is_sliver = self.area() < SLENDER * along.dot(along);
+        is_sliver.then(|| self.cut(middle, middle + along.left()))?
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::vec2::vec2;
+    use ppum_testkit::random::Random;
 
     fn square() -> Polygon {
         Polygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0)])
@@ -126,7 +242,7 @@ mod tests {
     #[test]
     fn parts_of_a_cut_add_up() {
         let segments = [[vec2(-1.0, 0.3), vec2(2.0, 0.4)], [vec2(0.2, -5.0), vec2(0.7, 3.0)]];
-        let pieces = square().pieces(&segments, 0.0);
+        let pieces = square().pieces(&segments.map(Cut::segment), 0.0);
         assert_eq!(pieces.len(), 4);
         let total: f64 = pieces.iter().map(Polygon::area).sum();
         assert!((total - 1.0).abs() < 1e-15);
@@ -134,11 +250,54 @@ mod tests {
 
     #[test]
     fn lines_along_edges_and_through_corners_make_no_slivers() {
-        let edge = [[vec2(-3.0, 1.0), vec2(7.0, 1.0)]];
+        let edge = [Cut::line([vec2(-3.0, 1.0), vec2(7.0, 1.0)])];
         assert_eq!(square().pieces(&edge, 0.0).len(), 1);
-        let diagonal = [[vec2(-0.1, -0.1), vec2(1.3, 1.3)]];
+        let diagonal = [Cut::line([vec2(-0.1, -0.1), vec2(1.3, 1.3)])];
         let pieces = square().pieces(&diagonal, 0.0);
         assert_eq!(pieces.iter().map(|p| p.0.len()).collect::<Vec<_>>(), [3, 3]);
+    }
+
+    /// A segment cuts what it meets, its line the rest where it goes on.
+    #[test]
+    fn segments_cut_what_they_meet() {
+        let ends = [vec2(0.2, 0.3), vec2(0.4, 0.3)];
+        let wall = Cut::line([vec2(0.5, 0.0), vec2(0.5, 1.0)]);
+        for (goes_on, expected) in [([false; 2], 3), ([true, false], 3), ([false, true], 4)] {
+            let pieces = square().pieces(&[wall, Cut { ends, goes_on }], 0.0);
+            assert_eq!(pieces.len(), expected, "{goes_on:?}");
+        }
+        let outside = Cut { ends: [vec2(-2.0, 0.5), vec2(-1.0, 0.5)], goes_on: [true, false] };
+        assert_eq!(square().pieces(&[outside], 0.0).len(), 1);
+    }
+
+    /// However far the vertices of a chain lie beside a line, a few parts come to each; they are the square, and no
+    /// segment runs through one.
+    #[test]
+    fn chains_along_a_line_leave_few_parts() {
+        let mut random = Random(11);
+        for noise in [0.0, 1e-16, 1e-14, 1e-12, 1e-8, 1e-4, 1e-2] {
+            let n = 64;
+            let mut vertex = |k: usize| {
+                let s = -0.1 + 1.2 * k as f64 / n as f64;
+                vec2(s, 0.2 + 0.4 * s + noise * random.between(-1.0, 1.0))
+            };
+            let points: Vec<Vec2> = (0..=n).map(&mut vertex).collect();
+            let cuts: Vec<Cut> = points.windows(2).map(|s| Cut::segment([s[0], s[1]])).collect();
+            let pieces = square().pieces(&cuts, 0.0);
+            let area: f64 = pieces.iter().map(Polygon::area).sum();
+            assert!(
+                (area - 1.0).abs() < 1e-14 && pieces.len() < 6 * n,
+                "{noise}: {}",
+                pieces.len()
+            );
+            for (cut, piece) in cuts.iter().flat_map(|c| pieces.iter().map(move |p| (c, p))) {
+                let deep = |t: f64| {
+                    let p = cut.ends[0] + (cut.ends[1] - cut.ends[0]) * t;
+                    piece.edges().all(|(v, w)| (v - p).cross(w - p) > 1e-15)
+                };
+                assert!(![0.1, 0.5, 0.9].into_iter().any(deep), "{noise}: {cut:?} {piece:?}");
+            }
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
 use super::split::{breaks, component, divided, kinks};
-use super::{Kink, Quadrature, Singular, TOLERANCE, cutting_line};
+use super::{Kink, Quadrature, Singular, TOLERANCE, straight_cut};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::cell::Cell;
@@ -83,9 +83,9 @@ impl Quadrature<'_> {
             }
         }
         let active = geometry.active_kinks(coverers);
-        let straight = active.iter().filter_map(|kink| cutting_line(kink, cell));
-        for [a, b] in self.segments_near(cell).chain(straight) {
-            turns.extend(circle.turns_on(a, b));
+        let straight = active.iter().filter_map(|kink| straight_cut(kink, cell));
+        for cut in self.cuts_near(cell).chain(straight) {
+            turns.extend(circle.turns_on(cut.ends[0], cut.ends[1]));
         }
         let curved = active.iter().filter_map(|kink| match kink {
             Kink::Curve(level) => Some(level),

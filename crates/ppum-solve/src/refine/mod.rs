@@ -76,10 +76,14 @@ pub enum RefineError {
     Cover(#[from] CoverError),
     /// Refinement at the tips did not end.
     #[error(
-        "the cover still does not resolve the crack tips after {DEEPEST} refinements; two tips, or a \
-         tip and a kink, are too close together: move them apart or start from smaller cells"
+        "the cover still does not resolve the cracks around {at} after {DEEPEST} refinements; two tips, or a \
+         tip and a kink, are too close together there: move them apart or start from smaller cells",
+        at = shown(*.at)
     )]
-    Unresolved,
+    Unresolved {
+        /// A place where more refinements would be needed.
+        at: Vec2,
+    },
     /// The size of cells that are divided by hand is none somewhere.
     #[error(
         "the `size` of [[refine]] {refinement}, counted from 0, is {value} at {at}, but must be positive and finite; \
@@ -168,8 +172,8 @@ pub(crate) fn cover(
         }
     }
     // what is only wished for may remain
-    let resolved = !cover.cells().iter().any(|(cell, _)| must(cell));
-    resolved.then_some(cover).ok_or(RefineError::Unresolved)
+    let unresolved = cover.cells().iter().map(|(cell, _)| *cell).find(must);
+    unresolved.map_or(Ok(cover), |cell| Err(RefineError::Unresolved { at: cell.center() }))
 }
 
 /// The needs of tips and of the mouths of cracks, and all tips.

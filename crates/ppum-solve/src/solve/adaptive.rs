@@ -71,8 +71,10 @@ impl<'p> Solved<'p> {
     ) -> Result<Next<'p>, SolveError> {
         let error = self.report.estimated_error.unwrap_or(0.0);
         let (of_goal, parts) = self.goal();
-        let is_enough = set.tolerance.is_some_and(|tolerance| error <= tolerance)
-            || set.accuracy.is_some_and(|accuracy| of_goal <= accuracy);
+        let wanted = [(set.tolerance, error), (set.accuracy, of_goal)];
+        let mut wanted =
+            wanted.into_iter().filter_map(|(most, error)| Some(error <= most?)).peekable();
+        let is_enough = wanted.peek().is_some() && wanted.all(|reached| reached);
         if error == 0.0 || is_enough {
             return Ok(Next::Stop(Stop::Tolerance));
         }

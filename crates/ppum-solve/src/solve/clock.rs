@@ -14,9 +14,13 @@ impl Clock {
         Self { last: Instant::now(), seconds: Vec::new() }
     }
 
-    /// The phase that ends now has lasted since the end of the one before.
+    /// The phase that ends now has lasted since the end of the one before; a phase in several parts has their sum.
     pub(super) fn lap(&mut self, phase: Phase) {
-        self.seconds.push((phase, self.last.elapsed().as_secs_f64()));
+        let seconds = self.last.elapsed().as_secs_f64();
+        match self.seconds.iter_mut().find(|(known, _)| *known == phase) {
+            Some((_, sum)) => *sum += seconds,
+            None => self.seconds.push((phase, seconds)),
+        }
         self.last = Instant::now();
     }
 }

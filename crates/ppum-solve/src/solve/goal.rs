@@ -15,21 +15,17 @@
 
 use super::SolveError;
 use super::solution::{Solving, write_coefficients};
-use crate::adapt::{Estimated, shared_disagreement};
-use crate::assembly::{Assembly, dual_loads};
+use crate::adapt::Estimated;
 use crate::basis::StableBasis;
-use crate::intensity::{FACTORS, Sensitivity, sensitivities};
-use crate::law::Law;
-use crate::linear::{BlockMatrix, LinearSolver};
+use crate::intensity::{FACTORS, Sensitivity};
+use crate::linear::LinearSolver;
 use crate::space::Space;
-use crate::watched::Stage;
-use ppum::dataset::Dataset;
-use ppum::field::Field;
-use ppum::progress::Phase;
+use faer::Mat;
+use ppum::dataset::FieldData;
 use ppum::vec2::{Rect, Vec2};
 
 /// The dual solutions of K_I and K_II of all tips with factors.
-pub(super) struct Duals {
+pub(super) struct DualSolutions {
     /// The places of the tips.
     tips: Vec<Vec2>,
     /// Plain coefficients.
@@ -37,31 +33,21 @@ pub(super) struct Duals {
 }
 
 impl Solving<'_> {
-    /// The dual solutions of a system; none without factors.
+    /// The dual solutions for the loads of K_I and K_II; none without tips.
     pub(super) fn duals(
         &self,
-        dataset: &Dataset,
-        (basis, matrix): (&StableBasis, &BlockMatrix),
+        tips: &[Sensitivity<'_>],
+        (basis, loads): (&StableBasis, &[Vec<f64>]),
         solver: &dyn LinearSolver,
-    ) -> Result<Option<Duals>, SolveError> {
-        let Self { problem, space, watcher } = *self;
-        let field = Field::new(dataset, 0)?;
-        let tips = sensitivities(dataset, &field, space);
-        if tips.is_empty() {
-            return Ok(None);
-        }
-        let law = &Law::new(&problem.equation);
-        let stage = Stage::uncounted(watcher, Phase::Solution)?;
-        let assembly = Assembly { problem, space, basis, law };
-        let loads = dual_loads(assembly, matrix, &tips, &stage).map_err(SolveError::of_data)?;
+    ) -> Result<Option<DualSolutions>, SolveError> {
+        let [opening, sliding] = loads else { return Ok(None) };
         let plain = |load: &Vec<f64>| -> Result<Vec<f64>, SolveError> {
             let solution = solver.solve(load).map_err(|error| self.located(error))?;
-            Ok(basis.plain(space, &solution.unknowns, problem.components()))
+            Ok(basis.plain(self.space, &solution.unknowns, self.problem.components()))
         };
-        let [opening, sliding] = &loads;
         let coefficients = [plain(opening)?, plain(sliding)?];
         let tips = tips.iter().map(Sensitivity::tip).collect();
-        Ok(Some(Duals { tips, coefficients }))
+        Ok(Some(DualSolutions { tips, coefficients }))
     }
 }
 
@@ -74,28 +60,25 @@ pub(super) struct Goal {
     pub(super) cells: Vec<(usize, f64)>,
 }
 
-impl Duals {
-    /// The estimated errors, from those of the solution. Advances the stage by twice the number of cells.
-    pub(super) fn goal(
-        &self,
-        dataset: &Dataset,
-        space: &Space<'_>,
-        estimated: &Estimated,
-        stage: &Stage<'_>,
-    ) -> Result<Goal, SolveError> {
-        let own = Field::new(dataset, 0)?;
-        let mut dual = dataset.clone();
-        let mut parts = vec![[0.0; FACTORS]; space.partition().len()];
-        for (mode, coefficients) in self.coefficients.iter().enumerate() {
-            write_coefficients(&mut dual.steps[0].fields[0], coefficients);
-            let field = Field::new(&dual, 0)?;
-            let shared = shared_disagreement([&own, &field], space, stage);
-            let of_cells = shared.map_err(SolveError::of_data)?;
-            for ((part, shared), unseen) in parts.iter_mut().zip(of_cells).zip(&estimated.unseen) {
-                part[mode] = shared.mixed.abs() + (unseen * shared.second).sqrt();
-            }
-        }
-        Ok(self.of_tips(&space.partition().cell, &parts))
+impl DualSolutions {
+    /// The dual fields, on the step of the field.
+    pub(super) fn fields(&self, data: &FieldData) -> Vec<FieldData> {
+        let field = |coefficients: &Vec<f64>| {
+            let mut dual = data.clone();
+            write_coefficients(&mut dual, coefficients);
+            dual
+        };
+        self.coefficients.iter().map(field).collect()
+    }
+
+    /// The estimated errors of factors, from those of the solution and of the dual fields.
+    pub(super) fn goal(&self, space: &Space<'_>, estimated: &Estimated) -> Goal {
+        let part = |(products, unseen): (&Mat<f64>, &f64)| {
+            let of_mode = |k: usize| products[(0, k)].abs() + (unseen * products[(k, k)]).sqrt();
+            [of_mode(1), of_mode(2)]
+        };
+        let parts: Vec<_> = estimated.products.iter().zip(&estimated.unseen).map(part).collect();
+        self.of_tips(&space.partition().cell, &parts)
     }
 
     fn of_tips(&self, cells: &[Rect], parts: &[[f64; FACTORS]]) -> Goal {

@@ -30,7 +30,7 @@ use solved::Solved;
 ///
 /// The coefficients belong to the plain functions; neither the transformed basis nor what it cut
 /// off is seen in the dataset. Results do not depend on the number of threads. The step's history is a
-/// [`SolverReport`].
+/// [`SolverReport`](crate::report::SolverReport).
 ///
 /// # Errors
 /// See [`SolveError`]; cancelled, within the time of a cell or of one step of the linear solver.
@@ -47,7 +47,7 @@ pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, So
     let plan = Plan::new(problem, None, watcher)?;
     let solving = plan.solving(watcher);
     let (given, plate) = solving.loaded()?;
-    let Assembled { system, .. } = solving.assemble(&given, &plate, &mut Clock::new())?;
+    let Assembled { system, .. } = solving.assemble(&given, &plate, &[], &mut Clock::new())?;
     let stage = Stage::uncounted(watcher, Phase::Solution)?;
     let solver = linear_solver(&system.matrix).map_err(SolveError::Factor)?;
     Spectrum::new(&system.matrix, &solver, &|| Ok(stage.advance(0)?))

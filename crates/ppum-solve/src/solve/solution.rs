@@ -2,10 +2,11 @@
 
 use super::SolveError;
 use super::clock::Clock;
-use super::goal::Duals;
-use crate::assembly::{Assembly, FreeModes, Gauge, Given, System, slivers};
+use super::goal::DualSolutions;
+use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
+use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
 use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver};
 use crate::problem::Problem;
@@ -13,6 +14,7 @@ use crate::report::{SolverReport, Unresolved};
 use crate::space::{Space, SpaceError};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
+use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 
 /// The solution of a problem on a space.
@@ -24,8 +26,10 @@ pub(super) struct Solution {
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
+    /// Of each patch, the first functions of components of which nearly nothing lies where it is alone.
+    pub(super) lonely: Vec<Vec<usize>>,
     /// The dual solutions of stress intensity factors, if there are any.
-    pub(super) duals: Option<Duals>,
+    pub(super) duals: Option<DualSolutions>,
     /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
 }
@@ -81,6 +85,7 @@ impl Solving<'_> {
         &self,
         given: &Given<'_>,
         plate: &Plate,
+        tips: &[Sensitivity<'_>],
         clock: &mut Clock,
     ) -> Result<Assembled, SolveError> {
         let Self { problem, space, watcher } = *self;
@@ -90,8 +95,9 @@ impl Solving<'_> {
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(plate);
-        let mut system =
-            System::new(assembly, given, &free, &stage).map_err(SolveError::of_data)?;
+        let functionals = Functionals { free: &free, duals: &Duals::new(tips, space) };
+        let system = System::new(assembly, given, functionals, &stage);
+        let mut system = system.map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
@@ -108,7 +114,9 @@ impl Solving<'_> {
         clock: &mut Clock,
     ) -> Result<Solution, SolveError> {
         let (given, plate) = self.loaded()?;
-        let Assembled { basis, system, gauge } = self.assemble(&given, &plate, clock)?;
+        let field = Field::new(dataset, 0)?;
+        let tips = sensitivities(dataset, &field, self.space);
+        let Assembled { basis, system, gauge } = self.assemble(&given, &plate, &tips, clock)?;
         let located = |error| self.located(error);
         let stage = Stage::new(self.watcher, Phase::Solution, 3)?;
         let solver = linear_solver(&system.matrix).map_err(located)?;
@@ -117,7 +125,7 @@ impl Solving<'_> {
         stage.advance(1)?;
         gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         stage.advance(1)?;
-        let duals = self.duals(dataset, (&basis, &system.matrix), &solver)?;
+        let duals = self.duals(&tips, (&basis, &system.duals), &solver)?;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
@@ -144,6 +152,7 @@ impl Solving<'_> {
                 &solution.unknowns,
             ),
             unresolved: system.unresolved,
+            lonely: basis.lonely,
             duals,
             report,
         })

@@ -6,6 +6,7 @@ use super::{Plan, SolveError};
 use crate::adapt::estimated;
 use crate::diagnostics::Case;
 use crate::intensity::{Outcome, intensities_under};
+use crate::law::Law;
 use crate::norms::energy;
 use crate::report::{SolverReport, Stop, Unresolved};
 use crate::watched::Stage;
@@ -13,8 +14,12 @@ use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 
-/// Part of the largest factors that those of a tip count as nothing: their own errors are no measure.
-const NOTHING: f64 = 1e-3;
+/// Part of the largest [strength](Outcome::strength) of a tip below which factors count as nothing, and are no measure of their
+/// errors.
+const NOTHING: f64 = 1e-2;
+
+/// Part of the energy that a field of the same size could have up to which the energy is rounding: of rigid motions.
+const ROUNDING: f64 = 1e-20;
 
 /// A plan whose dataset has its coefficients.
 pub(super) struct Solved<'p> {
@@ -36,17 +41,15 @@ impl<'p> Solved<'p> {
         solution: Solution,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
-        let Solution { mut report, unresolved, duals, .. } = solution;
+        let Solution { mut report, unresolved, lonely, duals, .. } = solution;
         let Plan { problem, dataset, space, clock, .. } = &mut plan;
-        let passes = if duals.is_some() { 4 } else { 2 };
-        let stage = Stage::new(watcher, Phase::Estimation, passes * space.partition().len())?;
+        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let energy = energy(&field, space);
-        let found = estimated(problem, &field, space, &stage).map_err(SolveError::of_data)?;
-        let goal = match duals {
-            Some(duals) => duals.goal(dataset, space, &found, &stage)?,
-            None => Goal::default(),
-        };
+        let dual_fields = duals.as_ref().map_or_else(Vec::new, |duals| duals.fields(field.data));
+        let found = estimated(problem, &field, &dual_fields, &lonely, space, &stage);
+        let found = found.map_err(SolveError::of_data)?;
+        let goal = duals.map_or_else(Goal::default, |duals| duals.goal(space, &found));
         report.energy = Some(energy);
         clock.lap(Phase::Estimation);
         let mut tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
@@ -54,8 +57,8 @@ impl<'p> Solved<'p> {
         factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
         clock.lap(Phase::Intensity);
         let squares = found.squares;
-        // nothing is a part of no energy
-        if energy > 0.0 {
+        // nothing is a part of no energy, or of one that is rounding
+        if energy > ROUNDING * energy_of_size(&field) {
             report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
             dataset.steps[0].attributes.push(indicator(&squares, energy));
         }
@@ -69,9 +72,10 @@ impl<'p> Solved<'p> {
     /// The largest estimated error of the factors of a tip, as a part of their size, and of each cell its part in the sum of all;
     /// without tips those of the energy.
     pub(super) fn goal(&self) -> (f64, Vec<f64>) {
-        let sizes: Vec<f64> =
-            self.tips.iter().filter_map(|o| o.factors.as_ref()).map(size).collect();
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
+        let (strengths, sizes): (Vec<_>, Vec<_>) =
+            with_factors.map(|(strength, factors)| (strength, size(factors))).unzip();
+        let largest = strengths.into_iter().fold(0.0, f64::max);
         if largest == 0.0 {
             return (self.report.estimated_error.unwrap_or(0.0).powi(2), self.squares.clone());
         }
@@ -114,6 +118,14 @@ impl<'p> Solved<'p> {
 /// |(K_I, K_II)|
 fn size(tip: &TipIntensity) -> f64 {
     tip.k1.hypot(tip.k2)
+}
+
+/// A modulus times the square of the largest coefficient.
+fn energy_of_size(field: &Field<'_>) -> f64 {
+    let all = field.data.coefficients.iter().flatten();
+    let largest = all.fold(0.0_f64, |most, c| most.max(c.abs()));
+    let law = Law::new(field.equation).at(field.step.partition.center[0]);
+    law.modulus(0) * largest * largest
 }
 
 /// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is the estimated error.

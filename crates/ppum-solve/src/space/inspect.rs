@@ -102,7 +102,7 @@ pub(crate) fn inspect(
 }
 
 /// True for functions that are not built in.
-fn is_own(kind: &FunctionKind) -> bool {
+pub(super) fn is_own(kind: &FunctionKind) -> bool {
     let FunctionKind::Formula { text, .. } = kind else { return false };
     !WESTERGAARD.contains(&text.as_str())
 }

@@ -183,9 +183,29 @@ impl<'d> Space<'d> {
         self.smoothness.degree()
     }
 
+    /// True if a patch has functions that are not built in.
+    pub(crate) fn has_own_functions(&self, patch: u32) -> bool {
+        let functions = &self.step().functions;
+        let mut blocks = self.data().blocks(patch as usize);
+        blocks.any(|b| inspect::is_own(&functions[self.data().block_function[b] as usize].kind))
+    }
+
     /// Degree of the polynomials of a patch.
     pub(crate) fn order(&self, patch: usize) -> usize {
         self.data().block_degree[self.data().blocks(patch).start].into()
+    }
+
+    /// The coefficients of a patch's functions as they are while solving, from those of the dataset: Σ c f = Σ c (f − σ) + σ c.
+    pub(crate) fn shifted(&self, patch: usize, plain: &[f64]) -> Vec<f64> {
+        let (mut coefficients, mut first) = (plain.to_vec(), 0);
+        for block in self.data().blocks(patch) {
+            let size = block_size(self.data(), block);
+            for k in 0..size {
+                coefficients[k] += self.shifts[block] * plain[first + k];
+            }
+            first += size;
+        }
+        coefficients
     }
 
     /// Number of polynomials of a patch: the functions of its first block.

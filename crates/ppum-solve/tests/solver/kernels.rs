@@ -31,18 +31,10 @@ on = "top"
 traction = [0.0, 1.0]
 "#;
 
-const KERNELS: &str = r#"
+const WILLIAMS: &str = r#"
 [discretization]
 level = 4
 enrichment_radius = 0.2
-"#;
-
-const FORMULAS: &str = r#"
-[discretization]
-level = 4
-enrichment_radius = 0.2
-[solver]
-kernels = false
 "#;
 
 /// The first term of the series alone, its components free.
@@ -102,12 +94,17 @@ fn strains(a: &Dataset, b: &Dataset) -> f64 {
     worst
 }
 
+/// Of the higher terms of the series some combination is always close to what the cut-off leaves out, and rounding decides
+/// over it: strains beside the tip, which are of size 10, know.
 #[test]
 fn formulas_solve_like_kernels() {
-    let [kernels, formulas] = [KERNELS, FORMULAS].map(solved);
-    let found = differences(&kernels, &formulas);
-    println!("K, energy, strains differ by {found:?}");
-    assert!(found.iter().all(|&d| d > 0.0 && d <= 1e-9), "{found:?}");
+    let formulas = |of: &str| solved(&format!("{of}[solver]\nkernels = false\n"));
+    for (discretization, most) in [(ZONE, 1e-9), (WILLIAMS, 1e-7)] {
+        let found = differences(&solved(discretization), &formulas(discretization));
+        println!("K, energy, strains differ by {found:?}");
+        assert!(found[..2].iter().all(|&d| d > 0.0 && d <= 1e-9), "{found:?}");
+        assert!(found[2] > 0.0 && found[2] <= most, "{found:?}");
+    }
 }
 
 /// With quadrature points of their own strains move by the error of the quadrature.

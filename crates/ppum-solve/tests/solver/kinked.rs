@@ -50,8 +50,8 @@ fn vertices_on_a_straight_crack() {
     assert!((rings(&divided) / rings(&straight) - 1.0).abs() < 1e-14, "as large as before");
     for (a, b) in factors(&divided).into_iter().zip(factors(&straight)) {
         println!("{:.1e}", apart(a, b));
-        // rounding of the system, whose condition is 1e4 or so
-        assert!(apart(a, b) < 1e-11, "{a:?} {b:?}");
+        // rounding of the system, whose condition is 1e5 or so with functions that are nearly dependent
+        assert!(apart(a, b) < 1e-10, "{a:?} {b:?}");
     }
 }
 

@@ -68,7 +68,9 @@ fn assert_resultant(rest: &str, [force, moment]: [f64; 2], size: f64) {
         let error = (f - force).abs().max(moment_error);
         println!("{error:e} {}", points(&dataset));
         assert!(error <= ACCURACY * size, "{rest} at level {level}, order {order}: {f} {m}");
-        assert!(warnings(&dataset).is_empty(), "{rest}: {:?}", warnings(&dataset));
+        // of stresses, which are not looked at
+        let others = warnings(&dataset).iter().filter(|w| w.kind != "coarse-hole");
+        assert_eq!(others.count(), 0, "{rest}: {:?}", warnings(&dataset));
     }
 }
 

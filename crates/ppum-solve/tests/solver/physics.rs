@@ -110,8 +110,8 @@ fn values_of_the_tip_field() {
         for known in tip_energies(&plate).into_iter().chain(tip_points(&plate)) {
             let error = known.error(&solution);
             println!("{}, {}: {error:.1e}", plate.name(), known.name);
-            // references have ten digits
-            assert!(error.abs() < 2e-9, "{}, {}: {error}", plate.name(), known.name);
+            // references have ten digits, and of functions that are nearly dependent the cut-off leaves some out
+            assert!(error.abs() < 5e-9, "{}, {}: {error}", plate.name(), known.name);
         }
     }
 }

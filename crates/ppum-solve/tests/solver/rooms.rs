@@ -55,7 +55,17 @@ const FLOORS: Floors<'_> = &[
     ],
     &[(
         "adapt",
-        &["assembly", "corner", "geometry", "law", "problem", "quadrature", "space", "watched"],
+        &[
+            "assembly",
+            "basis",
+            "corner",
+            "geometry",
+            "law",
+            "problem",
+            "quadrature",
+            "space",
+            "watched",
+        ],
     )],
     &[(
         "solve",

@@ -193,8 +193,9 @@ fn superposition_and_invariance() {
             let unscaled = std::array::from_fn(|i| scaled[k].0[i] / units[i]);
             assert!(near(&unscaled, &a[k].0), "{unscaled:?} {a:?}");
             let j = scaled[k].1 / (stress * stress * length);
-            assert!((j - a[k].1).abs() < 1e-9 && (turned[k].1 - j).abs() < 1e-9, "{j}");
-            assert!((back[1 - k].1 - j).abs() < 1e-9);
+            let apart = [j - a[k].1, turned[k].1 - j, back[1 - k].1 - j];
+            // of strains, in which rounding decides over functions that are nearly dependent
+            assert!(apart.iter().all(|d| d.abs() < 1e-8), "{apart:?}");
         }
     }
 }

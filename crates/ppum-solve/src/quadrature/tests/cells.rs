@@ -140,3 +140,36 @@ fn cracks_on_or_beside_the_lines_of_the_cover_keep_the_area() {
         assert_near(area, 4.0, 4e-13, &format!("trial {trial}, crack {points:?}"));
     }
 }
+
+/// Cracks given by many points that lie on one line up to rounding, up to noise, or not: the points of the rules are a
+/// few times those of the straight crack for each segment in a cell, with areas and powers of r right.
+#[test]
+fn noise_of_vertices_is_cheap() {
+    let mut random = Random(12);
+    let (from, to) = (vec2(-0.573, -0.177), vec2(0.573, 0.177));
+    let across = (to - from).unit().left();
+    let orders = Orders::uniform(6);
+    let mut case = |n: usize, noise: f64| {
+        let mut beside = |k: usize| {
+            let is_end = k == 0 || k == n;
+            if is_end { 0.0 } else { noise * random.between(-1.0, 1.0) }
+        };
+        let points: Vec<Vec2> = (0..=n)
+            .map(|k| from + (to - from) * (k as f64 / n as f64) + across * beside(k))
+            .collect();
+        let rules = Case::new(uniform(3), vec![crack(&points)], vec![from, to]).rules(orders);
+        let area = integrate(&rules, |_, _| 1.0);
+        assert_near(area, 4.0, 1e-12, &format!("{n} {noise}"));
+        let near_tip = integrate(&rules, |a, x| 1.0 / ((a - to) + x).length());
+        (n_points(&rules) as f64, near_tip)
+    };
+    let (straight, exact) = case(1, 0.0);
+    for n in [2, 16, 64, 256] {
+        for noise in [0.0, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
+            let (points, near_tip) = case(n, noise);
+            let most = straight * (2.0 + n as f64 / 40.0);
+            assert!(points < most, "{n} {noise:e}: {points} of {straight}");
+            assert_near(near_tip, exact, 1e-7 * exact, &format!("{n} {noise}"));
+        }
+    }
+}
