@@ -26,6 +26,8 @@ const FLOORS: Floors<'_> = &[
             &[
                 "basis",
                 "equilibrium",
+                "geometry",
+                "intensity",
                 "law",
                 "linear",
                 "problem",

@@ -151,6 +151,11 @@ fn near(a: &[f64; 3], b: &[f64; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9)
 }
 
+/// Quadrature divides cells segment by segment: in another order, or with other rounding, its error is another one.
+fn near_on_other_pieces(a: &[f64; 3], b: &[f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8)
+}
+
 /// K and T are linear in the loads and J is a quadratic form; none depends on the direction of the crack, on the
 /// directions of the axes, or but for their units on lengths and stresses.
 #[test]
@@ -187,11 +192,11 @@ fn superposition_and_invariance() {
         let scaled = plate(larger, &points.map(|p| p * length), loads[0].map(|s| s * stress), grid);
         let scaled = terms(&scaled);
         for k in 0..2 {
-            assert!(near(&back[1 - k].0, &a[k].0), "{back:?} {a:?}");
-            assert!(near(&turned[k].0, &a[k].0), "{turned:?} {a:?}");
+            assert!(near_on_other_pieces(&back[1 - k].0, &a[k].0), "{back:?} {a:?}");
+            assert!(near_on_other_pieces(&turned[k].0, &a[k].0), "{turned:?} {a:?}");
             let units = [stress * length.sqrt(), stress * length.sqrt(), stress];
             let unscaled = std::array::from_fn(|i| scaled[k].0[i] / units[i]);
-            assert!(near(&unscaled, &a[k].0), "{unscaled:?} {a:?}");
+            assert!(near_on_other_pieces(&unscaled, &a[k].0), "{unscaled:?} {a:?}");
             let j = scaled[k].1 / (stress * stress * length);
             let apart = [j - a[k].1, turned[k].1 - j, back[1 - k].1 - j];
             // of strains, in which rounding decides over functions that are nearly dependent
