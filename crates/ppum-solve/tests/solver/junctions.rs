@@ -7,8 +7,10 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
 use ppum_solve::solve::spectrum;
 
+use crate::estimator::record;
 use crate::studies::exact_fields::MATERIAL;
-use crate::studies::support::solved;
+use crate::studies::support::{solved, strain_energy};
+use ppum_testkit::random::Random;
 
 type Line = Vec<[f64; 2]>;
 
@@ -226,5 +228,36 @@ fn a_junction_anywhere() {
         assert!(*condition < 10.0 * least, "{condition} and {least}");
         // finite elements of order 10 have 1.68484 and twice 1.68508 for one that is not turned
         close(found, &[[1.685, 0.0]; 3], 2e-3);
+    }
+}
+
+/// Estimated errors of stars of two to five arms anywhere in their cells, against a finer cover of a higher order: of the
+/// energy norm within a factor of 2.5, and of the largest error of K never less than half.
+#[test]
+fn estimates_beside_junctions() {
+    let mut random = Random(16);
+    for trial in 0..4 {
+        let arms = 2 + trial % 4;
+        let centre = [random.between(-0.13, 0.13), random.between(-0.13, 0.13)];
+        let turn = random.between(0.0, 2.0 * PI);
+        let arm = |line: Line| vec![line[0], [0, 1].map(|i| 0.6 * line[1][i] + 0.4 * line[0][i])];
+        let lines: Vec<Line> = star(centre, arms, turn).into_iter().map(arm).collect();
+        let [coarse, fine] =
+            [(4, 2), (5, 4)].map(|(level, order)| solved(&plate(1.0, &lines, true, level, order)));
+        let [e, exact] = [&coarse, &fine].map(strain_energy);
+        let error = ((exact - e) / exact).sqrt();
+        let estimated = record(&coarse.steps[0], "estimated error");
+        let [tips, better] = [&coarse, &fine].map(|d| &d.steps[0].intensities);
+        let apart = tips.iter().zip(better).map(|(a, b)| (a.k1 - b.k1).hypot(a.k2 - b.k2));
+        let of_factors = tips.iter().filter_map(|tip| tip.error).fold(0.0, f64::max);
+        let error_of_factors = apart.fold(0.0, f64::max);
+        println!(
+            "{arms} arms: {error:.2e}, estimated {estimated:.2e}; of K {error_of_factors:.2e}, {of_factors:.2e}"
+        );
+        assert!((0.7..2.5).contains(&(estimated / error)), "{arms} arms: {error} {estimated}");
+        assert!(
+            of_factors > 0.5 * error_of_factors && of_factors < 0.05,
+            "{arms} arms: {of_factors}"
+        );
     }
 }
