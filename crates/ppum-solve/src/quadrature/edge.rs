@@ -10,7 +10,7 @@ use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use super::{Kink, Level, Quadrature, Singular, TOLERANCE, straight_cut};
+use super::{Kink, Level, Quadrature, SAME_POINT, Singular, TOLERANCE, distinct, straight_cut};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
@@ -261,7 +261,8 @@ impl Run<'_> {
                 && varies(geometry.partition, patches, axis);
         }
         points.extend(self.crossings(lo, hi, &geometry.active_kinks(patches)));
-        let singular = geometry.singular_points(patches);
+        let apart = SAME_POINT * self.cell.size().length();
+        let singular = distinct(geometry.singular_points(patches), apart);
         let mut breaks = breaks(lo, hi, points, self.tolerance);
         if varying {
             breaks = divided(breaks, self.quadrature.orders.parts);

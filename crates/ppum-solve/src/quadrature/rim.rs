@@ -6,7 +6,7 @@ use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
 use super::split::{breaks, component, divided, kinks};
-use super::{Kink, Quadrature, Singular, TOLERANCE, straight_cut};
+use super::{Kink, Quadrature, SAME_POINT, Singular, TOLERANCE, distinct, straight_cut};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::cell::Cell;
@@ -60,7 +60,8 @@ impl Quadrature<'_> {
             let mut rule = EdgeRule::empty(cell.center(), &patches);
             let parts = ((ends[1] - ends[0]) / LONGEST).ceil() as usize;
             let parts = if patches.len() > 1 { parts * self.orders.parts } else { parts };
-            let singular = self.geometry.singular_points(&patches);
+            let apart = SAME_POINT * cell.size().length();
+            let singular = distinct(self.geometry.singular_points(&patches), apart);
             for part in divided(ends.to_vec(), parts).windows(2) {
                 self.add_arc(circle, [part[0], part[1]], &singular, (DEPTH, cell), &mut rule);
             }

@@ -143,6 +143,7 @@ fn kinks_and_curves_cut_edges() {
     assert!(more <= 4.0, "four more pieces, not {more}");
 }
 
+/// Of several functions at one point, whose exponents are those that samples tell.
 #[test]
 fn edges_through_singular_points_of_any_exponent() {
     let (start, tip) = (vec2(-0.875, -0.5), vec2(0.25, 0.5));
@@ -151,8 +152,10 @@ fn edges_through_singular_points_of_any_exponent() {
     for (lambda, tolerance) in
         [(0.1, 1e-8), (0.25, 1e-10), (0.5444837, 1e-10), (2.0 / 3.0, 1e-10), (1.7, 1e-10)]
     {
-        let mut case = Case::new(uniform(2), Vec::new(), vec![tip]);
-        case.singular[0].growth = Growth::Powers { least: lambda };
+        let mut case = Case::new(uniform(2), Vec::new(), vec![tip, tip + vec2(1e-12, 0.0), tip]);
+        for (singular, above) in case.singular.iter_mut().zip([0.0, 1e-10, 2e-10]) {
+            singular.growth = Growth::Powers { least: lambda + above };
+        }
         for p in [1, 3] {
             let rules = edges(&case, Orders::for_degree(p), [start, tip], normal);
             let powers = [lambda - 1.0, 2.0 * lambda - 1.0, lambda, 2.0 * lambda - 2.0];
