@@ -16,7 +16,7 @@ use crate::given::{Given, file};
 /// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Replacements {
-    /// Only a part of the field: smooth, jump, tip, other (enrichments of one's own), or patch:N; `render`
+    /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N; `render`
     /// draws several, with commas between, in panels, of which `all` is the whole field
     #[arg(long, value_name = "PART", value_delimiter = ',')]
     part: Vec<Choice>,

@@ -62,11 +62,19 @@ pub const WESTERGAARD: [&str; 4] = [
     "sqrt(r)*sin(theta)*cos(theta/2)",
 ];
 
+/// Functions that span the fields r^λ of an elastic wedge, θ counted from its bisector (Williams 1952).
+pub const WEDGE: [&str; 4] = [
+    "r^lambda*cos(lambda*theta)",
+    "r^lambda*sin(lambda*theta)",
+    "r^lambda*cos((lambda - 2)*theta)",
+    "r^lambda*sin((lambda - 2)*theta)",
+];
+
 /// Enrichment functions of x, y, r, theta of their frame.
 ///
-/// Frames: `westergaard` and `williams` belong to crack tips, θ jumps on the crack; `corner` to a point;
+/// Frames: `westergaard` and `williams` belong to crack tips, θ jumps on the crack; `corner` and `wedge` to a point;
 /// `kink` and the layers to a line, y is the distance to its left.
-pub const ENRICHMENTS: [Entry; 6] = [
+pub const ENRICHMENTS: [Entry; 7] = [
     Entry {
         name: "westergaard",
         about: "the four functions of equation (6) of Üffinger et al. 2011: √r fields of a crack tip",
@@ -95,6 +103,12 @@ pub const ENRICHMENTS: [Entry; 6] = [
         about: "r^λ cos λθ and r^λ sin λθ: harmonic functions of a corner, an interface or a slit",
         parameters: &[("lambda", 2.0 / 3.0)],
         texts: &["r^lambda*cos(lambda*theta)", "r^lambda*sin(lambda*theta)"],
+    },
+    Entry {
+        name: "wedge",
+        about: "functions that span the fields r^λ of an elastic corner, θ from its bisector (Williams 1952)",
+        parameters: &[("lambda", 0.544_483_736_782_464)],
+        texts: &WEDGE,
     },
     Entry {
         name: "boundary-layer",

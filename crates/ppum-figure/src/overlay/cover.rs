@@ -65,7 +65,7 @@ impl Enrichment {
             Self::Jump => "jump",
             Self::Tip => "tip functions",
             Self::JumpAndTip => "jump and tip functions",
-            Self::Other => "own functions",
+            Self::Other => "other functions",
         }
     }
 

@@ -4,7 +4,7 @@ use super::decay::{rate, squares};
 use crate::corner::corners;
 use crate::geometry::{Placed, around};
 use crate::problem::{AdaptKind, Problem};
-use crate::space::{Change, Space, has_series};
+use crate::space::{Change, Space};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{FieldData, MAX_DEGREE};
 use ppum::field::Field;
@@ -33,7 +33,7 @@ impl<'a> Adviser<'a> {
     ) -> Self {
         let place = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
         // where tips have their series, the rest of the field is smooth
-        let bare_tips = tips(&problem.cracks).filter(|_| !has_series(problem)).map(place);
+        let bare_tips = tips(&problem.cracks).filter(|_| !problem.has_series()).map(place);
         let others = corners(problem).into_iter().map(|corner| corner.at);
         let singular = bare_tips.chain(others).map(|point| (around(&[point]), point));
         Self { kind, field, space, singular: Placed::new(singular) }

@@ -1,20 +1,24 @@
-//! Williams' series at a tip: displacement fields that satisfy equilibrium and leave the faces of a straight crack free.
+//! Williams' series at tips and corners: displacement fields that satisfy equilibrium and leave the faces of a straight crack,
+//! or the sides of a wedge, free.
 //!
 //! ```text
-//! λ = n + ½      c, s = r^λ cos λθ, r^λ sin λθ      C, S = r^λ cos (λ−2)θ, r^λ sin (λ−2)θ
-//! I     2μ u_x = (κ − 1 + λ) c − λ C      2μ u_y = (κ + 1 − λ) s + λ S
-//! II    2μ u_x = −(κ + 1 + λ) s + λ S     2μ u_y = (κ − 1 − λ) c + λ C
+//! c, s = r^λ cos λθ, r^λ sin λθ      C, S = r^λ cos (λ−2)θ, r^λ sin (λ−2)θ
+//! I     2μ u_x = (κ − b) c − λ C      2μ u_y = (κ + b) s + λ S
+//! II    2μ u_x = −(κ + b) s + λ S     2μ u_y = (κ − b) c + λ C
 //! ```
 //!
-//! in the tip's frame (Williams 1957; from Kolosov's potentials φ = A z^λ, ψ = (Ā − λA) z^λ with A = 1 and A = i). One
-//! unknown each: they *tie* the components of the functions c, s, C and S. Of Poisson's equation s alone leaves the faces free.
+//! in the frame of the tip or of the wedge's bisector, from Kolosov's potentials φ = z^λ, ψ = b z^λ and φ = i z^λ, ψ = −i b z^λ. At a
+//! tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a wedge they are [`Term`]s (Williams 1952). One unknown each: they *tie*
+//! the components of the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
 use super::confined::Part;
-use crate::space::{Series, Space};
+use crate::corner::{Symmetry, Term};
+use crate::space::{Origin, Series, Space};
 use faer::Mat;
-use ppum::dataset::{Equation, Material, Step, monomials};
+use ppum::crack::TipId;
+use ppum::dataset::{Elasticity, Equation, Step, monomials};
 use ppum::polynomial::exponents;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 
 /// A polynomial in ξ and η with values in the complex plane, in the order of the dataset.
 type Polynomial = Vec<[f64; 2]>;
@@ -26,8 +30,13 @@ const ANGULAR: usize = 4;
 pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<Part> {
     let is_scalar = space.equation().components() == 1;
     let part = |series: &Series| {
-        let all = angular(space.step(), patch, series);
-        let rows = if is_scalar { every_second_of_four(&all) } else { all };
+        let rows = match series.origin {
+            Origin::Corner { .. } => Mat::identity(series.functions.len(), series.functions.len()),
+            Origin::Tip(tip) if is_scalar => {
+                every_second_of_four(&angular(space.step(), patch, tip, series))
+            }
+            Origin::Tip(tip) => angular(space.step(), patch, tip, series),
+        };
         (series.functions.clone(), rows)
     };
     space.series(patch).iter().map(part).collect()
@@ -48,26 +57,51 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
     }
     let n = space.sizes[patch];
     let of_series = |series: &Series| {
-        let rows = angular(space.step(), patch, series);
-        let tip = &space.step().cracks[series.tip.crack as usize];
-        let axis = tip.growth_direction(series.tip.end);
-        let material = body.at(tip.end_point(series.tip.end));
+        let fields = match series.origin {
+            Origin::Tip(tip) => of_tip(space.step(), patch, tip, series, body),
+            Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
+        };
         let first = series.functions.start;
-        let term = |n: usize| modes(&material, n).map(|mode| world(&mode, &rows, n, axis));
-        let terms: Vec<_> = (0..series.terms()).flat_map(term).collect();
-        terms.into_iter().map(move |field| field.map(|part| shifted(&part, first, n)))
+        fields.into_iter().map(move |field| field.map(|part| shifted(&part, first, n)))
     };
     Some(all.iter().flat_map(of_series).collect())
 }
 
-/// Factors of c, s, C and S in the two components of both modes of a term.
-fn modes(material: &Material, n: usize) -> [[[f64; ANGULAR]; 2]; 2] {
-    let (kappa, lambda) = (material.kolosov(), n as f64 + 0.5);
-    let opening =
-        [[kappa - 1.0 + lambda, 0.0, -lambda, 0.0], [0.0, kappa + 1.0 - lambda, 0.0, lambda]];
-    let sliding =
-        [[0.0, -(kappa + 1.0 + lambda), 0.0, lambda], [kappa - 1.0 - lambda, 0.0, lambda, 0.0]];
-    [opening, sliding]
+/// The fields of a tip, for opening and for sliding.
+fn of_tip(
+    step: &Step,
+    patch: usize,
+    tip: TipId,
+    series: &Series,
+    body: &Elasticity,
+) -> Vec<[Vec<f64>; 2]> {
+    let rows = angular(step, patch, tip, series);
+    let crack = &step.cracks[tip.crack as usize];
+    let axis = crack.growth_direction(tip.end);
+    let kappa = body.at(crack.end_point(tip.end)).kolosov();
+    let modes = |n: usize| {
+        let lambda = n as f64 + 0.5;
+        let term = |symmetry, factor| mode(kappa, &Term { exponent: lambda, symmetry, factor });
+        let (opening, sliding) = (Symmetry::Symmetric, Symmetry::Antisymmetric);
+        [term(opening, 1.0 - lambda), term(sliding, 1.0 + lambda)]
+            .map(|mode| world(&mode, &rows, n, axis))
+    };
+    (0..series.terms()).flat_map(modes).collect()
+}
+
+/// The field of a corner.
+fn of_corner(at: Vec2, bisector: f64, term: &Term, body: &Elasticity) -> [Vec<f64>; 2] {
+    let axis = vec2(bisector.cos(), bisector.sin());
+    world(&mode(body.at(at).kolosov(), term), &Mat::identity(ANGULAR, ANGULAR), 0, axis)
+}
+
+/// Factors of c, s, C and S in the two components of a field.
+fn mode(kappa: f64, term: &Term) -> [[f64; ANGULAR]; 2] {
+    let Term { exponent: l, factor: b, symmetry } = *term;
+    match symmetry {
+        Symmetry::Symmetric => [[kappa - b, 0.0, -l, 0.0], [0.0, kappa + b, 0.0, l]],
+        Symmetry::Antisymmetric => [[0.0, -(kappa + b), 0.0, l], [kappa - b, 0.0, l, 0.0]],
+    }
 }
 
 /// A mode in the world's frame, as combinations of a tip's functions.
@@ -92,10 +126,10 @@ fn shifted(part: &[f64], first: usize, n: usize) -> Vec<f64> {
 /// in the patch: \[4N, 4 monomials(N − 1)\].
 ///
 /// √r e^{iθ/2} = F₁ + iF₂ and √r e^{−3iθ/2} = (F₁ − 2F₃) + i(F₂ − 2F₄).
-fn angular(step: &Step, patch: usize, series: &Series) -> Mat<f64> {
+fn angular(step: &Step, patch: usize, tip: TipId, series: &Series) -> Mat<f64> {
     let size = monomials(series.degree);
     let mut rows = Mat::zeros(ANGULAR * series.terms(), ANGULAR * size);
-    for (n, power) in powers(step, patch, series).iter().enumerate() {
+    for (n, power) in powers(step, patch, tip, series).iter().enumerate() {
         for (k, [a, b]) in power.iter().enumerate() {
             let of_term = [
                 [*a, -b, 0.0, 0.0],
@@ -114,11 +148,10 @@ fn angular(step: &Step, patch: usize, series: &Series) -> Mat<f64> {
 }
 
 /// zⁿ for n up to N − 1, z being in the tip's frame and over the farthest distance in the patch.
-fn powers(step: &Step, patch: usize, series: &Series) -> Vec<Polynomial> {
-    let crack = &step.cracks[series.tip.crack as usize];
+fn powers(step: &Step, patch: usize, tip: TipId, series: &Series) -> Vec<Polynomial> {
+    let crack = &step.cracks[tip.crack as usize];
     let (origin, scale) = (step.partition.origin[patch], step.partition.scale[patch]);
-    let (from_tip, axis) =
-        (origin - crack.end_point(series.tip.end), crack.growth_direction(series.tip.end));
+    let (from_tip, axis) = (origin - crack.end_point(tip.end), crack.growth_direction(tip.end));
     let unit = 1.0 / (from_tip.length() + scale.length());
     let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];
     let linear = [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned);

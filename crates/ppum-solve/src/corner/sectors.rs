@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 const SAME_RAY: f64 = 1e-7;
 
 /// Distance at which it is asked what is material, in parts of the room around the point.
-const LOOK: f64 = 1e-3;
+pub(super) const LOOK: f64 = 1e-3;
 
 /// Material between two rays.
 #[derive(Clone, Copy, Debug, PartialEq)]

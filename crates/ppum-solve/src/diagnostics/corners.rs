@@ -8,6 +8,7 @@ use crate::space::Space;
 use ppum::dataset::Warning;
 use ppum::field::Field;
 use ppum::text::Places;
+use ppum::vec2::Rect;
 
 /// Part of the energy that may be missed at a singular point; factors nearby are off by several times that.
 const LARGE_MISS: f64 = 5e-4;
@@ -27,6 +28,9 @@ pub(super) fn of_corners(
         if corner.nature == Nature::Jump {
             return Some(infinite(corner, places));
         }
+        if has_functions(corner, problem, space) {
+            return None;
+        }
         let cells = &space.partition().cell;
         let touching: Vec<_> =
             (0..cells.len()).filter(|&c| cells[c].distance(corner.at) == 0.0).collect();
@@ -37,6 +41,14 @@ pub(super) fn of_corners(
         (missed > LARGE_MISS).then(|| unresolved(corner, (size, missed), places))
     };
     corners(problem).iter().filter_map(of_corner).collect()
+}
+
+/// True if all patches that hold a corner have the functions of its wedge.
+fn has_functions(corner: &Corner, problem: &Problem, space: &Space<'_>) -> bool {
+    let supports = (0..space.partition().len()).map(|patch| space.partition().support(patch));
+    let mut holding = supports.filter(|support| support.contains(corner.at));
+    let part = |support: Rect| support.intersection(&problem.domain.bounds);
+    corner.wedge.is_some() && holding.all(|support| corner.has_room_for(&part(support)))
 }
 
 /// Growth of displacements at a singular point, in words.

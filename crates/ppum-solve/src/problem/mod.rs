@@ -149,6 +149,11 @@ pub enum SolverKind {
 }
 
 impl Problem {
+    /// True if tips have Williams' series, and corners theirs: where the material varies they have other ones.
+    pub(crate) fn has_series(&self) -> bool {
+        self.discretization.enrichment == Enrichment::Williams && self.equation.is_uniform()
+    }
+
     /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its folder, and lead to files of at
     /// most 64 MiB.
     ///

@@ -1,4 +1,5 @@
-//! Cells that shrink towards what polynomials see badly: singular points of the border, and round rims.
+//! Cells that shrink towards what polynomials see badly: singular points of the border, and round rims. Corners with functions
+//! ask for a few small cells that leave these the room they need.
 //!
 //! A cell at a distance d is at most slope · d large, down to a finest size. At a singular point
 //! u ~ r^λ the energy that cells of size h miss is C (1 − λ) (h/R)^{2λ} of that of the surroundings, R away
@@ -16,10 +17,6 @@ use std::collections::BTreeSet;
 /// Part of the energy around a singular point that its cells may miss.
 const MISSED: f64 = 1e-4;
 
-/// Exponent, that of 42°, from which on a kink of a crack is gentle: the field along a free crack hardly sees
-/// it. At 41° factors are right to 3e-5 without finer cells, at 90° they are off by 0.7 %.
-const GENTLE: f64 = 0.685;
-
 /// Largest cells at a distance, in parts of it.
 const SLOPE: f64 = 1.0;
 
@@ -29,6 +26,11 @@ const STEEP: f64 = 0.35;
 
 /// Exponents of a restraint that are near 1/2.
 const STRONG: f64 = 0.6;
+
+/// Radius around a corner with functions within which cells are small, and their size, in parts of the corner's room: most
+/// of the patches in the room then have the functions.
+const WITH_FUNCTIONS: f64 = 0.5;
+const CELLS_OF_FUNCTIONS: f64 = 0.25;
 
 /// Smallest cells that are asked for, in parts of the base cover's: what is smaller is not resolved.
 pub(super) const SMALLEST: f64 = 1.0 / 16_384.0;
@@ -76,11 +78,14 @@ pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Gr
 impl Graded {
     /// The demand of a singular point on a plate of the given size; none where it is gentle.
     fn corner(corner: &Corner, plate: f64) -> Option<Self> {
-        let Corner { at, exponent, room, nature } = *corner;
-        let is_gentle = matches!(nature, Nature::Kink(_)) && exponent > GENTLE;
+        let Corner { at, exponent, room, nature, .. } = *corner;
         // cells of any size see the same of a field of infinite energy
-        if is_gentle || nature == Nature::Jump {
+        if corner.is_gentle() || nature == Nature::Jump {
             return None;
+        }
+        if corner.wedge.is_some() {
+            let from = Shape::Circle(at, WITH_FUNCTIONS * room);
+            return Some(Self { from, finest: CELLS_OF_FUNCTIONS * room, slope: SLOPE });
         }
         // a small room holds a small part of the energy
         let missed = MISSED * plate / (room * corner.weakness());

@@ -11,8 +11,9 @@
 //!   for the two sides. Cracks may cross it and each other as they like, up to what [`Jumps`] can look at.
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
-//! Enrichment does the rest at tips: grading toward them gains nothing once the singular functions are there.
-//! Other singular points, and round rims, have no such functions: cells are graded towards them.
+//! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading toward them gains nothing
+//! once the singular functions are there. Other singular points, and round rims, have no such functions: cells are graded
+//! towards them.
 
 mod by_hand;
 mod graded;

@@ -69,6 +69,7 @@ pub(crate) fn discretise_on(
     let (partition, raised) = solid_part(partition, &mesh.raised, &problem.domain.holes)?;
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
+    enrichments.add_corners(&partition);
     let mut blocks = Vec::with_capacity(partition.len());
     for (patch, raised) in raised.into_iter().enumerate() {
         stage.advance(0)?;

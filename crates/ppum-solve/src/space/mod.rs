@@ -24,8 +24,9 @@ use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
-pub(crate) use williams::{Series, has_series};
+pub(crate) use williams::{Origin, Series};
 
 /// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
 /// linear weights.
@@ -51,8 +52,10 @@ pub struct Space<'d> {
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub(crate) shifts: Vec<f64>,
-    /// Of each patch, those functions that stand for Williams' series; empty if there are none anywhere.
+    /// Of each patch, those functions that stand for the series of tips and corners; empty if there are none anywhere.
     series: Vec<Vec<Series>>,
+    /// The functions of the table that they are made of.
+    in_series: BTreeSet<u32>,
     equation: &'d Equation,
     smoothness: Smoothness,
     orders: Orders,
@@ -84,7 +87,7 @@ impl<'d> Space<'d> {
     pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
         let Problem { domain, equation, tables, .. } = problem;
         let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
-        space.series = williams::series(problem, &space.step);
+        (space.series, space.in_series) = williams::series(problem, &space.step);
         if !problem.solver.kernels {
             let Step { functions, cracks, .. } = &*space.step;
             space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
@@ -108,6 +111,7 @@ impl<'d> Space<'d> {
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(&step, data),
             series: Vec::new(),
+            in_series: BTreeSet::new(),
             equation,
             orders: orders(partition, smoothness.degree()),
             probed: vec![OnceLock::new(); partition.len()],
@@ -186,8 +190,9 @@ impl<'d> Space<'d> {
     /// True if a patch has functions that are not built in.
     pub(crate) fn has_own_functions(&self, patch: u32) -> bool {
         let functions = &self.step().functions;
-        let mut blocks = self.data().blocks(patch as usize);
-        blocks.any(|b| inspect::is_own(&functions[self.data().block_function[b] as usize].kind))
+        let is_own =
+            |f: u32| !self.in_series.contains(&f) && inspect::is_own(&functions[f as usize].kind);
+        self.data().blocks(patch as usize).any(|b| is_own(self.data().block_function[b]))
     }
 
     /// Degree of the polynomials of a patch.

@@ -1,51 +1,92 @@
-//! The functions of tips that stand for Williams' series: the solution takes combinations of them only.
+//! Functions that stand for the series of tips and corners: the solution takes combinations of them only.
 
 use super::Space;
-use crate::problem::{Enrichment, Problem};
-use ppum::crack::TipId;
-use ppum::dataset::{Step, monomials};
-use ppum::function::{FunctionKind, GROUP, WESTERGAARD, native};
+use crate::corner::{Corner, Symmetry, Term, corners};
+use crate::problem::Problem;
+use ppum::crack::{Side, TipId};
+use ppum::dataset::{Equation, Step, monomials};
+use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, WESTERGAARD, native};
+use ppum::library::WEDGE;
+use ppum::vec2::Vec2;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// The functions of a tip on a patch: the four of [`WESTERGAARD`] times polynomials. With z = x + iy in the tip's frame
-///
-/// ```text
-/// r^(n+½) e^{i(n+½)θ} = zⁿ √r e^{iθ/2}      r^(n+½) e^{i(n−3/2)θ} = zⁿ √r e^{−3iθ/2}
-/// ```
-///
-/// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree N − 1.
+/// Functions of a patch that stand for a series, or for one term of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
-    pub(crate) tip: TipId,
+    pub(crate) origin: Origin,
     /// Their numbers among the patch's functions.
     pub(crate) functions: Range<usize>,
-    /// N − 1
+    /// Degree of the polynomials that multiply them.
     pub(crate) degree: usize,
 }
 
+/// The singular point of a series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Origin {
+    /// The functions of a tip on a patch are the four of [`WESTERGAARD`] times polynomials. With z = x + iy in the tip's frame
+    ///
+    /// ```text
+    /// r^(n+½) e^{i(n+½)θ} = zⁿ √r e^{iθ/2}      r^(n+½) e^{i(n−3/2)θ} = zⁿ √r e^{−3iθ/2}
+    /// ```
+    ///
+    /// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree N − 1.
+    Tip(TipId),
+    /// The four of [`WEDGE`] in the frame of a corner make one field. Of Poisson's equation one of them does.
+    Corner {
+        at: Vec2,
+        /// Angle of the bisector.
+        bisector: f64,
+        term: Term,
+    },
+}
+
 impl Series {
-    /// Number of terms N.
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self, components: usize) -> usize {
+        match self.origin {
+            // of a term a field for opening and one for sliding, or one function alone
+            Origin::Tip(_) => components * self.terms(),
+            Origin::Corner { .. } => 1,
+        }
+    }
+
+    /// Number of terms: N of a tip.
     pub(crate) fn terms(&self) -> usize {
         self.degree + 1
     }
 }
 
-/// True if tips have Williams' series.
-pub(crate) fn has_series(problem: &Problem) -> bool {
-    problem.discretization.enrichment == Enrichment::Williams && problem.equation.is_uniform()
-}
-
-/// The series of all patches of a problem's step; none where the material varies, as its terms are others then.
-pub(super) fn series(problem: &Problem, step: &Step) -> Vec<Vec<Series>> {
-    if !has_series(problem) {
-        return Vec::new();
+/// The series of all patches of a problem's step, and the functions of its table that they are made of; none where the
+/// material varies, as terms are others then.
+pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<Series>>, BTreeSet<u32>) {
+    if !problem.has_series() {
+        return (Vec::new(), BTreeSet::new());
     }
-    let first = first_functions(step);
-    (0..step.partition.len()).map(|patch| of_patch(step, patch, &first)).collect()
+    let groups = groups(problem, step);
+    let functions = groups.iter().flat_map(|(first, (_, n))| *first..*first + *n as u32);
+    let all = (0..step.partition.len()).map(|patch| of_patch(step, patch, &groups));
+    (all.collect(), functions.collect())
 }
 
-/// The first function of each tip that is built in: those of the problem's own come later in the table.
-fn first_functions(step: &Step) -> Vec<Option<TipId>> {
+/// By its first function in the table, the origin of each group of functions, and their number.
+type Groups = BTreeMap<u32, (Origin, usize)>;
+
+fn groups(problem: &Problem, step: &Step) -> Groups {
+    let mut groups = of_tips(step);
+    for (functions, origin) in
+        corners(problem).iter().flat_map(|corner| of_corner(corner, &problem.equation))
+    {
+        // none if no patch has them
+        if let Some(first) = step.functions.iter().position(|f| *f == functions[0]) {
+            groups.insert(first as u32, (origin, functions.len()));
+        }
+    }
+    groups
+}
+
+/// The functions of each tip that are built in: those of the problem's own come later in the table.
+fn of_tips(step: &Step) -> Groups {
     let mut known = Vec::new();
     let tip = |kind: &FunctionKind| match kind {
         FunctionKind::Formula { text, frame, .. } => native(text, *frame),
@@ -54,18 +95,55 @@ fn first_functions(step: &Step) -> Vec<Option<TipId>> {
     let mut first = |kind: &FunctionKind| {
         let (tip, _) = tip(kind).filter(|(tip, k)| *k == 0 && !known.contains(tip))?;
         known.push(tip);
-        Some(tip)
+        Some((Origin::Tip(tip), WESTERGAARD.len()))
     };
-    step.functions.iter().map(|function| first(&function.kind)).collect()
+    let all = (0..).zip(&step.functions);
+    all.filter_map(|(index, function)| Some((index, first(&function.kind)?))).collect()
 }
 
-fn of_patch(step: &Step, patch: usize, first: &[Option<TipId>]) -> Vec<Series> {
+/// The functions of a corner, in groups: one for each of its fields.
+pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Function>, Origin)> {
+    let Some(wedge) = &corner.wedge else { return Vec::new() };
+    let frame = Frame::Fixed { origin: corner.at, angle: wedge.bisector };
+    let function = |term: &Term, text: &str| Function {
+        name: format!("r^{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
+        kind: FunctionKind::Formula {
+            text: on_side(text, wedge.side),
+            frame,
+            parameters: vec![("lambda".into(), term.exponent)],
+            // known, so that quadrature need not look for it
+            declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+        },
+    };
+    let texts = |term: &Term| match (equation, term.symmetry) {
+        (Equation::Elasticity(_), _) => &WEDGE[..],
+        (_, Symmetry::Symmetric) => &WEDGE[..1],
+        (_, Symmetry::Antisymmetric) => &WEDGE[1..2],
+    };
+    let group = |term: &Term| {
+        let functions = texts(term).iter().map(|text| function(term, text)).collect();
+        let (at, bisector) = (corner.at, wedge.bisector);
+        (functions, Origin::Corner { at, bisector, term: *term })
+    };
+    wedge.terms.iter().map(group).collect()
+}
+
+/// A formula that is zero on the other side of a crack.
+fn on_side(text: &str, side: Option<(u32, Side)>) -> String {
+    match side {
+        None => text.into(),
+        Some((crack, Side::Above)) => format!("(1 + side({crack}))/2*{text}"),
+        Some((crack, Side::Below)) => format!("(1 - side({crack}))/2*{text}"),
+    }
+}
+
+fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<Series> {
     let (data, mut at, mut found) = (&step.fields[0], 0, Vec::new());
     for block in data.blocks(patch) {
         let degree = usize::from(data.block_degree[block]);
-        if let Some(tip) = first[data.block_function[block] as usize] {
-            let functions = at..at + WESTERGAARD.len() * monomials(degree);
-            found.push(Series { tip, functions, degree });
+        if let Some((origin, count)) = groups.get(&data.block_function[block]) {
+            let functions = at..at + count * monomials(degree);
+            found.push(Series { origin: *origin, functions, degree });
         }
         at += monomials(degree);
     }
@@ -82,10 +160,9 @@ impl Space<'_> {
     pub(crate) fn unknowns(&self, patch: usize) -> usize {
         let (components, series) = (self.equation.components(), self.series(patch));
         let theirs: usize = series.iter().map(|series| series.functions.len()).sum();
-        let terms: usize = series.iter().map(Series::terms).sum();
-        // of a term a field for opening and one for sliding, or one function alone
-        components * (self.sizes[patch] - theirs + terms)
+        let unknowns: usize = series.iter().map(|series| series.unknowns(components)).sum();
+        components * (self.sizes[patch] - theirs) + unknowns
     }
 }
 
-const _: () = assert!(GROUP == WESTERGAARD.len());
+const _: () = assert!(GROUP == WESTERGAARD.len() && GROUP == WEDGE.len());

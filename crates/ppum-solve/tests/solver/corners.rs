@@ -149,7 +149,7 @@ fn what_coarse_cells_miss_is_told() {
         (CLAMPED.to_owned(), 2.96615408, 1),
         (kinked(90.0), 2.09772948, 1),
     ] {
-        let dataset = solved_with(&tables, "refine = false");
+        let dataset = solved_with(&tables, "refine = false\nenrichment = \"zone\"");
         let missed = 1.0 - energy(&dataset) / exact;
         let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
         let all: Vec<_> = all.collect();
@@ -157,6 +157,115 @@ fn what_coarse_cells_miss_is_told() {
         assert!(all.len() >= places && all.iter().all(|w| w.at.is_some()), "{all:?}");
         assert!(told > 0.25 * missed && told < 4.0 * missed, "{told} for {missed}");
     }
+}
+
+/// Corners that turn inwards between free sides have functions r^λ: fewer unknowns than cells that shrink towards them,
+/// and errors that fall with the order.
+#[test]
+fn free_corners_have_functions() {
+    let square = "[[hole]]\npoints = [[-0.3, -0.25], [0.3, -0.25], [0.3, 0.25], [-0.3, 0.25]]\n\
+                  [[crack]]\npoints = [[-0.75, 0.55], [-0.35, 0.6]]\n";
+    let triangle = "[[hole]]\npoints = [[-0.3, -0.3], [0.35, -0.2], [-0.1, 0.3]]\n\
+                    [[crack]]\npoints = [[0.4, 0.1], [0.8, 0.3]]\n";
+    let pulled = |tables: &str| format!("{PULLED}{tables}");
+    for (tables, exact, k) in [
+        (kinked(90.0), 2.09772948, [1.0845755, 0.0044035757]),
+        (kinked(120.0), 2.0449301, [1.0352864, 0.07704593]),
+        (pulled(square), 2.64736017, [1.1099473, 0.22943451]),
+        (pulled(triangle), 2.50174376, [1.0771817, 0.52795673]),
+    ] {
+        for (order, of_energy, of_factors) in [(2, 1e-4, 5e-4), (3, 6e-6, 1.5e-5), (4, 2e-6, 2e-6)]
+        {
+            let dataset = solved_with(&tables, &format!("order = {order}"));
+            let error = 1.0 - energy(&dataset) / exact;
+            let tip = &dataset.steps[0].intensities[0];
+            let apart = (tip.k1 - k[0]).hypot(tip.k2 - k[1]) / k[0].hypot(k[1]);
+            assert!(error.abs() < of_energy && apart < of_factors, "{order}: {error} {apart}");
+        }
+        let unknowns = |keys: &str| dataset_unknowns(&solved_with(&tables, keys));
+        let [with, without] = ["", "enrichment = \"zone\""].map(unknowns);
+        assert!(with < 0.76 * without, "{with} {without}");
+    }
+}
+
+fn dataset_unknowns(dataset: &Dataset) -> f64 {
+    let mut history = dataset.steps[0].history.iter();
+    history.find(|record| record.name == "unknowns").expect("their number").value
+}
+
+/// Where they are given room, cells need not shrink at all.
+#[test]
+fn functions_of_corners_need_no_small_cells() {
+    let dataset = solved_with(&kinked(90.0), "refine = false");
+    assert!(dataset.steps[0].warnings.iter().all(|w| w.kind != "singular-point"));
+    let error = 1.0 - energy(&dataset) / 2.09772948;
+    assert!(error < 2e-4, "{error}");
+}
+
+/// The side of a kink that turns inwards is found whichever way the crack runs, and in the mirror.
+#[test]
+fn kinks_from_both_ends_and_in_the_mirror() {
+    let crack =
+        |points: [[f64; 2]; 3]| solved(&format!("{PULLED}[[crack]]\npoints = {points:?}\n"));
+    let points = [[-0.45, -0.1], [0.05, -0.13], [0.03, 0.29]];
+    let [a, b, c] = points;
+    let [plain, reversed, mirrored] = [points, [c, b, a], points.map(|[x, y]| [-x, y])].map(crack);
+    for other in [&reversed, &mirrored] {
+        let apart = energy(other) / energy(&plain) - 1.0;
+        assert!(apart.abs() < 1e-9, "{apart}");
+    }
+    let factors = |dataset: &Dataset, end: End| {
+        let mut all = dataset.steps[0].intensities.iter();
+        let tip = all.find(|tip| tip.tip.end == end).expect("the tip");
+        [tip.k1, tip.k2]
+    };
+    let ([k1, k2], turned, seen) =
+        (factors(&plain, End::Last), factors(&reversed, End::Start), factors(&mirrored, End::Last));
+    assert!((k1 - turned[0]).abs() < 1e-8 && (k2 - turned[1]).abs() < 1e-8, "{turned:?}");
+    assert!((k1 - seen[0]).abs() < 1e-8 && (k2 + seen[1]).abs() < 1e-8, "{seen:?}");
+}
+
+/// Poisson's equation has other exponents; the values are those of the same solver.
+#[test]
+fn corners_of_potentials() {
+    let flux = "[equation]\nkind = \"poisson\"\n[[boundary]]\non = \"bottom\"\nflux = -1.0\n\
+                [[boundary]]\non = \"top\"\nflux = 1.0\n";
+    let triangle = "[[hole]]\npoints = [[-0.178964, -0.347091], [0.446308, -0.028445], [-0.136296, 0.322371]]\n";
+    let ell = "[[hole]]\npoints = [[-0.036187, -0.422718], [0.422718, -0.036187], [0.229453, 0.193265], \
+               [0.0, 0.0], [-0.193265, 0.229453], [-0.422718, 0.036187]]\n";
+    for (hole, exact) in [(triangle, 2.290_883_648), (ell, 2.433_536_912)] {
+        for (order, tolerance) in [(2, 1e-4), (3, 1e-5)] {
+            let text = format!(
+                "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n{flux}{hole}[discretization]\nlevel = 4\norder = {order}\n"
+            );
+            let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+            let dataset = solve(&problem, unwatched()).expect("a solution");
+            let error = 1.0 - energy(&dataset) / exact;
+            assert!((-1e-7..tolerance).contains(&error), "{order}: {error}");
+            let functions = dataset.steps[0].functions.iter();
+            assert!(functions.filter(|f| f.name.starts_with("r^")).count() >= 6);
+        }
+    }
+}
+
+/// Where the material varies exponents are others, and of very many corners functions would cost more than cells.
+#[test]
+fn corners_without_functions() {
+    let square = |x: f64, y: f64, size: f64| {
+        let [a, b, c, d] = [x, y, x + size, y + size];
+        format!("[[hole]]\npoints = [[{a}, {b}], [{c}, {b}], [{c}, {d}], [{a}, {d}]]\n")
+    };
+    let has_functions = |tables: &str, keys: &str| {
+        let functions = solved_with(&format!("{PULLED}{tables}"), keys).steps.remove(0).functions;
+        functions.iter().any(|f| f.name.starts_with("r^"))
+    };
+    let one = square(-0.3, -0.3, 0.6);
+    assert!(has_functions(&one, "order = 1"));
+    assert!(!has_functions(&one, "order = 1\nenrichment = \"zone\""));
+    let many: String = (0..25)
+        .map(|k| square(0.36 * f64::from(k % 5) - 0.9, 0.36 * f64::from(k / 5) - 0.9, 0.2))
+        .collect();
+    assert!(!has_functions(&many, "order = 1"));
 }
 
 /// A displacement that jumps along an edge has infinite energy: that is told, with the place, and nothing is told

@@ -42,7 +42,7 @@ fn meaning(kind: Part) -> &'static str {
         Part::Smooth => "Polynomials alone",
         Part::Jump => "Polynomials times the side of a crack, or on one component of a patch",
         Part::Tip => "Functions of crack tips",
-        Part::Other => "Enrichments of one's own",
+        Part::Other => "Functions of corners and of one's own",
         Part::Patch(_) => "One patch",
     }
 }

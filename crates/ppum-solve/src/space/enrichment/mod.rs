@@ -13,7 +13,8 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::williams::has_series;
+use super::williams::of_corner;
+use crate::corner::corners;
 use crate::geometry::{
     Jump, Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
 };
@@ -121,7 +122,7 @@ impl<'p> Enrichments<'p> {
         }
         match mode {
             Enrichment::AdditiveOnly => all.extend_along_cracks(),
-            Enrichment::Williams if has_series(problem) => {
+            Enrichment::Williams if problem.has_series() => {
                 all.take_series(problem.discretization.tip_terms);
             }
             _ => {}
@@ -171,6 +172,22 @@ impl<'p> Enrichments<'p> {
     /// Gives the functions of the tips, so far the only instances, the degree of Williams' series of some number of terms.
     fn take_series(&mut self, terms: Option<usize>) {
         self.instances.iter_mut().for_each(|new| new.degree = Degree::Series(terms));
+    }
+
+    /// Gives the patches of a partition in the rooms of corners that turn inwards the functions of these.
+    pub(crate) fn add_corners(&mut self, partition: &Partition) {
+        let bounds = self.problem.domain.bounds;
+        for corner in corners(self.problem) {
+            let has = |&k: &u32| {
+                corner.has_room_for(&partition.support(k as usize).intersection(&bounds))
+            };
+            let patches: Vec<u32> = (0..partition.len() as u32).filter(has).collect();
+            for (functions, _) in of_corner(&corner, &self.problem.equation) {
+                if !patches.is_empty() {
+                    self.push(functions, Patches::Listed(patches.clone()), Degree::Fixed(0));
+                }
+            }
+        }
     }
 
     /// Gives the functions of each tip, so far the only instances, to the patches along its part of
