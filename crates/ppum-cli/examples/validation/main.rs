@@ -4,6 +4,7 @@
 //! cargo run --release -p ppum-cli --example validation
 //! ```
 
+mod adaptive;
 mod benchmarks;
 mod convergence;
 mod page;
@@ -30,7 +31,8 @@ stress (of Laplace's equation: the gradient) on the middle cover.
 The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` hold the solver to
 most of these numbers. F = K/(σ√(πa)).
 
-Errors are differences from references. The `spread` that `ppum sif` and `ppum info` print is the difference between three
+Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, compared with
+them at the end of this page. The `spread` that `ppum sif` and `ppum info` print is the difference between three
 radii of one integral: a check, no estimate of the error.";
 
 fn main() -> anyhow::Result<()> {
@@ -38,5 +40,6 @@ fn main() -> anyhow::Result<()> {
     let mut page = Page::new(&docs, HEAD);
     benchmarks::write(&mut page)?;
     convergence::write(&mut page);
+    adaptive::write(&mut page)?;
     page.save("validation.md")
 }

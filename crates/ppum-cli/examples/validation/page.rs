@@ -52,6 +52,11 @@ impl Page {
         Ok(())
     }
 
+    /// The path of a picture.
+    pub(crate) fn image(&self, name: &str) -> PathBuf {
+        self.docs.join("images/validation").join(name)
+    }
+
     /// Writes the page.
     pub(crate) fn save(self, name: &str) -> anyhow::Result<()> {
         let path = self.docs.join(name);

@@ -20,6 +20,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
+use ppum::vec2::Vec2;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -179,10 +180,24 @@ pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     matrix
 }
 
-/// The first functions of the components of a patch of which nearly nothing lies where it is alone.
+/// Turn of a crack, in radians, from which on what lies in it is a wedge.
+const CORNER: f64 = 0.3;
+
+/// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of the components at junctions, and
+/// of the sides of a crack that turns in the patch. Slivers beside straight cracks are none of them.
 pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
-    let is_component = |kind: &FunctionKind| matches!(kind, FunctionKind::Component { .. });
-    let jumps = lonely_jumps(space, patch, gram, is_component);
+    let (step, support) = (space.step(), space.partition().support(patch));
+    let turns = |points: &[Vec2]| {
+        let [before, after] = [points[1] - points[0], points[2] - points[1]];
+        let turn = before.cross(after).atan2(before.dot(after)).abs();
+        turn > CORNER && support.contains(points[1])
+    };
+    let is_wedge = |kind: &FunctionKind| match kind {
+        FunctionKind::Component { .. } => true,
+        FunctionKind::Side { crack } => step.cracks[*crack as usize].points.windows(3).any(turns),
+        _ => false,
+    };
+    let jumps = lonely_jumps(space, patch, gram, is_wedge);
     jumps.into_iter().map(|jump| jump.functions.start).collect()
 }
 

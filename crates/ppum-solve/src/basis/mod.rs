@@ -40,7 +40,8 @@ pub(crate) struct StableBasis {
     patches: Vec<LocalBasis>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
-    /// Of each patch, the first functions of components of which nearly nothing lies where it is alone.
+    /// Of each patch, the first functions of the jumps around corners and junctions of cracks of which nearly nothing lies
+    /// where it is alone.
     pub(crate) lonely: Vec<Vec<usize>>,
 }
 

@@ -26,29 +26,54 @@ const NOTHING: f64 = 0.1;
 const PLACES: [[f64; 2]; 5] =
     [[0.0, 0.0], [-0.26, -0.23], [0.24, -0.27], [-0.22, 0.25], [0.28, 0.21]];
 
-/// Largest relative rounding error of the gradient of a step's first field, evaluated in double precision, and
-/// where; single precision has 2²⁹ times that.
+/// Mean of the rounding errors over that of the gradients from which on a field is nothing but rounding: a plate that moves as
+/// a rigid body.
+const ALL: f64 = 1e-3;
+
+/// Relative rounding errors of the gradient of a field.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rounding {
+    /// The largest one.
+    pub largest: f64,
+    /// The centre of its cell.
+    pub at: Vec2,
+    /// The mean error over the mean gradient.
+    pub mean: f64,
+}
+
+impl Rounding {
+    /// True if the gradient is nothing but rounding everywhere.
+    pub(super) fn is_all(&self) -> bool {
+        self.mean > ALL
+    }
+}
+
+/// Relative rounding errors of the gradient of a step's first field, evaluated in double precision; single precision has
+/// 2²⁹ times that.
 ///
 /// # Errors
 /// Functions that do not compile.
-pub fn rounding(dataset: &Dataset, step: usize) -> Result<(f64, Vec2), FieldError> {
+pub fn rounding(dataset: &Dataset, step: usize) -> Result<Rounding, FieldError> {
     let mut noise = dataset.clone();
     noise.steps = vec![with_noise(&dataset.steps[step])];
     let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
     let cells = &dataset.steps[step].partition.cell;
     let gradients: Vec<[f64; 2]> =
         cells.par_iter().map(|cell| [&field, &noise].map(|f| gradient(f, cell))).collect();
-    let mean = gradients.iter().map(|g| g[0]).sum::<f64>() / gradients.len() as f64;
+    let [mean, of_noise] =
+        [0, 1].map(|k| gradients.iter().map(|g| g[k]).sum::<f64>() / gradients.len() as f64);
     let relative =
         |&[own, noise]: &[f64; 2]| ROUNDINGS * f64::EPSILON * noise / own.max(NOTHING * mean);
     let errors = gradients.iter().map(relative).zip(cells).filter(|(error, _)| error.is_finite());
     let largest = errors.reduce(|a, b| if b.0 > a.0 { b } else { a });
-    Ok(largest.map_or((0.0, Vec2::ZERO), |(error, cell)| (error, cell.center())))
+    let (largest, at) = largest.map_or((0.0, Vec2::ZERO), |(e, cell)| (e, cell.center()));
+    let all = if mean > 0.0 { ROUNDINGS * f64::EPSILON * of_noise / mean } else { 0.0 };
+    Ok(Rounding { largest, at, mean: all })
 }
 
 /// The warning about a field that few digits are left of, by its rounding error and where that is.
 pub(super) fn of_digits(
-    (error, at): (f64, Vec2),
+    Rounding { largest: error, at, mean }: Rounding,
     cutters: Cutters,
     places: &Places,
 ) -> Option<Warning> {
@@ -56,6 +81,11 @@ pub(super) fn of_digits(
         Cutters::Nothing => "functions of a patch nearly depend on each other".into(),
         cutters => format!("{} leaves next to nothing of a patch", cutters.name()),
     };
+    if mean > ALL {
+        let message = "the field is constant but for rounding, or the plate moves as a rigid body: stresses, gradients and \
+                       factors are zero, and their digits rounding";
+        return Some(warning(kind::DIGITS, None, [mean, ALL], message.into()));
+    }
     let message = format!(
         "near {} coefficients cancel, and stresses are good to {} there in double, not at all in single \
          precision: {cause}; use linear weights, or other cells",

@@ -14,7 +14,7 @@ mod report;
 mod rims;
 mod tips;
 
-pub use digits::{FEW_DIGITS, rounding};
+pub use digits::{FEW_DIGITS, Rounding, rounding};
 
 use crate::intensity::{Outcome, intensities_under};
 use crate::problem::Problem;
@@ -176,8 +176,12 @@ impl Case<'_> {
         let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
         let cutters = Cutters::new(field.step, &dataset.domain);
         let adaptivity = self.problem.and_then(|problem| problem.adaptivity.as_ref());
-        let mut warnings = of_tips(tips, &field.step.cracks, &places);
-        warnings.extend(of_faces(field, &places));
+        let rounding = rounding(dataset, self.step)?;
+        let mut warnings = Vec::new();
+        if !rounding.is_all() {
+            warnings.extend(of_tips(tips, &field.step.cracks, &places));
+            warnings.extend(of_faces(field, &places));
+        }
         stage.advance(0)?;
         // an adaptation has looked for itself how small cells should be
         let guided = self.problem.filter(|problem| problem.adaptivity.is_none());
@@ -190,12 +194,11 @@ impl Case<'_> {
         warnings.extend(of_interfaces(field, dataset, &places));
         warnings.extend(of_report(self.report, adaptivity, cutters));
         stage.advance(0)?;
-        let rounding = rounding(dataset, self.step)?;
         warnings.extend(of_digits(rounding, cutters, &places));
         stage.advance(0)?;
         warnings.extend(of_locking(field, space));
         warnings.extend(of_quadrature(self.unresolved, &places));
-        Ok(Diagnosis { warnings, rounding: rounding.0 })
+        Ok(Diagnosis { warnings, rounding: rounding.largest })
     }
 }
 

@@ -1,101 +1,30 @@
 //! Covers that are improved by their own solutions.
 
-use super::estimator::record;
+use crate::studies::adapted::{
+    self, CRACK, SQUARE_HOLE, corner, crack, line, on, set, square_hole,
+};
 use crate::studies::exact_fields::SQUARE;
 use crate::studies::plates::pulled;
-use crate::studies::support::{Both, errors, solved};
+use crate::studies::support::{record, solved};
 use ppum::dataset::{Dataset, Step};
 use ppum::domain::Hole;
 use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
-use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Keep, Order, Problem};
+use ppum_solve::problem::{AdaptKind, Adaptivity, Keep};
 use ppum_solve::report::Stop;
 use ppum_solve::solve::{Plan, SolveError, solve};
 use ppum_testkit::random::Random;
-use std::f64::consts::PI;
-use std::path::Path;
 use std::sync::Mutex;
 
-/// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular points (NGSolve
-/// 6.2.2608): of a plate with a crack, good to 1e-9, and of one with a square hole, good to 2e-8.
-const CRACK: f64 = 2.428_931_916;
-const SQUARE_HOLE: f64 = 2.512_525_532;
-
-fn set(kind: AdaptKind, steps: usize, max_unknowns: usize) -> Adaptivity {
-    let mut set = Adaptivity::new(kind);
-    (set.steps, set.max_unknowns, set.keep) = (steps, max_unknowns, Keep::All);
-    set
-}
-
-fn on(mut problem: Problem, order: usize, set: Adaptivity) -> Problem {
-    problem.discretization.cells = Cells::Level(2);
-    problem.discretization.order = Order::Uniform(order);
-    problem.with_adaptivity(set)
-}
-
-fn crack() -> Problem {
-    pulled(SQUARE, [1, 1], &[&[[-0.4, -0.3], [0.4, 0.3]]])
-}
-
-fn square_hole() -> Problem {
-    let mut problem = pulled(SQUARE, [1, 1], &[]);
-    let points = [(-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (-0.3, 0.3)];
-    let points = points.map(|(x, y)| vec2(x, y)).into();
-    problem.domain.holes = vec![Hole::Polygon { points }];
-    problem
-}
-
-/// u = r^⅔ sin(⅔ θ) around a corner of 270°, given on the outer border.
-fn corner() -> Problem {
-    let edge = |name: &str| format!("[[boundary]]\non = \"{name}\"\nvalue = \"exact\"\n");
-    let border: String = ["left", "right", "bottom", "top"].map(edge).concat();
-    let text = format!(
-        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[equation]\nkind = \"poisson\"\n\
-         [[hole]]\npoints = [[0.0, 0.0], [0.0, -1.5], [1.5, -1.5], [1.5, 0.0]]\n\
-         [exact]\nvalue = \"let t = atan2(y, x); let s = if(t < -1e-12, t + 2*pi, t); \
-         hypot(x, y)^(2/3)*sin(2/3*s)\"\n{border}\
-         [[boundary]]\non = {{ hole = 0 }}\nvalue = 0.0\n[discretization]\nlevel = 2\n"
-    );
-    Problem::parse(&text, "corner.toml", Path::new(".")).expect("a problem")
-}
-
-fn at_corner(x: Vec2) -> Both {
-    let (r, t) = (x.length(), x.y.atan2(x.x));
-    let (s, c) = ((if t < -1e-12 { t + 2.0 * PI } else { t }) * 2.0 / 3.0).sin_cos();
-    let (radial, slope) = (x.unit(), 2.0 / 3.0 * r.powf(-1.0 / 3.0));
-    let gradient = radial * (slope * s) + radial.left() * (slope * c);
-    ([r.powf(2.0 / 3.0) * s, 0.0], [gradient, Vec2::ZERO])
-}
-
-/// Unknowns and relative error of each step: from the energy under loads alone, or from the field.
+/// The course of a solution, with effectivities in their limits.
 fn course(dataset: &Dataset, energy: Option<f64>) -> Vec<[f64; 2]> {
-    let error = |step: &Step| match energy {
-        Some(energy) => (1.0 - record(step, "energy") / energy).abs().sqrt(),
-        None => {
-            let mut one = dataset.clone();
-            one.steps = vec![step.clone()];
-            errors(&one, &at_corner).energy
-        }
-    };
-    let points: Vec<_> = dataset.steps.iter().map(|s| [record(s, "unknowns"), error(s)]).collect();
-    for (step, [n, error]) in dataset.steps.iter().zip(&points) {
-        let estimated = record(step, "estimated error");
+    let of_step = |[n, error, estimated]: [f64; 3]| {
         println!("{n} unknowns: {error:.2e}, estimated {estimated:.2e}");
         assert!((0.7..1.8).contains(&(estimated / error)), "{n}: {estimated:e} for {error:e}");
-    }
-    points
-}
-
-/// Slope and correlation of the line nearest to points.
-fn line(points: &[[f64; 2]]) -> [f64; 2] {
-    let n = points.len() as f64;
-    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let product = |a: usize, b: usize| -> f64 {
-        points.iter().map(|p| (p[a] - mean[a]) * (p[b] - mean[b])).sum()
+        [n, error]
     };
-    let [xx, xy, yy] = [product(0, 0), product(0, 1), product(1, 1)];
-    [xy / xx, xy / (xx * yy).sqrt()]
+    adapted::course(dataset, energy).into_iter().map(of_step).collect()
 }
 
 /// Rates of h-adaptive covers in unknowns^½: p, however singular the field. Those of the first steps, on which everything

@@ -5,9 +5,9 @@
 
 use crate::studies::exact_fields::{MATERIAL, OBLIQUE, SQUARE, discretization, expressions, held};
 use crate::studies::plates::pulled;
-use crate::studies::support::{Both, both, errors, solved};
+use crate::studies::support::{Both, both, errors, record, solved};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::Dataset;
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::jet::Jet;
@@ -22,10 +22,6 @@ const SMOOTH: [f64; 2] = [0.7, 1.8];
 
 /// The same where sources are steep or jump within cells, as what cells of this size make of them is bounded only.
 const ROUGH: [f64; 2] = [0.7, 3.0];
-
-pub(crate) fn record(step: &Step, name: &str) -> f64 {
-    step.history.iter().find(|record| record.name == name).map_or(f64::NAN, |record| record.value)
-}
 
 fn assert_effective(name: &str, dataset: &Dataset, error: f64, [least, most]: [f64; 2]) {
     let estimated = record(&dataset.steps[0], "estimated error");
@@ -218,6 +214,27 @@ fn nothing_is_estimated_of_nothing_and_scale_plays_no_part() {
 fn problem_top(length: f64) -> ppum_solve::problem::BorderPart {
     let half = vec2(length, length);
     ppum_solve::problem::BorderPart::edge(Edge::Top, &Rect::new(-half, half))
+}
+
+/// Between the arms of sharp kinks, where patches have little of a wedge and never for themselves. The energies are those of
+/// finite elements of order 10 (NGSolve 6.2.2608), good to 2e-7.
+#[test]
+fn sharp_kinks() {
+    let (from, kink) = ([0.429901, 0.132984], [0.0, 0.0]);
+    for (degrees, to, energy) in [
+        (120, [0.099783, 0.438798], 2.004413623),
+        (150, [0.305814, 0.330118], 1.977975139),
+        (165, [0.380834, 0.239719], 1.973402427),
+        (172, [0.40721, 0.191521], 1.969746373),
+    ] {
+        for order in 1..=3 {
+            let mut problem = pulled(SQUARE, [8, 8], &[&[from, kink, to]]);
+            problem.discretization.order = Order::Uniform(order);
+            let dataset = solved(&problem);
+            let error = (1.0 - record(&dataset.steps[0], "energy") / energy).sqrt();
+            assert_effective(&format!("{degrees}°, {order}"), &dataset, error, SMOOTH);
+        }
+    }
 }
 
 /// The parts of a field, which the estimate compares, add up to the field, and their shares to one.

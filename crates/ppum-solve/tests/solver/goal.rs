@@ -1,31 +1,9 @@
 //! Estimated errors of stress intensity factors against the errors, and accuracies that are asked for.
 
-use crate::studies::plates::{Plate, centre_cracks, edge_cracks, end_shear, slanted_cracks};
+use crate::studies::factors::{errors_of_factors, plates};
+use crate::studies::plates::{centre_cracks, end_shear, slanted_cracks};
 use crate::studies::support::solved;
-use ppum::dataset::{Dataset, TipIntensity};
 use ppum_solve::problem::{Adaptivity, Cells, Order};
-
-/// Of each tip with known factors, the lengths of (K_I, K_II), of its error and of the estimated error; a factor that is not known
-/// vanishes.
-fn errors_of_factors(plate: &Plate, dataset: &Dataset) -> Vec<[f64; 3]> {
-    let of_tip = |(k, found): (usize, &TipIntensity)| {
-        let mut exact = [0.0; 2];
-        let known = plate.known.iter().filter(|known| known.tip == k);
-        known.for_each(|known| exact[known.mode] = known.value * plate.scale);
-        let error = (found.k1 - exact[0]).hypot(found.k2 - exact[1]);
-        let size = exact[0].hypot(exact[1]);
-        (size > 0.0).then(|| [size, error, found.error.expect("an estimate")])
-    };
-    dataset.steps[0].intensities.iter().enumerate().filter_map(of_tip).collect()
-}
-
-fn plates() -> Vec<Plate> {
-    let mut all = centre_cracks();
-    all.extend(edge_cracks());
-    all.extend(slanted_cracks());
-    all.push(end_shear());
-    all
-}
 
 /// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance it is larger.
 const EFFECTIVE: std::ops::Range<f64> = 0.8..20.0;

@@ -7,9 +7,8 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
 use ppum_solve::solve::spectrum;
 
-use crate::estimator::record;
 use crate::studies::exact_fields::MATERIAL;
-use crate::studies::support::{solved, strain_energy};
+use crate::studies::support::{record, solved, strain_energy};
 use ppum_testkit::random::Random;
 
 type Line = Vec<[f64; 2]>;

@@ -55,6 +55,20 @@ fn places(warnings: &[Warning]) -> Vec<Vec2> {
 
 const STRAIGHT: &str = "[[-0.5, 0.0], [0.5, 0.0]]";
 
+/// What moves as a rigid body has strains of rounding only: nothing is said of signs and differences of its factors.
+#[test]
+fn rigid_motions() {
+    let moved = |on: &str| format!("[[boundary]]\non = \"{on}\"\ndisplacement = [1, 2]\n");
+    let held = moved("bottom") + &moved("top");
+    for keys in ["", "accuracy = 1e-3"] {
+        let text =
+            text(STRAIGHT, &held, "").replace("cells = [8, 8]", &format!("level = 3\n{keys}"));
+        let dataset = solve_text(&text);
+        let all = only(&dataset, kind::DIGITS);
+        assert!(all.len() == 1 && all[0].message.contains("rigid"), "{all:?}");
+    }
+}
+
 /// Two cracks a thousandth of a cell apart: the functions of the strip between them depend on each other,
 /// and digits of the linear system are lost.
 #[test]

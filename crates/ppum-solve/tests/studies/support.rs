@@ -1,7 +1,7 @@
 //! Solving, and norms of what was found.
 
 use ppum::crack::Side;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, Step};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::progress::unwatched;
@@ -72,6 +72,11 @@ pub(crate) fn quantity(dataset: &Dataset, name: &str, at: Vec2) -> f64 {
     let field = Field::new(dataset, 0).expect("a field");
     let quantity = Quantity::parse(name, &field).expect("a quantity");
     quantity.at(&mut field.at(at), Vec2::ZERO, Side::Above)
+}
+
+/// A record of a step's history, NaN if there is none.
+pub(crate) fn record(step: &Step, name: &str) -> f64 {
+    step.history.iter().find(|record| record.name == name).map_or(f64::NAN, |record| record.value)
 }
 
 /// Unknowns of the first step.
