@@ -178,13 +178,14 @@ impl Case<'_> {
         let adaptivity = self.problem.and_then(|problem| problem.adaptivity.as_ref());
         let rounding = rounding(dataset, self.step)?;
         let mut warnings = Vec::new();
-        if !rounding.is_all() {
+        let is_strained = !rounding.is_all();
+        if is_strained {
             warnings.extend(of_tips(tips, &field.step.cracks, &places));
             warnings.extend(of_faces(field, &places));
         }
         stage.advance(0)?;
         // an adaptation has looked for itself how small cells should be
-        let guided = self.problem.filter(|problem| problem.adaptivity.is_none());
+        let guided = self.problem.filter(|problem| is_strained && problem.adaptivity.is_none());
         if let Some((problem, energy)) = guided.zip(self.report.energy) {
             warnings.extend(of_corners(problem, field, space, (energy, &places)));
         }

@@ -14,9 +14,12 @@ const FLOORS: Floors<'_> = &[
     ],
     &[("corner", &["geometry", "problem", "quadrature", "smoothness"])],
     &[("refine", &["corner", "geometry", "problem", "smoothness", "watched"])],
-    &[("space", &["geometry", "problem", "quadrature", "refine", "smoothness", "watched"])],
+    &[(
+        "space",
+        &["corner", "geometry", "problem", "quadrature", "refine", "smoothness", "watched"],
+    )],
     &[
-        ("basis", &["linear", "quadrature", "space", "watched"]),
+        ("basis", &["corner", "linear", "quadrature", "space", "watched"]),
         ("intensity", &["geometry", "law", "problem", "quadrature", "space", "watched"]),
         ("norms", &["law", "space"]),
     ],

@@ -34,7 +34,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 25] = [
+pub const ALL: [Example; 26] = [
     example!("centre-crack"),
     example!("edge-crack"),
     example!("slanted-crack"),
@@ -42,6 +42,7 @@ pub const ALL: [Example; 25] = [
     example!("many-cracks"),
     example!("meeting-cracks"),
     example!("cracked-hole"),
+    example!("square-hole"),
     example!("plate-with-hole"),
     example!("arc-crack"),
     example!("elliptic-hole"),
