@@ -160,14 +160,14 @@ fn curve(label: String, points: &[[f64; 3]], look: Look) -> Curve {
 
 fn draw(page: &mut Page, curves: Vec<Curve>) -> anyhow::Result<()> {
     let picture = Plot {
-        x: PlotAxis::new("N^⅓, N unknowns", ""),
+        x: PlotAxis::new("cube root of the number of unknowns", ""),
         y: PlotAxis::new("error in the energy norm", "").logarithmic(),
         curves,
         ..Plot::default()
     };
-    let path = page.image("adaptive.svg");
+    let path = page.image("adaptive.png");
     let bytes = Form::of(&path).bytes(&plot(&picture, [900, 600]), None, &[])?;
     std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
-    page.add("![Errors of adaptive covers over the cube root of the unknowns](images/validation/adaptive.svg)");
+    page.add("![Errors of adaptive covers over the cube root of the unknowns](images/validation/adaptive.png)");
     Ok(())
 }

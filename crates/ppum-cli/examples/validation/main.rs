@@ -32,8 +32,7 @@ The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-
 most of these numbers. F = K/(σ√(πa)).
 
 Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, compared with
-them at the end of this page. The `spread` that `ppum sif` and `ppum info` print is the difference between three
-radii of one integral: a check, no estimate of the error.";
+them below. Their `spread` is the difference between three radii of one integral: a check, no estimate of the error.";
 
 fn main() -> anyhow::Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
