@@ -94,9 +94,8 @@ fn beside_tips(page: &mut Page) {
     page.add("## Rates beside a tip");
     page.add(
         "A crack from (−0.4, −0.3) to (0.4, 0.3) in [−1, 1]², ends pulled, all else by default; error in the energy norm from the\n\
-         strain energy, which is 2.428931916 (finite elements of order 12, good to 2e-9). The terms r^(3/2) and r^(5/2) of the field are\n\
-         not among the functions of a tip: they limit the rate beyond its zone. Orders 3 and 4 lower the error, but their rates are\n\
-         1.7 to 2.5 where a smooth field has 3 and 4. K, whose error goes with the square, is not held up by that."
+         strain energy, which is 2.428931916 (finite elements of order 12, good to 2e-9). On the cover of level 3 most cells, those around\n\
+         the crack, are as small as on that of level 4: the second rate is the one to look at, and it comes near p."
     );
     page.head(&["p", "level 3", "level 4", "level 5", "unknowns"]);
     for order in 1..=4 {
