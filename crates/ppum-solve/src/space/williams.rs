@@ -74,6 +74,10 @@ type Groups = BTreeMap<u32, (Origin, usize)>;
 
 fn groups(problem: &Problem, step: &Step) -> Groups {
     let mut groups = of_tips(step);
+    // to look for corners takes a second where rims have thousands of vertices
+    if !step.functions.iter().any(|function| function.name.starts_with(OF_CORNER)) {
+        return groups;
+    }
     for (functions, origin) in
         corners(problem).iter().flat_map(|corner| of_corner(corner, &problem.equation))
     {
@@ -101,12 +105,15 @@ fn of_tips(step: &Step) -> Groups {
     all.filter_map(|(index, function)| Some((index, first(&function.kind)?))).collect()
 }
 
+/// Beginning of the names of functions of corners.
+const OF_CORNER: &str = "r^";
+
 /// The functions of a corner, in groups: one for each of its fields.
 pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Function>, Origin)> {
     let Some(wedge) = &corner.wedge else { return Vec::new() };
     let frame = Frame::Fixed { origin: corner.at, angle: wedge.bisector };
     let function = |term: &Term, text: &str| Function {
-        name: format!("r^{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
+        name: format!("{OF_CORNER}{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
         kind: FunctionKind::Formula {
             text: on_side(text, wedge.side),
             frame,

@@ -227,6 +227,51 @@ fn kinks_from_both_ends_and_in_the_mirror() {
     assert!((k1 - seen[0]).abs() < 1e-8 && (k2 + seen[1]).abs() < 1e-8, "{seen:?}");
 }
 
+/// A kink and a hole of four corners, both under pressure, oblique, reversed, far from the origin and small; the values
+/// are those of the same solver.
+#[test]
+fn loaded_corners_anywhere() {
+    let of = |scale: f64, shift: [f64; 2], is_reversed: bool| {
+        let place = |p: &[f64; 2]| [0, 1].map(|i| shift[i] + scale * p[i]);
+        let mut crack = vec![[0.429901, 0.132984], [0.0, 0.0], [0.099783, 0.438798]];
+        let mut hole = vec![[-0.6, -0.6], [-0.2, -0.55], [-0.25, -0.2], [-0.65, -0.25]];
+        if is_reversed {
+            crack.reverse();
+            hole.reverse();
+        }
+        let [crack, hole] = [crack, hole].map(|all| all.iter().map(place).collect::<Vec<_>>());
+        let [min, max] = [[-1.0; 2], [1.0; 2]].map(|p| place(&p));
+        let text = format!(
+            "[domain]\nmin = {min:?}\nmax = {max:?}\n[material]\nyoung = 1.0\npoisson = 0.3\n\
+             state = \"plane-strain\"\n{PULLED}[[crack]]\npoints = {crack:?}\n[[hole]]\npoints = {hole:?}\n\
+             [[boundary]]\non = {{ crack = 0 }}\npressure = 1.0\n[[boundary]]\non = {{ hole = 0 }}\npressure = 0.5\n\
+             [discretization]\nlevel = 4\norder = 3\n"
+        );
+        let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+        let dataset = solve(&problem, unwatched()).expect("a solution");
+        let tip = |end: End| {
+            let mut all = dataset.steps[0].intensities.iter();
+            let tip = all.find(|tip| tip.tip.end == end).expect("the tip");
+            [tip.k1, tip.k2].map(|k| k / scale.sqrt())
+        };
+        let tips = if is_reversed { [End::Last, End::Start] } else { [End::Start, End::Last] };
+        (energy(&dataset) / (scale * scale), tips.map(tip))
+    };
+    let apart = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
+        (0..4).fold(0.0f64, |m, k| m.max((a[k / 2][k % 2] - b[k / 2][k % 2]).abs()))
+    };
+    let (e, tips) = of(1.0, [0.0; 2], false);
+    assert!((1.0 - e / 3.183605075).abs() < 1e-5, "{e}");
+    let known = [[1.871555454, 0.416979824], [0.550392276, -0.444274214]];
+    assert!(apart(tips, known) < 1e-5, "{tips:?}");
+    for (scale, shift, is_reversed) in
+        [(1.0, [0.0; 2], true), (1.0, [1024.0, -512.0], false), (0.5f64.powi(20), [0.0; 2], false)]
+    {
+        let (other, same) = of(scale, shift, is_reversed);
+        assert!((other / e - 1.0).abs() < 1e-9 && apart(tips, same) < 1e-8, "{other} {same:?}");
+    }
+}
+
 /// Poisson's equation has other exponents; the values are those of the same solver.
 #[test]
 fn corners_of_potentials() {
