@@ -2,6 +2,7 @@
 
 mod functions;
 mod group;
+mod growth;
 mod tables;
 use ppum::crack::{Crack, CrackEnd, TipId};
 use ppum::dataset::{
@@ -19,6 +20,7 @@ use crate::limits::FORMAT_VERSION;
 use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
 use functions::functions;
 use group::{Extent, Group, numbered, optional};
+use growth::growth;
 use tables::{Scopes, tables};
 
 type Read<T> = Result<T, ReadError>;
@@ -151,6 +153,9 @@ fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
     step.history = optional(group, "history", history)?;
     step.warnings = optional(group, "warnings", warnings)?;
     step.reactions = optional(group, "reactions", reactions)?;
+    if group.holds("growth", Form::Group)? {
+        step.growth = Some(growth(&mut group.group("growth")?)?);
+    }
     Ok(step)
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, SegmentId, TipId};
 use ppum::dataset::{
-    Dataset, Equation, FieldData, NamedQuantity, Partition, Reaction, Record, Step, TipIntensity,
-    Warning,
+    Dataset, Equation, Fate, FieldData, Growth, NamedQuantity, Partition, Reaction, Record, Step,
+    TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
@@ -17,7 +17,8 @@ use crate::content::{Array, Content, Element, Values, join};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
-    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES, Words, word,
+    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE,
+    PLAIN_BOX, POLYGON, STOPS, STRESS_STATES, Words, word,
 };
 
 type Written = Result<(), WriteError>;
@@ -175,7 +176,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
     history(&mut group.group("history"), &step.history);
     warnings(&mut group.group("warnings"), &step.warnings);
     reactions(&mut group.group("reactions"), &step.reactions);
-    Ok(())
+    step.growth.iter().try_for_each(|g| growth(&mut group.group("growth"), g))
 }
 
 fn partition(group: &mut Group, partition: &Partition) {
@@ -401,4 +402,37 @@ fn reactions(group: &mut Group, reactions: &[Reaction]) {
     group.array("held", Array::matrix(&held, components));
     group.array("force", Array::matrix(&force, components));
     group.vector("moment", reactions.iter().map(|r| r.moment));
+}
+
+fn growth(group: &mut Group, growth: &Growth) -> Written {
+    if let Some(cycles) = growth.cycles {
+        group.attribute("cycles", Array::scalar(cycles));
+    }
+    if let Some(stop) = growth.stop {
+        let stop = group.word(STOPS, stop, "@stop")?;
+        group.attribute("stop", Array::scalar(stop));
+    }
+    let tips = || growth.tips.iter();
+    let ends: Result<Vec<_>, _> = tips().map(|t| group.word(ENDS, t.tip.end, "end")).collect();
+    let fates: Result<Vec<_>, _> = tips().map(|t| fate(group, t.fate)).collect();
+    let (words, others): (Vec<_>, Vec<_>) = fates?.into_iter().unzip();
+    group.vector("crack", tips().map(|t| t.tip.crack));
+    group.vector("end", ends?);
+    group.vector("fate", words);
+    group.vector("other", others);
+    group.array("path_offsets", offsets(tips().map(|t| t.path.len())));
+    group.array("path", Array::rows(tips().flat_map(|t| &t.path).map(|&p| <[f64; 2]>::from(p))));
+    for (name, value) in GROWTH_NUMBERS {
+        group.vector(name, tips().map(|t| *value(&mut t.clone())));
+    }
+    Ok(())
+}
+
+/// The word of a fate, and the index of what is met.
+fn fate(group: &Group, fate: Fate) -> Result<(String, i64), WriteError> {
+    match fate {
+        Fate::MeetsHole(k) => Ok((MEETS_HOLE.to_owned(), k.into())),
+        Fate::MeetsCrack(k) => Ok((MEETS_CRACK.to_owned(), k.into())),
+        other => Ok((group.word(FATES, other, "fate")?, -1)),
+    }
 }

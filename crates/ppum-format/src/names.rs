@@ -1,7 +1,7 @@
 //! The words the format uses for the data model's enumerations.
 
 use ppum::crack::{CrackEnd, End};
-use ppum::dataset::StressState;
+use ppum::dataset::{Advance, Fate, GrowthStop, StressState};
 
 /// Words of a closed set of values.
 pub(crate) type Words<T> = [(T, &'static str)];
@@ -21,6 +21,41 @@ pub(crate) const BOX_WITH_HOLES: &str = "box-with-holes";
 /// Kinds of holes.
 pub(crate) const CIRCLE: &str = "circle";
 pub(crate) const POLYGON: &str = "polygon";
+
+/// What tips do next, but for those that meet something with a number.
+pub(crate) const FATES: &Words<Fate> = &[
+    (Fate::Grows, "grows"),
+    (Fate::LeavesPlate, "leaves-plate"),
+    (Fate::Waits, "waits"),
+    (Fate::Held, "held"),
+    (Fate::Closed, "closed"),
+    (Fate::Unknown, "unknown"),
+    (Fate::MeetsItself, "meets-itself"),
+];
+pub(crate) const MEETS_HOLE: &str = "meets-hole";
+pub(crate) const MEETS_CRACK: &str = "meets-crack";
+
+/// What ends a series.
+pub(crate) const STOPS: &Words<GrowthStop> = &[
+    (GrowthStop::NoTips, "no-tips"),
+    (GrowthStop::AllHeld, "all-held"),
+    (GrowthStop::Fracture, "fracture"),
+    (GrowthStop::PieceComesOff, "piece-comes-off"),
+    (GrowthStop::Unsolvable, "unsolvable"),
+];
+
+/// A number of an [`Advance`] by its name.
+pub(crate) type GrowthNumber = (&'static str, fn(&mut Advance) -> &mut f64);
+
+/// The numbers of tips in `growth`.
+pub(crate) const GROWTH_NUMBERS: [GrowthNumber; 6] = [
+    ("strength", |t| &mut t.strength),
+    ("direction", |t| &mut t.direction),
+    ("curvature", |t| &mut t.curvature),
+    ("length", |t| &mut t.length),
+    ("due", |t| &mut t.due),
+    ("extension", |t| &mut t.extension),
+];
 
 /// The word of a value, if the format has one.
 pub(crate) fn word<T: PartialEq>(words: &Words<T>, value: T) -> Option<&'static str> {

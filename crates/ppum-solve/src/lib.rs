@@ -59,6 +59,7 @@
 //! Modules import from floors below their own only; `tests/solver/rooms.rs` holds them to it.
 //!
 //! ```text
+//! growth                                           cracks that grow, step by step
 //! solve                                            plan, system, solution, dataset
 //! adapt                                            estimated error; cells to divide, orders to raise
 //! assembly        diagnostics                      cells and border → K u = f; warnings
@@ -77,6 +78,7 @@ mod corner;
 pub mod diagnostics;
 mod equilibrium;
 mod geometry;
+pub mod growth;
 pub mod intensity;
 mod law;
 mod linear;

@@ -5,6 +5,7 @@
 
 mod domain;
 mod formulas;
+mod growth;
 mod tiling;
 mod work;
 
@@ -166,6 +167,7 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
         check_length(&place, attribute.values.len(), step.partition.len(), "one per patch")?;
     }
     check_intensities(step)?;
+    growth::check_growth(step)?;
     for (k, warning) in step.warnings.iter().enumerate() {
         check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
     }

@@ -17,6 +17,7 @@ use crate::crack::{Crack, TipId};
 use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::function::{Function, FunctionKind};
+pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use ppum_formula::Table;
@@ -91,6 +92,8 @@ pub struct Step {
     pub warnings: Vec<Warning>,
     /// Resultants of the forces the supports exert on the plate, one per boundary condition that gives values.
     pub reactions: Vec<Reaction>,
+    /// How the cracks grow on from here, in a series of growth.
+    pub growth: Option<Growth>,
 }
 
 impl Step {
@@ -108,6 +111,7 @@ impl Step {
             history: Vec::new(),
             warnings: Vec::new(),
             reactions: Vec::new(),
+            growth: None,
         }
     }
 

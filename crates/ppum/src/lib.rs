@@ -143,6 +143,7 @@ pub mod equation;
 pub mod expression;
 pub mod field;
 pub mod function;
+pub mod growth;
 pub mod jet;
 pub mod library;
 pub mod polynomial;

@@ -228,7 +228,7 @@ pub fn on_circle(
     }
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
-    let found = under(problem, |loads| {
+    let found = under(problem, field.step.load, |loads| {
         let integral = Interaction::new(&field, &space, tip, radii, loads);
         found(&space, integral.as_slice(), watcher)
     })?;
@@ -247,14 +247,16 @@ pub(crate) fn intensities_under(
     space: &Space<'_>,
     watcher: &dyn Watcher,
 ) -> Result<Vec<Outcome>, Cancelled> {
-    under(problem, |loads| intensities(dataset, field, space, loads, watcher))
+    let find = |loads: Loads<'_>| intensities(dataset, field, space, loads, watcher);
+    under(problem, field.step.load, find)
 }
 
-/// What is found under the loads of a problem; none act without one.
-fn under<T>(problem: Option<&Problem>, find: impl FnOnce(Loads<'_>) -> T) -> T {
-    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| problem.source_at(x));
+/// What is found under a multiple of the loads of a problem; none act without one.
+fn under<T>(problem: Option<&Problem>, factor: f64, find: impl FnOnce(Loads<'_>) -> T) -> T {
+    let times = |load: [f64; 2]| load.map(|part| factor * part);
+    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| times(problem.source_at(x)));
     let face = |crack: u32, side: Side, x: Vec2| {
-        problem.map_or([0.0; 2], |problem| problem.face_load(crack as usize, side, x))
+        problem.map_or([0.0; 2], |problem| times(problem.face_load(crack as usize, side, x)))
     };
     let loads = Loads {
         force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),

@@ -10,6 +10,7 @@ use ppum::vec2::Rect;
 
 use super::cracks::{check_cracks, points_of, touch};
 use super::enrichment::check_enrichments;
+use super::growth::check_growth;
 use super::holes::check_holes;
 use super::key::Key;
 use super::quantities::check_quantities;
@@ -55,6 +56,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     found.extend(check_discretization(problem));
     found.extend(problem.adaptivity.iter().flat_map(check_adaptivity));
     found.extend(check_goal(problem));
+    found.extend(check_growth(problem));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
     let bounds = &problem.domain.bounds;

@@ -39,6 +39,7 @@ mod document;
 mod enrichment;
 mod error;
 mod expression;
+mod growth;
 mod holes;
 mod key;
 mod nearby;
@@ -68,9 +69,11 @@ pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use contacts::find_junctions;
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
+pub(crate) use curve::arc_from;
 pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Location, Mistake, ProblemError};
+pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
 pub use ppum::expression::Expression;
 pub(crate) use refinement::{DEEPEST, nine};
 pub use refinement::{LocalRefinement, Place};
@@ -108,6 +111,8 @@ pub struct Problem {
     pub discretization: Discretization,
     /// How the cover is improved by its own solutions; `None` solves once.
     pub adaptivity: Option<Adaptivity>,
+    /// How cracks grow, step by step; `None` solves the problem with the cracks as they are.
+    pub growth: Option<GrowthRule>,
     /// Where cells are divided by hand.
     pub refinements: Vec<LocalRefinement>,
     /// The linear solver.
@@ -233,6 +238,7 @@ impl Problem {
             enrichments: Vec::new(),
             discretization,
             adaptivity: None,
+            growth: None,
             refinements: Vec::new(),
             solver: Solver::default(),
             text: None,
@@ -276,6 +282,13 @@ impl Problem {
     #[must_use]
     pub fn with_adaptivity(mut self, adaptivity: Adaptivity) -> Self {
         self.adaptivity = Some(adaptivity);
+        self
+    }
+
+    /// The problem whose cracks grow.
+    #[must_use]
+    pub fn with_growth(mut self, growth: GrowthRule) -> Self {
+        self.growth = Some(growth);
         self
     }
 

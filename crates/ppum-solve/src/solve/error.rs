@@ -5,6 +5,7 @@ use crate::diagnostics::RecomputeError;
 use crate::equilibrium::{PlateError, UnbalancedError};
 use crate::geometry::Around;
 use crate::linear::{EigenError, LinearError};
+use crate::problem::ProblemError;
 use crate::space::SpaceError;
 use crate::watched::Halt;
 use ppum::check::CheckError;
@@ -16,6 +17,9 @@ use ppum::progress::Cancelled;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
+    /// A problem that its cracks have grown to, and that breaks a rule.
+    #[error(transparent)]
+    Problem(ProblemError),
     /// Its cover or local spaces.
     #[error(transparent)]
     Space(SpaceError),

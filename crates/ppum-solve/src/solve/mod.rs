@@ -20,10 +20,10 @@ use crate::space::{Mesh, Space, discretise_on};
 use crate::watched::Stage;
 use adaptive::adapted;
 use clock::Clock;
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::progress::{Phase, Watcher};
 use solution::{Assembled, Solving, linear_solver};
-use solved::Solved;
+use solved::{Found, Solved};
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and wants to keep
 /// all of them. The watcher is told how far the work has come.
@@ -159,17 +159,69 @@ impl<'p> Plan<'p> {
         }
     }
 
-    /// The solution with its estimated error.
-    fn solved(mut self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
+    /// The problem.
+    pub(crate) fn problem(&self) -> &'p Problem {
+        self.problem
+    }
+
+    /// Solves the problem, and goes on to errors and warnings only if its stress intensity factors are those that are wanted.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub(crate) fn attempt(
+        self,
+        watcher: &dyn Watcher,
+        is_wanted: &dyn Fn(&[TipIntensity]) -> bool,
+    ) -> Result<Attempt, SolveError> {
+        if self.problem.adaptivity.is_some() {
+            let dataset = self.solve(watcher)?;
+            let wanted = is_wanted(&dataset.steps[0].intensities);
+            return Ok(Attempt::of(dataset, wanted));
+        }
+        let found = self.found(watcher)?;
+        let factors = found.factors();
+        if !is_wanted(&factors) {
+            return Ok(Attempt::Refused(factors));
+        }
+        found
+            .estimated(watcher)?
+            .finish(None, watcher)
+            .map(|dataset| Attempt::Done(Box::new(dataset)))
+    }
+
+    /// The solution with its factors.
+    fn found(mut self, watcher: &dyn Watcher) -> Result<Found<'p>, SolveError> {
         let Self { problem, ref space, .. } = self;
         let solving = Solving { problem, space, watcher };
         let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
-        Solved::new(self, solution, watcher)
+        Found::new(self, solution, watcher)
+    }
+
+    /// The solution with its estimated error.
+    fn solved(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
+        self.found(watcher)?.estimated(watcher)
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {
         Solving { problem: self.problem, space: &self.space, watcher }
+    }
+}
+
+/// What has become of an attempt at a solution.
+pub(crate) enum Attempt {
+    /// It is what was wanted.
+    Done(Box<Dataset>),
+    /// Its factors are not.
+    Refused(Vec<TipIntensity>),
+}
+
+impl Attempt {
+    fn of(mut dataset: Dataset, is_wanted: bool) -> Self {
+        if is_wanted {
+            return Self::Done(Box::new(dataset));
+        }
+        Self::Refused(std::mem::take(&mut dataset.steps[0].intensities))
     }
 }
 

@@ -21,7 +21,14 @@ const NOTHING: f64 = 1e-2;
 /// Part of the energy that a field of the same size could have up to which the energy is rounding: of rigid motions.
 const ROUNDING: f64 = 1e-20;
 
-/// A plan whose dataset has its coefficients.
+/// A plan whose dataset has its coefficients, with the factors of its tips.
+pub(super) struct Found<'p> {
+    plan: Plan<'p>,
+    solution: Solution,
+    tips: Vec<Outcome>,
+}
+
+/// The same with its estimated error.
 pub(super) struct Solved<'p> {
     pub(super) plan: Plan<'p>,
     pub(super) report: SolverReport,
@@ -34,13 +41,28 @@ pub(super) struct Solved<'p> {
     goal: Goal,
 }
 
-impl<'p> Solved<'p> {
-    /// Finds the energy, the factors and the estimated errors of all.
+impl<'p> Found<'p> {
+    /// Finds the factors.
     pub(super) fn new(
         mut plan: Plan<'p>,
         solution: Solution,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
+        let Plan { problem, dataset, space, clock, .. } = &mut plan;
+        let field = Field::new(dataset, 0)?;
+        let tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
+        clock.lap(Phase::Intensity);
+        Ok(Self { plan, solution, tips })
+    }
+
+    /// The factors of the tips that have any.
+    pub(super) fn factors(&self) -> Vec<TipIntensity> {
+        self.tips.iter().filter_map(|outcome| outcome.factors.clone()).collect()
+    }
+
+    /// Finds the energy and the estimated errors of all.
+    pub(super) fn estimated(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
+        let Self { mut plan, solution, mut tips } = self;
         let Solution { mut report, unresolved, lonely, duals, .. } = solution;
         let Plan { problem, dataset, space, clock, .. } = &mut plan;
         let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
@@ -50,25 +72,25 @@ impl<'p> Solved<'p> {
         let found = estimated(problem, &field, &dual_fields, &lonely, space, &stage);
         let found = found.map_err(SolveError::of_data)?;
         let goal = duals.map_or_else(Goal::default, |duals| duals.goal(space, &found));
-        report.energy = Some(energy);
-        clock.lap(Phase::Estimation);
-        let mut tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
-        clock.lap(Phase::Intensity);
+        report.energy = Some(energy);
+        clock.lap(Phase::Estimation);
         let squares = found.squares;
         // nothing is a part of no energy, or of one that is rounding
         if energy > ROUNDING * energy_of_size(&field) {
             report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
             dataset.steps[0].attributes.push(indicator(&squares, energy));
         }
-        let mut solved = Self { plan, report, unresolved, squares, tips, goal };
+        let mut solved = Solved { plan, report, unresolved, squares, tips, goal };
         if !solved.goal.errors.is_empty() {
             solved.report.factor_error = Some(solved.goal().0);
         }
         Ok(solved)
     }
+}
 
+impl Solved<'_> {
     /// The largest estimated error of the factors of a tip, as a part of their size, and of each cell its part in the sum of all;
     /// without tips those of the energy.
     pub(super) fn goal(&self) -> (f64, Vec<f64>) {

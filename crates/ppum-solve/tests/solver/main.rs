@@ -11,6 +11,7 @@ mod faces;
 mod formulas;
 mod goal;
 mod graded;
+mod growth;
 mod holes;
 mod incompressible;
 mod intensity;

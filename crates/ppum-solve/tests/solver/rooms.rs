@@ -92,6 +92,7 @@ const FLOORS: Floors<'_> = &[
             "watched",
         ],
     )],
+    &[("growth", &["problem", "solve"])],
 ];
 
 #[test]

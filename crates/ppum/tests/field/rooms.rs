@@ -17,10 +17,11 @@ const FLOORS: Floors<'_> = &[
     &[
         ("equation", &["domain", "expression", "vec2"]),
         ("function", &["crack", "jet", "library", "segment", "vec2"]),
+        ("growth", &["crack", "vec2"]),
         ("sides", &["box_tree", "crack", "vec2"]),
         ("text", &["crack", "vec2"]),
     ],
-    &[("dataset", &["crack", "domain", "equation", "function", "vec2", "weight"])],
+    &[("dataset", &["crack", "domain", "equation", "function", "growth", "vec2", "weight"])],
     &[
         ("cover", &["dataset", "vec2", "weight"]),
         ("decompose", &["dataset", "function", "text"]),
@@ -40,7 +41,10 @@ const FLOORS: Floors<'_> = &[
     &[
         (
             "check",
-            &["cover", "crack", "dataset", "domain", "function", "quantity", "vec2", "weight"],
+            &[
+                "cover", "crack", "dataset", "domain", "function", "growth", "quantity", "vec2",
+                "weight",
+            ],
         ),
         (
             "prelude",

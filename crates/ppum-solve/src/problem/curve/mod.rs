@@ -229,6 +229,27 @@ fn summed(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
     values.map(add).collect()
 }
 
+/// Turn of an arc, in radians, below which it is straight: its height is an eighth of that.
+const STRAIGHT: f64 = 1e-6;
+
+/// The vertices of an arc that begins at a point in a direction (an angle to the x axis), with a curvature, positive where it
+/// turns left; the point itself is none of them. It turns by less than a whole turn.
+pub(crate) fn arc_from(at: Vec2, direction: f64, curvature: f64, length: f64) -> Vec<Vec2> {
+    let along = vec2(direction.cos(), direction.sin());
+    let turn = curvature * length;
+    if turn.abs() < STRAIGHT {
+        return vec![at + along * length];
+    }
+    let radius = curvature.recip().abs();
+    let center = at + along.left() * curvature.recip();
+    let out = at - center;
+    let from = out.y.atan2(out.x);
+    let segments = (turn.abs() / TURN).ceil() as usize + 2;
+    // it ends on its tangents, and has no cusp
+    let points = Curve::arc(center, radius, from, from + turn).divided(Some(segments));
+    points.map_or_else(|_| vec![at + along * length], |points| points[1..].to_vec())
+}
+
 /// Angles of a whole turn, from a start.
 pub(super) fn around(from: f64) -> [f64; 2] {
     [from, from + TAU]

@@ -8,6 +8,7 @@ mod boundary;
 mod curve;
 mod discretization;
 mod enrichment;
+mod growth;
 mod hole;
 mod quantity;
 mod refinement;
@@ -33,6 +34,7 @@ use boundary::boundary;
 use curve::{Course, course};
 use discretization::discretization;
 use enrichment::enrichments;
+use growth::growth;
 use hole::holes;
 use ppum::expression::Expression;
 use quantity::quantities;
@@ -206,6 +208,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         enrichments,
         discretization,
         adaptivity: adaptivity(root),
+        growth: growth(root, &scope),
         refinements,
         solver,
         text: None,
@@ -220,13 +223,14 @@ fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
         "exact",
         "discretization",
         "adaptivity",
+        "growth",
         "refine",
         "solver",
         "table",
         "enrichment",
         "quantity",
     ]);
-    let mut remedies = vec![("growth", Later(&[]))];
+    let mut remedies = Vec::new();
     match kind {
         Some(kind) => {
             known.push(kind.words().source);

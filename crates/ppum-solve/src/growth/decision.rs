@@ -1,0 +1,268 @@
+//! What the tips of a solved step do next: who grows, how far, and where to.
+
+use super::criterion::{Kink, kink};
+use super::path::{Arc, way};
+use crate::problem::{GrowthRule, LoadControl, Problem, cracks};
+use ppum::crack::{Crack, End, TipId, tips};
+use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
+
+/// Loads at which tips reach their toughness that count as one, relative: those of a symmetric plate differ by the errors of
+/// their factors.
+const TOGETHER: f64 = 1e-2;
+
+/// Turn in radians from which on a change of direction is a kink, and not a part of a smooth path.
+const SHARP: f64 = 0.1;
+
+/// Largest turn of an arc: paths that turn faster are not resolved by their increments.
+const LARGEST_TURN: f64 = 0.35;
+
+/// Turn of a chosen increment.
+const CHOSEN_TURN: f64 = 0.1;
+
+/// A chosen increment in parts of the length of the shortest crack with a tip, and of the plate's shorter side; and how much
+/// less it is where a path turns.
+const CHOSEN: f64 = 0.25;
+const OF_PLATE: f64 = 0.02;
+const LEAST_CHOSEN: f64 = 0.125;
+
+/// Part of an increment from which on growth that is due is made.
+const DUE: f64 = 0.5;
+
+/// The decisions of a step.
+pub(super) struct Decision {
+    pub(super) growth: Growth,
+    /// The factor of the load.
+    pub(super) load: f64,
+}
+
+/// A tip with what drives it.
+struct Driven<'a> {
+    tip: TipId,
+    /// The angle of the crack's direction to the x axis.
+    axis: f64,
+    kink: Option<Kink>,
+    fate: Fate,
+    toughness: f64,
+    /// What it did after the step before.
+    before: Option<&'a Advance>,
+    /// Growth in parts of that of the tip that grows most.
+    share: f64,
+}
+
+/// Decides what the tips do, from their factors under the loads of the problem and from what was decided in the step before.
+pub(super) fn decide(
+    problem: &Problem,
+    rule: &GrowthRule,
+    factors: &[TipIntensity],
+    before: Option<&Growth>,
+) -> Decision {
+    let mut driven: Vec<_> =
+        tips(&problem.cracks).map(|tip| Driven::new(problem, rule, tip, factors, before)).collect();
+    let load = load(rule, &driven);
+    share(rule, &mut driven, load);
+    let increment = increment(problem, rule, &driven);
+    let mut growth = Growth::default();
+    growth.cycles = cycles(rule, before, &driven);
+    let mut so_far = problem.cracks.clone();
+    for tip in &driven {
+        let row = tip.advance(problem, &so_far, increment);
+        extend(&mut so_far[tip.tip.crack as usize], &row);
+        growth.tips.push(row);
+    }
+    growth.stop = stop(rule, &driven, &growth);
+    Decision { growth, load }
+}
+
+/// The problem with the cracks that follow from what was decided.
+pub(super) fn grown(problem: &Problem, growth: &Growth) -> Problem {
+    let mut next = problem.clone();
+    growth.tips.iter().for_each(|row| extend(&mut next.cracks[row.tip.crack as usize], row));
+    let lines = next.cracks.iter().map(|crack| crack.points.clone());
+    next.cracks = cracks(lines, &next.domain);
+    next
+}
+
+/// Adds the way of a tip to its crack.
+fn extend(crack: &mut Crack, row: &Advance) {
+    match row.tip.end {
+        End::Last => crack.points.extend(&row.path),
+        End::Start => {
+            crack.points.splice(0..0, row.path.iter().rev().copied());
+        }
+    }
+}
+
+impl<'a> Driven<'a> {
+    fn new(
+        problem: &Problem,
+        rule: &GrowthRule,
+        tip: TipId,
+        factors: &[TipIntensity],
+        before: Option<&'a Growth>,
+    ) -> Self {
+        let crack = &problem.cracks[tip.crack as usize];
+        let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
+        let factors = factors.iter().find(|found| found.tip == tip);
+        let kink = factors.and_then(|factors| kink(rule.criterion, factors));
+        let fate = match (factors, kink) {
+            (None, _) => Fate::Unknown,
+            (_, None) => Fate::Closed,
+            _ => Fate::Grows,
+        };
+        let toughness = rule.toughness.as_ref().map_or(0.0, |toughness| toughness.value(at));
+        let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
+        let axis = along.y.atan2(along.x);
+        Self { tip, axis, kink, fate, toughness, before, share: 0.0 }
+    }
+
+    fn strength(&self) -> f64 {
+        self.kink.map_or(f64::NAN, |kink| kink.strength)
+    }
+
+    /// The direction in which the crack goes on.
+    fn direction(&self) -> f64 {
+        self.axis + self.kink.map_or(0.0, |kink| kink.angle)
+    }
+
+    /// The curvature of the path: how its direction has changed along the last increment. Behind a kink it is not known yet.
+    fn curvature(&self) -> f64 {
+        let is_smooth = self.kink.is_some_and(|kink| kink.angle.abs() < SHARP);
+        let before = self.before.filter(|row| is_smooth && row.length > 0.0);
+        before.map_or(0.0, |row| turned(row.direction, self.direction()) / row.length)
+    }
+
+    /// What the tip does, if the tip that grows most does so by `increment`.
+    fn advance(&self, problem: &Problem, cracks: &[Crack], increment: f64) -> Advance {
+        let so_far = self.before.map_or([0.0; 2], |row| [row.due, row.extension + row.length]);
+        let mut row = Advance {
+            strength: self.strength(),
+            direction: self.axis,
+            due: so_far[0],
+            extension: so_far[1],
+            ..Advance::staying(self.tip, self.fate)
+        };
+        if self.fate != Fate::Grows {
+            return row;
+        }
+        row.due += self.share * increment;
+        if row.due < DUE * increment {
+            row.fate = Fate::Waits;
+            return row;
+        }
+        let bound = LARGEST_TURN / row.due;
+        (row.direction, row.curvature) = (self.direction(), self.curvature().clamp(-bound, bound));
+        let length = std::mem::replace(&mut row.due, 0.0);
+        go(problem, cracks, length, &mut row);
+        row
+    }
+}
+
+/// What was decided in a step with other curvatures of some arcs, given with their tips.
+pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64)]) -> Growth {
+    let mut so_far = problem.cracks.clone();
+    let mut bent = growth.clone();
+    for row in &mut bent.tips {
+        if let Some((_, curvature)) = curvatures.iter().find(|(tip, _)| *tip == row.tip) {
+            let bound = LARGEST_TURN / row.length;
+            row.curvature = curvature.clamp(-bound, bound);
+            go(problem, &so_far, row.length, row);
+        }
+        extend(&mut so_far[row.tip.crack as usize], row);
+    }
+    bent
+}
+
+/// Sends a tip along its arc, among the cracks as they are.
+fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut Advance) {
+    let from = problem.cracks[row.tip.crack as usize].end_point(row.tip.end);
+    let arc = Arc { from, direction: row.direction, curvature: row.curvature, length };
+    let way = way(problem, cracks, row.tip, arc);
+    (row.length, row.fate, row.path) = (way.length(from), way.fate, way.path);
+}
+
+/// The turn from one direction to another, between −π and π.
+fn turned(from: f64, to: f64) -> f64 {
+    let turn = to - from;
+    turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
+}
+
+/// The factor of the load: the least at which a tip reaches its toughness, if that is asked for.
+fn load(rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
+    if rule.load == LoadControl::Constant {
+        return 1.0;
+    }
+    let growing = driven.iter().filter(|tip| tip.fate == Fate::Grows && tip.strength() > 0.0);
+    let least = growing.map(|tip| tip.toughness / tip.strength()).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 1.0 }
+}
+
+/// Finds which tips grow, and how much in parts of what the fastest grows.
+fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
+    let enough = if rule.load == LoadControl::Critical { 1.0 - TOGETHER } else { 1.0 };
+    for tip in driven.iter_mut().filter(|tip| tip.fate == Fate::Grows) {
+        let strength = load * tip.strength();
+        tip.share = match &rule.paris {
+            Some(paris) => paris.rate(strength),
+            None if strength >= enough * tip.toughness => 1.0,
+            None => 0.0,
+        };
+        if tip.share == 0.0 {
+            tip.fate = Fate::Held;
+        }
+    }
+    let most = driven.iter().map(|tip| tip.share).fold(0.0, f64::max);
+    driven.iter_mut().filter(|tip| tip.share > 0.0).for_each(|tip| tip.share /= most);
+}
+
+/// The length of the largest increment: the one given, or one that the cracks and the plate allow and the paths do not turn much
+/// on.
+fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
+    if let Some(increment) = rule.increment {
+        return increment;
+    }
+    let size = problem.domain.bounds.size();
+    let with_tips = problem.cracks.iter().filter(|crack| crack.tips().next().is_some());
+    let shortest = with_tips.map(Crack::length).fold(f64::INFINITY, f64::min);
+    let largest = (CHOSEN * shortest).min(OF_PLATE * size.x.min(size.y));
+    let growing = driven.iter().filter(|tip| tip.share > 0.0);
+    let sharpest = growing.map(|tip| tip.curvature().abs()).fold(0.0, f64::max);
+    largest.min(CHOSEN_TURN / sharpest).max(LEAST_CHOSEN * largest)
+}
+
+/// Load cycles up to this step: those of the steps before, and those of the last increment of the tip that was driven most.
+fn cycles(rule: &GrowthRule, before: Option<&Growth>, driven: &[Driven<'_>]) -> Option<f64> {
+    let paris = rule.paris.as_ref()?;
+    let Some(before) = before else { return Some(0.0) };
+    let rows = before.tips.iter().filter(|row| row.length > 0.0);
+    let fastest = rows.max_by(|a, b| a.strength.total_cmp(&b.strength));
+    let last = fastest.map_or(0.0, |row| {
+        let then = paris.rate(row.strength);
+        let now = driven.iter().find(|tip| tip.tip == row.tip);
+        let now = now.map(|tip| paris.rate(tip.strength())).filter(|rate| *rate > 0.0);
+        cycles_along(row.length, then, now.unwrap_or(then))
+    });
+    Some(before.cycles.unwrap_or(0.0) + last)
+}
+
+/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value to another.
+fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
+    let growth = (to / from).ln();
+    // (1 − e^−x) / x
+    let mean = if growth == 0.0 { 1.0 } else { -(-growth).exp_m1() / growth };
+    length / from * mean
+}
+
+/// What ends the series here.
+fn stop(rule: &GrowthRule, driven: &[Driven<'_>], growth: &Growth) -> Option<GrowthStop> {
+    let breaks = |tip: &Driven<'_>| {
+        rule.paris.is_some() && rule.toughness.is_some() && tip.strength() >= tip.toughness
+    };
+    if driven.is_empty() {
+        return Some(GrowthStop::NoTips);
+    }
+    if driven.iter().any(breaks) {
+        return Some(GrowthStop::Fracture);
+    }
+    let moves = |row: &Advance| row.fate.goes_on() || row.fate == Fate::Waits;
+    (!growth.tips.iter().any(moves)).then_some(GrowthStop::AllHeld)
+}

@@ -1,0 +1,236 @@
+//! Cracks that grow, step by step: solve, let the tips go on, solve again.
+//!
+//! ```text
+//! cracks ─▶ solution ─▶ factors of the tips ─▶ decision: who grows, how far, where to ─▶ cracks of the next step
+//! ```
+//!
+//! A tip goes on along an arc. Its direction is that of the criterion, its curvature that with which the path has turned so far:
+//! tips then lie on the path up to the second power of the increments. By the criterion of local symmetry the arc is bent
+//! until K_II = 0 at its end.
+//!
+//! Each step is solved for itself, from its cracks alone, and given away when it is complete. What follows it is decided with it
+//! and stored in its [`Growth`], so that a series goes on from any of its steps with the same bits.
+
+mod criterion;
+mod decision;
+mod path;
+mod settle;
+
+pub use criterion::{Kink, kink};
+
+use crate::problem::{GrowthRule, Problem, ProblemError};
+use crate::solve::{Plan, SolveError};
+use decision::{Decision, decide, grown};
+use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
+use ppum::progress::{Progress, Verdict, Watcher};
+use settle::settled;
+
+/// A series that has ended before its end.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GrowthError<E> {
+    /// A step that cannot be solved.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// What a step was given to wants no more.
+    #[error(transparent)]
+    Kept(E),
+}
+
+/// A watcher of one step, which it tells the number of.
+struct InStep<'w> {
+    watcher: &'w dyn Watcher,
+    step: usize,
+}
+
+impl Watcher for InStep<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.watcher.hear(progress.in_step(self.step))
+    }
+}
+
+/// The last step of a series that is to go on, and its number.
+#[derive(Clone, Copy, Debug)]
+pub struct Last<'s> {
+    /// Its number, from 0.
+    pub number: usize,
+    /// The step, with its [`Growth`].
+    pub step: &'s Step,
+}
+
+/// The next problem cannot be solved.
+enum Obstacle {
+    Problem(ProblemError),
+    Solve(SolveError),
+}
+
+/// A step that has been solved: its problem, and what was decided.
+struct Before {
+    problem: Problem,
+    growth: Growth,
+}
+
+/// A series on its way.
+struct Series<'a> {
+    rule: &'a GrowthRule,
+    memory: Option<u64>,
+}
+
+/// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when it is complete: from the
+/// first, or from one after the last that there is.
+///
+/// A step is complete when it is known whether a next one can be solved. A call that is cancelled gives it away before.
+///
+/// # Errors
+/// A first step that cannot be solved; cancelled; those of `keep`.
+pub fn grow<E>(
+    problem: &Problem,
+    last: Option<Last<'_>>,
+    memory: Option<u64>,
+    watcher: &dyn Watcher,
+    mut keep: impl FnMut(Dataset) -> Result<(), E>,
+) -> Result<(), GrowthError<E>> {
+    let single = GrowthRule::new(0);
+    let rule = problem.growth.as_ref().unwrap_or(&single);
+    let series = Series { rule, memory };
+    let (mut number, mut current, mut before) = match start(problem, last) {
+        Some(start) => start,
+        None => return Ok(()),
+    };
+    let mut done: Option<Dataset> = None;
+    while number <= rule.steps {
+        let here = InStep { watcher, step: number };
+        let plan = series.plan(&current, &here);
+        if let Some(dataset) = done.take() {
+            let (dataset, ends) = closed(dataset, plan.as_ref().err());
+            keep(dataset).map_err(GrowthError::Kept)?;
+            if ends {
+                return Ok(());
+            }
+        }
+        let plan = plan.map_err(Obstacle::into_error)?;
+        let (cracks, dataset) = settled(plan, before.as_ref(), &series, &here)?;
+        current.cracks = cracks;
+        let growth_before = before.as_ref().map(|before| &before.growth);
+        let (dataset, growth) = series.decided(&current, dataset, growth_before);
+        if growth.stop.is_some() || number == rule.steps {
+            return keep(dataset).map_err(GrowthError::Kept);
+        }
+        let next = grown(&current, &growth);
+        before = Some(Before { problem: std::mem::replace(&mut current, next), growth });
+        (done, number) = (Some(dataset), number + 1);
+    }
+    Ok(())
+}
+
+/// All steps of a series in one dataset.
+///
+/// # Errors
+/// See [`grow`].
+pub fn series(
+    problem: &Problem,
+    memory: Option<u64>,
+    watcher: &dyn Watcher,
+) -> Result<Dataset, SolveError> {
+    let mut all: Option<Dataset> = None;
+    let keep = |step: Dataset| -> Result<(), std::convert::Infallible> {
+        match &mut all {
+            Some(all) => all.steps.extend(step.steps),
+            None => all = Some(step),
+        }
+        Ok(())
+    };
+    match grow(problem, None, memory, watcher, keep) {
+        Ok(()) => Ok(all.expect("a series has a first step")),
+        Err(GrowthError::Solve(error)) => Err(error),
+        Err(GrowthError::Kept(never)) => match never {},
+    }
+}
+
+/// Number and problem of the next step, and what was decided in the one before; none if the series has ended.
+fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, Option<Before>)> {
+    let Some(Last { number, step }) = last else { return Some((0, problem.clone(), None)) };
+    let growth = step.growth.as_ref().filter(|growth| growth.stop.is_none())?;
+    let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() };
+    let next = grown(&at_last, growth);
+    Some((number + 1, next, Some(Before { problem: at_last, growth: growth.clone() })))
+}
+
+/// A step that is complete, and whether the series ends with it because of what the next one meets.
+fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) {
+    let (stop, message) = match obstacle {
+        None | Some(Obstacle::Solve(SolveError::Cancelled(_))) => return (dataset, false),
+        Some(Obstacle::Solve(error @ SolveError::Unbalanced(_))) => {
+            (GrowthStop::PieceComesOff, error.to_string())
+        }
+        Some(Obstacle::Solve(error)) => (GrowthStop::Unsolvable, error.to_string()),
+        Some(Obstacle::Problem(error)) => (GrowthStop::Unsolvable, error.to_string()),
+    };
+    let step = &mut dataset.steps[0];
+    step.growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
+    let message = format!("growth ends here, {}: {message}", stop.words());
+    let kind = "growth".to_owned();
+    step.warnings.push(Warning { kind, at: None, value: f64::NAN, limit: f64::NAN, message });
+    (dataset, true)
+}
+
+impl Obstacle {
+    fn into_error(self) -> SolveError {
+        match self {
+            Self::Solve(error) => error,
+            Self::Problem(error) => SolveError::Problem(error),
+        }
+    }
+}
+
+impl Series<'_> {
+    /// The plan of a problem whose loads balance.
+    fn plan<'p>(&self, problem: &'p Problem, watcher: &dyn Watcher) -> Result<Plan<'p>, Obstacle> {
+        problem.check().map_err(Obstacle::Problem)?;
+        let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
+        plan.check(watcher).map_err(Obstacle::Solve)?;
+        Ok(plan)
+    }
+
+    /// The dataset of a step under its load, with what is decided in it.
+    fn decided(
+        &self,
+        problem: &Problem,
+        mut dataset: Dataset,
+        before: Option<&Growth>,
+    ) -> (Dataset, Growth) {
+        let step = &mut dataset.steps[0];
+        let Decision { growth, load } = decide(problem, self.rule, &step.intensities, before);
+        under(step, load);
+        step.growth = Some(growth.clone());
+        (dataset, growth)
+    }
+}
+
+/// The step under a multiple of its loads.
+fn under(step: &mut Step, load: f64) {
+    step.load *= load;
+    if load == 1.0 {
+        return;
+    }
+    for field in &mut step.fields {
+        field.coefficients.iter_mut().flatten().for_each(|c| *c *= load);
+    }
+    for tip in &mut step.intensities {
+        for k in
+            [&mut tip.k1, &mut tip.k2].into_iter().chain(&mut tip.t_stress).chain(&mut tip.error)
+        {
+            *k *= load;
+        }
+        tip.j.iter_mut().for_each(|j| *j *= load * load);
+        for ring in &mut tip.rings {
+            (ring.k1, ring.k2) = (load * ring.k1, load * ring.k2);
+        }
+    }
+    for reaction in &mut step.reactions {
+        reaction.force.iter_mut().for_each(|force| *force *= load);
+        reaction.moment *= load;
+    }
+    let energies = step.history.iter_mut().filter(|record| record.name == "energy");
+    energies.for_each(|record| record.value *= load * load);
+}
