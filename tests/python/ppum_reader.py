@@ -11,6 +11,7 @@ in double and in extended precision. Gradients come from jets.
 
 import hashlib
 import math
+import re
 
 import h5py
 import numpy as np
@@ -26,9 +27,9 @@ def texts(dataset):
     return [text(v) for v in dataset[()]]
 
 
-def checksum(file):
-    """SHA-256 over the content of an open file, section "Checksum"."""
-    items = {"@" + k: v for k, v in file.attrs.items() if k != "sha256"}
+def content(file):
+    """All items of an open file by their names, section "Checksum"."""
+    items = {"@" + k: v for k, v in file.attrs.items()}
 
     def collect(name, node):
         if name.split("/")[0] == "user":
@@ -39,6 +40,11 @@ def checksum(file):
             items.update({f"{name}@{k}": v for k, v in node.attrs.items()})
 
     file.visititems(collect)
+    return items
+
+
+def digest(items):
+    """SHA-256 over items."""
     digest = hashlib.sha256()
     for name in sorted(items, key=str.encode):
         value = np.asarray(items[name])
@@ -50,6 +56,40 @@ def checksum(file):
             data = value.astype(value.dtype.newbyteorder("<")).tobytes()
         digest.update(f"{name} {kind} {shape}\n".encode() + data)
     return digest.hexdigest()
+
+
+STEP = re.compile("(steps/[0-9]+)(/|(?=@))")
+
+
+def checksums(file):
+    """The checksums that an open file has, each by the name of its attribute, as they should be."""
+    items, found = content(file), {}
+    for name in items:
+        group, _, attribute = name.partition("@")
+        if name == "@sha256":
+            of = items.items()
+        elif name == "@sha256_rest":
+            of = ((k, v) for k, v in items.items() if not STEP.match(k))
+        elif attribute == "sha256" and re.fullmatch("steps/[0-9]+", group):
+            of = ((k[STEP.match(k).end():], v) for k, v in items.items() if re.match(group + "[/@]", k))
+            name = "@sha256"
+        else:
+            continue
+        found[f"{group}@{attribute}"] = digest({k: v for k, v in of if k != name})
+    return found
+
+
+def is_right(file):
+    """True if an open file has checksums, and right ones."""
+    stored, right = content(file), checksums(file)
+    return bool(right) and all(text(stored[name]) == sum for name, sum in right.items())
+
+
+def seal(file):
+    """Makes the checksums of an open file right."""
+    for name, sum in checksums(file).items():
+        group, _, attribute = name.partition("@")
+        file[group or "/"].attrs[attribute] = sum
 
 
 PLANE = ("x", "y")

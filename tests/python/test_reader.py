@@ -19,7 +19,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from h5py_files import DATA, LAYOUTS, LIBVERS, rewrite
 from ppum_formulas import Extended
-from ppum_reader import Field, checksum, text, texts
+from ppum_reader import Field, is_right, seal, text, texts
 
 ROOT = pathlib.Path(__file__).parents[2]
 OLD = DATA / "version-1.0.h5"
@@ -93,9 +93,9 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 3]
+            assert list(file.attrs["format_version"]) == [1, 4]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
-            assert checksum(file) == text(file.attrs["sha256"])
+            assert is_right(file)
 
 
 def program(path, asked, *quantities):
@@ -196,7 +196,7 @@ def test_the_angle_at_the_origin_of_a_frame_is_zero():
                 del step[f"functions/{name}"]
                 values[row] = value
                 step[f"functions/{name}"] = values
-            file.attrs["sha256"] = checksum(file)
+            seal(file)
         [[found]] = program(copy, [(point, (0.0, 0.0), 1)], "u")
         with h5py.File(copy) as file:
             own = Field(file).quantity("u", *point)
@@ -343,7 +343,7 @@ def test_numpy_reads_samples():
 def test_a_file_of_version_1_0_is_read():
     with h5py.File(OLD) as file:
         assert list(file.attrs["format_version"]) == [1, 0]
-        assert checksum(file) == text(file.attrs["sha256"])
+        assert is_right(file)
         u, opening = Field(file).evaluate(0.3, 0.4)[0], math.sqrt(0.5) * math.sin(math.atan2(4, 3) / 2)
     assert abs(u[0] - (2 + 3 + 5 * opening + 7 * math.sin(-0.6) / 2.15)) < 1e-14
     status, _, message = fixture("same", OLD, OLD)
@@ -362,7 +362,7 @@ def test_the_program_reads_what_h5py_writes():
         with h5py.File(copy, "a") as target:
             target["steps/0000/from-the-future"] = np.arange(3.0)
             target.attrs["format_version"] = np.array([1, 7], dtype="u4")
-            target.attrs["sha256"] = checksum(target)
+            seal(target)
         status, _, message = fixture("same", original, copy)
         assert status == 0, message
         with h5py.File(copy, "a") as target:
@@ -370,7 +370,8 @@ def test_the_program_reads_what_h5py_writes():
         status, _, message = fixture("same", original, copy)
         assert status != 0 and "checksum" in message, message
         with h5py.File(copy, "a") as target:
-            del target.attrs["sha256"]
+            for group in (target, *target["steps"].values()):
+                group.attrs.pop("sha256", None)
             target["steps/0000/partition/half"][3, 1] = math.nan
         status, _, message = fixture("same", original, copy)
         assert status != 0 and "partition.half[3]" in message, message
@@ -387,7 +388,7 @@ def test_mistakes_in_formulas_are_named():
         copy.write_bytes(files()[1].read_bytes())
         with h5py.File(copy, "a") as file:
             file[group].attrs[name] = {"young": "x + z", "name": "other"}.get(name, "1 + t")
-            file.attrs["sha256"] = checksum(file)
+            seal(file)
         status, _, message = fixture("same", copy, copy)
         assert status != 0 and place in message, message
 
@@ -433,7 +434,26 @@ def test_the_files_of_the_tests_are_datasets():
     """Those that h5py_files.py makes: as h5py reads them their checksums are right."""
     for path in sorted((DATA / "h5py").iterdir()):
         with h5py.File(path) as file:
-            assert checksum(file) == text(file.attrs["sha256"]), path.name
+            assert is_right(file), path.name
+
+
+def test_a_series_that_grows():
+    """It is a complete file after each step, with one link, with a full header of them, and with two blocks more."""
+    path = FOLDER / "series.h5"
+    for count in [1, 2, 3, 4, 5, 64, 65, 66, 128, 129, 150]:
+        status, _, message = fixture("grow", path, count)
+        assert status == 0, message
+        with h5py.File(path) as file:
+            assert list(file["steps"]) == [f"{k:04}" for k in range(count)]
+            assert [group.attrs["load"] for group in file["steps"].values()] == [1 + k for k in range(count)]
+            assert is_right(file), count
+    with h5py.File(path) as file:
+        assert [file[f"steps/{k:04}/fields/0000/coefficients"].chunks for k in (2, 3)] == [None, (1, 98304)]
+    with h5py.File(path, "a") as file:
+        file["steps/0149/fields/0000/coefficients"][0, 0] += 1e-15
+        assert not is_right(file)
+    status, _, message = fixture("same", path, path)
+    assert status != 0 and "`steps/0149@sha256`" in message, message
 
 
 def test_a_newer_major_version_is_refused():

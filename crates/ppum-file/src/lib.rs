@@ -2,6 +2,7 @@
 //!
 //! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what has
 //! no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether it could.
+//! [`Ranged`] reads parts of a file, and [`Growing`] is one that is appended to while others read it.
 //! A program that is told to end calls [`abandon`].
 //!
 //! Errors are [`std::io::Error`]s, those of the system and own ones; their texts are reasons that stand
@@ -19,12 +20,17 @@
 //! # }
 //! ```
 
+mod growing;
+mod lock;
 mod part;
+mod ranged;
 mod read;
 mod same;
 mod write;
 
+pub use growing::Growing;
 pub use part::{Abandoned, abandon};
+pub use ranged::Ranged;
 pub use read::{open, read, text, text_within, within};
 pub use same::is_same;
 pub use write::{check, replace};
@@ -35,8 +41,12 @@ mod tests {
 
     use ppum_testkit::rooms::{Floors, check, check_page};
 
-    const FLOORS: Floors<'_> =
-        &[&[("part", &[]), ("read", &[]), ("same", &[])], &[("write", &["part"])]];
+    const FLOORS: Floors<'_> = &[
+        &[("part", &[]), ("read", &[]), ("same", &[])],
+        &[("lock", &["part"]), ("ranged", &["read"])],
+        &[("write", &["lock", "part"])],
+        &[("growing", &["lock", "part", "ranged", "write"])],
+    ];
 
     #[test]
     fn arrows_lead_down() {

@@ -11,15 +11,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The part files of this program. Whoever makes, moves or removes one holds it.
+/// The part files and locks of this program. Whoever makes, moves or removes one holds it.
 static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+pub(crate) fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     // the set is right after any panic: it changes in one step
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes all part files of this program, which is about to end: none is made, and none takes its
+/// Removes all part files and locks of this program, which is about to end: none is made, and none takes its
 /// place, as long as the result is kept.
 #[must_use = "files can be written again once it is dropped"]
 pub fn abandon() -> Abandoned {
@@ -150,7 +150,7 @@ fn remove_if_dead(path: &Path) {
 
 /// True if `path` itself, and no link there, is the open file.
 #[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
+pub(crate) fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     let key = |data: fs::Metadata| (data.dev(), data.ino());
     let [open, there] = [file.metadata(), fs::symlink_metadata(path)].map(|data| data.map(key));
@@ -158,7 +158,7 @@ fn is_at(file: &File, path: &Path) -> bool {
 }
 
 #[cfg(not(unix))]
-fn is_at(_: &File, path: &Path) -> bool {
+pub(crate) fn is_at(_: &File, path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|data| data.is_file())
 }
 

@@ -4,6 +4,7 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use crate::lock::refuse_taken;
 use crate::part::{Part, folder};
 
 /// Writes a file by `write`, completely or not at all.
@@ -14,20 +15,30 @@ use crate::part::{Part, folder};
 /// keeps the old bytes. Part files of the same target that dead programs have left are removed.
 ///
 /// # Errors
-/// Those of `write`, and of the system; a folder, a device, a file without write permission. Whatever
+/// Those of `write`, and of the system; a folder, a device, a file without write permission, one that
+/// [grows](crate::Growing) just now. Whatever
 /// stood at `path` then still stands there unchanged, and no part file is left.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
 ) -> Result<(), E> {
     let target = resolve(path)?;
-    let permissions = replaceable(&target)?;
-    let part = Part::create(&target)?;
+    refuse_taken(&target)?;
+    replace_locked(&target, write)
+}
+
+/// The same for a target that is no link, and that nobody else may write.
+pub(crate) fn replace_locked<E: From<io::Error>>(
+    target: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> Result<(), E> {
+    let permissions = replaceable(target)?;
+    let part = Part::create(target)?;
     let mut out = BufWriter::with_capacity(1 << 16, part.file());
     write(&mut out)?;
     out.flush()?;
     drop(out);
-    finish(part, &target, permissions)?;
+    finish(part, target, permissions)?;
     Ok(())
 }
 
@@ -37,6 +48,7 @@ pub fn replace<E: From<io::Error>>(
 /// As those of [`replace`].
 pub fn check(path: &Path) -> io::Result<()> {
     let target = resolve(path)?;
+    refuse_taken(&target)?;
     replaceable(&target)?;
     Part::create(&target).map(drop)
 }
@@ -52,7 +64,7 @@ fn finish(part: Part, target: &Path, permissions: Option<Permissions>) -> io::Re
 }
 
 /// The file a symbolic link leads to, also where there is none yet; else the path itself.
-fn resolve(path: &Path) -> io::Result<PathBuf> {
+pub(crate) fn resolve(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     // as many links as Linux follows
     for _ in 0..40 {
@@ -65,7 +77,7 @@ fn resolve(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// The permissions of the file at `target`, `None` if there is none yet.
-fn replaceable(target: &Path) -> io::Result<Option<Permissions>> {
+pub(crate) fn replaceable(target: &Path) -> io::Result<Option<Permissions>> {
     match fs::metadata(target) {
         Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
         Err(e) => Err(e),

@@ -1,52 +1,148 @@
 //! SHA-256 over the content, see "Checksum" in FORMAT.md.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use sha2::{Digest, Sha256};
 
-use crate::content::{Array, Content, Form, Values};
+use crate::content::{Array, Content, Form, Values, key, step_of};
 use crate::error::ReadError;
 
-/// Name of the root attribute that holds the checksum as 64 hexadecimal digits.
-const NAME: &str = "@sha256";
+/// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of a step over
+/// what is in it.
+const NAME: &str = "sha256";
 
-/// True if the content has a checksum.
+/// The root's over what is in no step.
+const REST: &str = "sha256_rest";
+
+/// The parts of a content that have a checksum of their own.
+#[derive(Clone, Debug)]
+enum Scope {
+    All,
+    Rest,
+    Step(String),
+}
+
+impl Scope {
+    /// The group and the name of the attribute.
+    fn place(&self) -> (&str, &'static str) {
+        match self {
+            Self::All => ("", NAME),
+            Self::Rest => ("", REST),
+            Self::Step(path) => (path, NAME),
+        }
+    }
+
+    /// The attribute's name in the content.
+    fn key(&self) -> String {
+        let (group, name) = self.place();
+        key(group, name, Form::Attribute)
+    }
+
+    /// The name under which an item counts, if it does.
+    fn name<'n>(&self, full: &'n str) -> Option<&'n str> {
+        match self {
+            Self::All => Some(full),
+            Self::Rest => step_of(full).is_none().then_some(full),
+            Self::Step(path) => {
+                let inside = full.strip_prefix(path.as_str())?;
+                inside.strip_prefix('/').or(Some(inside).filter(|name| name.starts_with('@')))
+            }
+        }
+    }
+}
+
+/// All scopes of a content but that over all.
+fn parts(content: &Content) -> Vec<Scope> {
+    let steps: BTreeSet<&str> = content.groups().filter_map(step_of).collect();
+    let steps = steps.into_iter().map(|path| Scope::Step(path.to_owned()));
+    [Scope::Rest].into_iter().chain(steps).collect()
+}
+
+/// True if a checksum covers every part of the content.
 #[cfg(feature = "damage")]
 pub(crate) fn is_sealed(content: &Content) -> bool {
-    content.contains_key(NAME)
+    let is_there = |scope: Scope| content.contains_key(&scope.key());
+    is_there(Scope::All) || parts(content).into_iter().all(is_there)
 }
 
-/// Takes the checksum out of the content, if it has one.
-pub(crate) fn remove(content: &mut Content) -> Option<Array> {
-    content.remove(NAME)
+/// Takes all checksums out of the content.
+pub(crate) fn remove(content: &mut Content) {
+    for scope in [Scope::All].into_iter().chain(parts(content)) {
+        content.remove(&scope.key());
+    }
 }
 
-/// Adds the checksum to the content, or makes it right.
+/// Adds the checksum over all to the content, or makes it right.
 pub(crate) fn seal(content: &mut Content) {
     remove(content);
-    let sum = digest(content).expect("what is written has types of the format only");
-    content.insert(NAME.into(), Array::scalar(sum));
+    add(content, &Scope::All);
 }
 
-/// Takes the checksum out of the content and compares. A content without one is fine.
+/// Adds a checksum for each step and one for the rest, or makes them right.
+pub(crate) fn seal_parts(content: &mut Content) {
+    remove(content);
+    parts(content).iter().for_each(|scope| add(content, scope));
+}
+
+/// Adds the checksum of a step.
+pub(crate) fn seal_step(content: &mut Content, path: &str) {
+    add(content, &Scope::Step(path.to_owned()));
+}
+
+fn add(content: &mut Content, scope: &Scope) {
+    let sum = digest(content, scope).expect("what is written has types of the format only");
+    content.insert(scope.key(), Array::scalar(sum));
+}
+
+/// True if the content has the checksum over all.
+pub(crate) fn is_whole(content: &Content) -> bool {
+    content.contains_key(&Scope::All.key())
+}
+
+/// Takes the checksums out of the content and compares. A part without one is fine.
 pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
-    content.holds("", &NAME[1..], Form::Attribute)?;
-    let Some(stored) = remove(content) else { return Ok(()) };
-    let (Values::Text(stored), []) = (stored.values, stored.shape.as_slice()) else {
-        return Err(ReadError::object(NAME, "expected a string of 64 hexadecimal digits"));
-    };
-    let stored = stored.concat();
-    let computed = digest(content)?;
-    if stored == computed { Ok(()) } else { Err(ReadError::Checksum { stored, computed }) }
+    // the first counts the others as items
+    check(content, &Scope::All)?;
+    parts(content).iter().try_for_each(|scope| check(content, scope))
 }
 
-fn digest(content: &Content) -> Result<String, ReadError> {
+/// The same for what is in no step.
+pub(crate) fn verify_rest(content: &mut Content) -> Result<(), ReadError> {
+    check(content, &Scope::Rest)
+}
+
+/// The same for a step.
+pub(crate) fn verify_step(content: &mut Content, path: &str) -> Result<(), ReadError> {
+    check(content, &Scope::Step(path.to_owned()))
+}
+
+fn check(content: &mut Content, scope: &Scope) -> Result<(), ReadError> {
+    let (group, name) = scope.place();
+    content.holds(group, name, Form::Attribute)?;
+    let Some(stored) = content.remove(&scope.key()) else { return Ok(()) };
+    let (Values::Text(stored), []) = (stored.values, stored.shape.as_slice()) else {
+        let mistake = "expected a string of 64 hexadecimal digits";
+        return Err(ReadError::object(&scope.key(), mistake));
+    };
+    let (stored, computed) = (stored.concat(), digest(content, scope)?);
+    if stored == computed {
+        return Ok(());
+    }
+    Err(ReadError::Checksum { attribute: scope.key(), stored, computed })
+}
+
+fn digest<'c>(content: &'c Content, scope: &Scope) -> Result<String, ReadError> {
+    let named = |(full, array): (&'c String, &'c Array)| Some((scope.name(full)?, full, array));
+    let mut items: Vec<(&'c str, &'c String, &'c Array)> =
+        content.iter().filter_map(named).collect();
+    items.sort_by_key(|(name, ..)| *name);
     let mut hash = Sha256::new();
-    for (name, array) in content.iter() {
+    for (name, full, array) in items {
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
         let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
         hash.update(header.as_bytes());
-        update(&mut hash, &array.values).map_err(|mistake| ReadError::object(name, mistake))?;
+        update(&mut hash, &array.values).map_err(|mistake| ReadError::object(full, mistake))?;
     }
     Ok(hash.finalize().iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
@@ -68,7 +164,7 @@ fn update(hash: &mut Sha256, values: &Values) -> Result<(), String> {
         Values::Other(name) => {
             return Err(format!(
                 "type {name} is outside the format, so the checksum cannot be verified; keep own \
-                 additions in the group `user`, or delete the root attribute `sha256`"
+                 additions in the group `user`, or delete the attribute with the checksum"
             ));
         }
     }

@@ -100,6 +100,13 @@ impl Content {
         }
     }
 
+    /// The names of the attributes of a group.
+    pub(crate) fn attributes<'c>(&'c self, group: &str) -> impl Iterator<Item = &'c str> {
+        let prefix = join(group, "@");
+        let names = self.arrays.range(prefix.clone()..).map(|(name, _)| name);
+        names.map_while(move |name| name.strip_prefix(&*prefix))
+    }
+
     /// The names of the groups and datasets in a group.
     pub(crate) fn members<'c>(&'c self, group: &str) -> impl Iterator<Item = &'c str> {
         let prefix = join(group, "");
@@ -118,6 +125,19 @@ pub(crate) fn key(group: &str, name: &str, form: Form) -> String {
         Form::Attribute => join(group, &format!("@{name}")),
         Form::Dataset | Form::Group => join(group, name),
     }
+}
+
+/// The path of a step.
+pub(crate) fn step_path(number: usize) -> String {
+    format!("steps/{number:04}")
+}
+
+/// The numbered member of `steps` that an object belongs to or is.
+pub(crate) fn step_of(name: &str) -> Option<&str> {
+    let rest = name.strip_prefix("steps/")?;
+    let number = &rest[..rest.find(['/', '@']).unwrap_or(rest.len())];
+    let is_number = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
+    is_number.then(|| &name[..name.len() - rest.len() + number.len()])
 }
 
 /// Name of an array (`name`) or an attribute (`@name`) of the group at `path`; the root's is empty.

@@ -47,13 +47,13 @@ pub fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
     for _ in 0..=below(3) {
         (change.1)(&mut bytes, below);
     }
-    let is_sealed = change.0 == FORGED || !has_checksum(&bytes);
+    let is_sealed = change.0 == FORGED || checksums(&bytes) < checksums(file);
     Damaged { bytes, what: change.0.to_owned(), is_sealed }
 }
 
-/// True if something in the file is called like the attribute with the checksum.
-fn has_checksum(bytes: &[u8]) -> bool {
-    bytes.windows(7).any(|w| w == b"sha256\0")
+/// The number of places in a file that are called like an attribute with a checksum.
+fn checksums(bytes: &[u8]) -> usize {
+    bytes.windows(6).filter(|w| w == b"sha256").count()
 }
 
 type Change = fn(&mut Vec<u8>, &mut dyn FnMut(usize) -> usize);

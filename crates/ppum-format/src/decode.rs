@@ -4,13 +4,17 @@ mod functions;
 mod group;
 mod growth;
 mod tables;
+
+use std::sync::Arc;
+
 use ppum::crack::{Crack, CrackEnd, TipId};
 use ppum::dataset::{
-    Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Reaction,
-    Record, Ring, Step, TipIntensity, Warning,
+    Attribute, Dataset, Elasticity, Equation, FieldData, Growth, NamedQuantity, Partition,
+    Reaction, Record, Ring, Step, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
+use ppum::formula::Table;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
@@ -19,6 +23,7 @@ use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
 use functions::functions;
+pub(crate) use group::missing;
 use group::{Extent, Group, numbered, optional};
 use growth::growth;
 use tables::{Scopes, tables};
@@ -44,7 +49,54 @@ pub(crate) fn check_version(content: &Content) -> Read<u32> {
 
 /// The dataset in a content. Shapes and words are right afterwards, meaning is not yet checked.
 pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
+    let mut dataset = head(&mut content)?;
     let mut root = Group { path: String::new(), content: &mut content };
+    let scopes = Scopes::new(&dataset.tables)?;
+    dataset.steps = numbered(&mut root, "steps", |group| step(group, &scopes))?;
+    Ok(dataset)
+}
+
+/// A step of the dataset with these tables, in a content that holds nothing else.
+pub(crate) fn one_step(mut content: Content, path: &str, tables: &[Arc<Table>]) -> Read<Step> {
+    let mut root = Group { path: String::new(), content: &mut content };
+    step(&mut root.group(path)?, &Scopes::new(tables)?)
+}
+
+/// The members of a step that hold [`results`].
+pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warnings", "growth"];
+
+/// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The step has no
+/// patches.
+pub(crate) fn results(mut content: Content, path: &str) -> Read<Step> {
+    let mut root = Group { path: String::new(), content: &mut content };
+    let group = &mut root.group(path)?;
+    let mut step = Step::new(Partition {
+        weight: WeightFunction::Linear,
+        center: Vec::new(),
+        half: Vec::new(),
+        origin: Vec::new(),
+        scale: Vec::new(),
+        cell: Vec::new(),
+        level: Vec::new(),
+        point: Vec::new(),
+        points: Vec::new(),
+    });
+    step.load = group.attribute("load")?;
+    step.cracks = cracks(&mut group.group("cracks")?)?;
+    step.intensities = optional(group, "intensities", intensities)?;
+    step.history = optional(group, "history", history)?;
+    step.warnings = optional(group, "warnings", warnings)?;
+    step.growth = of_growth(group)?;
+    Ok(step)
+}
+
+fn of_growth(group: &mut Group) -> Read<Option<Growth>> {
+    group.holds("growth", Form::Group)?.then(|| growth(&mut group.group("growth")?)).transpose()
+}
+
+/// The dataset without its steps.
+pub(crate) fn head(content: &mut Content) -> Read<Dataset> {
+    let mut root = Group { path: String::new(), content };
     let tables = tables(&mut root)?;
     let scopes = Scopes::new(&tables)?;
     let title = root.attribute("title")?;
@@ -54,7 +106,6 @@ pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
     let mut dataset = Dataset::new(domain, equation(&mut root.group("equation")?, &scopes)?);
     (dataset.title, dataset.program, dataset.problem) = (title, program, problem);
     dataset.quantities = optional(&mut root, "quantities", quantities)?;
-    dataset.steps = numbered(&mut root, "steps", |group| step(group, &scopes))?;
     dataset.tables = tables;
     Ok(dataset)
 }
@@ -153,9 +204,7 @@ fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
     step.history = optional(group, "history", history)?;
     step.warnings = optional(group, "warnings", warnings)?;
     step.reactions = optional(group, "reactions", reactions)?;
-    if group.holds("growth", Form::Group)? {
-        step.growth = Some(growth(&mut group.group("growth")?)?);
-    }
+    step.growth = of_growth(group)?;
     Ok(step)
 }
 

@@ -13,7 +13,7 @@ use ppum::function::{Cut, Frame, Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
 
-use crate::content::{Array, Content, Element, Values, join};
+use crate::content::{Array, Content, Element, Values, join, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
@@ -23,8 +23,13 @@ use crate::names::{
 
 type Written = Result<(), WriteError>;
 
-/// Everything of a dataset under its names in the file, without the checksum.
+/// Everything of a dataset under its names in the file, without checksums.
 pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
+    beginning(dataset, dataset.steps.len())
+}
+
+/// The same of the first steps alone.
+pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, WriteError> {
     let mut content = Content::new();
     let mut root = Group { path: String::new(), content: &mut content };
     let (major, minor) = FORMAT_VERSION;
@@ -39,9 +44,16 @@ pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
     equation(&mut root.group("equation"), &dataset.equation)?;
     tables(&mut root, &dataset.tables)?;
     quantities(&mut root.group("quantities"), &dataset.quantities);
-    for (k, s) in dataset.steps.iter().enumerate() {
-        step(&mut root.group(&format!("steps/{k:04}")), s)?;
+    for (k, s) in dataset.steps.iter().take(steps).enumerate() {
+        step(&mut root.group(&step_path(k)), s)?;
     }
+    Ok(content)
+}
+
+/// A step under its names in the file.
+pub(crate) fn one_step(number: usize, one: &Step) -> Result<Content, WriteError> {
+    let mut content = Content::new();
+    step(&mut Group { path: step_path(number), content: &mut content }, one)?;
     Ok(content)
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ppum::check::CheckError;
 
-use crate::limits::{FORMAT_VERSION, MAX_LENGTH};
+use crate::limits::FORMAT_VERSION;
 
 /// The reason why a dataset could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -62,10 +62,12 @@ pub enum ReadError {
     /// The content is not what was written.
     #[error(
         "the content does not match its checksum (stored {stored}, computed {computed}): the file \
-         is damaged or was edited; after an intended edit delete the root attribute `sha256`"
+         is damaged or was edited; after an intended edit delete the attribute `{attribute}`"
     )]
     Checksum {
-        /// Value of the attribute `sha256`.
+        /// Name of the attribute that holds it, as that of an object.
+        attribute: String,
+        /// Value of the attribute.
         stored: String,
         /// Checksum of the content as read.
         computed: String,
@@ -88,7 +90,9 @@ impl ReadError {
     pub(crate) fn shortened(mut self) -> Self {
         match &mut self {
             Self::Object { object, mistake } => [object, mistake].into_iter().for_each(shorten),
-            Self::Checksum { stored, .. } => shorten(stored),
+            Self::Checksum { attribute, stored, .. } => {
+                [attribute, stored].into_iter().for_each(shorten)
+            }
             Self::Invalid(CheckError { place, mistake, .. }) => {
                 [place, mistake].into_iter().for_each(shorten);
             }
@@ -127,11 +131,29 @@ pub enum WriteError {
         /// The reason.
         source: std::io::Error,
     },
+    /// A dataset, but none that steps can be appended to.
+    #[error("steps cannot be appended to {}: {reason}; begin a new series", path.display())]
+    NoSeries {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: &'static str,
+    },
+    /// Steps cannot be appended to what cannot be read.
+    #[error("steps cannot be appended to {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: Box<ReadError>,
+    },
     /// Longer than what is read.
-    #[error("the file would have {length} bytes, at most {} are read", MAX_LENGTH)]
+    #[error("the file would have {length} bytes, at most {most} are read")]
     TooLong {
         /// Length in bytes.
         length: u64,
+        /// [`MAX_LENGTH`](crate::MAX_LENGTH), or [`MAX_SERIES_LENGTH`](crate::MAX_SERIES_LENGTH).
+        most: u64,
     },
     /// The dataset has no meaning.
     #[error("the dataset is inconsistent: {0}")]

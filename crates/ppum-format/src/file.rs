@@ -51,7 +51,7 @@ fn head(file: &File) -> io::Result<Vec<u8>> {
 pub fn write(dataset: &Dataset, path: &Path) -> Result<(), WriteError> {
     let bytes = to_bytes(dataset)?;
     if bytes.len() as u64 > MAX_LENGTH {
-        return Err(WriteError::TooLong { length: bytes.len() as u64 });
+        return Err(WriteError::TooLong { length: bytes.len() as u64, most: MAX_LENGTH });
     }
     let written: io::Result<()> = ppum_file::replace(path, |out| out.write_all(&bytes));
     written.map_err(|source| WriteError::Io { path: path.to_owned(), source })

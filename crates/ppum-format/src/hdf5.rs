@@ -7,13 +7,16 @@
 //! that what is read may take, each in proportion to the length of the file, and [`read`] pays before it acts.
 
 mod account;
+mod append;
 mod lookup3;
+mod objects;
 mod read;
 mod write;
 
+pub(crate) use append::{Step, Trunk};
 #[cfg(feature = "damage")]
 pub(crate) use lookup3::lookup3;
-pub(crate) use read::from_bytes;
+pub(crate) use read::{Outline, Ranges, from_bytes};
 #[cfg(feature = "damage")]
 pub(crate) use write::to_compressed_bytes;
 pub(crate) use write::{check_texts, to_bytes};

@@ -1,7 +1,7 @@
 //! [`Dataset`] ↔ HDF5, as `FORMAT.md` describes it.
 //!
 //! [`write()`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where there
-//! is no file system). Between a dataset and HDF5 stands the content: a sorted map from the names of
+//! is no file system). [`Series`] reads one step of a file at a time, [`SeriesWriter`] appends one. Between a dataset and HDF5 stands the content: a sorted map from the names of
 //! arrays and attributes to their values. Names and shapes meet the data model in `encode` and
 //! `decode`, HDF5 is known to `hdf5` alone, and the checksum is taken over the content, so it does
 //! not depend on how HDF5 lays out its bytes.
@@ -32,6 +32,7 @@
 //!
 //! [`Dataset`]: ppum::dataset::Dataset
 
+mod append;
 mod bytes;
 mod checksum;
 mod content;
@@ -47,11 +48,14 @@ mod file;
 mod hdf5;
 mod limits;
 mod names;
+mod series;
 
+pub use append::SeriesWriter;
 pub use bytes::{check, from_bytes, to_bytes};
 pub use error::{ReadError, WriteError};
 pub use file::{read, write};
-pub use limits::{FORMAT_VERSION, MAX_LENGTH};
+pub use limits::{FORMAT_VERSION, MAX_LENGTH, MAX_SERIES_LENGTH};
+pub use series::Series;
 
 #[cfg(test)]
 mod tests {
@@ -67,13 +71,17 @@ mod tests {
             ("checksum", &["content", "error"]),
             ("decode", &["content", "error", "limits", "names"]),
             ("encode", &["content", "error", "limits", "names"]),
-            ("hdf5", &["content", "error"]),
+            ("hdf5", &["content", "error", "limits"]),
         ],
         &[
             ("bytes", &["checksum", "content", "decode", "encode", "error", "hdf5", "limits"]),
             ("damage", &["checksum", "content", "encode", "error", "hdf5"]),
         ],
-        &[("file", &["bytes", "error", "limits"])],
+        &[
+            ("file", &["bytes", "error", "limits"]),
+            ("series", &["bytes", "checksum", "content", "decode", "error", "hdf5", "limits"]),
+        ],
+        &[("append", &["bytes", "error", "hdf5", "limits", "series"])],
     ];
 
     #[test]

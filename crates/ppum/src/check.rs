@@ -64,6 +64,25 @@ impl Dataset {
     }
 }
 
+impl Step {
+    /// Checks what can be known of a step without its patches: load, cracks, stress intensity factors, warnings.
+    ///
+    /// # Errors
+    ///
+    /// The first violation, with its place in the step.
+    pub fn check_results(&self) -> Result<(), CheckError> {
+        check_number("load", self.load)?;
+        for (k, crack) in self.cracks.iter().enumerate() {
+            check_crack(&format!("cracks[{k}]"), crack)?;
+        }
+        check_intensities(self)?;
+        for (k, warning) in self.warnings.iter().enumerate() {
+            check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
+        }
+        growth::check_growth(self)
+    }
+}
+
 impl CheckError {
     /// The same error seen from the object that holds its place.
     fn inside(self, outer: &str) -> Self {
@@ -149,11 +168,8 @@ fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Chec
 }
 
 fn check_step(step: &Step, equation: &Equation) -> Checked {
-    check_number("load", step.load)?;
+    step.check_results()?;
     check_partition(&step.partition).map_err(|e| e.inside("partition"))?;
-    for (k, crack) in step.cracks.iter().enumerate() {
-        check_crack(&format!("cracks[{k}]"), crack)?;
-    }
     for (k, function) in step.functions.iter().enumerate() {
         check_function(function, &step.cracks).map_err(|e| e.inside(&format!("functions[{k}]")))?;
     }
@@ -165,11 +181,6 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     for attribute in &step.attributes {
         let place = format!("attributes `{}`", attribute.name);
         check_length(&place, attribute.values.len(), step.partition.len(), "one per patch")?;
-    }
-    check_intensities(step)?;
-    growth::check_growth(step)?;
-    for (k, warning) in step.warnings.iter().enumerate() {
-        check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
     }
     let components = step.fields.first().map_or(0, |field| field.components.len());
     for (k, reaction) in step.reactions.iter().enumerate() {

@@ -18,9 +18,10 @@ pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
         what.extend(change(&mut content, below));
     }
     let is_sealed = below(4) > 0;
-    match below(2) {
+    match below(3) {
         _ if !is_sealed => {}
-        0 => drop(checksum::remove(&mut content)),
+        0 => checksum::remove(&mut content),
+        1 => checksum::seal_parts(&mut content),
         _ => checksum::seal(&mut content),
     }
     let is_sealed = is_sealed || !checksum::is_sealed(&content);

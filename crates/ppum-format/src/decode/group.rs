@@ -186,15 +186,20 @@ pub(super) fn numbered<T>(
     for number in 0..count {
         let number = format!("{number:04}");
         if !list.holds(&number, Form::Group)? {
-            let mistake = format!(
-                "is missing: the {count} numbered groups here must be 0000, 0001, …, of four digits \
-                 at least and without gaps"
-            );
-            return Err(list.error(&number, mistake));
+            return Err(missing(&list.path_of(&number), count));
         }
         items.push(item(&mut list.group(&number)?)?);
     }
     Ok(items)
+}
+
+/// The error that one of so many numbered groups is missing.
+pub(crate) fn missing(path: &str, count: usize) -> ReadError {
+    let mistake = format!(
+        "is missing: the {count} numbered groups here must be 0000, 0001, …, of four digits \
+         at least and without gaps"
+    );
+    ReadError::object(path, mistake)
 }
 
 /// The content of a group, nothing if it is not there.

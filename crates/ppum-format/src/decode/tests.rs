@@ -288,7 +288,7 @@ fn plain_files_differ_from_version_1_0_in_the_version_alone() {
     checksum::verify(&mut old).expect("undamaged");
     let mut new = encode::content(&dataset(old.clone()).expect("a dataset")).expect("valid");
     assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));
-    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 3])));
+    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 4])));
     assert_eq!(old, new);
 }
 

@@ -23,6 +23,10 @@ const READINGS: u64 = 16;
 /// Bytes that may be read of any file.
 const FREE_READINGS: u64 = 1 << 24;
 
+/// Times the length of the file that its structures may take in memory where it is read in parts, beside
+/// [`FREE_READINGS`]: they are read once, but for those on the border of two pages.
+const LOADINGS: u64 = 2;
+
 /// A reading costs as much as this many bytes at least.
 const READING: u64 = 16;
 
@@ -44,6 +48,7 @@ pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 pub(super) struct Account {
     memory: Cell<u64>,
     readings: Cell<u64>,
+    loaded: Cell<u64>,
     expanded: Cell<u64>,
     objects: Cell<u64>,
 }
@@ -55,6 +60,7 @@ impl Account {
         Self {
             memory: account(EXPANSION, FREE_BYTES),
             readings: account(READINGS, FREE_READINGS),
+            loaded: account(LOADINGS, FREE_READINGS),
             expanded: account(READINGS, FREE_EXPANDED),
             objects: Cell::new(FREE_OBJECTS + length / OBJECT_BYTES),
         }
@@ -75,6 +81,12 @@ impl Account {
     #[must_use]
     pub(super) fn pay_reading(&self, bytes: u64) -> bool {
         pay(&self.readings, bytes.max(READING))
+    }
+
+    /// Bytes of the file's structures that stay in memory as long as it is read.
+    #[must_use]
+    pub(super) fn pay_loaded(&self, bytes: u64) -> bool {
+        pay(&self.loaded, bytes)
     }
 
     /// The bytes that a filter gives.

@@ -10,6 +10,7 @@ mod links;
 mod packing;
 mod source;
 mod storage;
+mod store;
 mod superblock;
 #[cfg(test)]
 mod tests;
@@ -17,13 +18,19 @@ mod texts;
 mod trees;
 mod types;
 
+use std::collections::BTreeMap;
+
 use super::account::{Account, memory};
-use crate::content::{Array, Content, Values, join};
+use crate::content::{Array, Content, Values, join, step_of};
 use crate::error::ReadError;
+use crate::limits::MAX_LENGTH;
 use header::{DATASPACE, DATATYPE, GROUP_INFO, Header, LAYOUT, LINK, LINK_INFO, SYMBOL_TABLE};
 use links::{Target, links};
 use source::{Mistake, Parsed, Source, fail};
 use storage::elements;
+use store::Chain;
+pub(crate) use store::Ranges;
+use superblock::Start;
 use texts::Texts;
 use types::{Kind, Space, Type};
 
@@ -36,12 +43,77 @@ const DEPTH: usize = 8;
 /// All arrays and attributes of a file, whatever they mean.
 pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Content, ReadError> {
     let account = Account::for_file(bytes.len() as u64);
-    let (source, root) = superblock::open(bytes, &account)
-        .map_err(|Mistake(message)| ReadError::Hdf5 { message: message.into() })?;
-    let mut walk = Walk { content: Content::new(), source, texts: Texts::new(source) };
-    let header = walk.header(root, "")?;
-    walk.group(&header, "", DEPTH)?;
+    let start = Start::of_bytes(bytes).map_err(unreadable)?;
+    let source = start.memory(bytes, &account).map_err(unreadable)?;
+    let mut walk = Walk::new(source, Choice::All);
+    walk.root(start.root)?;
     Ok(walk.content)
+}
+
+fn unreadable(Mistake(message): Mistake) -> ReadError {
+    ReadError::Hdf5 { message: message.into() }
+}
+
+/// Whatever a file holds beside its steps, and where these are.
+#[derive(Debug)]
+pub(crate) struct Outline {
+    start: Start,
+    length: u64,
+    pub(crate) content: Content,
+    /// The numbered members of `steps`, each with the address of its header.
+    steps: BTreeMap<String, u64>,
+}
+
+impl Outline {
+    /// Reads a file of so many bytes.
+    pub(crate) fn read(file: &dyn Ranges, length: u64) -> Result<Self, ReadError> {
+        let start = Start::of_file(file, length).map_err(unreadable)?;
+        let (content, steps) = parts(start, file, length, |walk| {
+            walk.choice = Choice::NoSteps;
+            walk.root(start.root)
+        })?;
+        Ok(Self { start, length, content, steps })
+    }
+
+    /// The names of the numbered members of `steps`.
+    pub(crate) fn steps(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.steps.keys().map(String::as_str)
+    }
+
+    pub(crate) fn has_step(&self, path: &str) -> bool {
+        self.steps.contains_key(path)
+    }
+
+    /// The content of a step: all, or its attributes and these members alone.
+    pub(crate) fn step(
+        &self,
+        file: &dyn Ranges,
+        path: &str,
+        only: Option<&'static [&'static str]>,
+    ) -> Result<Content, ReadError> {
+        let &address = self.steps.get(path).ok_or_else(|| error(path, "is missing"))?;
+        let (content, _) = parts(self.start, file, self.length, |walk| {
+            walk.choice = only.map_or(Choice::All, Choice::Only);
+            walk.object(&Target::Object(address), path.to_owned(), DEPTH - 1)
+        })?;
+        Ok(content)
+    }
+}
+
+/// What a walk over the parts of a file finds.
+fn parts(
+    start: Start,
+    file: &dyn Ranges,
+    length: u64,
+    visit: impl FnOnce(&mut Walk<'_>) -> Result<(), ReadError>,
+) -> Result<(Content, BTreeMap<String, u64>), ReadError> {
+    let account = Account::for_file(length.min(MAX_LENGTH));
+    let chain = Chain::default();
+    let parts = start.parts(file, length, &chain);
+    let source = start.source(&parts, &account).map_err(unreadable)?;
+    let mut walk = Walk::new(source, Choice::All);
+    visit(&mut walk)?;
+    Ok((walk.content, walk.steps))
 }
 
 /// A walk over a file that is not trusted: each object and array is paid for out of what a file of
@@ -50,6 +122,19 @@ struct Walk<'f> {
     content: Content,
     source: Source<'f>,
     texts: Texts<'f>,
+    choice: Choice,
+    /// Steps that were left out.
+    steps: BTreeMap<String, u64>,
+}
+
+/// What is read.
+#[derive(Clone, Copy)]
+enum Choice {
+    All,
+    /// All but what the numbered members of `steps` hold.
+    NoSteps,
+    /// Of a step these members.
+    Only(&'static [&'static str]),
 }
 
 /// The kinds of objects of a file.
@@ -60,6 +145,16 @@ enum Form {
 }
 
 impl<'f> Walk<'f> {
+    fn new(source: Source<'f>, choice: Choice) -> Self {
+        let (content, texts) = (Content::new(), Texts::new(source));
+        Self { content, source, texts, choice, steps: BTreeMap::new() }
+    }
+
+    fn root(&mut self, address: u64) -> Result<(), ReadError> {
+        let header = self.header(address, "")?;
+        self.group(&header, "", DEPTH)
+    }
+
     fn header(&self, address: u64, path: &str) -> Result<Header<'f>, ReadError> {
         self.visit(path)?;
         Header::read(self.source, address).map_err(|e| error(path, e))
@@ -82,15 +177,27 @@ impl<'f> Walk<'f> {
             if name.is_empty() || name.contains(['/', '@', '\0']) || name.starts_with('.') {
                 return Err(error(&inner, "is no name of an object"));
             }
-            if inner != USER {
+            if inner != USER && self.is_chosen(&inner) {
                 self.object(&target, inner, depth)?;
             }
         }
         Ok(())
     }
 
+    fn is_chosen(&self, path: &str) -> bool {
+        let Choice::Only(members) = self.choice else { return true };
+        let mut names = path.split('/');
+        names.nth(2).is_none_or(|member| members.contains(&member))
+    }
+
     fn object(&mut self, target: &Target, path: String, depth: usize) -> Result<(), ReadError> {
         let Target::Object(address) = *target else { return Err(elsewhere(&path)) };
+        if matches!(self.choice, Choice::NoSteps) && step_of(&path).is_some() {
+            return match self.steps.insert(path.clone(), address) {
+                None => Ok(()),
+                Some(_) => Err(error(&path, "occurs twice")),
+            };
+        }
         let header = self.header(address, &path)?;
         match form(&header) {
             Form::Group => {

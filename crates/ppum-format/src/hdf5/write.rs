@@ -16,7 +16,7 @@ const COMPRESSED_ELEMENTS: u64 = 1 << 12;
 const CHUNK_ELEMENTS: u64 = 1 << 17;
 
 /// Higher levels take longer and gain nothing on these data.
-const DEFLATE_LEVEL: u32 = 4;
+pub(super) const DEFLATE_LEVEL: u32 = 4;
 
 /// The bytes of a file, compressed as long as they can be read again: a reader bounds what a file expands to.
 pub(crate) fn to_bytes(content: &Content) -> Result<Vec<u8>, WriteError> {
@@ -107,7 +107,7 @@ pub(crate) fn check_texts(content: &Content) -> Result<(), WriteError> {
 }
 
 /// Strings are padded with NUL in the file, and where a reader finds U+FFFD something was not UTF-8.
-fn check_text<'a>(name: &str, texts: &'a [String]) -> Result<Vec<&'a str>, WriteError> {
+pub(super) fn check_text<'a>(name: &str, texts: &'a [String]) -> Result<Vec<&'a str>, WriteError> {
     if texts.iter().any(|t| t.contains(['\0', char::REPLACEMENT_CHARACTER])) {
         return Err(WriteError::object(
             name,
@@ -135,15 +135,20 @@ fn store(
         Values::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
     }
     .with_shape(&array.shape);
-    let is_large = array.shape.iter().product::<u64>() >= COMPRESSED_ELEMENTS;
-    if compressed && is_large && !matches!(array.values, Values::Text(_)) {
+    if compressed && is_chunked(array) {
         builder.with_chunks(&chunk(&array.shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
     }
     Ok(())
 }
 
+/// True for arrays that are compressed where that is allowed.
+pub(super) fn is_chunked(array: &Array) -> bool {
+    let is_large = array.shape.iter().product::<u64>() >= COMPRESSED_ELEMENTS;
+    is_large && !matches!(array.values, Values::Text(_))
+}
+
 /// The largest block of whole rows with at most [`CHUNK_ELEMENTS`] elements.
-fn chunk(shape: &[u64]) -> Vec<u64> {
+pub(super) fn chunk(shape: &[u64]) -> Vec<u64> {
     let mut left = CHUNK_ELEMENTS;
     let mut chunk: Vec<u64> = shape
         .iter()

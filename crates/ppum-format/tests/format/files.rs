@@ -1,7 +1,7 @@
 //! Round trips, damaged files, and files that must not be lost.
 
 #[path = "../../examples/fixture/everything.rs"]
-mod everything;
+pub(crate) mod everything;
 
 use std::fs;
 use std::time::{Duration, Instant};

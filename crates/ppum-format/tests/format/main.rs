@@ -4,3 +4,4 @@ mod evaluation;
 mod files;
 mod links;
 mod page;
+mod series;

@@ -170,7 +170,7 @@ fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) 
     step.growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
     let message = format!("growth ends here, {}: {message}", stop.words());
     let kind = "growth".to_owned();
-    step.warnings.push(Warning { kind, at: None, value: f64::NAN, limit: f64::NAN, message });
+    step.warnings.push(Warning { kind, at: None, value: 0.0, limit: 0.0, message });
     (dataset, true)
 }
 

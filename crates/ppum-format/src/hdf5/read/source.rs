@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::super::account::Account;
 use super::super::lookup3::lookup3;
+use super::store::Bytes;
 
 /// The reason why a part of a file cannot be read.
 #[derive(Debug)]
@@ -30,7 +31,7 @@ pub(super) fn fail<T>(mistake: impl Into<Mistake>) -> Parsed<T> {
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'f> {
-    bytes: &'f [u8],
+    bytes: Bytes<'f>,
     offset_size: usize,
     length_size: usize,
     pub(super) account: &'f Account,
@@ -40,7 +41,7 @@ pub(super) struct Source<'f> {
 const CHECKSUM: usize = 4;
 
 impl<'f> Source<'f> {
-    pub(super) fn new(bytes: &'f [u8], sizes: (u8, u8), account: &'f Account) -> Parsed<Self> {
+    pub(super) fn new(bytes: Bytes<'f>, sizes: (u8, u8), account: &'f Account) -> Parsed<Self> {
         if [sizes.0, sizes.1].iter().any(|size| ![2, 4, 8].contains(size)) {
             return fail("its addresses or lengths have an unknown width");
         }
@@ -48,7 +49,7 @@ impl<'f> Source<'f> {
     }
 
     pub(super) fn length(self) -> u64 {
-        self.bytes.len() as u64
+        self.bytes.length()
     }
 
     /// Bytes of an address.
@@ -63,13 +64,24 @@ impl<'f> Source<'f> {
 
     /// A part of the file, which is read now.
     pub(super) fn at(self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
-        let end = address.checked_add(length).and_then(|end| usize::try_from(end).ok());
-        let part = end.and_then(|end| self.bytes.get(address as usize..end));
-        let Some(left) = part else { return fail("it leads beyond the end of the file") };
-        if !self.account.pay_reading(length) {
-            return fail("it takes more readings than the file is worth");
+        self.pay(address, length)?;
+        Ok(Cursor { source: self, left: self.bytes.get(address, length, self.account)? })
+    }
+
+    /// The bytes of values, which are read now and need not stay in memory.
+    pub(super) fn values(self, address: u64, length: u64) -> Parsed<Cow<'f, [u8]>> {
+        self.pay(address, length)?;
+        self.bytes.values(address, length, self.account)
+    }
+
+    fn pay(self, address: u64, length: u64) -> Parsed<()> {
+        if address.checked_add(length).is_none_or(|end| end > self.length()) {
+            return fail("it leads beyond the end of the file");
         }
-        Ok(Cursor { source: self, left })
+        if self.account.pay_reading(length) {
+            return Ok(());
+        }
+        fail("it takes more readings than the file is worth")
     }
 
     /// A part that ends in its checksum, which is looked at and left out.

@@ -46,9 +46,11 @@ pub(super) fn elements<'f>(
 fn complete(stored: &[u8], bytes: usize) -> Parsed<Cow<'_, [u8]>> {
     match stored.get(..bytes) {
         Some(values) => Ok(values.into()),
-        None => fail("holds fewer values than its shape says"),
+        None => fail(FEWER),
     }
 }
+
+const FEWER: &str = "holds fewer values than its shape says";
 
 fn contiguous<'f>(
     header: &Header<'f>,
@@ -66,7 +68,8 @@ fn contiguous<'f>(
     }
     match address {
         None => Ok(filled(bytes, &fill(header, size)?).into()),
-        Some(address) => complete(header.source.at(address, stored)?.rest(), bytes),
+        Some(address) if bytes as u64 <= stored => header.source.values(address, bytes as u64),
+        Some(_) => fail(FEWER),
     }
 }
 
@@ -149,10 +152,12 @@ fn values<'f>(
 ) -> Parsed<Cow<'f, [u8]>> {
     let bytes = keep * pipeline.size as u64;
     if is_plain || !pipeline.applies(stored.mask) {
-        return Ok(header.source.at(stored.address, bytes)?.rest().into());
+        return header.source.values(stored.address, bytes);
     }
-    let raw = header.source.at(stored.address, stored.bytes)?.rest();
-    let values = pipeline.undo(raw, stored.mask, keep)?;
+    let values = match header.source.values(stored.address, stored.bytes)? {
+        Cow::Borrowed(raw) => pipeline.undo(raw, stored.mask, keep)?,
+        Cow::Owned(raw) => pipeline.undo(&raw, stored.mask, keep)?.into_owned().into(),
+    };
     if (values.len() as u64) < bytes {
         return fail("a chunk holds fewer values than its shape says");
     }

@@ -7,6 +7,7 @@ use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
 use super::source::{Mistake, Parsed, Source};
+use super::store::Bytes;
 use super::trees::{CHUNKS, entries};
 use super::types::{Kind, Padding, Type};
 use super::{Texts, arrays, from_bytes};
@@ -19,7 +20,9 @@ const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
 /// The reason why a structure in a file of these bytes is refused.
 fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()>) -> String {
     let account = Account::for_file(bytes.len() as u64);
-    let Ok(source) = Source::new(bytes, (8, 8), &account) else { panic!("the widths are known") };
+    let Ok(source) = Source::new(Bytes::Memory(bytes), (8, 8), &account) else {
+        panic!("the widths are known")
+    };
     let start = Instant::now();
     let Err(Mistake(mistake)) = read(source) else { panic!("it is not refused") };
     assert!(start.elapsed() < Duration::from_secs(5), "{mistake}: {:?}", start.elapsed());
@@ -110,7 +113,7 @@ fn an_entry_far_out() {
 fn pipeline<'f>(source: Source<'f>, ids: &[u8], bytes: u64) -> Parsed<Pipeline<'f>> {
     let filters_of = |message: Vec<u8>| -> Parsed<_> {
         let account = Account::for_file(0);
-        let local = Source::new(&message, (8, 8), &account)?;
+        let local = Source::new(Bytes::Memory(&message), (8, 8), &account)?;
         filters(local.cursor(&message))
     };
     let mut message = vec![2, ids.len() as u8];
@@ -151,7 +154,9 @@ fn packed_texts() {
 #[test]
 fn paddings() {
     let account = Account::for_file(0);
-    let Ok(source) = Source::new(&[], (8, 8), &account) else { panic!("the widths are known") };
+    let Ok(source) = Source::new(Bytes::Memory(&[]), (8, 8), &account) else {
+        panic!("the widths are known")
+    };
     for (padding, raw, expected) in [
         (Padding::Nuls, &b"ab \0\0"[..], Some("ab ")),
         (Padding::Nuls, b"a\0b\0\0", None),
@@ -172,7 +177,7 @@ fn paddings() {
 fn types_of_numbers() {
     let account = Account::for_file(0);
     let name = |message: &[u8]| {
-        let source = Source::new(message, (8, 8), &account).ok()?;
+        let source = Source::new(Bytes::Memory(message), (8, 8), &account).ok()?;
         Some(Type::parse(source.cursor(message)).ok()?.kind)
     };
     let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];

@@ -1,0 +1,191 @@
+//! Files that grow: bytes are appended, and published by a small change of what was there before.
+//!
+//! A file of this kind says itself how long it is, in a few bytes at its start (of HDF5 the superblock). What
+//! stands beyond that end is nobody's: a program was killed there. So an addition is written beyond the end and
+//! reaches the disk before the few bytes change, and a reader sees all of it or nothing.
+
+use std::fs::OpenOptions;
+use std::io::{self, ErrorKind, Seek as _, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::lock::Lock;
+use crate::part::is_at;
+use crate::ranged::Ranged;
+use crate::write::{replace_locked, replaceable, resolve};
+
+/// A file that this program alone may write, for as long as this lives. Others may read it at any time.
+#[derive(Debug)]
+pub struct Growing {
+    file: Ranged,
+    target: PathBuf,
+    _lock: Lock,
+}
+
+impl Growing {
+    /// Begins a file as [`replace`](crate::replace) does.
+    ///
+    /// # Errors
+    /// As those of [`replace`](crate::replace); another run is writing the file.
+    pub fn begin<E: From<io::Error>>(
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        let target = resolve(path)?;
+        let lock = Lock::acquire(&target)?;
+        replace_locked(&target, write)?;
+        Ok(Self::locked(target, lock)?)
+    }
+
+    /// Opens a file that was begun before.
+    ///
+    /// # Errors
+    /// There is none; no regular file, or one without write permission; another run is writing it.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        let target = resolve(path)?;
+        if replaceable(&target)?.is_none() {
+            return Err(ErrorKind::NotFound.into());
+        }
+        let lock = Lock::acquire(&target)?;
+        Self::locked(target, lock)
+    }
+
+    fn locked(target: PathBuf, lock: Lock) -> io::Result<Self> {
+        let file = OpenOptions::new().read(true).write(true).open(&target)?;
+        Ok(Self { file: Ranged::of(file), target, _lock: lock })
+    }
+
+    /// The file, to read from.
+    #[must_use]
+    pub fn file(&self) -> &Ranged {
+        &self.file
+    }
+
+    /// Makes the file `end` bytes long, writes `addition` behind them and sees both to the disk.
+    ///
+    /// # Errors
+    /// The disk is full, or whatever else the system refuses, and then the file ends at `end`, if the system lets
+    /// it; the file is shorter than `end`, or another one has taken its place.
+    pub fn append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
+        if !is_at(self.file.file(), &self.target) || self.file.length()? < end {
+            let message =
+                "since this run began it was removed or cut, or another file took its place";
+            return Err(io::Error::other(message));
+        }
+        let written = self.try_append(end, addition);
+        if written.is_err() {
+            // what is beyond the end means nothing, it only takes room
+            let _ = self.file.file().set_len(end);
+        }
+        written
+    }
+
+    fn try_append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
+        let mut file = self.file.file();
+        file.set_len(end)?;
+        file.seek(SeekFrom::Start(end))?;
+        file.write_all(addition)?;
+        file.sync_all()
+    }
+
+    /// Overwrites the few bytes at `at` that publish what was appended, and sees them to the disk. They must not
+    /// cross a border of 512 bytes: a disk writes such a block as a whole.
+    ///
+    /// # Errors
+    /// Whatever the system refuses. Old or new, the bytes say what is true.
+    pub fn publish(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        let mut file = self.file.file();
+        file.seek(SeekFrom::Start(at))?;
+        file.write_all(bytes)?;
+        file.sync_data()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::{check, replace};
+
+    fn begun(path: &Path) -> Growing {
+        let begun: io::Result<Growing> = Growing::begin(path, |out| out.write_all(b"4:head"));
+        begun.expect("begun")
+    }
+
+    #[test]
+    fn additions_stand_behind_the_end() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        let mut file = begun(&path);
+        file.append(6, b"one").expect("appended");
+        file.append(6, b"two.").expect("what was not published is gone");
+        file.publish(0, b"8").expect("published");
+        assert_eq!(fs::read(&path).expect("there"), b"8:headtwo.");
+        drop(file);
+        let mut file = Growing::open(&path).expect("opened");
+        file.append(10, b"!").expect("appended");
+        let mut all = [0; 11];
+        file.file().read(0, &mut all).expect("there");
+        assert_eq!(&all, b"8:headtwo.!");
+        drop(file);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+    }
+
+    /// Nobody else appends, begins it anew or replaces it.
+    #[test]
+    fn one_writer_at_a_time() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        let file = begun(&path);
+        let replaced = || replace(&path, |out| out.write_all(b"x"));
+        let again = || Growing::begin::<io::Error>(&path, |out| out.write_all(b"x")).map(drop);
+        let refused = [check(&path), replaced(), again(), Growing::open(&path).map(drop)];
+        for error in refused.map(|result| result.expect_err("it is taken")) {
+            assert!(error.to_string().contains("another run"), "{error}");
+        }
+        drop(file);
+        check(&path).expect("nobody has it");
+        assert_eq!(fs::read(&path).expect("there"), b"4:head");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn another_file_at_its_place() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let mut file = begun(&at("a"));
+        fs::write(at("b"), "precious").expect("written");
+        fs::rename(at("b"), at("a")).expect("renamed");
+        let error = file.append(6, b"one").expect_err("another file").to_string();
+        assert!(error.contains("took its place"), "{error}");
+        assert_eq!(fs::read(at("a")).expect("there"), b"precious");
+    }
+
+    #[test]
+    fn files_that_cannot_be_continued() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let kind = |path: &Path| Growing::open(path).expect_err("refused").kind();
+        assert_eq!(kind(&at("none")), ErrorKind::NotFound);
+        assert_eq!(kind(folder.path()), ErrorKind::InvalidInput);
+        fs::write(at("protected"), "precious").expect("written");
+        let mut permissions = fs::metadata(at("protected")).expect("there").permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(at("protected"), permissions).expect("protected");
+        assert_eq!(kind(&at("protected")), ErrorKind::InvalidInput);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "no lock is left");
+    }
+
+    /// By a link the file itself is meant, and has one lock.
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_one_lock() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        std::os::unix::fs::symlink("a", at("link")).expect("a link");
+        let mut file = begun(&at("link"));
+        assert_eq!(Growing::open(&at("a")).expect_err("taken").kind(), ErrorKind::ResourceBusy);
+        file.append(6, b"one").expect("appended");
+        assert_eq!(fs::read(at("a")).expect("there"), b"4:headone");
+    }
+}

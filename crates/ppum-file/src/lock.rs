@@ -1,0 +1,124 @@
+//! Files that one program at a time may write: `.NAME.lock` beside a target of that name.
+//!
+//! The writer holds the lock of that file, not of the target: other programs, h5py for one, lock what they
+//! read and could not read a file that is being written. A lock file whose lock can be had is nobody's.
+
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use crate::part::{folder, is_at, live};
+
+/// The right to write a target, until it is dropped or the program ends, in whatever way.
+#[derive(Debug)]
+pub(crate) struct Lock {
+    path: PathBuf,
+    file: File,
+}
+
+/// Most attempts: the last owner may remove the file between its opening and its locking.
+const MOST_ATTEMPTS: u32 = 1000;
+
+impl Lock {
+    /// Takes the lock of `target`, which is no link.
+    ///
+    /// # Errors
+    /// Another program, or another part of this one, has it; the folder takes no files.
+    pub(crate) fn acquire(target: &Path) -> io::Result<Self> {
+        let path = lock_path(target)?;
+        if !folder(target).is_dir() {
+            let message = format!("there is no folder {}", folder(target).display());
+            return Err(io::Error::new(ErrorKind::NotFound, message));
+        }
+        let mut live = live();
+        for _ in 0..MOST_ATTEMPTS {
+            let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path)?;
+            if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+                return Err(taken());
+            }
+            // where the system has no locks nobody can have this one
+            if is_at(&file, &path) {
+                live.insert(path.clone());
+                return Ok(Self { path, file });
+            }
+        }
+        Err(taken())
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if live().remove(&self.path) && is_at(&self.file, &self.path) {
+            // nothing better can be done about a file that cannot be removed; without its owner it means nothing
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Refuses a target that somebody has the lock of, and removes a lock that is nobody's.
+pub(crate) fn refuse_taken(target: &Path) -> io::Result<()> {
+    let path = lock_path(target)?;
+    let is_file = fs::symlink_metadata(&path).is_ok_and(|data| data.is_file());
+    let Some(file) = is_file.then(|| File::open(&path).ok()).flatten() else { return Ok(()) };
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(taken()),
+        Ok(()) if is_at(&file, &path) => {
+            // as above
+            let _ = fs::remove_file(&path);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn lock_path(target: &Path) -> io::Result<PathBuf> {
+    let mut hidden = OsString::from(".");
+    hidden.push(target.file_name().ok_or(ErrorKind::InvalidFilename)?);
+    hidden.push(".lock");
+    Ok(target.with_file_name(hidden))
+}
+
+fn taken() -> io::Error {
+    let message = "it is being written by another run; wait for its end, or stop it";
+    io::Error::new(ErrorKind::ResourceBusy, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_at_a_time() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let target = folder.path().join("a");
+        let lock = Lock::acquire(&target).expect("nobody has it");
+        for error in [Lock::acquire(&target).map(drop), refuse_taken(&target)] {
+            assert_eq!(error.expect_err("it is taken").kind(), ErrorKind::ResourceBusy);
+        }
+        assert!(refuse_taken(&folder.path().join("b")).is_ok());
+        drop(lock);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+        assert!(Lock::acquire(&target).is_ok());
+    }
+
+    /// Its owner was killed.
+    #[test]
+    fn a_lock_of_nobody() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let target = folder.path().join("a");
+        let attempts: [fn(&Path) -> io::Result<()>; 2] =
+            [refuse_taken, |target| Lock::acquire(target).map(drop)];
+        for attempt in attempts {
+            fs::write(folder.path().join(".a.lock"), "").expect("written");
+            attempt(&target).expect("nobody has it");
+            assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+        }
+    }
+
+    #[test]
+    fn folders_that_are_not_there() {
+        let error = Lock::acquire(Path::new("nowhere/a")).expect_err("no folder");
+        assert!(error.to_string().contains("there is no folder nowhere"), "{error}");
+    }
+}

@@ -1,0 +1,114 @@
+//! Reading parts of a file.
+
+use std::fs::File;
+use std::io::{self, Seek as _};
+use std::path::Path;
+
+use crate::read::{open, within};
+
+/// A file that is read in parts. It stays the same file if another one takes its place.
+#[derive(Debug)]
+pub struct Ranged {
+    file: File,
+}
+
+impl Ranged {
+    /// Opens a regular file of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// As [`open`].
+    pub fn open(path: &Path, limit: u64) -> io::Result<Self> {
+        open(path, limit).map(Self::of)
+    }
+
+    pub(crate) fn of(file: File) -> Self {
+        Self { file }
+    }
+
+    pub(crate) fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Bytes of the file now: it may grow.
+    ///
+    /// # Errors
+    /// Whatever the system refuses.
+    pub fn length(&self) -> io::Result<u64> {
+        self.file.metadata().map(|data| data.len())
+    }
+
+    /// All bytes of the file, at most `limit`.
+    ///
+    /// # Errors
+    /// A longer file; whatever the system or the memory refuses.
+    pub fn all(&self, limit: u64) -> io::Result<Vec<u8>> {
+        let mut file = &self.file;
+        file.rewind()?;
+        within(file, limit)
+    }
+
+    /// Fills `buffer` with the bytes from `at` on.
+    ///
+    /// # Errors
+    /// The file ends before; whatever the system refuses.
+    pub fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()> {
+        read_at(&self.file, at, buffer)
+    }
+}
+
+#[cfg(unix)]
+fn read_at(file: &File, at: u64, buffer: &mut [u8]) -> io::Result<()> {
+    std::os::unix::fs::FileExt::read_exact_at(file, buffer, at)
+}
+
+#[cfg(windows)]
+fn read_at(file: &File, mut at: u64, mut buffer: &mut [u8]) -> io::Result<()> {
+    use std::os::windows::fs::FileExt as _;
+    while !buffer.is_empty() {
+        match file.seek_read(buffer, at)? {
+            0 => return Err(io::ErrorKind::UnexpectedEof.into()),
+            count => {
+                at += count as u64;
+                buffer = &mut buffer[count..];
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where there are no reads at a place, there are no threads either.
+#[cfg(not(any(unix, windows)))]
+fn read_at(mut file: &File, at: u64, buffer: &mut [u8]) -> io::Result<()> {
+    use std::io::{Read as _, Seek as _};
+    file.seek(io::SeekFrom::Start(at))?;
+    file.read_exact(buffer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        std::fs::write(&path, "0123456789").expect("written");
+        assert!(Ranged::open(&path, 9).is_err());
+        let file = Ranged::open(&path, 10).expect("short enough");
+        let mut part = [0; 3];
+        for (at, expected) in [(0, b"012"), (7, b"789"), (2, b"234")] {
+            file.read(at, &mut part).expect("there");
+            assert_eq!(&part, expected);
+        }
+        assert_eq!(
+            file.read(8, &mut part).expect_err("short").kind(),
+            io::ErrorKind::UnexpectedEof
+        );
+        crate::replace(&path, |out| out.write_all(b"ab")).expect("written");
+        assert_eq!(file.all(10).expect("short enough"), b"0123456789");
+        assert!(file.all(9).is_err());
+        assert_eq!(file.length().expect("known"), 10);
+        file.read(4, &mut part).expect("the old file is still open");
+        assert_eq!(&part, b"456");
+    }
+}

@@ -1,0 +1,172 @@
+//! A step → the bytes that are appended to a file, and those that publish it.
+//!
+//! Nothing of the file moves or changes but its superblock. Behind the end come the objects of the step, then a
+//! new header of the group `steps`, with one link more, and a new header of the root, which leads to that one. The
+//! superblock then names the new root and the new end. What was known by the old one is still there, unchanged.
+//!
+//! So that the length of a file stays linear in its steps the header of `steps` itself holds few links: as soon as
+//! there are [`LINKS`] of them they move to a block of their own, which continues in the block before.
+
+use super::account::memory_of;
+use super::lookup3::lookup3;
+use super::objects::{Addition, CONTINUATION, LINK, Message, block, group, header};
+use super::read::Ranges;
+use crate::content::Content;
+use crate::error::WriteError;
+
+/// The group that grows.
+const STEPS: &str = "steps";
+
+/// Links in the header of `steps`: some 1.4 kB, little beside the headers of a step, which take 8 kB.
+const LINKS: usize = 64;
+
+/// Bytes of a superblock of version 2 or 3, with numbers of eight bytes.
+const SUPERBLOCK: usize = 48;
+
+/// Places in it: of the address that all others count from, of the end, and of the root.
+const BASE: usize = 12;
+const END: usize = 28;
+const ROOT: usize = 36;
+
+/// The first bytes of a superblock, with the widths of numbers but without flags.
+const START: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
+
+/// Times the length of what is appended that its arrays may take in memory, compressed: a reader takes four
+/// times the length of a file, whatever the number of its steps.
+const EXPANSION: u64 = 3;
+
+/// The part of a file that appending changes.
+#[derive(Clone, Debug)]
+pub(crate) struct Trunk {
+    superblock: [u8; SUPERBLOCK],
+    /// Messages of the root but the link to `steps`.
+    root: Vec<Message>,
+    /// Messages of `steps` but the links in its own header.
+    steps: Vec<Message>,
+    links: Vec<Message>,
+}
+
+/// What is appended to a file.
+pub(crate) struct Step {
+    /// The end of the file, behind which the bytes belong.
+    pub(crate) end: u64,
+    pub(crate) bytes: Vec<u8>,
+    /// The bytes at the start of the file that publish them.
+    pub(crate) start: Vec<u8>,
+}
+
+impl Trunk {
+    /// Reads the trunk of a file that this program began; none of what another program may have made of it.
+    pub(crate) fn read(file: &dyn Ranges) -> Option<Self> {
+        let mut superblock = [0; SUPERBLOCK];
+        fill(file, 0, &mut superblock)?;
+        let (body, sum) = superblock.split_at(SUPERBLOCK - 4);
+        let is_known = body.starts_with(START) && matches!(body[8], 2 | 3) && body[9..11] == [8; 2];
+        if !is_known || word(body, BASE) != 0 || sum != lookup3(body).to_le_bytes() {
+            return None;
+        }
+        let mut root = messages(file, word(body, ROOT))?;
+        let at = root.iter().position(|m| m.link_to(STEPS).is_some())?;
+        let address = root.remove(at).link_to(STEPS)?;
+        let all = messages(file, address)?;
+        let (links, steps) = all.into_iter().partition(|message| message.kind == LINK);
+        Some(Self { superblock, root, steps, links })
+    }
+
+    /// The end of the file.
+    pub(crate) fn end(&self) -> u64 {
+        word(&self.superblock, END)
+    }
+
+    /// What makes a step part of the file, and the trunk of the file that has it.
+    pub(crate) fn step(&self, content: &Content, path: &str) -> Result<(Step, Self), WriteError> {
+        let (addition, address) = self.objects(content, path)?;
+        let name = path.rsplit('/').next().unwrap_or(path);
+        self.clone().grown(addition, Message::link(name, address))
+    }
+
+    /// The objects of the step, compressed as long as they can be read again.
+    fn objects(&self, content: &Content, path: &str) -> Result<(Addition, u64), WriteError> {
+        let stored = |compressed| {
+            let mut addition = Addition::new(self.end());
+            let address = group(&mut addition, content, path, compressed)?;
+            Ok((addition, address))
+        };
+        let (addition, address) = stored(true)?;
+        let memory: u64 = content.values().map(memory_of).sum();
+        let length = addition.end() - self.end();
+        if memory <= EXPANSION * length { Ok((addition, address)) } else { stored(false) }
+    }
+
+    fn grown(mut self, mut addition: Addition, link: Message) -> Result<(Step, Self), WriteError> {
+        let end = self.end();
+        if self.links.len() >= LINKS {
+            self.move_links(&mut addition)?;
+        }
+        self.links.push(link);
+        let steps = addition.put(&header(&[self.steps.as_slice(), &self.links].concat())?);
+        let link = Message::link(STEPS, steps);
+        let root = addition.put(&header(&[self.root.as_slice(), &[link]].concat())?);
+        self.superblock[END..END + 8].copy_from_slice(&addition.end().to_le_bytes());
+        self.superblock[ROOT..ROOT + 8].copy_from_slice(&root.to_le_bytes());
+        let sum = lookup3(&self.superblock[..SUPERBLOCK - 4]);
+        self.superblock[SUPERBLOCK - 4..].copy_from_slice(&sum.to_le_bytes());
+        let start = self.superblock.to_vec();
+        Ok((Step { end, bytes: addition.into_bytes(), start }, self))
+    }
+
+    /// Moves the links of `steps` to a block, which continues where the header has continued until now.
+    fn move_links(&mut self, addition: &mut Addition) -> Result<(), WriteError> {
+        let mut moved = std::mem::take(&mut self.links);
+        moved.extend(self.steps.extract_if(.., |message| message.kind == CONTINUATION));
+        let bytes = block(&moved)?;
+        let address = addition.put(&bytes);
+        self.steps.push(Message::continuation(address, bytes.len() as u64));
+        Ok(())
+    }
+}
+
+/// A number of eight bytes.
+fn word(bytes: &[u8], at: usize) -> u64 {
+    bytes[at..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes))
+}
+
+/// The messages of a header as this program writes it, without those of the blocks that it continues in.
+fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
+    let mut start = [0; HEADER_START];
+    fill(file, address, &mut start)?;
+    let width = 1 << (start[5] & 3);
+    // nothing but the width of the length
+    if start[..5] != *b"OHDR\x02" || start[5] > 3 || width > 4 {
+        return None;
+    }
+    let length = start[6..6 + width].iter().rev().fold(0, |n, byte| n << 8 | usize::from(*byte));
+    if length > LONGEST_HEADER {
+        return None;
+    }
+    let mut bytes = vec![0; 6 + width + length + 4];
+    fill(file, address, &mut bytes)?;
+    let (body, sum) = bytes.split_at(bytes.len() - 4);
+    if sum == lookup3(body).to_le_bytes() { parsed(&body[6 + width..]) } else { None }
+}
+
+/// Bytes of a header up to its longest length.
+const HEADER_START: usize = 10;
+
+/// Longest header that is read: title and name of the program are the longest messages of those at hand.
+const LONGEST_HEADER: usize = 1 << 20;
+
+fn parsed(mut bytes: &[u8]) -> Option<Vec<Message>> {
+    let mut messages = Vec::new();
+    // what is shorter than a prefix is a gap
+    while let Some((&[kind, low, high, flags], rest)) = bytes.split_first_chunk() {
+        let (body, rest) = rest.split_at_checked(usize::from(u16::from_le_bytes([low, high])))?;
+        messages.push(Message { kind, flags, body: body.to_vec() });
+        bytes = rest;
+    }
+    Some(messages)
+}
+
+fn fill(file: &dyn Ranges, at: u64, buffer: &mut [u8]) -> Option<()> {
+    file.read(at, buffer).ok()
+}

@@ -1,0 +1,144 @@
+//! The bytes of a file: all of them in memory, or read in parts when they are asked for.
+
+use std::borrow::Cow;
+use std::cell::{Cell, OnceCell, RefCell};
+use std::collections::BTreeMap;
+use std::io;
+
+use super::super::account::Account;
+use super::source::{Parsed, fail};
+
+/// A file that can be read in parts.
+pub(crate) trait Ranges {
+    /// Fills `buffer` with the bytes from `at` on.
+    fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()>;
+}
+
+impl Ranges for ppum_file::Ranged {
+    fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()> {
+        self.read(at, buffer)
+    }
+}
+
+impl Ranges for Vec<u8> {
+    fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()> {
+        let rest = usize::try_from(at).ok().and_then(|at| self.get(at..)).unwrap_or_default();
+        let Some(part) = rest.get(..buffer.len()) else {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        };
+        buffer.copy_from_slice(part);
+        Ok(())
+    }
+}
+
+/// Parts are read by pages of so many bytes: the headers of a group and of its small arrays in a few of them.
+const PAGE: u64 = 1 << 14;
+
+/// Parts of a file that have been read, each in its link of a chain: what has been read once does not move.
+#[derive(Default)]
+pub(super) struct Chain(OnceCell<Box<Link>>);
+
+struct Link {
+    bytes: Vec<u8>,
+    next: OnceCell<Box<Link>>,
+}
+
+impl Drop for Chain {
+    /// Link by link: a long chain that drops itself would take as much stack as it has links.
+    fn drop(&mut self) {
+        let mut next = self.0.take();
+        while let Some(mut link) = next {
+            next = link.next.take();
+        }
+    }
+}
+
+/// The bytes of a file, from the signature on.
+#[derive(Clone, Copy)]
+pub(super) enum Bytes<'f> {
+    Memory(&'f [u8]),
+    File(&'f Parts<'f>),
+}
+
+/// A file, and the parts of it that have been read.
+pub(super) struct Parts<'f> {
+    file: &'f dyn Ranges,
+    /// Bytes of the user's before the signature, and of the file after them.
+    start: u64,
+    length: u64,
+    /// The end of the chain, and the parts in it by their addresses.
+    end: Cell<&'f OnceCell<Box<Link>>>,
+    known: RefCell<BTreeMap<u64, &'f [u8]>>,
+}
+
+impl<'f> Parts<'f> {
+    pub(super) fn new(file: &'f dyn Ranges, start: u64, length: u64, chain: &'f Chain) -> Self {
+        Self { file, start, length, end: Cell::new(&chain.0), known: RefCell::default() }
+    }
+
+    /// The bytes at an address, within the file.
+    fn get(&self, address: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+        let page = address - address % PAGE;
+        let (from, to) = match address + length <= page + PAGE {
+            true => (page, self.length.min(page + PAGE)),
+            false => (address, address + length),
+        };
+        let known = self.known.borrow().get(&from).copied();
+        let part = match known.filter(|part| part.len() as u64 >= to - from) {
+            Some(part) => part,
+            None => self.load(from, to - from, account)?,
+        };
+        let at = (address - from) as usize;
+        Ok(&part[at..at + length as usize])
+    }
+
+    fn load(&self, from: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+        if !account.pay_loaded(length) {
+            return fail("it takes more memory than the file is worth");
+        }
+        let bytes = self.read(from, length)?;
+        let link = self.end.get().get_or_init(|| Box::new(Link { bytes, next: OnceCell::new() }));
+        self.end.set(&link.next);
+        self.known.borrow_mut().insert(from, &link.bytes);
+        Ok(&link.bytes)
+    }
+
+    fn read(&self, from: u64, length: u64) -> Parsed<Vec<u8>> {
+        let Ok(size) = usize::try_from(length) else { return fail("it is too large") };
+        let mut bytes = vec![0; size];
+        match self.file.read(self.start + from, &mut bytes) {
+            Ok(()) => Ok(bytes),
+            Err(error) => fail(format!("it cannot be read: {error}")),
+        }
+    }
+}
+
+impl<'f> Bytes<'f> {
+    pub(super) fn length(self) -> u64 {
+        match self {
+            Self::Memory(bytes) => bytes.len() as u64,
+            Self::File(parts) => parts.length,
+        }
+    }
+
+    /// Bytes of the file's structures, which stay. They are within the file.
+    pub(super) fn get(self, address: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+        match self {
+            Self::Memory(bytes) => Ok(&bytes[address as usize..(address + length) as usize]),
+            Self::File(parts) => parts.get(address, length, account),
+        }
+    }
+
+    /// Bytes of values, which need not stay. They are within the file.
+    pub(super) fn values(
+        self,
+        address: u64,
+        length: u64,
+        account: &Account,
+    ) -> Parsed<Cow<'f, [u8]>> {
+        match self {
+            Self::File(parts) if length > PAGE => parts.read(address, length).map(Cow::Owned),
+            _ => self.get(address, length, account).map(Cow::Borrowed),
+        }
+    }
+}

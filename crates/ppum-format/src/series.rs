@@ -1,0 +1,191 @@
+//! Datasets whose steps are read one at a time.
+
+use std::path::Path;
+
+use ppum::check::CheckError;
+use ppum::dataset::{Dataset, Step};
+use ppum_file::Ranged;
+
+use crate::bytes::{from_bytes, newer};
+use crate::content::step_path;
+use crate::error::ReadError;
+use crate::hdf5::{Outline, Ranges};
+use crate::limits::{MAX_LENGTH, MAX_SERIES_LENGTH};
+use crate::{checksum, decode};
+
+/// A dataset whose steps are read when they are asked for, each at the cost of one step.
+///
+/// While it is open another program may append steps to the file, or replace it: it sees the steps that were there
+/// when it was opened. A file with one checksum over all of it, as those of one step have and those of versions
+/// before 1.4, is read and checked as a whole when it is opened.
+#[derive(Debug)]
+pub struct Series {
+    head: Dataset,
+    minor: u32,
+    steps: Steps,
+}
+
+#[derive(Debug)]
+enum Steps {
+    /// All of them are in memory.
+    Read(Vec<Step>),
+    Stored(Ranged, Outline),
+}
+
+/// Attempts to read what another program may be changing: it changes it once in a step, within microseconds.
+const ATTEMPTS: u32 = 5;
+
+impl Series {
+    /// Opens a regular file of at most [`MAX_SERIES_LENGTH`] bytes.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`]: whatever is wrong outside of the steps, or with their numbers; of a file with one checksum
+    /// over all of it whatever [`read`](crate::read()) refuses.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let io = |error| ReadError::io(path, error);
+        let file = Ranged::open(path, MAX_SERIES_LENGTH).map_err(io)?;
+        let outline = || Outline::read(&file, file.length().map_err(io)?);
+        let mut read = outline();
+        for _ in 1..ATTEMPTS {
+            match read {
+                Err(ReadError::Hdf5 { .. }) => read = outline(),
+                _ => break,
+            }
+        }
+        let mut outline = read.map_err(ReadError::shortened)?;
+        let minor = decode::check_version(&outline.content)?;
+        if checksum::is_whole(&outline.content) {
+            return from_bytes(file.all(MAX_LENGTH).map_err(io)?).map(Self::of);
+        }
+        let head = head(&mut outline).map_err(|error| newer(error, minor).shortened())?;
+        Ok(Self { head, minor, steps: Steps::Stored(file, outline) })
+    }
+
+    /// A dataset that is in memory.
+    #[must_use]
+    pub fn of(mut dataset: Dataset) -> Self {
+        let steps = std::mem::take(&mut dataset.steps);
+        Self { head: dataset, minor: 0, steps: Steps::Read(steps) }
+    }
+
+    /// What all steps have in common: a dataset without steps.
+    #[must_use]
+    pub fn head(&self) -> &Dataset {
+        &self.head
+    }
+
+    /// True if steps can be appended to the file: it has no checksum over all of it.
+    pub(crate) fn can_grow(&self) -> bool {
+        matches!(self.steps, Steps::Stored(..))
+    }
+
+    /// The number of steps, at least one.
+    #[expect(clippy::len_without_is_empty, reason = "it never is")]
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match &self.steps {
+            Steps::Read(steps) => steps.len(),
+            Steps::Stored(_, outline) => outline.steps().len(),
+        }
+    }
+
+    /// The dataset with one of its steps alone.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`]: there is no such step, or it is not what it should be. The dataset returned has passed
+    /// [`Dataset::check`].
+    pub fn dataset(&self, number: usize) -> Result<Dataset, ReadError> {
+        let mut dataset = self.head.clone();
+        match &self.steps {
+            Steps::Read(steps) => dataset.steps.push(get(steps, number)?.clone()),
+            Steps::Stored(file, outline) => {
+                let step = self.step(file, outline, number);
+                dataset.steps.push(self.explained(step)?);
+                self.explained(dataset.check().map_err(|error| numbered(error, number).into()))?;
+            }
+        }
+        Ok(dataset)
+    }
+
+    /// The cracks of a step and what its solver tells of it: load, stress intensity factors, history and warnings.
+    /// It has no patches, functions and fields, and so its checksum is not looked at.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError`]: there is no such step, or these parts of it are not what they should be.
+    pub fn results(&self, number: usize) -> Result<Step, ReadError> {
+        match &self.steps {
+            Steps::Read(steps) => get(steps, number).cloned(),
+            Steps::Stored(file, outline) => {
+                self.explained(self.stored_results(file, outline, number))
+            }
+        }
+    }
+
+    fn step(&self, file: &dyn Ranges, outline: &Outline, number: usize) -> Result<Step, ReadError> {
+        let path = path(number, self.len())?;
+        let mut content = outline.step(file, &path, None)?;
+        checksum::verify_step(&mut content, &path)?;
+        decode::one_step(content, &path, &self.head.tables)
+    }
+
+    fn stored_results(
+        &self,
+        file: &dyn Ranges,
+        outline: &Outline,
+        number: usize,
+    ) -> Result<Step, ReadError> {
+        let path = path(number, self.len())?;
+        let content = outline.step(file, &path, Some(decode::RESULTS))?;
+        let step = decode::results(content, &path)?;
+        let place = |error: CheckError| ReadError::object(&path, error.to_string());
+        step.check_results().map_err(place)?;
+        Ok(step)
+    }
+
+    fn explained<T>(&self, read: Result<T, ReadError>) -> Result<T, ReadError> {
+        read.map_err(|error| newer(error, self.minor).shortened())
+    }
+}
+
+/// The dataset without steps, and that their numbers are without gaps.
+fn head(outline: &mut Outline) -> Result<Dataset, ReadError> {
+    checksum::verify_rest(&mut outline.content)?;
+    let head = decode::head(&mut outline.content)?;
+    let count = outline.steps().len();
+    if count == 0 {
+        // it says that there is none
+        head.check()?;
+    }
+    for number in 0..count {
+        let path = step_path(number);
+        if !outline.has_step(&path) {
+            return Err(decode::missing(&path, count));
+        }
+    }
+    Ok(head)
+}
+
+fn get(steps: &[Step], number: usize) -> Result<&Step, ReadError> {
+    path(number, steps.len())?;
+    Ok(&steps[number])
+}
+
+/// The path of a step, if it is one of so many.
+fn path(number: usize, count: usize) -> Result<String, ReadError> {
+    let path = step_path(number);
+    if number < count {
+        return Ok(path);
+    }
+    Err(ReadError::object(&path, format!("there are {count} steps, the last is {}", count - 1)))
+}
+
+/// An error in the only step at hand, with the number that it has in the file.
+pub(crate) fn numbered(mut error: CheckError, number: usize) -> CheckError {
+    if let Some(rest) = error.place.strip_prefix("steps[0]") {
+        error.place = format!("steps[{number}]{rest}");
+    }
+    error
+}
