@@ -3,11 +3,11 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use ppum::progress::{Progress, Verdict, Watcher};
 
 /// A line on standard error that disappears when it is dropped; silent where that is no terminal.
-pub(crate) struct Bar(ProgressBar);
+pub(crate) struct Bar(ProgressBar, Mutex<Option<String>>);
 
 impl Bar {
     pub(crate) fn new() -> Self {
@@ -15,13 +15,30 @@ impl Bar {
         bar.set_prefix(within().clone());
         bar.set_style(style(false));
         bar.enable_steady_tick(Duration::from_millis(100));
-        Self(bar)
+        Self(bar, Mutex::new(None))
+    }
+
+    /// Takes the line away until something is shown again.
+    pub(crate) fn clear(&self) {
+        self.0.suspend(|| ());
+        self.0.set_message("");
+    }
+
+    /// The steps are parts of a series that takes so many seconds more.
+    pub(crate) fn in_series(&self, steps: usize, left: f64) {
+        let left = HumanDuration(Duration::from_secs_f64(left.min(1e9)));
+        self.1
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .replace(format!(" of {steps}, {left} left"));
     }
 
     fn show(&self, progress: Progress) {
         if self.0.message() != progress.phase.name() {
             if progress.step > 0 {
-                self.0.set_prefix(format!("{}step {}  ", within(), progress.step));
+                let series = self.1.lock().unwrap_or_else(PoisonError::into_inner);
+                let of = series.as_deref().unwrap_or_default();
+                self.0.set_prefix(format!("{}step {}{of}  ", within(), progress.step));
             }
             self.0.set_message(progress.phase.name());
             self.0.set_style(style(progress.total > 1));

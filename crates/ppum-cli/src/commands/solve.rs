@@ -1,5 +1,7 @@
 //! `ppum solve`: from a problem file to a dataset.
 
+mod growth;
+
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -40,6 +42,9 @@ pub(crate) struct Args {
     /// Find everything that would be refused, tell what the solution takes, and stop there
     #[arg(long)]
     check: bool,
+    /// Go on with the series that is in the dataset's file, instead of beginning it anew
+    #[arg(long, conflicts_with = "check")]
+    resume: bool,
     /// Memory that may be used, in GiB [default: what is free]
     #[arg(long, value_name = "GIB", value_parser = positive)]
     memory: Option<f64>,
@@ -72,6 +77,10 @@ impl Args {
         let target = target.context(
             "a problem from standard input has no place for its dataset: give a file with -o",
         )?;
+        if let Some(rule) = &problem.growth {
+            return growth::run(self, &problem, rule, &target, out);
+        }
+        ensure!(!self.resume, "--resume goes on with a series; the problem has no [growth]");
         let dataset = {
             let bar = Bar::new();
             let memory = self.memory();
@@ -154,6 +163,8 @@ struct Report {
     estimated_error: Option<Number>,
     /// What adaptation has done; null without.
     adaptation: Option<Adaptation>,
+    /// What has become of the cracks; null without growth.
+    growth: Option<growth::Grown>,
     /// Of all phases.
     seconds: f64,
     phases: Vec<PhaseRow>,
@@ -236,6 +247,7 @@ impl Report {
             energy: report.energy.map(Number),
             estimated_error: report.estimated_error.map(Number),
             adaptation: Adaptation::new(dataset),
+            growth: None,
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),

@@ -123,6 +123,17 @@ pub fn grow<E>(
     Ok(())
 }
 
+/// True if a series of one problem may go on as one of the other: they differ in nothing but names and the number of steps.
+#[must_use]
+pub fn is_same_series(one: &Problem, other: &Problem) -> bool {
+    let core = |problem: &Problem| {
+        let growth = problem.growth.clone().map(|rule| GrowthRule { steps: 0, ..rule });
+        let (title, text, files) = (String::new(), None, Vec::new());
+        Problem { title, text, files, growth, ..problem.clone() }
+    };
+    core(one) == core(other)
+}
+
 /// All steps of a series in one dataset.
 ///
 /// # Errors

@@ -1,0 +1,274 @@
+//! Series of cracks that grow: each step is written when it is complete, and told of.
+
+use std::io::Write as _;
+use std::panic::resume_unwind;
+use std::path::Path;
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+use std::time::Instant;
+
+use anyhow::{Context as _, bail, ensure};
+use ppum::dataset::{Advance, Dataset, Fate, Growth, Step, TipIntensity};
+use ppum::text::short;
+use ppum_format::{Series, SeriesWriter};
+use ppum_solve::growth::{GrowthError, Last, grow, is_same_series};
+use ppum_solve::problem::{GrowthRule, Problem};
+use serde::Serialize;
+
+use super::{Args, Report};
+use crate::number::{Number, count, json};
+use crate::output::Output;
+use crate::progress::Bar;
+use crate::standard::is_standard;
+use crate::threads;
+use crate::warnings::warn;
+
+/// What has become of the cracks, in JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct Grown {
+    /// The first step that this run has made; more than 0 if it went on with another one.
+    first: usize,
+    steps: Vec<StepRow>,
+    /// What has ended it; null if it has all increments that it should have.
+    stop: Option<&'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct StepRow {
+    step: usize,
+    load: f64,
+    cycles: Option<f64>,
+    tips: Vec<TipRow>,
+}
+
+#[derive(Debug, Serialize)]
+struct TipRow {
+    crack: u32,
+    end: &'static str,
+    tip: [f64; 2],
+    k1: Number,
+    k2: Number,
+    strength: Number,
+    /// Direction of the next increment, radians.
+    direction: f64,
+    /// Its length.
+    length: f64,
+    /// What the tip does, in words.
+    fate: String,
+    /// Length grown since the first step.
+    extension: f64,
+}
+
+impl StepRow {
+    fn new(number: usize, step: &Step, growth: &Growth) -> Self {
+        let tips = growth.tips.iter().map(|row| TipRow::new(step, row)).collect();
+        Self { step: number, load: step.load, cycles: growth.cycles, tips }
+    }
+}
+
+impl TipRow {
+    fn new(step: &Step, row: &Advance) -> Self {
+        let factors = factors(step, row);
+        Self {
+            crack: row.tip.crack,
+            end: row.tip.end.name(),
+            tip: step.cracks[row.tip.crack as usize].end_point(row.tip.end).into(),
+            k1: Number(factors.map_or(f64::NAN, |factors| factors.k1)),
+            k2: Number(factors.map_or(f64::NAN, |factors| factors.k2)),
+            strength: Number(row.strength),
+            direction: row.direction,
+            length: row.length,
+            fate: row.fate.words(),
+            extension: row.extension,
+        }
+    }
+}
+
+fn factors<'s>(step: &'s Step, row: &Advance) -> Option<&'s TipIntensity> {
+    step.intensities.iter().find(|factors| factors.tip == row.tip)
+}
+
+/// Solves a problem whose cracks grow into a file, or goes on with the one that is there.
+pub(super) fn run(
+    args: &Args,
+    problem: &Problem,
+    rule: &GrowthRule,
+    target: &Path,
+    out: &mut Output,
+) -> anyhow::Result<()> {
+    ensure!(
+        !is_standard(target),
+        "a series grows in its file, step by step, and cannot go to standard output; give a file with -o"
+    );
+    let there = (args.resume && target.exists()).then(|| there(problem, target)).transpose()?;
+    let last = there.as_ref().map(|(number, step)| Last { number: *number, step });
+    if let Some(Last { number, step }) = last {
+        if let Some(stop) = ends(rule, number, step) {
+            writeln!(out, "{}: nothing to do, {stop}", target.display())?;
+            return Ok(());
+        }
+    }
+    let first = last.map_or(0, |last| last.number + 1);
+    let writer = last.is_some().then(|| SeriesWriter::resume(target)).transpose()?;
+    let (lines, told) = channel();
+    let run = Run { rule, target, start: Instant::now(), bar: Bar::new(), first, lines };
+    let grown = Grown { first, steps: Vec::new(), stop: None };
+    let mut state = State { writer, grown, last: None };
+    thread::scope(|scope| {
+        let state = &mut state;
+        let solved = scope.spawn(move || {
+            let grow =
+                || grow(problem, last, args.memory(), &run.bar, |step| run.keep(state, step));
+            let ended = threads::with(args.threads, grow)?;
+            ended.map_err(|error| run.failed(error, first + state.grown.steps.len()))
+        });
+        for line in told.iter().filter(|_| !args.json) {
+            out.write_all(line.as_bytes())?;
+            out.flush()?;
+        }
+        solved.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })?;
+    report(args, target, state.grown, state.last, out)
+}
+
+/// The last step of the series in a file, and its number.
+fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
+    let series = Series::open(target)?;
+    let like = Problem::of_dataset(series.head()).ok().flatten();
+    ensure!(
+        like.is_some_and(|like| is_same_series(&like, problem)),
+        "{}: holds another problem, or one with other settings; only the number of steps may differ",
+        target.display()
+    );
+    let number = series.len() - 1;
+    let step = series.results(number)?;
+    if step.growth.is_none() {
+        bail!("{}: its last step does not say how it goes on", target.display());
+    }
+    Ok((number, step))
+}
+
+/// Why a series has no further steps.
+fn ends(rule: &GrowthRule, number: usize, step: &Step) -> Option<String> {
+    let stop = step.growth.as_ref().and_then(|growth| growth.stop);
+    let all = || format!("it has all {}", count(rule.steps, "increment", "increments"));
+    stop.map(|stop| stop.words().to_owned()).or_else(|| (number >= rule.steps).then(all))
+}
+
+/// One run of the program.
+struct Run<'a> {
+    rule: &'a GrowthRule,
+    target: &'a Path,
+    start: Instant,
+    bar: Bar,
+    /// Number of its first step.
+    first: usize,
+    /// Where lines for people go.
+    lines: Sender<String>,
+}
+
+/// What it has so far.
+struct State {
+    writer: Option<SeriesWriter>,
+    grown: Grown,
+    last: Option<Dataset>,
+}
+
+impl Run<'_> {
+    /// Writes a step, and tells of it.
+    fn keep(&self, state: &mut State, dataset: Dataset) -> anyhow::Result<()> {
+        match &mut state.writer {
+            None => state.writer = Some(SeriesWriter::begin(self.target, &dataset)?),
+            Some(writer) => writer.append(&dataset.steps[0])?,
+        }
+        let number = self.first + state.grown.steps.len();
+        let step = &dataset.steps[0];
+        let growth = step.growth.as_ref().context("a step of a series without its growth")?;
+        state.grown.steps.push(StepRow::new(number, step, growth));
+        state.grown.stop = growth.stop.map(|stop| stop.words());
+        self.bar.clear();
+        // nobody may listen any more
+        let _ = self.lines.send(self.lines_of(number, step, growth));
+        self.bar.in_series(self.rule.steps, self.left(number));
+        state.last = Some(dataset);
+        Ok(())
+    }
+
+    /// Lines of a step, one for each tip.
+    fn lines_of(&self, number: usize, step: &Step, growth: &Growth) -> String {
+        let load = short(step.load);
+        let mut lines = if number == self.first { format!("{HEADS}\n") } else { String::new() };
+        for row in &growth.tips {
+            lines += &format!("{number:4} {load:>8}  {}\n", line(step, row));
+        }
+        if growth.tips.is_empty() {
+            lines += &format!("{number:4} {load:>8}  no tips\n");
+        }
+        lines
+    }
+
+    /// The seconds that the rest takes, if steps go on to take what they took.
+    fn left(&self, number: usize) -> f64 {
+        let done = (number + 1 - self.first) as f64;
+        let rest = self.rule.steps.saturating_sub(number) as f64;
+        self.start.elapsed().as_secs_f64() / done * rest
+    }
+
+    /// The error, and what there is in spite of it.
+    fn failed(&self, error: GrowthError<anyhow::Error>, steps: usize) -> anyhow::Error {
+        let error = match error {
+            GrowthError::Solve(error) => anyhow::Error::from(error),
+            GrowthError::Kept(error) => error,
+            other => anyhow::anyhow!(other.to_string()),
+        };
+        match steps {
+            0 => error,
+            n => error.context(format!(
+                "{} holds {}; `ppum solve --resume` goes on from there",
+                self.target.display(),
+                count(n, "step", "steps")
+            )),
+        }
+    }
+}
+
+const HEADS: &str = "step     load  crack                   tip        K_I        K_II  increment, and what ends it";
+
+/// A tip in a line.
+fn line(step: &Step, row: &Advance) -> String {
+    let unknown = || ["–", "–"].map(String::from);
+    let [k1, k2] = factors(step, row).map_or_else(unknown, |k| [short(k.k1), short(k.k2)]);
+    let at = step.cracks[row.tip.crack as usize].end_point(row.tip.end);
+    let at = format!("({:.5}, {:.5})", at.x, at.y);
+    let way = match row.fate {
+        fate if !fate.goes_on() => fate.words(),
+        fate => {
+            let way = format!("{} at {:.2}°", short(row.length), row.direction.to_degrees());
+            if fate == Fate::Grows { way } else { format!("{way}, {}", fate.words()) }
+        }
+    };
+    let (crack, end) = (row.tip.crack, row.tip.end.name());
+    format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {way}")
+}
+
+/// The report of a series.
+fn report(
+    args: &Args,
+    target: &Path,
+    grown: Grown,
+    last: Option<Dataset>,
+    out: &mut Output,
+) -> anyhow::Result<()> {
+    let last = last.context("a series without a step")?;
+    let number = grown.first + grown.steps.len() - 1;
+    let mut report = Report::new(target.display().to_string(), &last);
+    report.tips.clear();
+    if args.json {
+        warn(&report.warnings);
+        report.growth = Some(grown);
+        return Ok(json(out, &report)?);
+    }
+    let stop = grown.stop.map_or_else(|| "all increments are made".to_owned(), str::to_owned);
+    writeln!(out, "growth ended with step {number}: {stop}")?;
+    report.write(out, &last)
+}
