@@ -177,7 +177,7 @@ fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut Advance) {
     let from = problem.cracks[row.tip.crack as usize].end_point(row.tip.end);
     let arc = Arc { from, direction: row.direction, curvature: row.curvature, length };
     let way = way(problem, cracks, row.tip, arc);
-    (row.length, row.fate, row.path) = (way.length(from), way.fate, way.path);
+    (row.length, row.fate, row.path) = (way.length, way.fate, way.path);
 }
 
 /// The turn from one direction to another, between −π and π.

@@ -12,8 +12,17 @@ macro_rules! files {
         )),*]
     };
 }
-const FILES: [(&str, &str, &str); 8] =
-    files!["centre_crack", "curves", "formulas", "holes", "membrane", "plate", "refine", "table"];
+const FILES: [(&str, &str, &str); 9] = files![
+    "centre_crack",
+    "curves",
+    "formulas",
+    "growth",
+    "holes",
+    "membrane",
+    "plate",
+    "refine",
+    "table"
+];
 
 /// One case: a part of the good file, what replaces it, and what is then found wrong.
 struct Case {
