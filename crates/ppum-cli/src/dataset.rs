@@ -6,7 +6,7 @@ use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_format::ReadError;
+use ppum_format::{ReadError, Series};
 use ppum_render::cells;
 
 use crate::given::{Given, parts};
@@ -14,13 +14,42 @@ use crate::standard::{self, is_standard};
 use ppum_scene::drawing::Shown;
 use ppum_scene::scene::{self, OF_PATCHES, ShownError};
 
-/// Reads a dataset, `-` from standard input; an error names the file.
+/// Reads a dataset with all its steps, `-` from standard input; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     if is_standard(path) {
-        let bytes = standard::bytes("the dataset", standard::DATASET)?;
-        return ppum_format::from_bytes(bytes).context("standard input");
+        return standard_input();
     }
-    let read = ppum_format::read(path);
+    named(path, ppum_format::read(path))
+}
+
+/// Reads a dataset of which one step is asked for, by default the last one. All steps have their numbers, but the
+/// others may be empty.
+pub(crate) fn open_step(path: &Path, step: Option<usize>) -> anyhow::Result<Dataset> {
+    let series = series(path)?;
+    let step = step.unwrap_or(series.len() - 1);
+    named(path, series.into_dataset(step))
+}
+
+/// Reads of all steps the cracks and what the solver tells of them. The steps may have no fields.
+pub(crate) fn open_results(path: &Path) -> anyhow::Result<Dataset> {
+    named(path, series(path)?.into_results())
+}
+
+/// Opens a dataset whose steps are read one by one.
+pub(crate) fn series(path: &Path) -> anyhow::Result<Series> {
+    if is_standard(path) {
+        return standard_input().map(Series::of);
+    }
+    named(path, Series::open(path))
+}
+
+fn standard_input() -> anyhow::Result<Dataset> {
+    let bytes = standard::bytes("the dataset", standard::DATASET)?;
+    ppum_format::from_bytes(bytes).context("standard input")
+}
+
+/// What was read of a file, or an error that names it.
+pub(crate) fn named<T>(path: &Path, read: Result<T, ReadError>) -> anyhow::Result<T> {
     match read {
         Err(error @ ReadError::Io { .. }) => Err(error.into()),
         other => other.with_context(|| path.display().to_string()),

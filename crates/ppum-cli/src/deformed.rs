@@ -4,7 +4,7 @@ use anyhow::ensure;
 use ppum::field::Field;
 use ppum::text::trimmed;
 use ppum::vec2::Rect;
-use ppum_render::deform::{Deformation, DeformedPoints, DeformedView};
+use ppum_render::deform::{AutomaticFactor, Deformation, DeformedPoints, DeformedView};
 use ppum_scene::deformed::{self, Factor, words};
 use ppum_scene::drawing::{Drawn, Seen, Shown};
 
@@ -38,21 +38,39 @@ impl Deformed {
         frame: Frame,
         engine: &Engine,
     ) -> anyhow::Result<Seen<'f>> {
-        match self.of(&[field])? {
+        match self.of(&|visit| visit(field))? {
             None => Ok(Seen::Plate(window.seen(field, frame)?)),
             Some(deforming) => points(&deforming.view(field, window, frame)?, engine),
         }
     }
 
-    /// The factor, and the plane that pictures of all of these plates show, if they are asked for.
-    pub(crate) fn of(&self, fields: &[&Field<'_>]) -> anyhow::Result<Option<Deforming>> {
+    /// The factor, and the plane that pictures of all plates show that `each` calls its argument with, if they are
+    /// asked for.
+    pub(crate) fn of(&self, each: &Each<'_>) -> anyhow::Result<Option<Deforming>> {
         let Some(factor) = self.factor else { return Ok(None) };
-        let factor = factor.number(fields)?;
-        let bounds = |field: &&Field<'_>| deformed::bounds(field, factor, self.outline);
-        let bounds = fields.iter().map(bounds).collect::<Result<Vec<_>, _>>()?;
-        let bounds = bounds.into_iter().reduce(|a, b| a.union(&b));
-        Ok(bounds.map(|bounds| Deforming { factor, bounds }))
+        let factor = number(factor, each)?;
+        let mut all: Option<Rect> = None;
+        each(&mut |field| {
+            let bounds = deformed::bounds(field, factor, self.outline)?;
+            all = Some(all.map_or(bounds, |all| all.union(&bounds)));
+            Ok(())
+        })?;
+        Ok(all.map(|bounds| Deforming { factor, bounds }))
     }
+}
+
+/// Calls what it is given with one field after the other.
+pub(crate) type Each<'a> =
+    dyn Fn(&mut dyn FnMut(&Field<'_>) -> anyhow::Result<()>) -> anyhow::Result<()> + 'a;
+
+/// The number of a factor, which for `auto` follows from the displacements of all plates.
+fn number(factor: Factor, each: &Each<'_>) -> anyhow::Result<f64> {
+    if let Factor::Given(factor) = factor {
+        return Ok(factor);
+    }
+    let mut found = AutomaticFactor::default();
+    each(&mut |field| Ok(found.add(field, &field.domain.bounds)?))?;
+    Ok(found.factor())
 }
 
 /// How plates are deformed, one or those of a series.

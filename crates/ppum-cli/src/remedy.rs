@@ -88,7 +88,7 @@ mod tests {
             );
         }
         assert_eq!(
-            told(&WriteError::TooLong { length: 5_000_000_000, most: 4_294_967_296 }),
+            told(&WriteError::TooLong { length: 5_000_000_000, most: ppum_format::MAX_LENGTH }),
             "the file would have 5000000000 bytes, at most 4294967296 are read; choose fewer cells or a lower order"
         );
     }

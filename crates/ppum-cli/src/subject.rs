@@ -17,7 +17,7 @@ use ppum_scene::colors;
 use ppum_scene::drawing::{Drawn, Shown, classes};
 use ppum_scene::scene::default_quantity;
 
-use crate::dataset::{field, open, quantity, shown};
+use crate::dataset::{field, open_step, quantity, shown};
 use crate::given::{self, parts};
 use crate::replacements::Replacements;
 use crate::standard::{self, is_standard};
@@ -40,16 +40,16 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// The dataset, with what is replaced in it.
+    /// The dataset with the step that is asked for, and what is replaced in it.
     pub(crate) fn open(&self) -> anyhow::Result<Dataset> {
-        let mut dataset = open(&self.file)?;
+        let mut dataset = open_step(&self.file, self.step)?;
         self.replacements.apply(&mut dataset, self.step)?;
         Ok(dataset)
     }
 
     /// The dataset for each part that is asked for, with what is replaced in it.
     pub(crate) fn open_parts(&self) -> anyhow::Result<Vec<Dataset>> {
-        self.replacements.each(open(&self.file)?, self.step)
+        self.replacements.each(open_step(&self.file, self.step)?, self.step)
     }
 
     pub(crate) fn field<'d>(&self, dataset: &'d Dataset) -> anyhow::Result<Field<'d>> {

@@ -87,6 +87,11 @@ impl Tip {
         }
     }
 
+    /// The same tip of the step of another number.
+    pub(crate) fn of_step(self, step: usize) -> Self {
+        Self { step, ..self }
+    }
+
     /// The words of a line of the table; what is not known is a dash.
     fn words(&self, places: &Places) -> Vec<String> {
         let [k1, k2, spread] = words(self.k1.0, self.k2.0, self.spread.0);

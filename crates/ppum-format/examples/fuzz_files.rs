@@ -17,6 +17,7 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::Vec2;
+use ppum_format::Series;
 use ppum_format::damage::{Damaged, damaged};
 use ppum_testkit::random::Random;
 
@@ -124,6 +125,7 @@ fn work(current: &Path, files: &[PathBuf], seconds: u64, seed: u64) -> Result<()
         .iter()
         .map(|bytes| ppum_format::from_bytes(bytes.clone()).ok().map(text))
         .collect();
+    let steps: Vec<Vec<String>> = files.iter().map(|file| by_steps(file)).collect();
     let (mut random, start) = (Random(seed), Instant::now());
     let mut fates = [0_u64; 3];
     while start.elapsed() < Duration::from_secs(seconds) {
@@ -135,6 +137,12 @@ fn work(current: &Path, files: &[PathBuf], seconds: u64, seed: u64) -> Result<()
             Damaged { bytes, .. } = next;
         }
         std::fs::write(current, &bytes)?;
+        let is_other = |(number, step): (usize, &String)| {
+            !step.is_empty() && steps[k].get(number) != Some(step)
+        };
+        if !is_sealed && by_steps(current).iter().enumerate().any(is_other) {
+            return Err("another step under a checksum that is right".into());
+        }
         let fate = match ppum_format::from_bytes(bytes) {
             Err(_) => 0,
             Ok(dataset) => {
@@ -155,6 +163,20 @@ fn work(current: &Path, files: &[PathBuf], seconds: u64, seed: u64) -> Result<()
     );
     Ok(())
 }
+
+/// The dataset with each of its steps, read one by one; nothing for what cannot be read.
+fn by_steps(file: &Path) -> Vec<String> {
+    let Ok(series) = Series::open(file) else { return Vec::new() };
+    let step = |number| {
+        // whatever it holds, it must not take the program down
+        let _ = series.results(number);
+        series.dataset(number).map_or_else(|_| String::new(), text)
+    };
+    (0..series.len().min(MOST_STEPS)).map(step).collect()
+}
+
+/// Steps of a file that are read one by one: a damaged one may have many.
+const MOST_STEPS: usize = 8;
 
 /// Debug output tells every double apart, and a NaN is equal to a NaN.
 fn text(dataset: Dataset) -> String {

@@ -68,8 +68,25 @@ pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warni
 /// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The step has no
 /// patches.
 pub(crate) fn results(mut content: Content, path: &str) -> Read<Step> {
+    let mut step = empty(&mut content, path)?;
     let mut root = Group { path: String::new(), content: &mut content };
     let group = &mut root.group(path)?;
+    step.cracks = cracks(&mut group.group("cracks")?)?;
+    step.intensities = optional(group, "intensities", intensities)?;
+    step.history = optional(group, "history", history)?;
+    step.warnings = optional(group, "warnings", warnings)?;
+    step.growth = of_growth(group)?;
+    Ok(step)
+}
+
+/// A step with its load alone.
+pub(crate) fn empty(content: &mut Content, path: &str) -> Read<Step> {
+    let mut root = Group { path: String::new(), content };
+    Ok(empty_step(root.group(path)?.attribute("load")?))
+}
+
+/// A step of this load, without patches.
+pub(crate) fn empty_step(load: f64) -> Step {
     let mut step = Step::new(Partition {
         weight: WeightFunction::Linear,
         center: Vec::new(),
@@ -81,13 +98,8 @@ pub(crate) fn results(mut content: Content, path: &str) -> Read<Step> {
         point: Vec::new(),
         points: Vec::new(),
     });
-    step.load = group.attribute("load")?;
-    step.cracks = cracks(&mut group.group("cracks")?)?;
-    step.intensities = optional(group, "intensities", intensities)?;
-    step.history = optional(group, "history", history)?;
-    step.warnings = optional(group, "warnings", warnings)?;
-    step.growth = of_growth(group)?;
-    Ok(step)
+    step.load = load;
+    step
 }
 
 fn of_growth(group: &mut Group) -> Read<Option<Growth>> {

@@ -124,6 +124,71 @@ impl Series {
         }
     }
 
+    /// As [`at`](Self::at), but of a dataset that is in memory all steps are there, and no step is read if there is
+    /// none of this number.
+    ///
+    /// # Errors
+    ///
+    /// As [`dataset`](Self::dataset).
+    pub fn into_dataset(self, number: usize) -> Result<Dataset, ReadError> {
+        match &self.steps {
+            Steps::Stored(..) if number < self.len() => self.at(number),
+            _ => self.filled(|series, _| series.empty(0)),
+        }
+    }
+
+    /// The dataset with as many steps as there are, of which this one alone is read, at its number. The others are
+    /// empty, without patches, and their loads are those of the first step, or of the last one.
+    ///
+    /// # Errors
+    ///
+    /// As [`dataset`](Self::dataset).
+    pub fn at(&self, number: usize) -> Result<Dataset, ReadError> {
+        let [first, last] = [0, self.len() - 1].map(|end| self.empty(end));
+        let ([first, last], mut dataset) = ([first?, last?], self.dataset(number)?);
+        let step = dataset.steps.remove(0);
+        dataset.steps = vec![first; self.len()];
+        dataset.steps[self.len() - 1] = last;
+        dataset.steps[number] = step;
+        Ok(dataset)
+    }
+
+    /// The dataset with what [`results`](Self::results) gives of each step; of one that is in memory with all of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`results`](Self::results).
+    pub fn into_results(self) -> Result<Dataset, ReadError> {
+        self.filled(Self::results)
+    }
+
+    /// The dataset with these steps, or with those that are in memory.
+    fn filled(
+        mut self,
+        step: impl Fn(&Self, usize) -> Result<Step, ReadError>,
+    ) -> Result<Dataset, ReadError> {
+        let steps = match &mut self.steps {
+            Steps::Read(steps) => std::mem::take(steps),
+            Steps::Stored(..) => {
+                (0..self.len()).map(|k| step(&self, k)).collect::<Result<_, _>>()?
+            }
+        };
+        let mut dataset = self.head;
+        dataset.steps = steps;
+        Ok(dataset)
+    }
+
+    /// A step with its load alone.
+    fn empty(&self, number: usize) -> Result<Step, ReadError> {
+        let (file, outline) = match &self.steps {
+            Steps::Stored(file, outline) => (file, outline),
+            Steps::Read(steps) => return Ok(decode::empty_step(get(steps, number)?.load)),
+        };
+        let path = path(number, self.len())?;
+        let read = outline.step(file, &path, Some(&[]));
+        self.explained(read.and_then(|mut content| decode::empty(&mut content, &path)))
+    }
+
     fn step(&self, file: &dyn Ranges, outline: &Outline, number: usize) -> Result<Step, ReadError> {
         let path = path(number, self.len())?;
         let mut content = outline.step(file, &path, None)?;

@@ -5,6 +5,7 @@ mod extrema;
 mod formulas;
 pub(super) mod reactions;
 pub(super) mod report;
+mod series;
 mod text;
 
 use std::io::Write;
@@ -12,10 +13,12 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 
+use anyhow::ensure;
 use ppum::dataset::Dataset;
+use ppum_format::Series;
 use ppum_scene::range::places;
 
-use crate::dataset::{field, open, quantity};
+use crate::dataset::{field, named, quantity};
 use crate::number::json;
 
 /// Show what is inside a dataset, or what graphics adapters there are
@@ -32,9 +35,12 @@ pub(crate) struct Args {
     /// Find the smallest and the largest value of a quantity in the plate, with their places, not just over pixels
     #[arg(long, value_name = "Q", requires = "file", allow_hyphen_values = true)]
     extrema: Option<String>,
-    /// Step of the series for --extrema, from 0 [default: the last]
-    #[arg(long, value_name = "K", requires = "extrema")]
+    /// Step of the series, from 0 [default: the last]
+    #[arg(long, value_name = "K", requires = "file")]
     step: Option<usize>,
+    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity factors
+    #[arg(long, requires = "file", conflicts_with = "extrema")]
+    steps: bool,
     /// Print JSON, see docs/cli.md
     #[arg(long)]
     json: bool,
@@ -44,6 +50,7 @@ const EXAMPLES: &str = "\
 Examples:
   ppum info plate.h5
   ppum info plate.h5 --extrema syy
+  ppum info growth.h5 --steps
   ppum info --gpu
   ppum info plate.h5 --json | jq -r '.steps[0].quantities[]'";
 
@@ -56,11 +63,15 @@ impl Args {
     }
 
     fn dataset(&self, file: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
-        let dataset = open(file)?;
+        let all = crate::dataset::series(file)?;
+        let step = self.step.unwrap_or(all.len() - 1);
+        let rows = if self.steps { Some(rows(file, &all)?) } else { None };
+        let dataset = named(file, all.into_dataset(step))?;
         if let Some(given) = &self.extrema {
             return self.extrema(&dataset, given, out);
         }
-        let report = report::Report::new(file.display().to_string(), &dataset)?;
+        let mut report = report::Report::new(file.display().to_string(), &dataset, step)?;
+        report.series = rows;
         if self.json {
             json(out, &report)?;
         } else {
@@ -89,4 +100,15 @@ impl Args {
         }
         Ok(())
     }
+}
+
+/// A line for each step.
+fn rows(file: &Path, all: &Series) -> anyhow::Result<Vec<series::StepRow>> {
+    ensure!(
+        all.len() > 1,
+        "{}: --steps lists the steps of a series, but there is one alone",
+        file.display()
+    );
+    let row = |number| Ok(series::StepRow::new(number, &named(file, all.results(number))?));
+    (0..all.len()).map(row).collect()
 }

@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde::ser::Serializer;
 
 use crate::arguments::point;
-use crate::dataset::{field, open, quantities};
+use crate::dataset::{field, open_step, quantities};
 use crate::number::{Number, json};
 use crate::replacements::Replacements;
 
@@ -87,7 +87,7 @@ impl Serialize for Values {
 
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let mut dataset = open(&self.file)?;
+        let mut dataset = open_step(&self.file, self.step)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
         let quantities = quantities(&field, &self.quantity)?;

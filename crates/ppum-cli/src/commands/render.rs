@@ -5,7 +5,7 @@ mod series;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{bail, ensure};
+use anyhow::{Context as _, bail, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
@@ -128,6 +128,17 @@ enum Scene<'a> {
     Moved(DeformedView<'a>),
 }
 
+/// What pictures of several plates have in common.
+struct Common {
+    deforming: Option<Deforming>,
+    design: Design,
+    frame: Frame,
+}
+
+/// Calls what it is given with one plate after the other.
+type Each<'a> = dyn Fn(&mut Visit<'_>) -> anyhow::Result<()> + 'a;
+type Visit<'a> = dyn FnMut(&Plate<'_>) -> anyhow::Result<()> + 'a;
+
 /// The way values become colours.
 struct Coloring {
     style: Style,
@@ -220,8 +231,8 @@ impl Args {
 
     /// Draws one quantity.
     fn one(&self, plate: &Plate<'_>, out: &mut Output) -> anyhow::Result<()> {
-        let (shots, design) = self.shots(std::slice::from_ref(plate))?;
-        let shot = &shots[0];
+        let common = self.common(&|visit| visit(plate))?;
+        let shot = &self.shot(plate, &common)?;
         let (field, asked) = (plate.field, &shot.asked);
         let seen = self.seen(shot)?;
         let drawn = self.drawn(field, &seen, asked)?;
@@ -231,7 +242,7 @@ impl Args {
         let span = self.span(field, &seen, asked, &drawn, &style)?;
         let coloring = Coloring { style, span, ends: None };
         let Sheet { page, picture, texts } =
-            self.sheet(shot, (&seen, &drawn), &coloring, &design)?;
+            self.sheet(shot, (&seen, &drawn), &coloring, &common.design)?;
         let ([columns, rows], told) = (page.size, told(&seen, drawn.overlap.len()));
         let (name, telling) = (&asked.name, Telling::new(plate.dataset, field));
         let (colors, by) = (telling.colors(&picture), drawn.by);
@@ -239,31 +250,42 @@ impl Args {
         page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
     }
 
-    /// What pictures of plates show, which have one size and one look.
-    fn shots<'a>(&self, plates: &'a [Plate<'a>]) -> anyhow::Result<(Vec<Shot<'a>>, Design)> {
-        let fields: Vec<&Field<'_>> = plates.iter().map(|plate| plate.field).collect();
+    /// What pictures of all plates have in common that `each` calls its argument with.
+    fn common(&self, each: &Each<'_>) -> anyhow::Result<Common> {
+        let fields = |visit: &mut dyn FnMut(&Field<'_>) -> anyhow::Result<()>| {
+            each(&mut |plate| visit(plate.field))
+        };
         let deforming = self.deformed.of(&fields)?;
         let factor = deforming.as_ref().map(Deforming::words);
-        let design = self.design(fields[0], DEFAULT_SIZE, [1, 1]);
-        let words = |plate: &Plate<'_>| {
-            let asked = self.asked(plate.field)?.swap_remove(0);
-            let title = titled(plate.shown.clone(), factor.as_deref());
-            let labels = self.look.worded(asked.labels(title, plate.field));
-            anyhow::Ok((asked, plate.filled(labels)))
+        let (mut design, mut titles) = (None, Vec::new());
+        each(&mut |plate| {
+            design.get_or_insert_with(|| self.design(plate.field, DEFAULT_SIZE, [1, 1]));
+            titles.push(self.labelled(plate, factor.as_deref())?.1.title);
+            Ok(())
+        })?;
+        let design = design.context("--steps: there is no step")?;
+        let frame = self.frame(self.room(titles.iter().map(String::as_str), &design)?);
+        Ok(Common { deforming, design, frame })
+    }
+
+    /// What is shown of a plate, and the words of its figure.
+    fn labelled(&self, plate: &Plate<'_>, factor: Option<&str>) -> anyhow::Result<(Asked, Labels)> {
+        let asked = self.asked(plate.field)?.swap_remove(0);
+        let title = titled(plate.shown.clone(), factor);
+        let labels = self.look.worded(asked.labels(title, plate.field));
+        Ok((asked, plate.filled(labels)))
+    }
+
+    /// What the picture of a plate shows.
+    fn shot<'a>(&self, plate: &'a Plate<'a>, common: &Common) -> anyhow::Result<Shot<'a>> {
+        let (field, frame, deforming) = (plate.field, common.frame, &common.deforming);
+        let factor = deforming.as_ref().map(Deforming::words);
+        let (asked, labels) = self.labelled(plate, factor.as_deref())?;
+        let scene = match deforming {
+            None => Scene::Still(self.window.seen(field, frame)?),
+            Some(deforming) => Scene::Moved(deforming.view(field, &self.window, frame)?),
         };
-        let words = plates.iter().map(words).collect::<anyhow::Result<Vec<_>>>()?;
-        let titles = words.iter().map(|(_, labels)| labels.title.as_str());
-        let frame = self.frame(self.room(titles, &design)?);
-        let shot = |(plate, (asked, labels)): (&'a Plate<'a>, (Asked, Labels))| {
-            let field = plate.field;
-            let scene = match &deforming {
-                None => Scene::Still(self.window.seen(field, frame)?),
-                Some(deforming) => Scene::Moved(deforming.view(field, &self.window, frame)?),
-            };
-            Ok(Shot { plate, asked, labels, scene })
-        };
-        let shots = plates.iter().zip(words).map(shot).collect::<anyhow::Result<_>>()?;
-        Ok((shots, design))
+        Ok(Shot { plate, asked, labels, scene })
     }
 
     /// The room that all titles leave.

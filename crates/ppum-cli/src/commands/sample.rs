@@ -13,7 +13,7 @@ use ppum::vec2::Rect;
 use ppum_scene::table::Table;
 
 use crate::arguments::{corners, size};
-use crate::dataset::{field, open, quantities};
+use crate::dataset::{field, open_step, quantities};
 use crate::given::{self, parts};
 use crate::output::Output;
 use crate::profile::{Profile, check_grid, listed, save};
@@ -72,7 +72,7 @@ impl Args {
         if let Some(output) = &self.output {
             target::check(output, target::Kind::Table, self.inputs())?;
         }
-        let mut dataset = open(&self.file)?;
+        let mut dataset = open_step(&self.file, self.step)?;
         self.replacements.apply(&mut dataset, self.step)?;
         let field = field(&dataset, self.step)?;
         let quantities = quantities(&field, &self.quantity)?;

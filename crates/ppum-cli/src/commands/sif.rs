@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity, Warning};
+use ppum::text::Places;
 use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
@@ -13,7 +14,7 @@ use ppum_solve::intensity::Outcome;
 use ppum_solve::problem::Problem;
 use serde::Serialize;
 
-use crate::dataset::open;
+use crate::dataset::{named, open_results, series};
 use crate::number::json;
 use crate::progress::Bar;
 use crate::standard;
@@ -53,15 +54,9 @@ struct Report {
 
 impl Args {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let dataset = open(&self.file)?;
         let name = standard::name(&self.file);
-        if dataset.equation.elastic().is_none() {
-            bail!(
-                "{name}: a Poisson problem has no stress intensity factors; solve one of elasticity"
-            );
-        }
-        let (tips, warnings) =
-            if self.recompute { recomputed(&name, &dataset)? } else { stored(&name, &dataset)? };
+        let (tips, warnings, places) =
+            if self.recompute { self.recomputed(&name)? } else { self.stored(&name)? };
         let report = Report { file: self.file.display().to_string(), tips, warnings };
         warn(&report.warnings);
         if self.json {
@@ -69,17 +64,47 @@ impl Args {
         } else if report.tips.is_empty() {
             writeln!(out, "{name}: no crack tips, so no stress intensity factors")?;
         } else {
-            table(out, &report.tips, &places(&dataset))?;
+            table(out, &report.tips, &places)?;
         }
         Ok(())
     }
+
+    /// The factors that the solver stored, of all steps.
+    fn stored(&self, name: &str) -> anyhow::Result<Found> {
+        let dataset = open_results(&self.file)?;
+        refuse_poisson(name, &dataset)?;
+        let (tips, warnings) = stored(name, &dataset)?;
+        Ok((tips, warnings, places(&dataset)))
+    }
+
+    /// The factors of the fields, one step after the other.
+    fn recomputed(&self, name: &str) -> anyhow::Result<Found> {
+        let series = series(&self.file)?;
+        refuse_poisson(name, series.head())?;
+        let (mut tips, mut warnings, mut all) = (Vec::new(), Vec::new(), series.head().clone());
+        for index in 0..series.len() {
+            let dataset = named(&self.file, series.dataset(index))?;
+            let (found, remarks) = recomputed(name, &dataset)?;
+            tips.extend(found.into_iter().map(|tip| tip.of_step(index)));
+            warnings.extend(rows(index, &remarks));
+            all.steps.push(named(&self.file, series.results(index))?);
+        }
+        Ok((tips, warnings, places(&all)))
+    }
 }
 
-/// The tips of all steps, and the warnings.
-type Found = (Vec<Tip>, Vec<WarningRow>);
+/// The tips of all steps, the warnings, and the writer of places.
+type Found = (Vec<Tip>, Vec<WarningRow>, Places);
+
+fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
+    if dataset.equation.elastic().is_none() {
+        bail!("{name}: a Poisson problem has no stress intensity factors; solve one of elasticity");
+    }
+    Ok(())
+}
 
 /// The factors that the solver stored.
-fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
+fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<WarningRow>)> {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
         let is_told = step.warnings.iter().any(|warning| warning.kind == kind::NO_ROOM);
@@ -94,31 +119,26 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
     Ok((all, warnings))
 }
 
-/// The factors of the field; those that the solver stored where the loads near the tips are not known, or it takes too much.
-fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<Found> {
+/// The factors of the field of the only step at hand; those that the solver stored where the loads near the tips are
+/// not known, or it takes too much.
+fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let problem = Problem::of_dataset(dataset);
-    let (mut tips, mut warnings) = (Vec::new(), Vec::new());
-    for (index, step) in dataset.steps.iter().enumerate() {
-        let of_step = |problem: &&Option<Problem>| {
-            problem.as_ref().is_none_or(|problem| problem.cracks == step.cracks)
-        };
-        let (found, remarks) = match problem.as_ref().ok().filter(of_step) {
-            // What the solver found while it knew the loads.
-            None => known(name, dataset, index, UNKNOWN)?,
-            Some(problem) => match check_effort(dataset, index, problem.as_ref()) {
-                Err(error @ EffortError::TooMuch { .. }) => {
-                    known(name, dataset, index, ("too-costly", &error.to_string()))?
-                }
-                effort => {
-                    effort?;
-                    computed(dataset, index, problem.as_ref())?
-                }
-            },
-        };
-        tips.extend(found);
-        warnings.extend(rows(index, &remarks));
+    let of_step = |problem: &&Option<Problem>| {
+        problem.as_ref().is_none_or(|problem| problem.cracks == dataset.steps[0].cracks)
+    };
+    match problem.as_ref().ok().filter(of_step) {
+        // What the solver found while it knew the loads.
+        None => known(name, dataset, 0, UNKNOWN),
+        Some(problem) => match check_effort(dataset, 0, problem.as_ref()) {
+            Err(error @ EffortError::TooMuch { .. }) => {
+                known(name, dataset, 0, ("too-costly", &error.to_string()))
+            }
+            effort => {
+                effort?;
+                computed(dataset, 0, problem.as_ref())
+            }
+        },
     }
-    Ok((tips, warnings))
 }
 
 /// The interaction integrals over the field of a step.

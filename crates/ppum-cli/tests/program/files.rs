@@ -51,11 +51,11 @@ const READERS: [&str; 13] = [
 fn endless_inputs_are_refused() {
     let lab = with_inputs();
     assert!(Command::new("mkfifo").arg(lab.path("pipe")).status().unwrap().success());
-    fs::File::create(lab.path("long")).unwrap().set_len(1 << 40).unwrap();
+    fs::File::create(lab.path("long")).unwrap().set_len(2 << 40).unwrap();
     // the signature of HDF5, or else no more would be read of it
     let hdf5 = fs::File::create(lab.path("long.h5")).unwrap();
     std::io::Write::write_all(&mut &hdf5, b"\x89HDF\r\n\x1a\n").unwrap();
-    hdf5.set_len(1 << 40).unwrap();
+    hdf5.set_len(2 << 40).unwrap();
     let before = lab.files();
     for (file, reason) in [
         ("/dev/zero", "it is a device, not a regular file"),

@@ -16,7 +16,17 @@ fn json_has_the_documented_shape() {
     let info = lab.json("info plate.h5");
     assert_eq!(
         keys(&info),
-        ["domain", "equation", "file", "program", "quantities", "steps", "tables", "title"]
+        [
+            "count",
+            "domain",
+            "equation",
+            "file",
+            "program",
+            "quantities",
+            "steps",
+            "tables",
+            "title"
+        ]
     );
     assert_eq!(info["domain"], json!({ "min": [-1.0, -1.0], "max": [1.0, 1.0], "holes": [] }));
     let elasticity =

@@ -31,6 +31,7 @@ mod series;
 mod shell;
 mod sif;
 mod solve;
+mod steps;
 mod streams;
 mod view;
 

@@ -9,7 +9,8 @@
 
 use super::account::memory_of;
 use super::lookup3::lookup3;
-use super::objects::{Addition, CONTINUATION, LINK, Message, block, group, header};
+use super::messages::{Addition, CONTINUATION, LINK, Message, block, header};
+use super::objects::group;
 use super::read::Ranges;
 use crate::content::Content;
 use crate::error::WriteError;

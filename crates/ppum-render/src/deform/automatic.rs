@@ -19,11 +19,43 @@ const POINTS: u32 = 65;
 /// # Errors
 /// A field of an equation without displacements.
 pub fn automatic_factor(fields: &[&Field<'_>], window: &Rect) -> Result<f64, DeformError> {
-    fields.iter().try_for_each(|field| check(field))?;
-    let largest = fields.iter().map(|field| largest(field, window)).fold(0.0, f64::max);
-    let side = fields.iter().map(|field| field.domain.bounds.size()).map(|s| s.x.min(s.y));
-    let factor = SEEN * side.fold(f64::INFINITY, f64::min) / largest;
-    Ok(if factor.is_normal() { round_down(factor) } else { 1.0 })
+    let mut found = AutomaticFactor::default();
+    fields.iter().try_for_each(|field| found.add(field, window))?;
+    Ok(found.factor())
+}
+
+/// The search for [`automatic_factor`] of fields that are not there at the same time.
+#[derive(Clone, Copy, Debug)]
+pub struct AutomaticFactor {
+    largest: f64,
+    side: f64,
+}
+
+impl Default for AutomaticFactor {
+    fn default() -> Self {
+        Self { largest: 0.0, side: f64::INFINITY }
+    }
+}
+
+impl AutomaticFactor {
+    /// Takes a field into account.
+    ///
+    /// # Errors
+    /// A field of an equation without displacements.
+    pub fn add(&mut self, field: &Field<'_>, window: &Rect) -> Result<(), DeformError> {
+        check(field)?;
+        let size = field.domain.bounds.size();
+        self.largest = self.largest.max(largest(field, window));
+        self.side = self.side.min(size.x).min(size.y);
+        Ok(())
+    }
+
+    /// The factor for all of them.
+    #[must_use]
+    pub fn factor(&self) -> f64 {
+        let factor = SEEN * self.side / self.largest;
+        if factor.is_normal() { round_down(factor) } else { 1.0 }
+    }
 }
 
 /// Largest |u| of a field in a window.

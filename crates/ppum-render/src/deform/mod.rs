@@ -40,7 +40,7 @@ use ppum::quantity::QuantityError;
 use ppum::vec2::{Rect, Vec2};
 
 use crate::view::{View, ViewError};
-pub use automatic::automatic_factor;
+pub use automatic::{AutomaticFactor, automatic_factor};
 use map::Map;
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
 use super::reactions::{self, ReactionRow};
+use super::series::StepRow;
 use ppum_scene::range::places;
 
 use crate::families::{Family, blocks, families};
@@ -33,7 +34,13 @@ pub(super) struct Report {
     pub(super) equation: EquationRow,
     pub(super) quantities: Vec<QuantityRow>,
     pub(super) tables: Vec<TableRow>,
-    pub(super) steps: Vec<StepReport>,
+    /// The number of steps.
+    pub(super) count: usize,
+    /// All steps in short, if that is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) series: Option<Vec<StepRow>>,
+    /// The step that is told of, the only one of its list.
+    pub(super) steps: [StepReport; 1],
     /// The writer of places for people.
     #[serde(skip)]
     pub(super) places: Places,
@@ -177,8 +184,8 @@ pub(crate) struct HistoryRow {
 }
 
 impl Report {
-    pub(super) fn new(file: String, dataset: &Dataset) -> Result<Self, FieldError> {
-        let steps = (0..dataset.steps.len()).map(|index| StepReport::new(dataset, index));
+    /// The report of a dataset and one of its steps.
+    pub(super) fn new(file: String, dataset: &Dataset, step: usize) -> Result<Self, FieldError> {
         Ok(Self {
             file,
             title: dataset.title.clone(),
@@ -187,7 +194,9 @@ impl Report {
             equation: equation(&dataset.equation),
             quantities: formulas::quantities(dataset),
             tables: formulas::tables(dataset),
-            steps: steps.collect::<Result<_, _>>()?,
+            count: dataset.steps.len(),
+            series: None,
+            steps: [StepReport::new(dataset, step)?],
             places: places(dataset),
         })
     }

@@ -8,6 +8,7 @@ use ppum::text::{Places, trimmed};
 use super::formulas::{QuantityRow, TableRow};
 use super::reactions::largest_force;
 use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, HoleRow, Report, StepReport};
+use super::series::table as table_of_steps;
 use crate::families::Family;
 use crate::number::count;
 use crate::tips::table;
@@ -27,10 +28,14 @@ pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     page.lines("holes", report.domain.holes.iter().map(|row| hole(row, places)))?;
     page.lines("tables", report.tables.iter().map(table_row))?;
     page.lines("defined", report.quantities.iter().map(quantity))?;
-    for step in &report.steps {
-        page.step(step, report)?;
+    if report.count > 1 {
+        page.line("steps", &format!("{}, numbered from 0", report.count))?;
     }
-    Ok(())
+    if let Some(rows) = &report.series {
+        writeln!(page.0)?;
+        return table_of_steps(page.0, rows);
+    }
+    report.steps.iter().try_for_each(|step| page.step(step, report))
 }
 
 struct Page<'a>(&'a mut dyn Write);
@@ -50,7 +55,7 @@ impl Page<'_> {
 
     fn step(&mut self, step: &StepReport, report: &Report) -> io::Result<()> {
         let Report { places, domain, .. } = report;
-        if report.steps.len() > 1 {
+        if report.count > 1 {
             writeln!(self.0)?;
             self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
         }

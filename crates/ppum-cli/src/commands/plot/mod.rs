@@ -4,6 +4,7 @@ mod convergence;
 mod history;
 mod profiles;
 mod seen;
+mod series;
 
 use std::path::{Path, PathBuf};
 
@@ -12,13 +13,14 @@ use ppum::dataset::Dataset;
 use ppum_figure::plot::{LEAST, Plot, plot};
 
 use crate::arguments::page as page_size;
-use crate::dataset::open;
+use crate::dataset::{open, open_results, open_step};
 use crate::given::{self, parts};
 use crate::output::Output;
 use crate::page;
 use crate::profile::Profile;
 use crate::standard::{self, is_standard};
 use crate::target;
+use series::Over;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
 ///
@@ -40,7 +42,14 @@ pub(crate) struct Args {
     /// Seconds of the solver's phases
     #[arg(long, group = "where")]
     history: bool,
-    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]
+    /// Stress intensity factors of all tips in the steps of a series
+    #[arg(long, group = "where", conflicts_with = "step")]
+    series: bool,
+    /// What --series is drawn over
+    #[arg(long, value_enum, requires = "series", default_value = "step")]
+    over: Over,
+    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with --series of k1, k2,
+    /// load and length [default: k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["convergence", "history"])]
     quantity: Vec<String>,
@@ -66,7 +75,8 @@ Examples:
   ppum plot plate.h5 --tip 1 --angle 0 -q syy -o singularity.pdf
   ppum plot coarse.h5 plate.h5 --circle 0,0,0.7 -q von-mises -o circle.svg
   ppum plot level-3.h5 level-4.h5 level-5.h5 level-6.h5 --convergence -o convergence.svg
-  ppum plot plate.h5 --history -o seconds.svg";
+  ppum plot plate.h5 --history -o seconds.svg
+  ppum plot growth.h5 --series --over length -o k.svg";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Axis {
@@ -108,7 +118,19 @@ impl Args {
         if self.history {
             return history::plot(datasets, self.step);
         }
+        if self.series {
+            return series::plot(datasets, &self.quantity, self.over);
+        }
         profiles::plot(datasets, &self.profile, &self.quantity, self.step)
+    }
+
+    /// What of a dataset is drawn: all of it, what its solver tells of all steps, or one step.
+    fn open(&self, file: &Path) -> anyhow::Result<Dataset> {
+        match () {
+            () if self.convergence => open(file),
+            () if self.history || self.series => open_results(file),
+            () => open_step(file, self.step),
+        }
     }
 
     fn datasets(&self) -> anyhow::Result<Vec<Named>> {
@@ -119,7 +141,7 @@ impl Args {
                 Some(name) if !is_standard(file) => name.to_string_lossy().into_owned(),
                 _ => standard::name(file),
             };
-            Ok(Named { name, dataset: open(file)? })
+            Ok(Named { name, dataset: self.open(file)? })
         };
         self.files.iter().map(named).collect()
     }

@@ -8,27 +8,27 @@ use std::str::FromStr;
 
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
-use ppum::field::Field;
 use ppum::text::{apart, trimmed};
-use ppum_figure::figure::{Design, Labels};
+use ppum_figure::figure::Labels;
 use ppum_render::animation::{Apng, Colors, Gif};
 use ppum_render::image::Image;
 use ppum_render::picture::Style;
 use ppum_render::png::Text;
 use ppum_render::range::{Basis, Range, Span};
 use ppum_render::scale::Scale;
+use ppum_render::view::View;
 
-use super::{Args, Coloring, Plate, Scene, Sheet, Shot, warn};
+use super::{Args, Coloring, Common, Plate, Sheet, Visit, warn};
 use crate::arguments::positive;
-use crate::dataset::{field, open};
+use crate::dataset::{field, named, series};
 use crate::number::count;
 use crate::output::Output;
 use crate::page;
 use crate::progress;
 use crate::standard::is_standard;
+use crate::subject::Asked;
 use crate::target;
-use ppum_scene::deformed::words;
-use ppum_scene::drawing::{Drawn, Seen, classes, united};
+use ppum_scene::drawing::{Drawn, classes, united};
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
@@ -220,23 +220,12 @@ impl Args {
             !self.has_panels(),
             "several panels and --steps do not go together yet; draw those of each step with --step"
         );
-        let mut dataset = open(&self.subject.file)?;
-        let steps = self.steps(&dataset)?;
-        self.check_files(&steps, dataset.steps.len())?;
-        for &step in &steps {
-            self.subject.replacements.apply(&mut dataset, Some(step)).with_context(|| at(step))?;
-        }
-        let one = |&step: &usize| field(&dataset, Some(step)).with_context(|| at(step));
-        let fields: Vec<Field<'_>> = steps.iter().map(one).collect::<anyhow::Result<_>>()?;
-        let plates = steps.iter().zip(&fields);
-        let plates: Vec<_> =
-            plates.map(|(&step, field)| self.plate(&dataset, field, step)).collect();
-        let (shots, design) = self.shots(&plates)?;
-        Film::new(self, &shots, design)?.write(&steps, out)
-    }
-
-    fn steps(&self, dataset: &Dataset) -> anyhow::Result<Vec<usize>> {
-        self.series.steps.as_ref().map_or(Ok(Vec::new()), |steps| steps.of(dataset.steps.len()))
+        let all = series(&self.subject.file)?;
+        let steps =
+            self.series.steps.as_ref().map_or(Ok(Vec::new()), |steps| steps.of(all.len()))?;
+        self.check_files(&steps, all.len())?;
+        let reel = Reel { args: self, all, steps };
+        Film::new(self, &reel)?.write(out)
     }
 
     /// Refuses files that could not be written.
@@ -251,8 +240,32 @@ impl Args {
     }
 }
 
-fn at(step: usize) -> String {
-    format!("step {step}")
+/// The steps that are drawn, each read when it is needed: none but one is in memory.
+struct Reel<'a> {
+    args: &'a Args,
+    all: ppum_format::Series,
+    steps: Vec<usize>,
+}
+
+impl Reel<'_> {
+    /// What is made of the plate of a part.
+    fn with<T>(
+        &self,
+        part: usize,
+        make: impl FnOnce(&Plate<'_>) -> anyhow::Result<T>,
+    ) -> anyhow::Result<T> {
+        let (args, step) = (self.args, self.steps[part]);
+        let at = || format!("step {step}");
+        let mut dataset = named(&args.subject.file, self.all.at(step))?;
+        args.subject.replacements.apply(&mut dataset, Some(step)).with_context(at)?;
+        let field = field(&dataset, Some(step)).with_context(at)?;
+        let plate = args.plate(&dataset, &field, step);
+        make(&plate)
+    }
+
+    fn each(&self, visit: &mut Visit<'_>) -> anyhow::Result<()> {
+        (0..self.steps.len()).try_for_each(|part| self.with(part, &mut *visit))
+    }
 }
 
 /// Memory for the values of steps from the first pass, which finds the range, to the second \[bytes\]: 160 pictures of 1024 ×
@@ -279,79 +292,89 @@ impl<T> Kept<T> {
     }
 }
 
-/// Memory of what is kept of a step; a point of the deformed plate takes some 32 bytes.
-fn bytes(seen: &Seen<'_>, drawn: &Drawn) -> usize {
-    let [columns, rows] = drawn.view.pixels.map(|n| n as usize);
-    let points = seen.moved().map_or(0, |_| columns * rows * 32);
-    points + drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
+/// Memory of what is kept of a step.
+fn bytes(drawn: &Drawn) -> usize {
+    drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
 }
 
 /// The pictures of a series, once their values and their range are known.
 struct Film<'a> {
     args: &'a Args,
-    shots: &'a [Shot<'a>],
-    design: Design,
+    reel: &'a Reel<'a>,
+    common: Common,
     coloring: Coloring,
-    drawn: Kept<(Seen<'a>, Drawn)>,
-    /// What drew the first one.
+    drawn: Kept<Drawn>,
+    views: Vec<View>,
+    /// What the first one shows, and what drew it.
+    asked: Asked,
     by: String,
     bars: progress::Series,
 }
 
+/// What the first pass finds of a step.
+struct First {
+    asked: Asked,
+    view: View,
+    drawn: Drawn,
+}
+
 impl<'a> Film<'a> {
     /// The first pass.
-    fn new(args: &'a Args, shots: &'a [Shot<'a>], design: Design) -> anyhow::Result<Self> {
-        let first = &shots.first().context("--steps: there is no step")?.asked;
-        let style = args.colours.style(first.shown.quantity())?;
-        let bars = progress::Series::new(shots.len());
-        let (mut found, mut drawn) = (Found::default(), Kept::new(VALUES));
-        let (mut by, mut classes_of) = (None, Vec::new());
-        for (part, shot) in shots.iter().enumerate() {
+    fn new(args: &'a Args, reel: &'a Reel<'a>) -> anyhow::Result<Self> {
+        let common = args.common(&|visit| reel.each(visit))?;
+        let bars = progress::Series::new(reel.steps.len());
+        let (mut found, mut drawn, mut views) = (Found::default(), Kept::new(VALUES), Vec::new());
+        let (mut first, mut style_of, mut classes_of) = (None, None, Vec::new());
+        for part in 0..reel.steps.len() {
             bars.begin(part);
-            let seen = args.seen(shot)?;
-            let values = args.drawn(shot.plate.field, &seen, &shot.asked)?;
-            let span = args.span(shot.plate.field, &seen, &shot.asked, &values, &style)?;
-            found.add(span, &values, style.scale);
-            classes_of.push(classes([(&shot.asked.shown, &values.values)]));
-            by.get_or_insert_with(|| values.by.clone());
-            let bytes = bytes(&seen, &values);
-            drawn.push((seen, values), bytes);
+            let seen = reel.with(part, |plate| {
+                let shot = args.shot(plate, &common)?;
+                let style = match &style_of {
+                    Some(style) => style,
+                    None => style_of.insert(args.colours.style(shot.asked.shown.quantity())?),
+                };
+                let seen = args.seen(&shot)?;
+                let drawn = args.drawn(plate.field, &seen, &shot.asked)?;
+                let span = args.span(plate.field, &seen, &shot.asked, &drawn, style)?;
+                found.add(span, &drawn, style.scale);
+                classes_of.push(classes([(&shot.asked.shown, &drawn.values)]));
+                let view = *shot.scene.view();
+                Ok(First { asked: shot.asked, view, drawn })
+            })?;
+            views.push(seen.view);
+            first.get_or_insert((seen.asked, seen.drawn.by.clone()));
+            let bytes = bytes(&seen.drawn);
+            drawn.push(seen.drawn, bytes);
         }
-        warn(first, found.undefined);
+        let ((asked, by), style) = first.zip(style_of).context("--steps: there is no step")?;
+        warn(&asked, found.undefined);
         let classes = classes_of.into_iter().collect::<Option<Vec<_>>>().and_then(united);
-        let classed = args.colours.classed(style.clone(), classes);
-        let coloring = match classed.range {
-            Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
-                let span = Span { min, max, basis: Basis::Given, values: None };
-                Coloring { style: classed, span, ends: Some([false; 2]) }
-            }
-            _ => found.coloring(style),
-        };
-        let by = by.unwrap_or_default();
-        Ok(Self { args, shots, design, coloring, drawn, by, bars })
+        let coloring = coloring(args.colours.classed(style.clone(), classes), found, style);
+        Ok(Self { args, reel, common, coloring, drawn, views, asked, by, bars })
     }
 
     /// The picture of a step.
     fn sheet(&self, part: usize) -> anyhow::Result<Sheet> {
         self.bars.begin(part);
-        let shot = &self.shots[part];
-        let again;
-        let (seen, drawn) = match &self.drawn.all[part] {
-            Some(known) => known,
-            None => {
-                let seen = self.args.seen(shot)?;
-                let drawn = self.args.drawn(shot.plate.field, &seen, &shot.asked)?;
-                again = (seen, drawn);
-                &again
-            }
-        };
-        let _bar = progress::Bar::new();
-        self.args.sheet(shot, (seen, drawn), &self.coloring, &self.design)
+        self.reel.with(part, |plate| {
+            let (args, shot) = (self.args, self.args.shot(plate, &self.common)?);
+            let seen = args.seen(&shot)?;
+            let again;
+            let drawn = match &self.drawn.all[part] {
+                Some(known) => known,
+                None => {
+                    again = args.drawn(plate.field, &seen, &shot.asked)?;
+                    &again
+                }
+            };
+            let _bar = progress::Bar::new();
+            args.sheet(&shot, (&seen, drawn), &self.coloring, &self.common.design)
+        })
     }
 
     /// The second pass.
-    fn write(&self, steps: &[usize], out: &mut Output) -> anyhow::Result<()> {
-        let path = &self.args.output;
+    fn write(&self, out: &mut Output) -> anyhow::Result<()> {
+        let (path, steps) = (&self.args.output, self.reel.steps.as_slice());
         let first = self.sheet(0)?;
         page::warn_of_missing(&first.page, ppum_figure::form::Form::of(path));
         let told = self.told(first.page.size);
@@ -370,13 +393,10 @@ impl<'a> Film<'a> {
     }
 
     fn told(&self, [columns, rows]: [u32; 2]) -> String {
-        let shot = &self.shots[0];
-        let moved = match &shot.scene {
-            Scene::Still(_) => String::new(),
-            Scene::Moved(seen) => format!(", {}", words(seen.factor())),
-        };
-        let (name, by) = (&shot.asked.name, &self.by);
-        let steps = count(self.shots.len(), "step", "steps");
+        let factor = self.common.deforming.as_ref().map(|deforming| deforming.words());
+        let moved = factor.map_or_else(String::new, |words| format!(", {words}"));
+        let (name, by) = (&self.asked.name, &self.by);
+        let steps = count(self.reel.steps.len(), "step", "steps");
         let [from, to] = apart(self.coloring.span.min, self.coloring.span.max);
         format!(
             "{name}{moved}, {steps}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
@@ -385,7 +405,7 @@ impl<'a> Film<'a> {
 
     fn pictures(&self, first: Sheet, steps: &[usize]) -> anyhow::Result<String> {
         let args = self.args;
-        let all = self.shots[0].plate.dataset.steps.len();
+        let all = self.reel.all.len();
         let path = |part: usize| numbered(&args.output, steps[part], all);
         let mut first = Some(first);
         for part in 0..steps.len() {
@@ -416,7 +436,7 @@ impl<'a> Film<'a> {
         let size = first.size;
         let (mut colors, mut images) = (Colors::new(), Kept::new(IMAGES));
         let mut first = Some(first);
-        for part in 0..self.shots.len() {
+        for part in 0..self.reel.steps.len() {
             let image = match first.take() {
                 Some(first) => first,
                 None => self.sheet(part)?.page.image(),
@@ -439,9 +459,7 @@ impl<'a> Film<'a> {
     fn texts(&self, first: &Sheet, steps: &[usize]) -> Vec<Text> {
         let is_own = |key: &str| match key {
             "ppum:step" | "ppum:load" => true,
-            "ppum:view" => {
-                self.shots.iter().any(|shot| shot.scene.view() != self.shots[0].scene.view())
-            }
+            "ppum:view" => self.views.iter().any(|view| *view != self.views[0]),
             _ => false,
         };
         let mut texts = first.texts.clone();
@@ -449,6 +467,17 @@ impl<'a> Film<'a> {
         let list: Vec<String> = steps.iter().map(usize::to_string).collect();
         texts.push(("ppum:step".to_owned(), list.join(",")));
         texts
+    }
+}
+
+/// The way the values of all steps become colours: classes have theirs, else it follows from the range.
+fn coloring(classed: Style, found: Found, style: Style) -> Coloring {
+    match classed.range {
+        Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
+            let span = Span { min, max, basis: Basis::Given, values: None };
+            Coloring { style: classed, span, ends: Some([false; 2]) }
+        }
+        _ => found.coloring(style),
     }
 }
 

@@ -1,5 +1,9 @@
 //! Structures made to hurt, which no writer makes. Each is refused at once, for the reason given.
 
+#[path = "../../../examples/fixture/series.rs"]
+mod steps;
+
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use super::super::account::Account;
@@ -7,11 +11,11 @@ use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
 use super::source::{Mistake, Parsed, Source};
-use super::store::Bytes;
+use super::store::{Bytes, PAGE};
 use super::trees::{CHUNKS, entries};
 use super::types::{Kind, Padding, Type};
-use super::{Texts, arrays, from_bytes};
-use crate::content::Values;
+use super::{Outline, Ranges, Texts, arrays, from_bytes};
+use crate::content::{Values, step_path};
 use crate::damage::{seal, sealed_parts};
 
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
@@ -193,4 +197,65 @@ fn types_of_numbers() {
     assert_eq!(name(&float(0, 0xff)), Some(Kind::F64));
     assert_eq!(name(&float(1, 0xff)), Some(Kind::F64));
     assert_eq!(name(&float(0, 0xfe)), Some(Kind::Other("f64".into())));
+}
+
+/// A file that counts what is read of it.
+struct Counted {
+    bytes: Vec<u8>,
+    read: Cell<u64>,
+}
+
+impl Ranges for Counted {
+    fn read(&self, at: u64, buffer: &mut [u8]) -> std::io::Result<()> {
+        self.read.set(self.read.get() + buffer.len() as u64);
+        Ranges::read(&self.bytes, at, buffer)
+    }
+}
+
+/// Bytes that are read for the outline of a series and for each of three of its steps, and those of a step in the file.
+fn costs(steps: usize) -> (u64, [u64; 3], u64) {
+    let mut dataset = steps::beginning();
+    dataset.steps = vec![steps::step(4); steps];
+    let bytes = crate::to_bytes(&dataset).expect("valid");
+    let length = bytes.len() as u64;
+    let file = Counted { bytes, read: Cell::new(0) };
+    let outline = Outline::read(&file, length).expect("a series");
+    assert_eq!(outline.steps().len(), steps);
+    let of_outline = file.read.take();
+    let of_step = [0, steps / 2, steps - 1].map(|number| {
+        let content = outline.step(&file, &step_path(number), None).expect("a step");
+        assert!(content.len() > 30);
+        file.read.take()
+    });
+    (of_outline, of_step, length / steps as u64)
+}
+
+/// One step of hundreds costs as much as one of two, and some pages more than it has bytes. Of the outline each step
+/// takes a link, of 23 bytes.
+#[test]
+fn a_step_costs_as_much_as_it_is_long() {
+    let (outline, few, _) = costs(2);
+    let (long_outline, many, length) = costs(500);
+    for (few, many) in few.iter().zip(many) {
+        assert!(many <= few + 2 * PAGE && many <= length + 3 * PAGE, "{many} {few} {length}");
+    }
+    // in blocks of 64, each read with its page
+    assert!(long_outline <= outline + (500 / 64 + 2) * 2 * PAGE, "{outline} {long_outline}");
+}
+
+/// What is read in parts is what is read as a whole, whatever wrote it.
+#[test]
+fn parts_are_the_whole() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/h5py");
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let bytes = std::fs::read(entry.expect("an entry").path()).expect("a file");
+        let whole = from_bytes(&bytes).expect("a dataset");
+        let outline = Outline::read(&bytes, bytes.len() as u64).expect("a dataset");
+        let mut parts = outline.content.clone();
+        for path in outline.steps() {
+            let step = outline.step(&bytes, path, None).expect("a step");
+            step.iter().for_each(|(name, array)| drop(parts.insert(name.clone(), array.clone())));
+        }
+        assert_eq!(*parts, *whole);
+    }
 }

@@ -1,0 +1,123 @@
+//! Messages, the headers that they stand in, and the bytes that come behind the end of a file.
+
+use super::lookup3::lookup3;
+use crate::error::WriteError;
+
+/// Kinds of messages that say where others are.
+pub(super) const LINK: u8 = 0x06;
+pub(super) const CONTINUATION: u8 = 0x10;
+
+/// A message of a header.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Message {
+    pub(super) kind: u8,
+    pub(super) flags: u8,
+    pub(super) body: Vec<u8>,
+}
+
+impl Message {
+    pub(super) fn new(kind: u8, body: Vec<u8>) -> Self {
+        Self { kind, flags: 0, body }
+    }
+
+    /// A hard link.
+    pub(super) fn link(name: &str, address: u64) -> Self {
+        // version; the length of the name takes one byte
+        let mut body = vec![1, 0, name.len() as u8];
+        body.extend(name.as_bytes());
+        body.extend(address.to_le_bytes());
+        Self::new(LINK, body)
+    }
+
+    /// The address that it leads to, if it is a hard link of this name as [`Message::link`] makes it, or with the
+    /// character set of the name.
+    pub(super) fn link_to(&self, name: &str) -> Option<u64> {
+        let rest = match self.body.as_slice() {
+            [1, 0, rest @ ..] | [1, 0x10, _, rest @ ..] if self.kind == LINK => rest,
+            _ => return None,
+        };
+        let (length, rest) = rest.split_first()?;
+        let address = rest.strip_prefix(name.as_bytes())?;
+        let is_name = usize::from(*length) == name.len();
+        is_name.then_some(u64::from_le_bytes(*address.first_chunk()?))
+    }
+
+    /// The place of more messages.
+    pub(super) fn continuation(address: u64, length: u64) -> Self {
+        Self::new(CONTINUATION, [address.to_le_bytes(), length.to_le_bytes()].concat())
+    }
+}
+
+/// Messages, each with its kind, size and flags in front.
+fn encoded(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
+    let mut bytes = Vec::new();
+    for Message { kind, flags, body } in messages {
+        let Ok(size) = u16::try_from(body.len()) else {
+            let message = "a text of an attribute has more than 65,000 bytes".to_owned();
+            return Err(WriteError::Hdf5 { message });
+        };
+        bytes.push(*kind);
+        bytes.extend(size.to_le_bytes());
+        bytes.push(*flags);
+        bytes.extend(body);
+    }
+    Ok(bytes)
+}
+
+/// A header of version 2 whose length takes four bytes, without times.
+const HEADER: [u8; 6] = *b"OHDR\x02\x02";
+
+/// The header of an object.
+pub(super) fn header(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
+    let messages = encoded(messages)?;
+    let length = (messages.len() as u32).to_le_bytes();
+    Ok(sealed([HEADER.as_slice(), &length, &messages].concat()))
+}
+
+/// A block in which a header continues.
+pub(super) fn block(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
+    Ok(sealed([b"OCHK".as_slice(), &encoded(messages)?].concat()))
+}
+
+/// The same with its checksum.
+pub(super) fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let sum = lookup3(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    bytes
+}
+
+/// Bytes that come behind the end of a file.
+pub(super) struct Addition {
+    end: u64,
+    bytes: Vec<u8>,
+}
+
+/// Objects start at multiples of this, as HDF5 has it.
+pub(super) const ALIGNMENT: u64 = 8;
+
+impl Addition {
+    pub(super) fn new(end: u64) -> Self {
+        Self { end, bytes: Vec::new() }
+    }
+
+    /// Puts a part behind the others. Its address.
+    pub(super) fn put(&mut self, part: &[u8]) -> u64 {
+        let address = self.next();
+        self.bytes.resize((address - self.end) as usize, 0);
+        self.bytes.extend(part);
+        address
+    }
+
+    /// The address of the next part.
+    pub(super) fn next(&self) -> u64 {
+        (self.end + self.bytes.len() as u64).next_multiple_of(ALIGNMENT)
+    }
+
+    pub(super) fn end(&self) -> u64 {
+        self.end + self.bytes.len() as u64
+    }
+
+    pub(super) fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+}

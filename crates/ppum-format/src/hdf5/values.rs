@@ -1,0 +1,207 @@
+//! Values of arrays as HDF5 stores them, for what is appended to a file.
+//!
+//! Arrays are contiguous; long ones of numbers are one chunk, or some with an index of fixed length, shuffled and
+//! deflated.
+
+use std::io::Write as _;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+
+use super::messages::{ALIGNMENT, Addition, Message, sealed};
+use super::write::{DEFLATE_LEVEL, check_text, chunk, is_chunked};
+use crate::content::{Array, Values};
+use crate::error::WriteError;
+
+/// Kinds of messages.
+const LAYOUT: u8 = 0x08;
+const FILTERS: u8 = 0x0b;
+
+/// The address that leads nowhere.
+const NOWHERE: u64 = u64::MAX;
+
+/// Arrays of so many bytes and more stand before all headers, so that these and small arrays are near each other:
+/// who reads nothing but stress intensity factors reads a page or two.
+const LARGE: usize = 1 << 12;
+
+/// Bytes of the texts of an array, all of the same length.
+fn text_length(texts: &[String]) -> usize {
+    texts.iter().map(String::len).max().unwrap_or(0).max(1)
+}
+
+/// Bytes of an element.
+fn size(values: &Values) -> usize {
+    match values {
+        Values::F64(_) | Values::U64(_) | Values::I64(_) => 8,
+        Values::U32(_) => 4,
+        Values::U8(_) | Values::Other(_) => 1,
+        Values::Text(texts) => text_length(texts),
+    }
+}
+
+/// The message of a type.
+pub(super) fn datatype(name: &str, array: &Array) -> Result<Vec<u8>, WriteError> {
+    let size = size(&array.values);
+    let whole = |flags: u8| {
+        [[0x10, flags, 0, 0].as_slice(), &number(size), &[0, 0], &[8 * size as u8, 0]].concat()
+    };
+    Ok(match &array.values {
+        Values::U8(_) | Values::U32(_) | Values::U64(_) => whole(0),
+        Values::I64(_) => whole(8),
+        // little-endian, its sign the last bit; bits, place and length of exponent and mantissa, bias
+        Values::F64(_) => [
+            [0x11, 0x20, 0x3f, 0].as_slice(),
+            &number(size),
+            &[0, 0, 64, 0, 52, 11, 0, 52, 0xff, 0x03, 0, 0],
+        ]
+        .concat(),
+        Values::Text(texts) => {
+            check_text(name, texts)?;
+            // padded with NUL, UTF-8
+            [[0x13, 0x11, 0, 0].as_slice(), &number(size)].concat()
+        }
+        Values::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
+    })
+}
+
+fn number(n: usize) -> [u8; 4] {
+    (n as u32).to_le_bytes()
+}
+
+/// The values of an array, row-major.
+pub(super) fn bytes(array: &Array) -> Vec<u8> {
+    match &array.values {
+        Values::F64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        Values::U8(v) => v.clone(),
+        Values::U32(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        Values::U64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        Values::I64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        Values::Text(v) => {
+            let length = text_length(v);
+            let padding = |text: &String| std::iter::repeat_n(0, length - text.len());
+            v.iter().flat_map(|text| text.bytes().chain(padding(text))).collect()
+        }
+        Values::Other(_) => Vec::new(),
+    }
+}
+
+/// Puts values behind the end. Their layout.
+pub(super) fn contiguous(addition: &mut Addition, values: &[u8]) -> Message {
+    let address = if values.is_empty() { NOWHERE } else { addition.put(values) };
+    let place = [address.to_le_bytes(), (values.len() as u64).to_le_bytes()].concat();
+    // version and class
+    Message::new(LAYOUT, [[3, 1].as_slice(), &place].concat())
+}
+
+/// Layout and filters of a large array, whose values are put behind the end; none of a small one.
+pub(super) fn large(
+    addition: &mut Addition,
+    name: &str,
+    array: &Array,
+    compressed: bool,
+) -> Result<Option<Vec<Message>>, WriteError> {
+    if compressed && is_chunked(array) && array.shape.len() <= 2 {
+        return chunked(addition, name, array).map(Some);
+    }
+    let values = bytes(array);
+    Ok((values.len() >= LARGE).then(|| vec![contiguous(addition, &values)]))
+}
+
+/// A chunk that is stored: its address and length.
+type Stored = (u64, u64);
+
+fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Message>, WriteError> {
+    let (size, shape) = (size(&array.values), chunk(&array.shape));
+    let chunk_bytes = size as u64 * shape.iter().product::<u64>();
+    let mut stored = Vec::new();
+    for values in chunks(&array.shape, &shape, &bytes(array), size) {
+        let packed = deflated(&shuffled(&values, size))
+            .map_err(|e| WriteError::object(name, e.to_string()))?;
+        stored.push((addition.put(&packed), packed.len() as u64));
+    }
+    let index = match stored.as_slice() {
+        &[(address, length)] => single(address, length),
+        many => fixed(addition, many, chunk_bytes),
+    };
+    // version, class; the only chunk is filtered; directions with that of bytes, as short as HDF5 wants them
+    let extents: Vec<u64> = shape.iter().copied().chain([size as u64]).collect();
+    let width = extents.iter().map(|n| (n.ilog2() as usize + 8) / 8).max().unwrap_or(1);
+    let flags = if stored.len() == 1 { 2 } else { 0 };
+    let mut layout = vec![4, 2, flags, extents.len() as u8, width as u8];
+    layout.extend(extents.iter().flat_map(|n| n.to_le_bytes().into_iter().take(width)));
+    layout.extend(index);
+    Ok(vec![Message::new(FILTERS, filters(size)), Message::new(LAYOUT, layout)])
+}
+
+/// The filters: shuffle, which is told the size of elements, and deflate, which is told its level.
+fn filters(size: usize) -> Vec<u8> {
+    let filter = |id: u8, value: usize| [[id, 0, 0, 0, 1, 0].as_slice(), &number(value)].concat();
+    [vec![2, 2], filter(2, size), filter(1, DEFLATE_LEVEL as usize)].concat()
+}
+
+/// The values of each chunk, those on the border filled up with zeros.
+fn chunks(shape: &[u64], chunk: &[u64], values: &[u8], size: usize) -> Vec<Vec<u8>> {
+    let matrix = |shape: &[u64]| match *shape {
+        [rows, columns] => (rows, columns),
+        _ => (1, shape.iter().product()),
+    };
+    let ((rows, columns), (height, width)) = (matrix(shape), matrix(chunk));
+    let mut all = Vec::new();
+    for top in (0..rows).step_by(height as usize) {
+        for left in (0..columns).step_by(width as usize) {
+            let mut one = vec![0; (height * width) as usize * size];
+            let count = width.min(columns - left) as usize * size;
+            for row in top..rows.min(top + height) {
+                let from = (row * columns + left) as usize * size;
+                let to = ((row - top) * width) as usize * size;
+                one[to..to + count].copy_from_slice(&values[from..from + count]);
+            }
+            all.push(one);
+        }
+    }
+    all
+}
+
+/// The first bytes of all elements, then the second ones, and so on.
+fn shuffled(values: &[u8], size: usize) -> Vec<u8> {
+    (0..size).flat_map(|plane| values.iter().skip(plane).step_by(size).copied()).collect()
+}
+
+fn deflated(values: &[u8]) -> std::io::Result<Vec<u8>> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(DEFLATE_LEVEL));
+    encoder.write_all(values)?;
+    encoder.finish()
+}
+
+/// The index of the only chunk: its length, no filter left out, its address.
+fn single(address: u64, length: u64) -> Vec<u8> {
+    [[1].as_slice(), &length.to_le_bytes(), &[0; 4], &address.to_le_bytes()].concat()
+}
+
+/// Logarithm of the entries of a page, from which on an index comes in pages: HDF5's own, unless there are more.
+const PAGE_BITS: u8 = 10;
+
+/// An index of fixed length.
+fn fixed(addition: &mut Addition, chunks: &[Stored], chunk_bytes: u64) -> Vec<u8> {
+    let count = chunks.len() as u64;
+    let page_bits = PAGE_BITS.max((count - 1).ilog2() as u8 + 1);
+    // as wide as HDF5 has it: room for what filters lengthen
+    let width = (1 + (chunk_bytes.ilog2() as usize + 8) / 8).min(8);
+    let header = addition.next();
+    let mut head = b"FAHD\0\x01".to_vec();
+    head.extend([(8 + width + 4) as u8, page_bits]);
+    head.extend(count.to_le_bytes());
+    // the block of entries comes next
+    let block = (header + head.len() as u64 + 8 + 4).next_multiple_of(ALIGNMENT);
+    head.extend(block.to_le_bytes());
+    addition.put(&sealed(head));
+    let mut body = b"FADB\0\x01".to_vec();
+    body.extend(header.to_le_bytes());
+    for (address, length) in chunks {
+        body.extend(address.to_le_bytes());
+        body.extend(&length.to_le_bytes()[..width]);
+        body.extend([0; 4]);
+    }
+    addition.put(&sealed(body));
+    [[3, page_bits].as_slice(), &header.to_le_bytes()].concat()
+}
