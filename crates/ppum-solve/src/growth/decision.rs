@@ -124,11 +124,16 @@ impl<'a> Driven<'a> {
         self.axis + self.kink.map_or(0.0, |kink| kink.angle)
     }
 
-    /// The curvature of the path: how its direction has changed along the last increment. Behind a kink it is not known yet.
+    /// The curvature of the path: half of it how the direction has changed along the last increment, half what it was taken for
+    /// there. The change alone would answer errors of the last direction with larger ones of the next, and paths would swing. Behind a
+    /// kink nothing is known of it yet.
     fn curvature(&self) -> f64 {
         let is_smooth = self.kink.is_some_and(|kink| kink.angle.abs() < SHARP);
         let before = self.before.filter(|row| is_smooth && row.length > 0.0);
-        before.map_or(0.0, |row| turned(row.direction, self.direction()) / row.length)
+        before.map_or(0.0, |row| {
+            let found = turned(row.direction, self.direction()) / row.length;
+            0.5 * (found + row.curvature)
+        })
     }
 
     /// What the tip does, if the tip that grows most does so by `increment`.
