@@ -71,7 +71,10 @@ fn info_lists_the_steps() {
         .position(|line| line == &["step", "load", "unknowns", "length", "K_I", "K_II"]);
     let head = head.unwrap_or_else(|| panic!("{text}"));
     assert_eq!(lines.len(), head + 6, "{text}");
-    assert_eq!((lines[head + 3][..3].to_vec(), lines[head + 3][4]), (vec!["2", "0.5", "–"], "1.50000"));
+    assert_eq!(
+        (lines[head + 3][..3].to_vec(), lines[head + 3][4]),
+        (vec!["2", "0.5", "–"], "1.50000")
+    );
     let alone = Lab::solved(CRACKED).fail("info plate.h5 --steps");
     assert!(alone.contains("there is one alone"), "{alone}");
 }
