@@ -449,6 +449,19 @@ def test_a_series_that_grows():
             assert is_right(file), count
     with h5py.File(path) as file:
         assert [file[f"steps/{k:04}/fields/0000/coefficients"].chunks for k in (2, 3)] == [None, (1, 98304)]
+    for libver in LIBVERS:
+        copy = FOLDER / f"series-{libver}.h5"
+        rewrite(path, copy, libver, **LAYOUTS["contiguous"])
+        status, _, message = fixture("same", path, copy)
+        assert status == 0, (libver, message)
+        status, _, message = fixture("grow", copy, 151)
+        assert status != 0 and "another program has rewritten it" in message, (libver, message)
+    with h5py.File(path, "a") as file:
+        file["user/remark"] = "looked at"
+    status, _, message = fixture("grow", path, 151)
+    assert status == 0, message
+    with h5py.File(path) as file:
+        assert len(file["steps"]) == 151 and text(file["user/remark"][()]) == "looked at" and is_right(file)
     with h5py.File(path, "a") as file:
         file["steps/0149/fields/0000/coefficients"][0, 0] += 1e-15
         assert not is_right(file)

@@ -9,7 +9,7 @@ use std::io::{self, ErrorKind, Seek as _, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::lock::Lock;
-use crate::part::is_at;
+use crate::part::{is_at, live};
 use crate::ranged::Ranged;
 use crate::write::{replace_locked, replaceable, resolve};
 
@@ -66,6 +66,8 @@ impl Growing {
     /// The disk is full, or whatever else the system refuses, and then the file ends at `end`, if the system lets
     /// it; the file is shorter than `end`, or another one has taken its place.
     pub fn append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
+        // a program that is about to end gives up its lock, and must not write from then on
+        let _live = live();
         if !is_at(self.file.file(), &self.target) || self.file.length()? < end {
             let message =
                 "since this run began it was removed or cut, or another file took its place";
@@ -93,6 +95,7 @@ impl Growing {
     /// # Errors
     /// Whatever the system refuses. Old or new, the bytes say what is true.
     pub fn publish(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        let _live = live();
         let mut file = self.file.file();
         file.seek(SeekFrom::Start(at))?;
         file.write_all(bytes)?;

@@ -11,6 +11,13 @@ fn writing_stops_and_leaves_nothing() {
     let path = folder.path().join("a");
     let count = || std::fs::read_dir(folder.path()).expect("a folder").count();
     std::fs::write(&path, "precious").expect("written");
+    // one that grows, whose lock is a file beside it
+    let other = tempfile::tempdir().expect("a folder");
+    let locks = || std::fs::read_dir(other.path()).expect("a folder").count() - 1;
+    let begun: io::Result<_> =
+        ppum_file::Growing::begin(&other.path().join("b"), |out| out.write_all(b"head"));
+    let _growing = begun.expect("begun");
+    assert_eq!(locks(), 1);
     let (in_the_middle, started) = channel();
     let (go_on, waiting) = channel();
     let target = path.clone();
@@ -25,7 +32,7 @@ fn writing_stops_and_leaves_nothing() {
     assert_eq!(count(), 2);
 
     let abandoned = ppum_file::abandon();
-    assert_eq!(count(), 1);
+    assert_eq!((count(), locks()), (1, 0));
     go_on.send(()).expect("it waits");
     thread::sleep(Duration::from_millis(200));
     assert!(!writer.is_finished(), "it would report an error while the program ends");

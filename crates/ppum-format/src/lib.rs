@@ -26,6 +26,13 @@
 //! let half = bytes[..bytes.len() / 2].to_vec();
 //! let error = ppum_format::from_bytes(half).unwrap_err();
 //! assert!(matches!(error, ppum_format::ReadError::Hdf5 { .. }));
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("series.h5");
+//! let mut writer = ppum_format::SeriesWriter::begin(&path, &dataset)?;
+//! writer.append(&dataset.steps[0])?;
+//! let series = ppum_format::Series::open(&path)?;
+//! assert_eq!((series.len(), series.dataset(1)?), (2, dataset));
 //! # Ok(())
 //! # }
 //! ```

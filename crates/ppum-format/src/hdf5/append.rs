@@ -9,7 +9,7 @@
 
 use super::account::memory_of;
 use super::lookup3::lookup3;
-use super::messages::{Addition, CONTINUATION, LINK, Message, block, header};
+use super::messages::{Addition, CONTINUATION, LINK, LINK_INFO, Message, NO_HEAP, block, header};
 use super::objects::group;
 use super::read::Ranges;
 use crate::content::Content;
@@ -66,12 +66,14 @@ impl Trunk {
         if !is_known || word(body, BASE) != 0 || sum != lookup3(body).to_le_bytes() {
             return None;
         }
-        let mut root = messages(file, word(body, ROOT))?;
+        let mut root = gathered(file, messages(file, word(body, ROOT))?)?;
         let at = root.iter().position(|m| m.link_to(STEPS).is_some())?;
         let address = root.remove(at).link_to(STEPS)?;
         let all = messages(file, address)?;
-        let (links, steps) = all.into_iter().partition(|message| message.kind == LINK);
-        Some(Self { superblock, root, steps, links })
+        // a group whose links are in a heap would not show one in its header
+        let is_plain = |message: &Message| message.kind != LINK_INFO || message.body == NO_HEAP;
+        let (links, steps): (Vec<_>, Vec<_>) = all.into_iter().partition(|m| m.kind == LINK);
+        steps.iter().all(is_plain).then_some(Self { superblock, root, steps, links })
     }
 
     /// The end of the file.
@@ -147,9 +149,39 @@ fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
     }
     let mut bytes = vec![0; 6 + width + length + 4];
     fill(file, address, &mut bytes)?;
-    let (body, sum) = bytes.split_at(bytes.len() - 4);
-    if sum == lookup3(body).to_le_bytes() { parsed(&body[6 + width..]) } else { None }
+    parsed(&unsealed(&bytes)?[6 + width..])
 }
+
+/// The messages of a header with those of the blocks that it continues in: who adds something of his own to the root
+/// may have moved some there.
+fn gathered(file: &dyn Ranges, mut messages: Vec<Message>) -> Option<Vec<Message>> {
+    // more blocks would be a header that goes round in a circle
+    for _ in 0..MOST_BLOCKS {
+        let Some(at) = messages.iter().position(|m| m.kind == CONTINUATION) else {
+            messages.retain(|message| message.kind != NOTHING);
+            return Some(messages);
+        };
+        let place = messages.remove(at).body;
+        let (address, length) = place.split_at_checked(8).filter(|(_, rest)| rest.len() == 8)?;
+        let length = usize::try_from(word(length, 0)).ok().filter(|n| *n <= LONGEST_HEADER)?;
+        let mut bytes = vec![0; length];
+        fill(file, word(address, 0), &mut bytes)?;
+        messages.extend(parsed(unsealed(&bytes)?.strip_prefix(b"OCHK")?)?);
+    }
+    None
+}
+
+/// Most blocks that a root continues in: one for each time that something was added to it by somebody else.
+const MOST_BLOCKS: usize = 100;
+
+/// A part without its checksum, if that is right.
+fn unsealed(bytes: &[u8]) -> Option<&[u8]> {
+    let (body, sum) = bytes.split_last_chunk()?;
+    (lookup3(body) == u32::from_le_bytes(*sum)).then_some(body)
+}
+
+/// Kind of a message that takes room where one was.
+const NOTHING: u8 = 0;
 
 /// Bytes of a header up to its longest length.
 const HEADER_START: usize = 10;

@@ -7,6 +7,11 @@ use crate::error::WriteError;
 pub(super) const LINK: u8 = 0x06;
 pub(super) const CONTINUATION: u8 = 0x10;
 
+/// The message that says how links are kept, and its body if they are in the header: version, flags, no heap and no index.
+pub(super) const LINK_INFO: u8 = 0x02;
+pub(super) const NO_HEAP: [u8; 18] =
+    [0, 0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0];
+
 /// A message of a header.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Message {

@@ -3,14 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use super::messages::{Addition, Message, header};
+use super::messages::{Addition, LINK_INFO, Message, NO_HEAP, header};
 use super::values::{bytes, contiguous, datatype, large};
 use crate::content::{Array, Content, Form, join, key};
 use crate::error::WriteError;
 
 /// Kinds of messages.
 const DATASPACE: u8 = 0x01;
-const LINK_INFO: u8 = 0x02;
 const DATATYPE: u8 = 0x03;
 const FILL_VALUE: u8 = 0x05;
 const GROUP_INFO: u8 = 0x0a;
@@ -45,11 +44,8 @@ fn headers(
     path: &str,
     layouts: &Layouts,
 ) -> Result<u64, WriteError> {
-    let mut messages = vec![
-        // version, flags, no heap and no index of links
-        Message::new(LINK_INFO, [[0; 2].as_slice(), &[0xff; 16]].concat()),
-        Message::new(GROUP_INFO, vec![0; 2]),
-    ];
+    let mut messages =
+        vec![Message::new(LINK_INFO, NO_HEAP.to_vec()), Message::new(GROUP_INFO, vec![0; 2])];
     for name in content.attributes(path) {
         let full = key(path, name, Form::Attribute);
         messages.push(Message::new(ATTRIBUTE, attribute(&full, name, &content[&full])?));

@@ -193,6 +193,7 @@ impl<'f> Walk<'f> {
     fn object(&mut self, target: &Target, path: String, depth: usize) -> Result<(), ReadError> {
         let Target::Object(address) = *target else { return Err(elsewhere(&path)) };
         if matches!(self.choice, Choice::NoSteps) && step_of(&path).is_some() {
+            self.visit(&path)?;
             return match self.steps.insert(path.clone(), address) {
                 None => Ok(()),
                 Some(_) => Err(error(&path, "occurs twice")),

@@ -233,6 +233,29 @@ fn one_run_at_a_time() {
     assert_eq!((series.len(), Series::open(&path).unwrap().len()), (1, 2));
 }
 
+/// Who reads while a run appends sees whole steps, the last one too.
+#[test]
+fn reading_while_a_run_appends() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.h5");
+    let mut writer = SeriesWriter::begin(&path, &steps::beginning()).unwrap();
+    std::thread::scope(|scope| {
+        let writing = scope.spawn(|| (1..90).try_for_each(|k| writer.append(&steps::step(k))));
+        let mut seen = Vec::new();
+        while !writing.is_finished() {
+            let series = Series::open(&path).unwrap();
+            let last = series.len() - 1;
+            let step = series.dataset(last).unwrap().steps.remove(0);
+            assert_eq!(step.load, 1.0 + last as f64);
+            assert!(read(&path).unwrap().steps.len() > last);
+            seen.push(last);
+        }
+        writing.join().unwrap().unwrap();
+        seen.dedup();
+        assert!(seen.is_sorted() && seen.len() > 3, "{seen:?}");
+    });
+}
+
 #[test]
 fn what_cannot_be_continued() {
     let folder = tempfile::tempdir().unwrap();
@@ -323,7 +346,7 @@ fn damaged_series_are_errors_or_what_they_hold() {
     let data = from_bytes(VERSION_1_4.to_vec()).unwrap();
     let mut random = Random(11);
     let (mut refused, mut whole) = (0, 0);
-    for _ in 0..3000 {
+    for round in 0..3000 {
         let damaged = damaged(VERSION_1_4, &mut |below| random.below(below));
         fs::write(&path, &damaged.bytes).unwrap();
         let all = from_bytes(damaged.bytes).ok();
@@ -353,6 +376,14 @@ fn damaged_series_are_errors_or_what_they_hold() {
             assert!(all.is_none() || step.is_ok(), "{}", damaged.what);
         }
         whole += usize::from(all.is_some());
+        // to see a step to the disk takes its time
+        if let (0, Ok(mut writer)) = (round % 30, SeriesWriter::resume(&path)) {
+            let len = writer.len();
+            if writer.append(&steps::step(len)).is_ok() {
+                drop(writer);
+                assert!(Series::open(&path).unwrap().dataset(len).is_ok(), "{}", damaged.what);
+            }
+        }
     }
     assert!(refused > 300 && whole > 50, "{refused} refused, {whole} read");
 }

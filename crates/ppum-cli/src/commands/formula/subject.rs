@@ -12,7 +12,7 @@ use ppum::library::{self, ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS};
 use ppum::quantity::{Quantity, QuantityFormula, Vocabulary};
 use ppum::text::hint;
 
-use crate::dataset::{field, open};
+use crate::dataset::{field, open_step};
 use crate::given::Given;
 
 /// The kinds of formulas.
@@ -116,7 +116,7 @@ impl Question<'_> {
             }
             Of::Poisson => self.built_in(&of, &Equation::poisson(1.0), &["u"]),
             Of::File(path) => {
-                let dataset = open(path)?;
+                let dataset = open_step(path, None)?;
                 self.quantity(&of, &Vocabulary::of(&field(&dataset, None)?))
             }
         }

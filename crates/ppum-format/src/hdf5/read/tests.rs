@@ -17,6 +17,7 @@ use super::types::{Kind, Padding, Type};
 use super::{Outline, Ranges, Texts, arrays, from_bytes};
 use crate::content::{Values, step_path};
 use crate::damage::{seal, sealed_parts};
+use crate::decode::RESULTS;
 
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
 const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
@@ -212,8 +213,16 @@ impl Ranges for Counted {
     }
 }
 
-/// Bytes that are read for the outline of a series and for each of three of its steps, and those of a step in the file.
-fn costs(steps: usize) -> (u64, [u64; 3], u64) {
+/// Bytes of each step in a file of so many, and those that are read for its outline, for three of its steps and for their
+/// results.
+struct Costs {
+    length: u64,
+    outline: u64,
+    steps: [u64; 3],
+    results: [u64; 3],
+}
+
+fn costs(steps: usize) -> Costs {
     let mut dataset = steps::beginning();
     dataset.steps = vec![steps::step(4); steps];
     let bytes = crate::to_bytes(&dataset).expect("valid");
@@ -222,25 +231,35 @@ fn costs(steps: usize) -> (u64, [u64; 3], u64) {
     let outline = Outline::read(&file, length).expect("a series");
     assert_eq!(outline.steps().len(), steps);
     let of_outline = file.read.take();
-    let of_step = [0, steps / 2, steps - 1].map(|number| {
-        let content = outline.step(&file, &step_path(number), None).expect("a step");
-        assert!(content.len() > 30);
+    let read = |number, members, least| {
+        let content = outline.step(&file, &step_path(number), members).expect("a step");
+        assert!(content.len() > least);
         file.read.take()
-    });
-    (of_outline, of_step, length / steps as u64)
+    };
+    let numbers = [0, steps / 2, steps - 1];
+    Costs {
+        length: length / steps as u64,
+        outline: of_outline,
+        steps: numbers.map(|number| read(number, None, 30)),
+        results: numbers.map(|number| read(number, Some(RESULTS), 10)),
+    }
 }
 
-/// One step of hundreds costs as much as one of two, and some pages more than it has bytes. Of the outline each step
-/// takes a link, of 23 bytes.
+/// One step of hundreds costs as much as one of two, and some pages more than it has bytes.
 #[test]
 fn a_step_costs_as_much_as_it_is_long() {
-    let (outline, few, _) = costs(2);
-    let (long_outline, many, length) = costs(500);
-    for (few, many) in few.iter().zip(many) {
-        assert!(many <= few + 2 * PAGE && many <= length + 3 * PAGE, "{many} {few} {length}");
+    let (few, many) = (costs(2), costs(500));
+    for (few, one) in few.steps.iter().zip(many.steps) {
+        assert!(
+            one <= few + 2 * PAGE && one <= many.length + 3 * PAGE,
+            "{one} {few} {}",
+            many.length
+        );
     }
-    // in blocks of 64, each read with its page
-    assert!(long_outline <= outline + (500 / 64 + 2) * 2 * PAGE, "{outline} {long_outline}");
+    assert!(many.results.iter().all(|one| *one <= 4 * PAGE), "{:?}", many.results);
+    // links stand in blocks of 64, each read with its page or two
+    let most = few.outline + (500 / 64 + 2) * 2 * PAGE;
+    assert!(many.outline <= most, "{} {}", few.outline, many.outline);
 }
 
 /// What is read in parts is what is read as a whole, whatever wrote it.
