@@ -60,7 +60,7 @@
 //!
 //! ```text
 //! solve                                            plan, system, solution, dataset
-//! adapt                                            estimated error; cells to divide, orders to raise
+//! adapt           hierarchy                        estimated error, cells to divide; coarser levels of a system
 //! assembly        diagnostics                      cells and border → K u = f; warnings
 //! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
 //! space                                            local spaces of a cover, enriched
@@ -77,6 +77,7 @@ mod corner;
 pub mod diagnostics;
 mod equilibrium;
 mod geometry;
+mod hierarchy;
 pub mod intensity;
 mod law;
 mod linear;

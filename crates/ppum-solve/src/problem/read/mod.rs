@@ -352,11 +352,16 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 }
 
 fn solver(root: &Section<'_>) -> Solver {
-    let kinds = [("auto", SolverKind::Auto), ("direct", SolverKind::Direct)];
-    let later = [("tolerance", Later(&[]))];
-    let section = root.section("solver").map(|s| s.only(&["kind", "kernels"], &later));
+    let kinds = [
+        ("auto", SolverKind::Auto),
+        ("direct", SolverKind::Direct),
+        ("multilevel", SolverKind::Multilevel),
+    ];
+    let section = root.section("solver").map(|s| s.only(&["kind", "tolerance", "kernels"], &[]));
     let get = |key| section.as_ref()?.get(key);
+    let tolerance = get("tolerance").and_then(|value| value.number());
     Solver {
+        tolerance: tolerance.unwrap_or(Solver::default().tolerance),
         kind: get("kind").and_then(|value| value.choice(&kinds)).unwrap_or_default(),
         kernels: get("kernels").and_then(|value| value.boolean()).unwrap_or(true),
     }
