@@ -2,13 +2,13 @@
 //!
 //!     cargo run --release -p ppum-solve --example levels -- PROBLEM.toml ORDER KIND FIRST LAST
 //!
-//! KIND is `multilevel`, `direct` or `auto`. A line for each level: unknowns, steps, condition of the preconditioned system, seconds
+//! TOLERANCE in the environment takes the place of the problem's. KIND is `multilevel`, `direct` or `auto`. A line for each level: unknowns, steps, condition of the preconditioned system, seconds
 //! of basis, assembly and solution, memory of the solver, and the most that the program has held so far.
 
 use ppum::progress::unwatched;
 use ppum_solve::problem::{Cells, Order, Problem, SolverKind};
 use ppum_solve::report::SolverReport;
-use ppum_solve::solve::solve;
+use ppum_solve::solve::Plan;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -28,7 +28,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     for level in first.parse::<u32>()?..=last.parse()? {
         problem.discretization.cells = Cells::Level(level);
-        let dataset = solve(&problem, unwatched())?;
+        let plan = Plan::new(&problem, None, unwatched())?;
+        eprintln!("{}", plan.estimate());
+        let dataset = plan.solve(unwatched())?;
         let step = &dataset.steps[0];
         let report = SolverReport::of(&step.history);
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);

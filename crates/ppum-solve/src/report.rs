@@ -153,7 +153,7 @@ const ENTRIES: [Entry; 20] = [
     ("cut-off", |r| &mut r.cut_off),
     ("residual", |r| &mut r.residual),
     ("dependent", |r| &mut r.dependent),
-    ("linear solver", |r| &mut r.solver),
+    (SOLVER, |r| &mut r.solver),
     (BYTES, |r| &mut r.solver_bytes),
     ("solver levels", |r| &mut r.solver_levels),
     ("iterations", |r| &mut r.iterations),
@@ -166,9 +166,13 @@ const ENTRIES: [Entry; 20] = [
     ("energy", |r| &mut r.energy),
     ("estimated error", |r| &mut r.estimated_error),
     ("estimated error of factors", |r| &mut r.factor_error),
-    ("adaptation stop", |r| &mut r.stop),
+    (STOP, |r| &mut r.stop),
     ("rounding", |r| &mut r.rounding),
 ];
+
+/// The records whose values are codes.
+const SOLVER: &str = "linear solver";
+const STOP: &str = "adaptation stop";
 
 /// The record with the unit `B`.
 const BYTES: &str = "solver memory";
@@ -176,10 +180,20 @@ const BYTES: &str = "solver memory";
 /// What names of records of the course of iterations begin with: `iteration 7`, `iteration 7 level 2`.
 const ITERATION: &str = "iteration ";
 
-/// True for records of the course of iterations, of which there are many.
+/// True for names of records of the course of iterations, of which there are many.
 #[must_use]
-pub fn is_of_course(record: &Record) -> bool {
-    course_place(&record.name).is_some()
+pub fn is_of_course(name: &str) -> bool {
+    course_place(name).is_some()
+}
+
+/// The word that a record's value stands for, if it is a code.
+#[must_use]
+pub fn word(name: &str, value: f64) -> Option<&'static str> {
+    match name {
+        SOLVER => LinearKind::of_code(value).map(LinearKind::word),
+        STOP => Stop::of_code(value).map(Stop::word),
+        _ => None,
+    }
 }
 
 /// The iteration that a name tells, and the level if it tells one.
@@ -291,7 +305,7 @@ mod tests {
             (vec![1.0, 0.25], vec![vec![1.0, 1.0], vec![0.5, 0.125]]);
         let mut records = report.records();
         assert_eq!(records.len(), ENTRIES.len() + PHASES.len() + 6);
-        assert_eq!(records.iter().filter(|record| is_of_course(record)).count(), 6);
+        assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
         assert_eq!(records[12].name, "free motions");
         assert_eq!(SolverReport::of(&records), report);
         // a second record of a name, and names of other programs

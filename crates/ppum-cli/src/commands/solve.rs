@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record, Step};
 use ppum_solve::problem::Problem;
-use ppum_solve::report::{SolverReport, Stop};
+use ppum_solve::report::{LinearKind, SolverReport, Stop};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -154,6 +154,8 @@ struct Report {
     estimated_error: Option<Number>,
     /// What adaptation has done; null without.
     adaptation: Option<Adaptation>,
+    /// The linear solver.
+    solver: Option<&'static str>,
     /// Of all phases.
     seconds: f64,
     phases: Vec<PhaseRow>,
@@ -236,6 +238,7 @@ impl Report {
             energy: report.energy.map(Number),
             estimated_error: report.estimated_error.map(Number),
             adaptation: Adaptation::new(dataset),
+            solver: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),

@@ -1,7 +1,7 @@
 //! Conjugate gradients for K u = f with a preconditioner M ≈ K⁻¹ \[Hestenes & Stiefel 1952\].
 //!
 //! The error in the energy norm falls with every step. (rᵀ M r)^½ stands for it: between the two lies no more than the condition
-//! of M K, which the coefficients of the iteration tell (Lanczos; Golub & Van Loan, "Matrix Computations", section 11.5).
+//! of M K, which the coefficients of the iteration tell: they make the tridiagonal matrix of Lanczos' method.
 
 use super::eigen::SymmetricEigen;
 use faer::Mat;
