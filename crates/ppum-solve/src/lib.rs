@@ -61,7 +61,7 @@
 //! ```text
 //! growth                                           cracks that grow, step by step
 //! solve                                            plan, system, solution, dataset
-//! adapt                                            estimated error; cells to divide, orders to raise
+//! adapt           hierarchy                        estimated error, cells to divide; coarser levels of a system
 //! assembly        diagnostics                      cells and border → K u = f; warnings
 //! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
 //! space                                            local spaces of a cover, enriched
@@ -79,6 +79,7 @@ pub mod diagnostics;
 mod equilibrium;
 mod geometry;
 pub mod growth;
+mod hierarchy;
 pub mod intensity;
 mod law;
 mod linear;

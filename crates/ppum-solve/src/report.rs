@@ -23,6 +23,16 @@ pub struct SolverReport {
     pub residual: Option<f64>,
     /// Unknowns left out because they depend on those of other patches.
     pub dependent: Option<f64>,
+    /// The linear solver, the [code](LinearKind::code) of a [`LinearKind`].
+    pub solver: Option<f64>,
+    /// Bytes that the linear solver has held: matrices of all levels, factors.
+    pub solver_bytes: Option<f64>,
+    /// Levels of the multilevel solver, the finest and the coarsest among them.
+    pub solver_levels: Option<f64>,
+    /// Its steps, of the solution without those of other right-hand sides.
+    pub iterations: Option<f64>,
+    /// Condition of the system with its preconditioner, estimated from the steps: a bound from below.
+    pub preconditioned_condition: Option<f64>,
     /// Largest penalty β of Nitsche's method in a cell, in units of stiffness over cell width: 3 to 36 in
     /// whole cells and more in slivers.
     pub nitsche: Option<f64>,
@@ -46,6 +56,46 @@ pub struct SolverReport {
     pub rounding: Option<f64>,
     /// Seconds of each phase, in the order of the work.
     pub seconds: Vec<(Phase, f64)>,
+    /// The residual before the first step of the multilevel solver and after each, in the norm of the preconditioner and as
+    /// a part of the first.
+    pub residuals: Vec<f64>,
+    /// Before each step, the residual that reaches each level, the finest first, as a part of that of the first step.
+    pub level_residuals: Vec<Vec<f64>>,
+}
+
+/// A solver of linear systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearKind {
+    /// Sparse Cholesky factorisation.
+    Direct,
+    /// Conjugate gradients with coarser levels.
+    Multilevel,
+}
+
+impl LinearKind {
+    /// Both, in the order of their codes.
+    pub const ALL: [Self; 2] = [Self::Direct, Self::Multilevel];
+
+    /// The number that stands for it in a dataset's history, from 1.
+    #[must_use]
+    pub fn code(self) -> f64 {
+        Self::ALL.iter().position(|kind| *kind == self).map_or(0.0, |k| k as f64 + 1.0)
+    }
+
+    /// The kind with a code.
+    #[must_use]
+    pub fn of_code(code: f64) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.code() == code)
+    }
+
+    /// Its word in problem files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Multilevel => "multilevel",
+        }
+    }
 }
 
 /// What has ended an adaptation.
@@ -97,12 +147,17 @@ impl Stop {
 type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [Entry; 15] = [
+const ENTRIES: [Entry; 20] = [
     ("crossed twice", |r| &mut r.crossed_twice),
     ("unknowns", |r| &mut r.unknowns),
     ("cut-off", |r| &mut r.cut_off),
     ("residual", |r| &mut r.residual),
     ("dependent", |r| &mut r.dependent),
+    (SOLVER, |r| &mut r.solver),
+    (BYTES, |r| &mut r.solver_bytes),
+    ("solver levels", |r| &mut r.solver_levels),
+    ("iterations", |r| &mut r.iterations),
+    ("preconditioned condition", |r| &mut r.preconditioned_condition),
     ("nitsche", |r| &mut r.nitsche),
     ("pieces", |r| &mut r.pieces),
     ("free motions", |r| &mut r.free_modes),
@@ -111,9 +166,44 @@ const ENTRIES: [Entry; 15] = [
     ("energy", |r| &mut r.energy),
     ("estimated error", |r| &mut r.estimated_error),
     ("estimated error of factors", |r| &mut r.factor_error),
-    ("adaptation stop", |r| &mut r.stop),
+    (STOP, |r| &mut r.stop),
     ("rounding", |r| &mut r.rounding),
 ];
+
+/// The records whose values are codes.
+const SOLVER: &str = "linear solver";
+const STOP: &str = "adaptation stop";
+
+/// The record with the unit `B`.
+const BYTES: &str = "solver memory";
+
+/// What names of records of the course of iterations begin with: `iteration 7`, `iteration 7 level 2`.
+const ITERATION: &str = "iteration ";
+
+/// True for names of records of the course of iterations, of which there are many.
+#[must_use]
+pub fn is_of_course(name: &str) -> bool {
+    course_place(name).is_some()
+}
+
+/// The word that a record's value stands for, if it is a code.
+#[must_use]
+pub fn word(name: &str, value: f64) -> Option<&'static str> {
+    match name {
+        SOLVER => LinearKind::of_code(value).map(LinearKind::word),
+        STOP => Stop::of_code(value).map(Stop::word),
+        _ => None,
+    }
+}
+
+/// The iteration that a name tells, and the level if it tells one.
+fn course_place(name: &str) -> Option<(usize, Option<usize>)> {
+    let place = name.strip_prefix(ITERATION)?;
+    match place.split_once(" level ") {
+        Some((step, level)) => Some((step.parse().ok()?, Some(level.parse().ok()?))),
+        None => Some((place.parse().ok()?, None)),
+    }
+}
 
 /// Phases of a solution; their times are records with the unit `s`.
 const PHASES: [Phase; 6] = [
@@ -135,6 +225,8 @@ impl SolverReport {
             let is_of = |phase: &&Phase| record.unit == "s" && phase.name() == record.name;
             if let Some(phase) = PHASES.iter().find(is_of) {
                 report.seconds.push((*phase, record.value));
+            } else if let Some(place) = course_place(&record.name) {
+                report.add_course(place, record.value);
             } else if let Some((_, entry)) = ENTRIES.iter().find(|(name, _)| *name == record.name) {
                 entry(&mut report).get_or_insert(record.value);
             }
@@ -148,12 +240,36 @@ impl SolverReport {
         let mut report = self.clone();
         let record =
             |name: &str, value, unit: &str| Record { name: name.into(), value, unit: unit.into() };
-        let numbers = ENTRIES
-            .iter()
-            .filter_map(|(name, entry)| Some(record(name, (*entry(&mut report))?, "")));
+        let numbers = ENTRIES.iter().filter_map(|(name, entry)| {
+            let unit = if *name == BYTES { "B" } else { "" };
+            Some(record(name, (*entry(&mut report))?, unit))
+        });
         let mut records: Vec<_> = numbers.collect();
         records.extend(self.seconds.iter().map(|(phase, value)| record(phase.name(), *value, "s")));
+        for (step, residual) in self.residuals.iter().enumerate() {
+            records.push(record(&format!("{ITERATION}{step}"), *residual, ""));
+            let of_levels = self.level_residuals.get(step).into_iter().flatten().enumerate();
+            let of_levels = of_levels
+                .map(|(l, value)| record(&format!("{ITERATION}{step} level {l}"), *value, ""));
+            records.extend(of_levels);
+        }
         records
+    }
+
+    /// Takes a residual of the course up if it is the next one.
+    fn add_course(&mut self, (step, level): (usize, Option<usize>), value: f64) {
+        match level {
+            None if step == self.residuals.len() => self.residuals.push(value),
+            None => {}
+            Some(level) => {
+                if step == self.level_residuals.len() {
+                    self.level_residuals.push(Vec::new());
+                }
+                let of_step = self.level_residuals.get_mut(step);
+                let next = of_step.filter(|values| values.len() == level);
+                next.into_iter().for_each(|values| values.push(value));
+            }
+        }
     }
 
     /// Part of the unknowns that was cut off.
@@ -185,12 +301,17 @@ mod tests {
             *entry(&mut report) = Some(k as f64);
         }
         report.seconds = PHASES.iter().map(|&phase| (phase, 0.5)).collect();
+        (report.residuals, report.level_residuals) =
+            (vec![1.0, 0.25], vec![vec![1.0, 1.0], vec![0.5, 0.125]]);
         let mut records = report.records();
-        assert_eq!(records.len(), ENTRIES.len() + PHASES.len());
-        assert_eq!(records[7].name, "free motions");
+        assert_eq!(records.len(), ENTRIES.len() + PHASES.len() + 6);
+        assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
+        assert_eq!(records[12].name, "free motions");
         assert_eq!(SolverReport::of(&records), report);
         // a second record of a name, and names of other programs
-        for (name, unit) in [("energy", ""), ("mood", ""), ("cover", "")] {
+        for (name, unit) in
+            [("energy", ""), ("mood", ""), ("cover", ""), ("iteration 1", ""), ("iteration x", "")]
+        {
             records.push(Record { name: name.into(), value: -1.0, unit: unit.into() });
         }
         assert_eq!(SolverReport::of(&records), report);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record, Step};
 use ppum_solve::problem::Problem;
-use ppum_solve::report::{SolverReport, Stop};
+use ppum_solve::report::{LinearKind, SolverReport, Stop};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -165,6 +165,8 @@ struct Report {
     adaptation: Option<Adaptation>,
     /// What has become of the cracks; null without growth.
     growth: Option<growth::Grown>,
+    /// The linear solver.
+    solver: Option<&'static str>,
     /// Of all phases.
     seconds: f64,
     phases: Vec<PhaseRow>,
@@ -248,6 +250,7 @@ impl Report {
             estimated_error: report.estimated_error.map(Number),
             adaptation: Adaptation::new(dataset),
             growth: None,
+            solver: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(history_row).collect(),

@@ -46,6 +46,11 @@ impl<'p> FreeModes<'p> {
         Self { pieces: &plate.pieces, modes, groups }
     }
 
+    /// No free modes, on the same pieces: their functionals are not wanted.
+    pub(crate) fn none(plate: &'p Plate) -> Self {
+        Self { pieces: &plate.pieces, modes: Vec::new(), groups: 0 }
+    }
+
     /// Number of free modes.
     pub(crate) fn len(&self) -> usize {
         self.modes.len()
@@ -129,12 +134,10 @@ impl Gauge {
         if self.modes.is_empty() {
             return Ok(());
         }
-        let loads = self.loads(matrix);
-        let rough = solve_all(solver, &loads)?;
-        // Loads of modes that have one mean each: those of one patch look much alike, and the
-        // rounding of their differences would be seen in strains.
-        let loads = combined(&loads, &self.means(&rough).partial_piv_lu().inverse());
-        let rigid = solve_all(solver, &loads)?;
+        let rigid = match solver.kernel() {
+            Some(modes) => modes,
+            None => self.rigid(solver, matrix)?,
+        };
         let parts = self.means(&rigid).partial_piv_lu().solve(self.means(&[&*solution]));
         for (k, rigid) in rigid.iter().enumerate() {
             solution.iter_mut().zip(rigid).for_each(|(u, r)| *u -= parts[(k, 0)] * r);
@@ -142,8 +145,21 @@ impl Gauge {
         Ok(())
     }
 
+    /// The rigid-body modes, as solutions for the functionals of the penalty.
+    fn rigid(
+        &self,
+        solver: &dyn LinearSolver,
+        matrix: &BlockMatrix,
+    ) -> Result<Vec<Vec<f64>>, LinearError> {
+        let loads = self.loads(matrix);
+        let rough = solve_all(solver, &loads)?;
+        // Loads of modes that have one mean each: those of one patch look much alike, and the
+        // rounding of their differences would be seen in strains.
+        solve_all(solver, &combined(&loads, &self.means(&rough).partial_piv_lu().inverse()))
+    }
+
     /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
-    fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+    pub(crate) fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
         let load = |(mode, moments): (&Mode, &Vec<f64>)| {
             let mut load = vec![0.0; moments.len()];
             let range = matrix.unknowns(self.patches[mode.group]);

@@ -18,7 +18,7 @@ use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use local::LocalBasis;
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
@@ -114,6 +114,11 @@ impl StableBasis {
     /// Of each patch, the number of unknowns cut off.
     pub(crate) fn cut_off(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
         self.patches.iter().map(move |patch| patch.cut_off(components))
+    }
+
+    /// The transformation T of a patch \[kept, functions\].
+    pub(crate) fn transform(&self, patch: u32) -> MatRef<'_, f64> {
+        self.patches[patch as usize].matrix.as_ref()
     }
 
     /// Of a patch whose components share unknowns, what these are of each function in each component: [unknowns, components ·

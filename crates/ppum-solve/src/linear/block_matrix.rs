@@ -142,6 +142,26 @@ impl BlockMatrix {
         sum += block;
     }
 
+    /// Row, column and place of every stored block, in the order of storage.
+    pub(super) fn stored_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+        self.pattern.pairs().enumerate().map(|(k, (i, j))| (i, j, k))
+    }
+
+    /// The values of the stored block `k`, row-major.
+    pub(super) fn stored(&self, k: usize) -> &[f64] {
+        &self.values[self.block_starts[k]..self.block_starts[k + 1]]
+    }
+
+    /// Bytes of the values and of their places.
+    pub(crate) fn bytes(&self) -> usize {
+        let places =
+            size_of_val(self.block_starts.as_slice()) + size_of_val(self.offsets.as_slice());
+        let pattern = &self.pattern;
+        let pattern =
+            size_of_val(pattern.columns.as_slice()) + size_of_val(pattern.starts.as_slice());
+        size_of_val(self.values.as_slice()) + places + pattern
+    }
+
     /// K x.
     ///
     /// # Panics

@@ -22,6 +22,7 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::block_matrix::{BlockMatrix, BlockPattern};
 use super::solver::{LinearError, LinearSolution, LinearSolver};
+use std::borrow::Cow;
 
 /// A pivot L_kk² up to this fraction of K_kk is rounding noise and counts as zero. In a system
 /// after the stable transformation the fraction is at least the reciprocal condition number, seen
@@ -45,7 +46,7 @@ const CONSISTENT: f64 = 1e-6;
 /// The factorisation of a symmetric positive semi-definite matrix, for any number of right-hand sides.
 #[derive(Debug)]
 pub(crate) struct Cholesky<'a> {
-    matrix: &'a BlockMatrix,
+    matrix: Cow<'a, BlockMatrix>,
     /// D
     scale: Vec<f64>,
     symbolic: SymbolicCholesky<usize>,
@@ -69,8 +70,13 @@ impl<'a> Cholesky<'a> {
     /// # Errors
     /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for the memory.
     pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, LinearError> {
+        Self::of(Cow::Borrowed(matrix))
+    }
+
+    /// The same of a matrix that it may own.
+    pub(super) fn of(matrix: Cow<'a, BlockMatrix>) -> Result<Self, LinearError> {
         let mut lower = matrix.lower_triangle();
-        let scale = inverse_root_diagonal(matrix, &lower)?;
+        let scale = inverse_root_diagonal(&matrix, &lower)?;
         multiply(&mut lower, &scale);
         let unknowns = matrix.n_unknowns();
         let no_memory = |_: FaerError| LinearError::OutOfMemory { unknowns };
@@ -83,6 +89,20 @@ impl<'a> Cholesky<'a> {
         let mut cholesky = Self { matrix, scale, symbolic, factor, dependent: Vec::new() };
         cholesky.dependent = cholesky.replaced_pivots()?;
         Ok(cholesky)
+    }
+
+    /// Bytes of the matrix and of the factor's values.
+    pub(crate) fn bytes(&self) -> usize {
+        self.matrix.bytes() + self.factor_bytes()
+    }
+
+    /// Bytes of the factor's values.
+    fn factor_bytes(&self) -> usize {
+        match &self.factor {
+            Factor::Definite(values) | Factor::Semidefinite(values) => {
+                size_of_val(values.as_slice())
+            }
+        }
     }
 
     /// f − K u.
@@ -98,7 +118,7 @@ impl<'a> Cholesky<'a> {
         for (k, pivot) in diagonal(&self.symbolic, values).into_iter().enumerate() {
             let u = original_index(&self.symbolic, k);
             if !pivot.is_finite() {
-                return Err(not_positive_definite(self.matrix, u));
+                return Err(not_positive_definite(&self.matrix, u));
             }
             // other pivots are at most 1, the diagonal
             replaced.extend((pivot > 2.0).then_some(u));
@@ -133,9 +153,9 @@ impl LinearSolver for Cholesky<'_> {
         let relative_residual = if residual == 0.0 { 0.0 } else { residual / norm(f) };
         match self.dependent.first() {
             Some(&u) if relative_residual > CONSISTENT => {
-                Err(not_positive_definite(self.matrix, u))
+                Err(not_positive_definite(&self.matrix, u))
             }
-            _ => Ok(LinearSolution { unknowns, relative_residual }),
+            _ => Ok(LinearSolution { unknowns, relative_residual, course: None }),
         }
     }
 

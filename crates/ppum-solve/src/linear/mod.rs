@@ -4,18 +4,29 @@
 
 mod block_matrix;
 mod cholesky;
+mod conjugate;
 mod dense;
 mod eigen;
+mod kernel;
+mod multilevel;
 mod pencil;
+mod rows;
+mod smoother;
 mod solver;
 mod spectrum;
+#[cfg(test)]
+mod test_matrices;
+mod transfer;
 
 pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
 pub(crate) use cholesky::{Cholesky, fill};
+pub(crate) use conjugate::Course;
 pub(crate) use dense::{add_at, product, taken};
 pub use eigen::EigenError;
 pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
+pub(crate) use multilevel::{Coarse, Multilevel};
 pub(crate) use pencil::largest_eigenvalue;
 pub use solver::LinearError;
 pub(crate) use solver::LinearSolver;
 pub use spectrum::Spectrum;
+pub(crate) use transfer::Transfer;

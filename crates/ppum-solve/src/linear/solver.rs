@@ -1,5 +1,7 @@
 //! Linear systems that are ready for right-hand sides: the contract of all solvers.
 
+use super::conjugate::Course;
+
 /// A symmetric positive semi-definite system K u = f, prepared for any number of right-hand sides.
 pub(crate) trait LinearSolver {
     /// Solves K u = f.
@@ -11,8 +13,21 @@ pub(crate) trait LinearSolver {
     /// If `load` has not one entry for each unknown.
     fn solve(&self, load: &[f64]) -> Result<LinearSolution, LinearError>;
 
+    /// The same where the solution only weighs errors, which are known to a few digits at best.
+    ///
+    /// # Errors
+    /// Those of [`LinearSolver::solve`].
+    fn solve_roughly(&self, load: &[f64]) -> Result<LinearSolution, LinearError> {
+        self.solve(load)
+    }
+
     /// x ← K⁻¹ x, as it comes: without a look at the residual.
     fn apply_inverse(&self, x: &mut [f64]);
+
+    /// A basis of the solutions of K u = 0 where K is singular and the solver knows them.
+    fn kernel(&self) -> Option<Vec<Vec<f64>>> {
+        None
+    }
 
     /// Number of unknowns that are left out, because they depend on others.
     fn n_dependent(&self) -> usize;
@@ -25,10 +40,12 @@ pub(crate) struct LinearSolution {
     pub(crate) unknowns: Vec<f64>,
     /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
     pub(crate) relative_residual: f64,
+    /// How it was found, by iteration.
+    pub(crate) course: Option<Course>,
 }
 
 /// A system that cannot be solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinearError {
     /// A zero, negative or undefined pivot.
@@ -59,6 +76,29 @@ pub enum LinearError {
         /// Unknowns of the system.
         unknowns: usize,
     },
+    /// Iteration does not come to the tolerance.
+    #[error(
+        "after {steps} steps the multilevel solver has left {left:.1e} of the error; ask for a larger tolerance or for the \
+         direct solver"
+    )]
+    NotConverged {
+        /// Steps made.
+        steps: usize,
+        /// Part of the error in the energy norm that is left, estimated.
+        left: f64,
+    },
+    /// A singular system whose coarser levels are not singular in the same way.
+    #[error(
+        "the multilevel solver does not find the motions of pieces of the plate that nothing holds; hold them, or ask for the \
+         direct solver"
+    )]
+    NoModes {
+        /// Force on what was found, in units of the largest stiffness.
+        force: f64,
+    },
+    /// Somebody wanted it to stop.
+    #[error("the solution was stopped")]
+    Stopped,
 }
 
 impl LinearError {
@@ -67,7 +107,10 @@ impl LinearError {
     pub fn patch(&self) -> Option<usize> {
         match *self {
             Self::NotPositiveDefinite { patch, .. } | Self::LoadNotFinite { patch } => Some(patch),
-            Self::OutOfMemory { .. } => None,
+            Self::OutOfMemory { .. }
+            | Self::NotConverged { .. }
+            | Self::NoModes { .. }
+            | Self::Stopped => None,
         }
     }
 }

@@ -18,7 +18,7 @@ use super::refinement::check_refinements;
 use super::scopes;
 use super::{
     Adaptivity, BorderPart, BoundaryCondition, Cells, Discretization, Edge, Enrichment,
-    LocalEnrichment, MOST_TERMS, Order, Problem,
+    LocalEnrichment, MOST_TERMS, Order, Problem, Solver,
 };
 use crate::geometry::Jumps;
 
@@ -57,6 +57,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     found.extend(problem.adaptivity.iter().flat_map(check_adaptivity));
     found.extend(check_goal(problem));
     found.extend(check_growth(problem));
+    found.extend(check_solver(&problem.solver));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
     let bounds = &problem.domain.bounds;
@@ -73,6 +74,20 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     }
     found.extend(domain);
     found
+}
+
+/// The least tolerance of iteration: rounding leaves about a thousandth of it.
+const LEAST_TOLERANCE: f64 = 1e-14;
+
+/// Iteration comes to tolerances between rounding and all of the solution.
+fn check_solver(solver: &Solver) -> Option<MistakeAt> {
+    let tolerance = solver.tolerance;
+    let message = format!(
+        "`tolerance` is {tolerance}, but must be at least {LEAST_TOLERANCE} and below 1, a part of the solution"
+    );
+    let key = Key::new("solver").name("tolerance");
+    let fits = (LEAST_TOLERANCE..1.0).contains(&tolerance);
+    (!fits).then(|| MistakeAt::new(key, message))
 }
 
 /// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.

@@ -127,10 +127,12 @@ pub struct Problem {
 pub const MAX_LENGTH: u64 = 16 << 20;
 
 /// Settings of the solver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solver {
     /// The linear solver.
     pub kind: SolverKind,
+    /// Part of the error in the energy norm that iteration may leave, estimated by its residual.
+    pub tolerance: f64,
     /// Use native kernels where there are any; false evaluates their formulas, which should give the
     /// same to rounding.
     pub kernels: bool,
@@ -138,9 +140,13 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { kind: SolverKind::default(), kernels: true }
+        Self { kind: SolverKind::default(), tolerance: TOLERANCE, kernels: true }
     }
 }
+
+/// Default tolerance of iteration: fields and stress intensity factors are those of the direct solver to 1e-9, a
+/// thousand times that, whatever they weigh in the energy.
+pub(crate) const TOLERANCE: f64 = 1e-12;
 
 /// The linear solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -151,6 +157,8 @@ pub enum SolverKind {
     Auto,
     /// Sparse Cholesky factorisation.
     Direct,
+    /// Conjugate gradients with a hierarchy of coarser covers.
+    Multilevel,
 }
 
 impl Problem {

@@ -7,7 +7,8 @@
 
 use crate::assembly::pattern;
 use crate::linear::{BlockPattern, fill};
-use crate::problem::{Cells, Order, Problem};
+use crate::problem::{Cells, Order, Problem, SolverKind};
+use crate::report::LinearKind;
 use crate::space::Space;
 use ppum::crack::tips;
 use ppum::dataset::monomials;
@@ -31,12 +32,35 @@ const FIXED_BYTES: f64 = 3e7;
 /// Values of a patch beside its blocks.
 const PATCH_BYTES: f64 = 1_500.0;
 
+/// Bytes of a value of the system with all levels and the inverses of their diagonal blocks, and of a patch with its
+/// ancestors: measured (`docs/decisions/0020-multilevel.md`).
+const LEVELS_BYTES: f64 = 18.0;
+const LEVELS_PATCH_BYTES: f64 = 2_500.0;
+
+/// Seconds of a step of the multilevel solver for a value of the system, which memory decides and not the number of
+/// cores.
+const STEP_SECONDS: f64 = 1.0e-8;
+
+/// Steps of a solution, and of the dual solutions that tips need beside.
+const STEPS: f64 = 22.0;
+const DUAL_STEPS: f64 = 2.0 * 12.0;
+
+/// Work on the cells of all coarser levels and on the ways between them, as a part of that on the finest: a third, and
+/// more where there are enrichments.
+const COARSER: f64 = 0.6;
+
+/// Memory above which the direct solver gives way even where it would be faster: half of what small machines have.
+const LARGE_BYTES: f64 = 4e9;
+
+/// Patches from which on nobody counts what elimination would add: the direct solver takes minutes and tens of gigabytes.
+const TOO_MANY_TO_COUNT: usize = 600_000;
+
 /// Patches that a patch of a uniform cover overlaps with, itself and of each pair only one counted.
 const NEIGHBOURS: f64 = 5.0;
 
 /// Seconds of an operation of the factorisation, and of a product of functions at a quadrature point, on one core
 /// of a machine of 2023.
-const FACTOR_SECONDS: f64 = 2.0e-10;
+const FACTOR_SECONDS: f64 = 8.0e-11;
 const ASSEMBLY_SECONDS: f64 = 1.1e-9;
 
 /// Seconds that a cell takes in any case.
@@ -54,10 +78,14 @@ pub struct Estimate {
     pub unknowns: f64,
     /// Values of the system's matrix, of which one half is stored.
     pub nonzeros: f64,
-    /// Values of its factor.
+    /// The linear solver that is taken.
+    pub solver: LinearKind,
+    /// Values of the matrix's factor; zero for the multilevel solver.
     pub factor: f64,
     /// Memory \[bytes\], right within a third.
     pub memory: f64,
+    /// True if the direct solver could take the place of the chosen one.
+    pub(super) falls_back: bool,
     /// Time on this number of cores \[s\], right within a factor of about three on a machine of today; what the
     /// formulas of a problem take is not in it.
     pub seconds: f64,
@@ -72,14 +100,42 @@ struct Work {
 }
 
 impl Estimate {
-    /// The estimate for the space of a problem.
-    pub(crate) fn of_space(problem: &Problem, space: &Space<'_>) -> Self {
+    /// The estimate for the space of a problem, with the linear solver that the problem names or that suits it and a memory
+    /// \[bytes\].
+    pub(crate) fn of_space(problem: &Problem, space: &Space<'_>, memory: Option<u64>) -> Self {
         let sizes: Vec<_> = (0..space.sizes.len()).map(|patch| space.unknowns(patch)).collect();
         let pattern = pattern(space);
-        let fill = fill(&pattern, &sizes);
         let tips = if problem.equation.elastic().is_some() { n_tips(problem) } else { 0.0 };
-        let work = Work { assembly: assembly(space), factor: fill.operations, tips };
-        Self::new(sizes.len() as f64, &sizes, nonzeros(&pattern, &sizes), fill.values, work)
+        let work = Work { assembly: assembly(space), factor: 0.0, tips };
+        let (patches, nonzeros) = (sizes.len() as f64, nonzeros(&pattern, &sizes));
+        let multilevel = || Self::multilevel(patches, &sizes, nonzeros, work);
+        let direct = || {
+            let fill = fill(&pattern, &sizes);
+            Self::new(
+                patches,
+                &sizes,
+                nonzeros,
+                fill.values,
+                Work { factor: fill.operations, ..work },
+            )
+        };
+        match problem.solver.kind {
+            SolverKind::Direct => direct(),
+            SolverKind::Multilevel => multilevel(),
+            SolverKind::Auto if sizes.len() > TOO_MANY_TO_COUNT => multilevel(),
+            SolverKind::Auto => direct().or(multilevel(), memory),
+        }
+    }
+
+    /// This one of the direct solver, or the other one where that wins or the memory asks for it.
+    fn or(self, multilevel: Self, memory: Option<u64>) -> Self {
+        let holds = memory.is_none_or(|memory| self.memory <= memory as f64);
+        let is_direct = holds && self.memory <= LARGE_BYTES && self.seconds <= multilevel.seconds;
+        if is_direct || multilevel.memory >= self.memory {
+            self
+        } else {
+            Self { falls_back: holds, ..multilevel }
+        }
     }
 
     /// A bound from below, without a cover.
@@ -92,13 +148,24 @@ impl Estimate {
         let functions = (NEIGHBOURS + 4.0).min(patches) * least_size(problem) as f64;
         let assembly = patches * points * functions * functions;
         let work = Work { assembly, ..Work::default() };
-        Self { unknowns, ..Self::new(patches, &[], nonzeros, nonzeros, work) }
+        let direct = Self { unknowns, ..Self::new(patches, &[], nonzeros, nonzeros, work) };
+        let multilevel = Self { unknowns, ..Self::multilevel(patches, &[], nonzeros, work) };
+        match problem.solver.kind {
+            SolverKind::Direct => direct,
+            SolverKind::Multilevel => multilevel,
+            SolverKind::Auto if direct.memory < multilevel.memory => direct,
+            SolverKind::Auto => multilevel,
+        }
     }
 
     /// The number of cells of a cover from which on a problem does not fit into a memory.
     pub(crate) fn most_cells(problem: &Problem, memory: u64) -> usize {
         let size = (least_size(problem) * problem.components()) as f64;
-        let values = NEIGHBOURS * size * size * (SYSTEM_BYTES + FACTOR_BYTES);
+        let bytes = match problem.solver.kind {
+            SolverKind::Direct => SYSTEM_BYTES + FACTOR_BYTES,
+            SolverKind::Auto | SolverKind::Multilevel => LEVELS_BYTES,
+        };
+        let values = NEIGHBOURS * size * size * bytes;
         (memory as f64 / (values + PATCH_BYTES)) as usize
     }
 
@@ -110,6 +177,8 @@ impl Estimate {
             patches,
             unknowns: sizes.iter().map(|&size| size as f64).sum(),
             nonzeros,
+            solver: LinearKind::Direct,
+            falls_back: false,
             factor,
             memory: values * (1.0 + BESIDE) + PATCH_BYTES * patches + FIXED_BYTES,
             seconds: (cells + TIP_SECONDS * work.tips) / cores + FACTOR_SECONDS * work.factor,
@@ -117,16 +186,35 @@ impl Estimate {
     }
 }
 
+impl Estimate {
+    /// The estimate with the multilevel solver.
+    fn multilevel(patches: f64, sizes: &[usize], nonzeros: f64, work: Work) -> Self {
+        let direct = Self::new(patches, sizes, nonzeros, 0.0, Work { factor: 0.0, ..work });
+        let cells = CELL_SECONDS * patches + ASSEMBLY_SECONDS * work.assembly;
+        let coarser = COARSER * cells / rayon::current_num_threads() as f64;
+        let steps = STEPS + if work.tips > 0.0 { DUAL_STEPS } else { 0.0 };
+        Self {
+            solver: LinearKind::Multilevel,
+            memory: LEVELS_BYTES * nonzeros + LEVELS_PATCH_BYTES * patches + FIXED_BYTES,
+            seconds: direct.seconds + coarser + steps * STEP_SECONDS * nonzeros,
+            ..direct
+        }
+    }
+}
+
 /// `4,096 patches, 73,728 unknowns, 5.8 million non-zeros, 31 million in the factor: about 0.5 GiB and 20 s`
 impl fmt::Display for Estimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let solver = match self.solver {
+            LinearKind::Direct => format!("{} in the factor", count(self.factor)),
+            LinearKind::Multilevel => "multilevel solver".into(),
+        };
         write!(
             f,
-            "{} patches, {} unknowns, {} non-zeros, {} in the factor: about {} and {}",
+            "{} patches, {} unknowns, {} non-zeros, {solver}: about {} and {}",
             count(self.patches),
             count(self.unknowns),
             count(self.nonzeros),
-            count(self.factor),
             gibibytes(self.memory),
             duration(self.seconds)
         )

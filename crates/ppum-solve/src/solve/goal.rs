@@ -42,7 +42,7 @@ impl Solving<'_> {
     ) -> Result<Option<DualSolutions>, SolveError> {
         let [opening, sliding] = loads else { return Ok(None) };
         let plain = |load: &Vec<f64>| -> Result<Vec<f64>, SolveError> {
-            let solution = solver.solve(load).map_err(|error| self.located(error))?;
+            let solution = solver.solve_roughly(load).map_err(|error| self.located(error))?;
             Ok(basis.plain(self.space, &solution.unknowns, self.problem.components()))
         };
         let coefficients = [plain(opening)?, plain(sliding)?];

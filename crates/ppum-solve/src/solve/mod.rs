@@ -1,6 +1,7 @@
 //! From a problem to a dataset.
 
 mod adaptive;
+mod chosen;
 mod clock;
 mod error;
 mod estimate;
@@ -14,6 +15,7 @@ pub use crate::linear::{EigenError, LinearError, Spectrum};
 pub use error::SolveError;
 pub use estimate::Estimate;
 
+use crate::linear::Cholesky;
 use crate::problem::Problem;
 use crate::refine::n_crossed_twice;
 use crate::space::{Mesh, Space, discretise_on};
@@ -22,7 +24,7 @@ use adaptive::adapted;
 use clock::Clock;
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::progress::{Phase, Watcher};
-use solution::{Assembled, Solving, linear_solver};
+use solution::{Assembled, Solving};
 use solved::{Found, Solved};
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and wants to keep
@@ -47,9 +49,11 @@ pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, So
     let plan = Plan::new(problem, None, watcher)?;
     let solving = plan.solving(watcher);
     let (given, plate) = solving.loaded()?;
-    let Assembled { system, .. } = solving.assemble(&given, &plate, &[], &mut Clock::new())?;
+    let assembled = solving.assemble(&given, &plate, &[], &mut Clock::new())?;
+    let Assembled { mut system, gauge, .. } = assembled;
+    gauge.add_penalty(&mut system.matrix);
     let stage = Stage::uncounted(watcher, Phase::Solution)?;
-    let solver = linear_solver(&system.matrix).map_err(SolveError::Factor)?;
+    let solver = Cholesky::new(&system.matrix).map_err(SolveError::Factor)?;
     Spectrum::new(&system.matrix, &solver, &|| Ok(stage.advance(0)?))
 }
 
@@ -122,7 +126,7 @@ impl<'p> Plan<'p> {
         dataset.check()?;
         stage.advance(0)?;
         let space = Space::of_problem(problem, step)?;
-        let estimate = fits(Estimate::of_space(problem, &space), memory)?;
+        let estimate = fits(Estimate::of_space(problem, &space, memory), memory)?;
         clock.lap(Phase::Cover);
         Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, clock })
     }
@@ -191,8 +195,9 @@ impl<'p> Plan<'p> {
 
     /// The solution with its factors.
     fn found(mut self, watcher: &dyn Watcher) -> Result<Found<'p>, SolveError> {
-        let Self { problem, ref space, .. } = self;
-        let solving = Solving { problem, space, watcher };
+        let Self { problem, ref mesh, ref space, estimate, .. } = self;
+        let Estimate { solver: kind, falls_back, .. } = estimate;
+        let solving = Solving { problem, mesh, space, kind, falls_back, watcher };
         let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
         Found::new(self, solution, watcher)
@@ -204,7 +209,9 @@ impl<'p> Plan<'p> {
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {
-        Solving { problem: self.problem, space: &self.space, watcher }
+        let Self { problem, mesh, space, estimate, .. } = self;
+        let Estimate { solver: kind, falls_back, .. } = *estimate;
+        Solving { problem, mesh, space, kind, falls_back, watcher }
     }
 }
 

@@ -1,21 +1,23 @@
 //! From a plan to the coefficients: basis, system, linear solver.
 
 use super::SolveError;
+use super::chosen::{Chosen, Wanted};
 use super::clock::Clock;
 use super::goal::DualSolutions;
 use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
+use crate::hierarchy::Finest;
 use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
-use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver};
+use crate::linear::LinearError;
 use crate::problem::Problem;
-use crate::report::{SolverReport, Unresolved};
-use crate::space::{Space, SpaceError};
+use crate::report::{LinearKind, SolverReport, Unresolved};
+use crate::space::{Mesh, Space, SpaceError};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
 use ppum::field::Field;
-use ppum::progress::{Phase, Watcher};
+use ppum::progress::{Cancelled, Phase, Watcher};
 
 /// The solution of a problem on a space.
 pub(super) struct Solution {
@@ -38,15 +40,19 @@ pub(super) struct Solution {
 #[derive(Clone, Copy)]
 pub(super) struct Solving<'a> {
     pub(super) problem: &'a Problem,
+    pub(super) mesh: &'a Mesh,
     pub(super) space: &'a Space<'a>,
+    /// The linear solver, and whether the direct one may take its place.
+    pub(super) kind: LinearKind,
+    pub(super) falls_back: bool,
     pub(super) watcher: &'a dyn Watcher,
 }
 
-/// The system in the stable basis, with the penalty of the gauge.
+/// The system in the stable basis, without the penalty of the gauge.
 pub(super) struct Assembled {
-    basis: StableBasis,
+    pub(super) basis: StableBasis,
     pub(super) system: System,
-    gauge: Gauge,
+    pub(super) gauge: Gauge,
 }
 
 impl Solving<'_> {
@@ -55,7 +61,7 @@ impl Solving<'_> {
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.
     pub(super) fn loaded(&self) -> Result<(Given<'_>, Plate), SolveError> {
-        let Self { problem, space, watcher } = *self;
+        let Self { problem, space, watcher, .. } = *self;
         let pieces = Pieces::new(&problem.domain, &problem.cracks);
         if pieces.all().is_empty() {
             return Err(SpaceError::Nothing.into());
@@ -68,7 +74,7 @@ impl Solving<'_> {
 
     /// The stable basis, damped where the border cuts slivers.
     fn basis(&self, law: &Law<'_>) -> Result<StableBasis, SolveError> {
-        let Self { problem, space, watcher } = *self;
+        let Self { problem, space, watcher, .. } = *self;
         let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
         let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
         let assembly = Assembly { problem, space, basis: &basis, law };
@@ -88,7 +94,7 @@ impl Solving<'_> {
         tips: &[Sensitivity<'_>],
         clock: &mut Clock,
     ) -> Result<Assembled, SolveError> {
-        let Self { problem, space, watcher } = *self;
+        let Self { problem, space, watcher, .. } = *self;
         let law = &Law::new(&problem.equation);
         let basis = self.basis(law)?;
         clock.lap(Phase::Basis);
@@ -99,7 +105,6 @@ impl Solving<'_> {
         let system = System::new(assembly, given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
-        gauge.add_penalty(&mut system.matrix);
         clock.lap(Phase::Assembly);
         Ok(Assembled { basis, system, gauge })
     }
@@ -116,16 +121,15 @@ impl Solving<'_> {
         let (given, plate) = self.loaded()?;
         let field = Field::new(dataset, 0)?;
         let tips = sensitivities(dataset, &field, self.space);
-        let Assembled { basis, system, gauge } = self.assemble(&given, &plate, &tips, clock)?;
-        let located = |error| self.located(error);
-        let stage = Stage::new(self.watcher, Phase::Solution, 3)?;
-        let solver = linear_solver(&system.matrix).map_err(located)?;
-        stage.advance(1)?;
-        let mut solution = solver.solve(&system.load).map_err(located)?;
-        stage.advance(1)?;
-        gauge.center(&solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
-        stage.advance(1)?;
-        let duals = self.duals(&tips, (&basis, &system.duals), &solver)?;
+        let mut assembled = self.assemble(&given, &plate, &tips, clock)?;
+        let found = match self.found(self.kind, &mut assembled, &plate, &tips) {
+            Err(error) if self.falls_back && is_of_levels(&error) => {
+                self.found(LinearKind::Direct, &mut assembled, &plate, &tips)
+            }
+            other => other,
+        };
+        let Found { unknowns: solution, duals, report } = found?;
+        let Assembled { basis, system, gauge } = assembled;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
@@ -133,29 +137,58 @@ impl Solving<'_> {
         let report = SolverReport {
             unknowns: Some(kept as f64 + cut_off.iter().sum::<f64>()),
             cut_off: Some(cut_off.iter().sum()),
-            residual: Some(solution.relative_residual),
-            dependent: Some(solver.n_dependent() as f64),
             nitsche: Some(system.nitsche),
             pieces: Some(plate.pieces.all().len() as f64),
             free_modes: Some(gauge.len() as f64),
             imbalance: Some(plate.imbalance()),
             quadrature_points: Some(system.points as f64),
-            ..SolverReport::default()
+            ..report
         };
         Ok(Solution {
-            coefficients: basis.plain(self.space, &solution.unknowns, components),
+            coefficients: basis.plain(self.space, &solution, components),
             cut_off,
-            reactions: system.reactions.of(
-                self.problem,
-                &basis,
-                &system.matrix,
-                &solution.unknowns,
-            ),
+            reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
             unresolved: system.unresolved,
             lonely: basis.lonely,
             duals,
             report,
         })
+    }
+
+    /// The solution of the system, without what is left of free motions, and the dual solutions.
+    fn found(
+        &self,
+        kind: LinearKind,
+        Assembled { basis, system, gauge }: &mut Assembled,
+        plate: &Plate,
+        tips: &[Sensitivity<'_>],
+    ) -> Result<Found, SolveError> {
+        let located = |error| self.located(error);
+        let stage = Stage::new(self.watcher, Phase::Solution, 3)?;
+        let goes_on = || stage.advance(0).is_ok();
+        let free = gauge.loads(&system.matrix);
+        let chosen = match kind {
+            LinearKind::Direct => {
+                gauge.add_penalty(&mut system.matrix);
+                Chosen::direct(&system.matrix)
+            }
+            LinearKind::Multilevel => {
+                let (problem, mesh, space) = (self.problem, self.mesh, self.space);
+                let coarser = Finest { problem, plate, mesh, space, basis }.coarser(&stage)?;
+                let wanted: Wanted<'_> = (problem.solver.tolerance, &goes_on);
+                Chosen::multilevel(&system.matrix, coarser, &free, wanted)
+            }
+        };
+        let chosen = chosen.map_err(located)?;
+        let solver = chosen.as_dyn();
+        stage.advance(1)?;
+        let mut solution = solver.solve(&system.load).map_err(located)?;
+        stage.advance(1)?;
+        gauge.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
+        stage.advance(1)?;
+        let duals = self.duals(tips, (basis, &system.duals), solver)?;
+        let report = chosen.report(solution.relative_residual, solution.course);
+        Ok(Found { unknowns: solution.unknowns, duals, report })
     }
 
     /// The error at the place of its patch.
@@ -165,14 +198,26 @@ impl Solving<'_> {
                 let around = self.space.partition().support(patch).into();
                 SolveError::Singular { around, error }
             }
+            None if error == LinearError::Stopped => Cancelled.into(),
             None => SolveError::Factor(error),
         }
     }
 }
 
-/// The solver of a linear system: the place where one is chosen.
-pub(super) fn linear_solver(matrix: &BlockMatrix) -> Result<impl LinearSolver, LinearError> {
-    Cholesky::new(matrix)
+/// What the linear solver has found.
+struct Found {
+    unknowns: Vec<f64>,
+    duals: Option<DualSolutions>,
+    /// The numbers of the report that the linear solver knows.
+    report: SolverReport,
+}
+
+/// True if coarser levels may be the reason of an error.
+fn is_of_levels(error: &SolveError) -> bool {
+    let (SolveError::Singular { error, .. } | SolveError::Factor(error)) = error else {
+        return false;
+    };
+    !matches!(error, LinearError::LoadNotFinite { .. })
 }
 
 impl Solution {

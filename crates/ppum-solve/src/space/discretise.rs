@@ -66,7 +66,8 @@ pub(crate) fn discretise_on(
     let set = &problem.discretization;
     let partition =
         mesh.cover.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
-    let (partition, raised) = solid_part(partition, &mesh.raised, &problem.domain.holes)?;
+    let (partition, raised) = inner_part(partition, &mesh.raised, &problem.domain.bounds);
+    let (partition, raised) = solid_part(partition, &raised, &problem.domain.holes)?;
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
     enrichments.add_corners(&partition);
@@ -87,6 +88,37 @@ pub(crate) fn discretise_on(
 
 /// Cells of which holes leave no more than this part are dropped: it is rounding.
 const LEAST_PART: f64 = 1e-12;
+
+/// A partition with its cells as far as they lie in the domain, and the raised orders of those of which something does: the last
+/// cells of coarser meshes may reach beyond it.
+fn inner_part(mut partition: Partition, raised: &[u8], bounds: &Rect) -> (Partition, Vec<u8>) {
+    let inside = |cell: &Rect| {
+        let first = cell.min + cell.size() * ROOM;
+        first.x < bounds.max.x && first.y < bounds.max.y
+    };
+    let is_inner: Vec<bool> = partition.cell.iter().map(inside).collect();
+    partition.cell.iter_mut().for_each(|cell| *cell = cell.intersection(bounds));
+    if is_inner.contains(&false) {
+        some(partition, raised, &is_inner)
+    } else {
+        (partition, raised.to_vec())
+    }
+}
+
+/// Some patches of a partition, with the raised orders of their cells.
+fn some(partition: Partition, raised: &[u8], keep: &[bool]) -> (Partition, Vec<u8>) {
+    let part = Partition {
+        center: kept(&partition.center, keep),
+        half: kept(&partition.half, keep),
+        origin: kept(&partition.origin, keep),
+        scale: kept(&partition.scale, keep),
+        cell: kept(&partition.cell, keep),
+        level: kept(&partition.level, keep),
+        point: kept(&partition.point, keep),
+        ..partition
+    };
+    (part, kept(raised, keep))
+}
 
 /// A partition and the raised orders of its cells without the cells in holes and their patches.
 fn solid_part(
@@ -112,24 +144,13 @@ fn solid_part(
     if !solid.contains(&true) {
         return Err(SpaceError::Nothing);
     }
-    let raised = kept(raised, &solid);
-    let partition = Partition {
-        center: kept(&partition.center, &solid),
-        half: kept(&partition.half, &solid),
-        origin: kept(&partition.origin, &solid),
-        scale: kept(&partition.scale, &solid),
-        cell: kept(&partition.cell, &solid),
-        level: kept(&partition.level, &solid),
-        point: kept(&partition.point, &solid),
-        ..partition
-    };
-    Ok((partition, raised))
+    Ok(some(partition, raised, &solid))
 }
 
 /// Places of a cell in each direction that are looked at before its area is integrated.
 const LOOKS: u32 = 5;
 
-/// Distance from the rims, in sizes of a cell, of a place that shows enough of the material.
+/// Distance from rims and borders, in sizes of a cell, of a place that shows enough of the material.
 const ROOM: f64 = 1e-5;
 
 /// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be solid so.

@@ -4,6 +4,7 @@ use super::SpaceError;
 use crate::problem::Problem;
 use crate::refine::{RefineError, cover};
 use crate::watched::Stage;
+use ppum::box_tree::BoxTree;
 use ppum::cover::{Cover, CoverError};
 use ppum::dataset::Partition;
 use ppum::vec2::Rect;
@@ -43,6 +44,24 @@ impl Mesh {
     /// Number of cells, those in holes among them.
     pub(crate) fn n_cells(&self) -> usize {
         self.raised.len()
+    }
+
+    /// The mesh of cells twice as wide, each with the least raised order of those in its place; none if this one is a
+    /// single cell.
+    pub(crate) fn coarser(&self) -> Option<Self> {
+        let cover = self.cover.coarser()?;
+        let cells: Vec<Rect> = cover.cells().into_iter().map(|(cell, _)| cell).collect();
+        let (tree, mut raised) = (BoxTree::new(&cells), vec![u8::MAX; cells.len()]);
+        let mut holders = Vec::new();
+        for ((cell, _), own) in self.cover.cells().iter().zip(&self.raised) {
+            holders.clear();
+            tree.query_point(cell.center(), &mut holders);
+            for &holder in &holders {
+                raised[holder as usize] = raised[holder as usize].min(*own);
+            }
+        }
+        raised.iter_mut().filter(|raised| **raised == u8::MAX).for_each(|raised| *raised = 0);
+        Some(Self { cover, raised })
     }
 
     /// The mesh after changes to the cells of a partition, which is this mesh's but for cells in holes. Cells beside

@@ -20,6 +20,7 @@ mod junctions;
 mod kernels;
 mod kinked;
 mod loads;
+mod multilevel;
 mod physics;
 mod pieces;
 mod plates;

@@ -58,20 +58,36 @@ const FLOORS: Floors<'_> = &[
             ],
         ),
     ],
-    &[(
-        "adapt",
-        &[
-            "assembly",
-            "basis",
-            "corner",
-            "geometry",
-            "law",
-            "problem",
-            "quadrature",
-            "space",
-            "watched",
-        ],
-    )],
+    &[
+        (
+            "adapt",
+            &[
+                "assembly",
+                "basis",
+                "corner",
+                "geometry",
+                "law",
+                "problem",
+                "quadrature",
+                "space",
+                "watched",
+            ],
+        ),
+        (
+            "hierarchy",
+            &[
+                "assembly",
+                "basis",
+                "equilibrium",
+                "law",
+                "linear",
+                "problem",
+                "quadrature",
+                "space",
+                "watched",
+            ],
+        ),
+    ],
     &[(
         "solve",
         &[
@@ -81,6 +97,7 @@ const FLOORS: Floors<'_> = &[
             "diagnostics",
             "equilibrium",
             "geometry",
+            "hierarchy",
             "intensity",
             "law",
             "linear",

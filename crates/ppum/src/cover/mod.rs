@@ -25,6 +25,7 @@
 //! # Ok::<(), ppum::cover::CoverError>(())
 //! ```
 
+mod coarser;
 mod grid;
 mod morton;
 #[cfg(test)]

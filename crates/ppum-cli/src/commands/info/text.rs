@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use ppum::formula::one_line;
 use ppum::text::{Places, trimmed};
+use ppum_solve::report::{is_of_course, word};
 
 use super::formulas::{QuantityRow, TableRow};
 use super::reactions::largest_force;
@@ -69,7 +70,8 @@ impl Page<'_> {
         self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &step.unknowns.to_string())?;
-        self.lines("history", step.history.iter().map(history))?;
+        let records = step.history.iter().filter(|row| !is_of_course(&row.name));
+        self.lines("history", records.map(history))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
         self.lines("of cells", wrapped(&step.cell_values).into_iter())?;
         if !step.intensities.is_empty() {
@@ -192,5 +194,7 @@ fn field(field: &FieldRow) -> String {
 }
 
 fn history(row: &HistoryRow) -> String {
-    format!("{} {} {}", row.name, trimmed(row.value.0), row.unit).trim_end().to_owned()
+    let value = row.value.0;
+    let shown = word(&row.name, value).map_or_else(|| trimmed(value), str::to_owned);
+    format!("{} {shown} {}", row.name, row.unit).trim_end().to_owned()
 }

@@ -82,14 +82,9 @@ pub(super) struct Section<'a> {
     meant: Vec<&'static str>,
 }
 
-/// The remedy for a key that is well known, but cannot stand here.
+/// What to write for a key of another equation: the keys that do for this one what it does.
 #[derive(Clone, Copy)]
-pub(super) enum Remedy {
-    /// A later version will have it; it stands where one of these keys would.
-    Later(&'static [&'static str]),
-    /// The equation is another one; these keys do for it what this one does.
-    Instead(&'static [&'static str]),
-}
+pub(super) struct Instead(pub(super) &'static [&'static str]);
 
 impl<'a> Section<'a> {
     /// The whole document.
@@ -111,13 +106,13 @@ impl<'a> Section<'a> {
     pub(super) fn only(
         mut self,
         known: &[&'static str],
-        remedies: &[(&'static str, Remedy)],
+        remedies: &[(&'static str, Instead)],
     ) -> Self {
         for key in self.table.keys().filter(|key| !known.contains(&key.get_ref().as_ref())) {
             let name = key.get_ref().as_ref();
             let remedy = remedies.iter().find(|(word, _)| *word == name);
             let (message, meant) = match remedy {
-                Some((_, remedy)) => (misplaced(name, &self.name, *remedy), remedy.meant()),
+                Some((_, remedy)) => (misplaced(name, &self.name, *remedy), remedy.0.to_vec()),
                 None => {
                     let near = nearest(name, known.iter().copied());
                     (unknown(name, &self.name, near, known), near.into_iter().collect())
@@ -200,18 +195,10 @@ impl<'a> Section<'a> {
     }
 }
 
-impl Remedy {
-    fn meant(self) -> Vec<&'static str> {
-        let (Self::Later(keys) | Self::Instead(keys)) = self;
-        keys.to_vec()
-    }
-}
-
-fn misplaced(name: &str, section: &str, remedy: Remedy) -> String {
-    let remedy = match remedy {
-        Remedy::Later(_) => "is not supported yet in this version; remove it".to_owned(),
-        Remedy::Instead([]) => "does not fit the equation; remove it".to_owned(),
-        Remedy::Instead(keys) => {
+fn misplaced(name: &str, section: &str, Instead(keys): Instead) -> String {
+    let remedy = match keys {
+        [] => "does not fit the equation; remove it".to_owned(),
+        keys => {
             let keys: Vec<_> = keys.iter().map(|key| format!("`{key}`")).collect();
             format!("does not fit the equation; write {} instead", keys.join(", "))
         }

@@ -24,8 +24,7 @@ use ppum::vec2::{Rect, Vec2};
 use toml::de::DeTable;
 
 use super::check::mistakes;
-use super::document::Remedy::{self, Instead, Later};
-use super::document::{Report, Section, Value};
+use super::document::{Instead, Report, Section, Value};
 use super::error::ProblemError;
 use super::stiffness::default_order;
 use super::{BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
@@ -142,7 +141,7 @@ impl Kind {
     }
 
     /// Keys of the other equation, and what to write instead.
-    fn foreign(self) -> &'static [(&'static str, Remedy)] {
+    fn foreign(self) -> &'static [(&'static str, Instead)] {
         match self {
             Self::Elasticity => &[
                 ("source", Instead(&["body_force"])),
@@ -250,7 +249,7 @@ fn required<'a>(
     root: &Section<'a>,
     key: &'static str,
     known: &[&'static str],
-    remedies: &[(&'static str, Remedy)],
+    remedies: &[(&'static str, Instead)],
 ) -> Option<Section<'a>> {
     if !root.mentions(key) {
         let keys: Vec<_> = known.iter().map(|key| format!("`{key}`")).collect();
@@ -356,11 +355,16 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 }
 
 fn solver(root: &Section<'_>) -> Solver {
-    let kinds = [("auto", SolverKind::Auto), ("direct", SolverKind::Direct)];
-    let later = [("tolerance", Later(&[]))];
-    let section = root.section("solver").map(|s| s.only(&["kind", "kernels"], &later));
+    let kinds = [
+        ("auto", SolverKind::Auto),
+        ("direct", SolverKind::Direct),
+        ("multilevel", SolverKind::Multilevel),
+    ];
+    let section = root.section("solver").map(|s| s.only(&["kind", "tolerance", "kernels"], &[]));
     let get = |key| section.as_ref()?.get(key);
+    let tolerance = get("tolerance").and_then(|value| value.number());
     Solver {
+        tolerance: tolerance.unwrap_or(Solver::default().tolerance),
         kind: get("kind").and_then(|value| value.choice(&kinds)).unwrap_or_default(),
         kernels: get("kernels").and_then(|value| value.boolean()).unwrap_or(true),
     }

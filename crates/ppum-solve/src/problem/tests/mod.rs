@@ -87,7 +87,7 @@ fn everything_said() {
     );
     let problem = good(&text);
     let discretization = &problem.discretization;
-    assert_eq!(problem.solver, Solver { kind: SolverKind::Direct, kernels: true });
+    assert_eq!(problem.solver, Solver { kind: SolverKind::Direct, ..Solver::default() });
     assert_eq!(discretization.order.at(vec2(0.5, 0.0)), Ok(2));
     assert_eq!(discretization.order.at(vec2(-0.5, 0.0)), Ok(2));
     let expected = Discretization {

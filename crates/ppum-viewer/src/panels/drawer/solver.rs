@@ -72,7 +72,9 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
                 ui.end_row();
             };
             row("patches", step.partition.len().to_string());
-            for Record { name, value, unit } in numbers {
+            // the course of iterations, hundreds of records, is for programs
+            let told = numbers.into_iter().filter(|r| !r.name.starts_with("iteration "));
+            for Record { name, value, unit } in told {
                 row(name, format!("{} {unit}", trimmed(*value)).trim_end().to_owned());
             }
             for Record { name, value, .. } in &times {

@@ -1,0 +1,125 @@
+//! Coarser levels of a system, for its multilevel solver: coarser meshes, the same problem on them, and the way up.
+//!
+//! A level is discretised anew \[Griebel & Schweitzer 2002\]: its patches have the enrichments that the problem gives patches
+//! of their size, its matrix is integrated on its own cells. Pᵀ K P would keep what a prolongation between
+//! different enrichments gets wrong (`docs/decisions/0020-multilevel.md`).
+
+mod transfer;
+
+use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Given, System, slivers};
+use crate::basis::StableBasis;
+use crate::equilibrium::Plate;
+use crate::law::Law;
+use crate::linear::{BlockMatrix, Coarse};
+use crate::problem::Problem;
+use crate::space::{Mesh, Space, SpaceError, discretise_on};
+use crate::watched::{Halt, Stage};
+use ppum::progress::Cancelled;
+use transfer::transfer;
+
+/// Unknowns up to which a level is solved directly: in less time than the levels above it take.
+const DIRECT: usize = 3_000;
+
+/// Part of the cells of a level up to which the next one may have them: where the cover is deep and narrow, several steps to
+/// coarser cells are taken at once.
+const FEWER: f64 = 0.7;
+
+/// A system to find coarser levels of.
+#[derive(Clone, Copy)]
+pub(crate) struct Finest<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) plate: &'a Plate,
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) space: &'a Space<'a>,
+    pub(crate) basis: &'a StableBasis,
+}
+
+/// A level while the next coarser one is made.
+struct Level<'p> {
+    space: Space<'p>,
+    basis: StableBasis,
+}
+
+/// Why a level cannot be made.
+enum Trouble {
+    Cancelled(Cancelled),
+    /// A cover so coarse that the problem makes no sense on it: the level before it is the coarsest.
+    TooCoarse,
+}
+
+impl Finest<'_> {
+    /// The coarser levels, the finest of them first, without the penalties of a gauge.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(crate) fn coarser(&self, stage: &Stage<'_>) -> Result<Vec<Coarse>, Cancelled> {
+        let components = self.problem.components();
+        let mut levels: Vec<Coarse> = Vec::new();
+        let mut last: Option<Level<'_>> = None;
+        let mut mesh = self.mesh.clone();
+        loop {
+            let (space, basis) = last
+                .as_ref()
+                .map_or((self.space, self.basis), |level| (&level.space, &level.basis));
+            if basis.unknowns(components).sum::<usize>() <= DIRECT {
+                return Ok(levels);
+            }
+            let Some(coarser) = fewer(&mesh) else { return Ok(levels) };
+            mesh = coarser;
+            let (level, matrix) = match self.level(&mesh, stage) {
+                Ok(made) => made,
+                Err(Trouble::Cancelled(cancelled)) => return Err(cancelled),
+                Err(Trouble::TooCoarse) => return Ok(levels),
+            };
+            let fine = (space, basis);
+            let transfer = match transfer(fine, (&level.space, &level.basis), stage) {
+                Ok(transfer) => transfer,
+                Err(Halt::Cancelled(cancelled)) => return Err(cancelled),
+                Err(Halt::NotFinite(_)) => return Ok(levels),
+            };
+            levels.push(Coarse { matrix, transfer });
+            last = Some(level);
+        }
+    }
+
+    /// The problem on a mesh.
+    fn level(&self, mesh: &Mesh, stage: &Stage<'_>) -> Result<(Level<'_>, BlockMatrix), Trouble> {
+        let problem = self.problem;
+        let step = discretise_on(problem, mesh, stage)?;
+        let space = Space::of_problem(problem, step).map_err(|_| Trouble::TooCoarse)?;
+        let mut basis = StableBasis::new(&space, stage)?;
+        let law = &Law::new(&problem.equation);
+        let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;
+        basis.damp(&space, &found)?;
+        let assembly = Assembly { problem, space: &space, basis: &basis, law };
+        let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(&[], &space));
+        let given = Given::restraints(problem);
+        let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
+        let matrix = system.matrix;
+        Ok((Level { space, basis }, matrix))
+    }
+}
+
+/// The next coarser mesh with clearly fewer cells.
+fn fewer(mesh: &Mesh) -> Option<Mesh> {
+    let few = |coarse: &Mesh| coarse.n_cells() as f64 <= FEWER * mesh.n_cells() as f64;
+    std::iter::successors(mesh.coarser(), Mesh::coarser).find(few)
+}
+
+impl From<Halt> for Trouble {
+    fn from(halt: Halt) -> Self {
+        match halt {
+            Halt::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            Halt::NotFinite(_) => Self::TooCoarse,
+        }
+    }
+}
+
+impl From<SpaceError> for Trouble {
+    fn from(error: SpaceError) -> Self {
+        match error {
+            SpaceError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            _ => Self::TooCoarse,
+        }
+    }
+}

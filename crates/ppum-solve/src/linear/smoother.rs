@@ -1,0 +1,111 @@
+//! Block Gauss–Seidel: one sweep through the colours and one back.
+//!
+//! ```text
+//! K = L + D + Lᵀ      forward: x = (D + L)⁻¹ f      backward: x ← x + (D + Lᵀ)⁻¹ (f − K x)
+//! ```
+//!
+//! D holds the diagonal blocks, L what couples a block to earlier colours. A sweep from zero, a correction and the sweep back
+//! make a symmetric positive definite preconditioner of whatever is done between them.
+
+use super::block_matrix::BlockMatrix;
+use super::eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
+use super::rows::{Part, Rows, Vectors, add_product};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, MatRef, Side};
+use rayon::prelude::*;
+
+/// Eigenvalues of a diagonal block, scaled to ones on its diagonal, up to this one belong to functions that depend on others,
+/// or to motions without energy: they are left alone. What the stable basis keeps is far above.
+const DEPENDENT: f64 = 1e-11;
+
+/// A matrix with the inverses of its diagonal blocks.
+#[derive(Debug)]
+pub(super) struct Smoother<'a> {
+    pub(super) rows: Rows<'a>,
+    /// D⁻¹, block after block, row-major.
+    inverses: Vec<f64>,
+    /// Where the inverse of each block begins.
+    starts: Vec<usize>,
+}
+
+impl<'a> Smoother<'a> {
+    pub(super) fn new(rows: Rows<'a>) -> Self {
+        let matrix = &rows.matrix;
+        let all: Vec<Vec<f64>> =
+            (0..matrix.n_blocks()).into_par_iter().map(|i| inverse(matrix, i)).collect();
+        let mut starts = vec![0];
+        all.iter().for_each(|inverse| starts.push(starts[starts.len() - 1] + inverse.len()));
+        Self { inverses: all.concat(), starts, rows }
+    }
+
+    /// Bytes of the matrix, its rows and the inverses.
+    pub(super) fn bytes(&self) -> usize {
+        self.rows.bytes()
+            + size_of_val(self.inverses.as_slice())
+            + size_of_val(self.starts.as_slice())
+    }
+
+    /// (D + L)⁻¹ f
+    pub(super) fn forward(&self, f: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; f.len()];
+        for colour in 0..self.rows.n_colours() {
+            let (others, own) = Vectors::without(&mut x, self.rows.of_colour(colour));
+            self.rows.for_colour(colour, own, &|i, x| self.relax(i, Part::Before, f, &others, x));
+        }
+        x
+    }
+
+    /// f − K x for the x of [`Smoother::forward`]: −Lᵀ x.
+    pub(super) fn residual(&self, x: &[f64]) -> Vec<f64> {
+        let mut residual = vec![0.0; x.len()];
+        let x = Vectors::whole(x);
+        self.rows.for_all(&mut residual, &|i, out| {
+            self.rows.add_row(i, Part::After, &x, -1.0, out);
+        });
+        residual
+    }
+
+    /// x ← x + (D + Lᵀ)⁻¹ (f − K x)
+    pub(super) fn backward(&self, f: &[f64], x: &mut [f64]) {
+        for colour in (0..self.rows.n_colours()).rev() {
+            let (others, own) = Vectors::without(x, self.rows.of_colour(colour));
+            self.rows.for_colour(colour, own, &|i, x| self.relax(i, Part::Others, f, &others, x));
+        }
+    }
+
+    /// x_i ← D_ii⁻¹ (f_i − Σ_j K_ij x_j)
+    fn relax(&self, i: usize, part: Part, f: &[f64], others: &Vectors<'_>, x: &mut [f64]) {
+        let mut rest = f[self.rows.unknowns(i)].to_vec();
+        self.rows.add_row(i, part, others, -1.0, &mut rest);
+        x.fill(0.0);
+        add_product(&self.inverses[self.starts[i]..self.starts[i + 1]], &rest, 1.0, x);
+    }
+}
+
+/// The inverse of a diagonal block, row-major; of one that is nearly singular the pseudo-inverse.
+fn inverse(matrix: &BlockMatrix, i: usize) -> Vec<f64> {
+    let block = matrix.block(i, i).expect("a block is coupled to itself");
+    let scale = inverse_root_diagonal(block, 0.0);
+    let scaled = scaled(block, &scale);
+    let inverse = well_conditioned_inverse(scaled.as_ref()).unwrap_or_else(|| pseudo(&scaled));
+    let n = scale.len();
+    (0..n * n).map(|k| scale[k / n] * inverse[(k / n, k % n)] * scale[k % n]).collect()
+}
+
+fn well_conditioned_inverse(block: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    let factor = block.llt(Side::Lower).ok()?;
+    let l = factor.L();
+    let is_definite = (0..block.nrows()).all(|k| l[(k, k)] * l[(k, k)] > DEPENDENT);
+    is_definite.then(|| factor.inverse())
+}
+
+fn pseudo(block: &Mat<f64>) -> Mat<f64> {
+    match SymmetricEigen::new(block.as_ref()) {
+        Ok(eigen) => {
+            let root = eigen.inverse_root(DEPENDENT);
+            root.transpose() * &root
+        }
+        // entries that are not finite: the residual will tell
+        Err(_) => Mat::zeros(block.nrows(), block.ncols()),
+    }
+}

@@ -1,0 +1,194 @@
+//! The multilevel solver: steps that do not grow with the cover, and the answers of the direct solver.
+//!
+//! Covers have at least 3,000 unknowns, below which a system is its own coarsest level.
+
+use crate::studies::support::{record, solved, unknowns};
+use ppum::crack::Side;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::jet::Jet;
+use ppum::progress::{Phase, Progress, Verdict};
+use ppum::vec2::{Vec2, vec2};
+use ppum_solve::problem::{Problem, SolverKind};
+use ppum_solve::report::SolverReport;
+use ppum_solve::solve::{SolveError, solve};
+use ppum_testkit::random::Random;
+use std::path::Path;
+
+const HEAD: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n";
+const STEEL: &str = "[material]\nyoung = 1.0\npoisson = 0.3\nstate = \"plane-strain\"\n";
+/// Pure traction: three free motions.
+const PULLED: &str = "[[boundary]]\non = \"bottom\"\ntraction = [0.0, -1.0]\n[[boundary]]\non = \"top\"\ntraction = [0.0, 1.0]\n";
+const HELD: &str = "[[boundary]]\non = \"bottom\"\ndisplacement = [0.0, 0.0]\n[[boundary]]\non = \"top\"\ntraction = [0.3, 1.0]\n";
+
+fn crack(points: &str) -> String {
+    format!("[[crack]]\npoints = {points}\n")
+}
+
+fn parse(text: &str, level: u32, order: usize) -> Problem {
+    let text = format!("{text}[discretization]\nlevel = {level}\norder = {order}\n");
+    Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")
+}
+
+fn by(kind: SolverKind, problem: &Problem) -> Dataset {
+    let mut problem = problem.clone();
+    problem.solver.kind = kind;
+    let dataset = solved(&problem);
+    let report = SolverReport::of(&dataset.steps[0].history);
+    assert_eq!(report.solver_levels.is_some(), kind == SolverKind::Multilevel);
+    dataset
+}
+
+/// Values at places in general position, the jump at none of them.
+fn values(dataset: &Dataset) -> Vec<Vec2> {
+    let field = Field::new(dataset, 0).expect("a field");
+    let mut random = Random(17);
+    let mut place = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+    let places: Vec<Vec2> =
+        (0..200).map(|_| place()).filter(|p| dataset.domain.contains(*p)).collect();
+    let value = |p: &Vec2| {
+        let mut u = [Jet::constant(0.0); 2];
+        let n = field.data.components.len();
+        assert!(field.at(*p).evaluate::<0>(Vec2::ZERO, Side::Above, &mut u[..n]));
+        vec2(u[0].v, u[1].v)
+    };
+    places.iter().map(value).collect()
+}
+
+fn factors(dataset: &Dataset) -> Vec<Vec2> {
+    dataset.steps[0].intensities.iter().map(|tip| vec2(tip.k1, tip.k2)).collect()
+}
+
+/// The largest difference as a part of the largest value.
+fn apart(a: &[Vec2], b: &[Vec2]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let largest = a.iter().fold(0.0f64, |most, a| most.max(a.length()));
+    a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((*a - *b).length())) / largest.max(1e-300)
+}
+
+/// Both solvers give the same to 1e-9, the thousandfold of what may be left in the energy norm.
+fn agree(name: &str, problem: &Problem) {
+    let (direct, multilevel) =
+        (by(SolverKind::Direct, problem), by(SolverKind::Multilevel, problem));
+    let levels = record(&multilevel.steps[0], "solver levels");
+    assert!(levels > 1.0, "{name}: {} unknowns on one level", unknowns(&direct));
+    let field = apart(&values(&direct), &values(&multilevel));
+    assert!(field < 1e-9, "{name}: fields {field:.1e} apart");
+    let factors = apart(&factors(&direct), &factors(&multilevel));
+    assert!(factors < 1e-9, "{name}: factors {factors:.1e} apart");
+    let energy = [&direct, &multilevel].map(|dataset| record(&dataset.steps[0], "energy"));
+    assert!((energy[1] / energy[0] - 1.0).abs() < 1e-9, "{name}: energies {energy:?}");
+    let steps = record(&multilevel.steps[0], "iterations");
+    assert!(steps < 60.0, "{name}: {steps} steps");
+}
+
+/// Steps to 1e-10 with cells of half and a quarter of the width, without and with a crack, held and free: theory has them bounded.
+#[test]
+fn steps_do_not_grow_with_the_level() {
+    let free = format!("{HEAD}{STEEL}{PULLED}");
+    let cracked = free.clone() + &crack("[[-0.5, 0.013], [0.5, 0.013]]");
+    for (text, first, last, order) in [
+        (format!("{HEAD}{STEEL}{HELD}"), 5, 6, 1),
+        (free, 5, 6, 1),
+        (cracked.clone(), 5, 6, 1),
+        (cracked, 4, 5, 2),
+    ] {
+        let steps = |level| {
+            let mut problem = parse(&text, level, order);
+            (problem.solver.kind, problem.solver.tolerance) = (SolverKind::Multilevel, 1e-10);
+            record(&solved(&problem).steps[0], "iterations")
+        };
+        let found = [steps(first), steps(last)];
+        assert!((found[1] - found[0]).abs() <= 4.0, "{found:?}");
+        assert!(found[1] < 25.0, "{found:?}");
+    }
+}
+
+#[test]
+fn uniform_covers() {
+    agree("held", &parse(&format!("{HEAD}{STEEL}{HELD}"), 4, 2));
+    agree("pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}"), 4, 3));
+    let wide = "[domain]\nmin = [0.0, 0.0]\nmax = [5.0, 1.0]\n";
+    let strip = format!("{wide}{STEEL}{HELD}[discretization]\ncells = [51, 13]\norder = 1\n");
+    let strip = Problem::parse(&strip, "strip.toml", Path::new("")).expect("a problem");
+    agree("a grid of odd numbers", &strip);
+}
+
+#[test]
+fn cracks() {
+    let two = crack("[[-0.6, -0.11], [0.4, 0.12]]") + &crack("[[0.02, -0.5], [-0.03, 0.45]]");
+    agree("two that cross", &parse(&format!("{HEAD}{STEEL}{PULLED}{two}"), 4, 2));
+    let y = crack("[[-0.6, 0.01], [0.0, 0.01]]")
+        + &crack("[[0.0, 0.01], [0.4, 0.41]]")
+        + &crack("[[0.0, 0.01], [0.4, -0.39]]");
+    agree("a branch", &parse(&format!("{HEAD}{STEEL}{HELD}{y}"), 4, 2));
+    let through = crack("[[-1.0, 0.013], [1.0, 0.013]]");
+    agree(
+        "two free pieces",
+        &parse(
+            &format!(
+                "{HEAD}{STEEL}{}{through}",
+                "[[boundary]]\non = \"left\"\ntraction = [-1.0, 0.0]\n[[boundary]]\non = \"right\"\ntraction = [1.0, 0.0]\n"
+            ),
+            4,
+            2,
+        ),
+    );
+}
+
+#[test]
+fn holes_materials_weights_and_other_equations() {
+    let hole = "[[hole]]\ncenter = [0.13, -0.07]\nradius = 0.31\n";
+    agree("a hole", &parse(&format!("{HEAD}{STEEL}{PULLED}{hole}"), 4, 2));
+    let two =
+        "[material]\nyoung = \"if(y > 0.137, 1000, 1)\"\npoisson = 0.3\nstate = \"plane-stress\"\n";
+    agree("contrast", &parse(&format!("{HEAD}{two}{HELD}"), 4, 2));
+    let slit = "[equation]\nkind = \"poisson\"\n[source]\nvalue = \"x + 2\"\n[[boundary]]\non = \"left\"\nvalue = 0.0\n";
+    let slit = format!("{HEAD}{slit}{}", crack("[[-0.5, 0.01], [0.5, 0.01]]"));
+    agree("a potential", &parse(&slit, 5, 2));
+    let mut quadratic = parse(&format!("{HEAD}{STEEL}{HELD}"), 4, 2);
+    quadratic.discretization.weight = ppum::weight::WeightFunction::Quadratic;
+    quadratic.discretization.overlap = 1.5;
+    agree("another weight", &quadratic);
+}
+
+/// The bits of a solution on one thread and on three.
+#[test]
+fn threads_do_not_matter() {
+    let text = format!("{HEAD}{STEEL}{PULLED}{}", crack("[[-0.5, 0.013], [0.5, 0.213]]"));
+    let problem = parse(&text, 4, 2);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let dataset = pool.install(|| by(SolverKind::Multilevel, &problem));
+        let all = &dataset.steps[0].fields[0].coefficients;
+        all.iter().flatten().map(|c| c.to_bits()).collect::<Vec<_>>()
+    };
+    assert!(on(1) == on(3));
+}
+
+/// The course of the iteration is in the report, and falls to the tolerance.
+#[test]
+fn the_course_is_told() {
+    let dataset = by(SolverKind::Multilevel, &parse(&format!("{HEAD}{STEEL}{HELD}"), 4, 2));
+    let report = SolverReport::of(&dataset.steps[0].history);
+    let steps = report.iterations.expect("steps") as usize;
+    let levels = report.solver_levels.expect("levels") as usize;
+    assert_eq!(report.residuals.len(), steps + 1);
+    assert!(report.residuals[0] == 1.0 && report.residuals[steps] <= 1e-12);
+    assert!(report.level_residuals.iter().all(|of_step| of_step.len() == levels));
+    let condition = report.preconditioned_condition.expect("an estimate");
+    assert!((1.0..5.0).contains(&condition), "{condition}");
+    // the rate that the condition promises, with its factor of two
+    let rate = (condition.sqrt() - 1.0) / (condition.sqrt() + 1.0);
+    assert!(report.residuals[steps - 1] < 4.0 * condition * rate.powi(steps as i32 - 1));
+}
+
+/// Who watches can stop it in the midst of the solution.
+#[test]
+fn it_can_be_stopped() {
+    let mut problem = parse(&format!("{HEAD}{STEEL}{HELD}"), 5, 1);
+    problem.solver.kind = SolverKind::Multilevel;
+    let stop = |progress: Progress| Verdict::go_on_unless(progress.phase == Phase::Solution);
+    let error = solve(&problem, &stop).expect_err("it was stopped");
+    assert!(matches!(error, SolveError::Cancelled(_)), "{error}");
+}
