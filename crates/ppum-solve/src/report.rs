@@ -211,8 +211,8 @@ const PHASES: [Phase; 6] = [
     Phase::Basis,
     Phase::Assembly,
     Phase::Solution,
-    Phase::Estimation,
     Phase::Intensity,
+    Phase::Estimation,
 ];
 
 impl SolverReport {

@@ -39,7 +39,7 @@ fn json_has_the_documented_shape() {
     let held = "on = \"bottom\"\ndisplacement = [0.0, 0.0]";
     lab.write("plate.toml", &CRACKED.replace("on = \"bottom\"\ntraction = [0.0, -1.0]", held));
     let told = lab.json("solve plate.toml");
-    let expected = "adaptation energy estimated_error file history patches phases reactions seconds solver tips title unknowns warnings";
+    let expected = "adaptation energy estimated_error file growth history patches phases reactions seconds solver tips title unknowns warnings";
     assert_eq!(keys(&told).join(" "), expected);
     assert_eq!((&told["file"], &told["title"]), (&json!("plate.h5"), &json!("Small plate")));
     let step = &lab.json("info plate.h5")["steps"][0];
@@ -108,7 +108,11 @@ fn check_finds_what_solve_would_refuse() {
     let unbalanced = CRACKED.replace("traction = [0.0, 1.0]", "traction = [0.5, 2.0]");
     let cases = [
         ("unbalanced", unbalanced, "balance"),
-        ("large", CRACKED.replace("order = 1", "order = 8"), "MiB"),
+        (
+            "large",
+            CRACKED.replace("order = 1", "order = 8") + "[solver]\nkind = \"direct\"\n",
+            "MiB",
+        ),
         ("text", CRACKED.replace("Small plate", "Small \u{FFFD} plate"), "U+FFFD"),
         (
             "load",

@@ -42,8 +42,8 @@ const PHASES: [Phase; 6] = [
     Phase::Basis,
     Phase::Assembly,
     Phase::Solution,
-    Phase::Estimation,
     Phase::Intensity,
+    Phase::Estimation,
 ];
 
 fn plate() -> Problem {

@@ -121,8 +121,8 @@ pub const PHASES: [Phase; 6] = [
     Phase::Basis,
     Phase::Assembly,
     Phase::Solution,
-    Phase::Estimation,
     Phase::Intensity,
+    Phase::Estimation,
 ];
 
 impl Solving {

@@ -102,11 +102,9 @@ pub(super) fn run(
     );
     let there = (args.resume && target.exists()).then(|| there(problem, target)).transpose()?;
     let last = there.as_ref().map(|(number, step)| Last { number: *number, step });
-    if let Some(Last { number, step }) = last {
-        if let Some(stop) = ends(rule, number, step) {
-            writeln!(out, "{}: nothing to do, {stop}", target.display())?;
-            return Ok(());
-        }
+    if let Some(stop) = last.and_then(|Last { number, step }| ends(rule, number, step)) {
+        writeln!(out, "{}: nothing to do, {stop}", target.display())?;
+        return Ok(());
     }
     let first = last.map_or(0, |last| last.number + 1);
     let writer = last.is_some().then(|| SeriesWriter::resume(target)).transpose()?;
