@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use ppum::cover::Cover;
 use ppum::crack::Side;
-use ppum::dataset::{Attribute, Dataset, Equation};
+use ppum::dataset::{Attribute, Dataset, Equation, Growth};
 use ppum::field::Field;
 use ppum::function::{Frame, Function, FunctionKind};
 use ppum::jet::Jet;
@@ -202,6 +202,7 @@ fn lists_may_be_empty() {
     step.history.clear();
     step.warnings.clear();
     step.reactions.clear();
+    step.growth = Some(Growth::default());
     step.partition.points.clear();
     step.partition.point.fill(None);
     data.title.clear();

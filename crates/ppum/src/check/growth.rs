@@ -29,6 +29,9 @@ pub(super) fn check_growth(step: &Step) -> Checked {
 }
 
 fn check_row(row: &Advance) -> Checked {
+    if row.strength.is_infinite() {
+        return fail("strength", "must be finite, or NaN where there is none".into());
+    }
     for (name, value) in [("direction", row.direction), ("curvature", row.curvature)] {
         if !value.is_finite() {
             return fail(name, "must be finite".into());
