@@ -63,16 +63,8 @@ impl<'s> CellAssembler<'s> {
     ) -> Result<CellSystem, EigenError> {
         let functions = CellFunctions::new(&self.assembly, cell);
         let (n, components) = (functions.len(), self.assembly.law.components);
-        let zeros = |count: usize| vec![vec![0.0; n * components]; count];
-        let mut system = CellSystem {
-            matrix: Mat::zeros(n * components, n * components),
-            load: vec![0.0; n * components],
-            moments: zeros(self.functionals.map_or(0, |all| all.free.len())),
-            duals: zeros(self.functionals.map_or(0, |all| all.duals.len())),
-            penalty: 0.0,
-            reactions: Vec::new(),
-            functions,
-        };
+        let matrix = Mat::zeros(n * components, n * components);
+        let mut system = self.zero(functions, matrix);
         let zero = || Mat::zeros(n, n);
         let products = || Products { xx: zero(), xy: zero(), yy: zero() };
         let mut products: Vec<_> = self.assembly.law.terms.iter().map(|_| products()).collect();
@@ -99,6 +91,34 @@ impl<'s> CellAssembler<'s> {
             on_border.finish(size.x.max(size.y), &mut system)?;
         }
         Ok(system)
+    }
+
+    /// The part of one cell in the factors of tips, in a system without matrix.
+    pub(crate) fn duals(&mut self, cell: usize, rules: &[Rule]) -> CellSystem {
+        let mut system = self.zero(CellFunctions::new(&self.assembly, cell), Mat::new());
+        if let Some(Functionals { duals, .. }) = self.functionals {
+            for rule in rules {
+                self.evaluate(rule);
+                let numbers = system.functions.numbers(&rule.patches);
+                duals.add((cell, rule), &self.shapes, &numbers, &mut system.duals);
+            }
+        }
+        system
+    }
+
+    /// A system of a cell of which nothing but the size is known.
+    fn zero(&self, functions: CellFunctions, matrix: Mat<f64>) -> CellSystem {
+        let unknowns = functions.len() * self.assembly.law.components;
+        let zeros = |count: usize| vec![vec![0.0; unknowns]; count];
+        CellSystem {
+            matrix,
+            load: vec![0.0; unknowns],
+            moments: zeros(self.functionals.map_or(0, |all| all.free.len())),
+            duals: zeros(self.functionals.map_or(0, |all| all.duals.len())),
+            penalty: 0.0,
+            reactions: Vec::new(),
+            functions,
+        }
     }
 
     /// The functions at the points of a rule.

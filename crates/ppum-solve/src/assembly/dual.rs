@@ -29,6 +29,11 @@ impl<'a> Duals<'a> {
         if self.tips.is_empty() { 0 } else { FACTORS }
     }
 
+    /// True if no tip has a part of its factors in a cell.
+    pub(super) fn is_far(&self, cell: usize) -> bool {
+        self.near[cell].is_empty()
+    }
+
     /// Adds the points of a rule of a cell to the parts of both modes; shapes are those of the rule's patches, `numbers` their
     /// places in a part.
     pub(super) fn add(

@@ -6,11 +6,11 @@ use super::cell::{CellAssembler, Functionals};
 use super::cell_system::CellSystem;
 use super::given::Given;
 use super::reaction::Reactions;
-use crate::basis::Penalty;
+use crate::basis::{Earlier, Penalty};
 use crate::linear::{BlockMatrix, BlockPattern};
 use crate::quadrature::{Doubt, EdgeRule, Rule};
 use crate::report::Unresolved;
-use crate::space::Space;
+use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, in_batches};
 use faer::Mat;
 use ppum::vec2::Rect;
@@ -30,8 +30,18 @@ pub(crate) struct System {
     pub(crate) reactions: Reactions,
     /// Number of quadrature points, those of loads that have their own among them.
     pub(crate) points: usize,
+    /// Of each cell, its points and the errors that they leave.
+    cells: Vec<(usize, Doubt)>,
     /// Loads and data, functions and coefficients that are not resolved.
     pub(crate) unresolved: Vec<Unresolved>,
+}
+
+/// What a cell adds to a system.
+enum Part {
+    /// All that there is, with the blocks of its matrix.
+    Whole(CellSystem, Vec<Mat<f64>>),
+    /// Its part in the factors of tips: the rest is known.
+    Duals(CellSystem),
 }
 
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
@@ -96,7 +106,8 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    /// Assembles the system of what is given, and functionals. Advances the stage by the number of cells.
+    /// Assembles the system of what is given, and functionals, as far as it is not that of an earlier one with the same basis,
+    /// data and free modes. Advances the stage by the number of cells.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
@@ -104,18 +115,30 @@ impl System {
         assembly: Assembly<'_>,
         given: &Given<'_>,
         functionals: Functionals<'_>,
+        earlier: Earlier<'_, Self>,
         stage: &Stage<'_>,
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
         let quadrature = space.quadrature(0);
-        let (mut system, mut doubt) = (Self::zero(&assembly, functionals), Doubt::default());
+        let mut system = Self::zero(&assembly, functionals);
+        let known = |cell: usize, pieces: &[BorderPiece<'_>]| {
+            let (unchanged, earlier) = earlier?;
+            let is_known = pieces.is_empty() && unchanged.all(&space.coverers[cell]);
+            // the patch of the cell is one of those that cover it
+            unchanged.patch(cell).filter(|_| is_known).map(|was| earlier.cells[was])
+        };
         in_batches(
             stage,
             assembly.n_cells(),
             || CellAssembler::new(assembly, Some(functionals)),
             |assembler, cell| {
-                let rules = space.rules(&quadrature, cell);
                 let pieces = given.border(space, &quadrature, cell);
+                if let Some(facts) = known(cell, &pieces) {
+                    let rules = || space.rules(&quadrature, cell);
+                    let near = !functionals.duals.is_far(cell);
+                    return Ok((facts, near.then(|| Part::Duals(assembler.duals(cell, &rules())))));
+                }
+                let rules = space.rules(&quadrature, cell);
                 let source = given.source(cell);
                 let own = source.and_then(|source| source.rules);
                 let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
@@ -123,22 +146,52 @@ impl System {
                     .assemble(cell, &rules, source, &pieces)
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
                 let blocks = part.blocks(&assembly);
-                Ok((part, blocks, points, doubt_of(&rules, &pieces)))
+                Ok(((points, doubt_of(&rules, &pieces)), Some(Part::Whole(part, blocks))))
             },
-            |cell, (part, blocks, points, left)| {
-                system.points += points;
-                doubt.add(&left);
-                let penalty = part.penalty * width(&space.partition().cell[cell]);
-                system.nitsche = system.nitsche.max(penalty);
-                system.add(part, &blocks, &assembly);
+            |cell, (facts, part)| {
+                system.cells.push(facts);
+                match part {
+                    None => {}
+                    Some(Part::Duals(part)) => system.add_functionals(&part, &assembly),
+                    Some(Part::Whole(part, blocks)) => {
+                        let penalty = part.penalty * width(&space.partition().cell[cell]);
+                        system.nitsche = system.nitsche.max(penalty);
+                        system.add(part, &blocks, &assembly);
+                    }
+                }
             },
         )?;
-        system.unresolved = given.unresolved();
+        if let Some((unchanged, earlier)) = earlier {
+            system.inherit(unchanged, earlier);
+        }
+        system.sum_up(given);
+        Ok(system)
+    }
+
+    /// Points, and what is not resolved.
+    fn sum_up(&mut self, given: &Given<'_>) {
+        let mut doubt = Doubt::default();
+        self.cells.iter().for_each(|(_, left)| doubt.add(left));
+        self.points = self.cells.iter().map(|(points, _)| points).sum();
+        self.unresolved = given.unresolved();
         if doubt.functions > 0.0 {
             let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
-            system.unresolved.push(functions);
+            self.unresolved.push(functions);
         }
-        Ok(system)
+    }
+
+    /// Takes what an earlier system has of patches that are as they were. Of their cells those were left out here that nothing
+    /// else was to be known of.
+    fn inherit(&mut self, unchanged: &Unchanged, earlier: &Self) {
+        self.matrix.take_blocks(&earlier.matrix, |patch| unchanged.patch(patch));
+        for patch in 0..self.matrix.n_blocks() {
+            let Some(was) = unchanged.patch(patch) else { continue };
+            let [to, from] = [self.matrix.unknowns(patch), earlier.matrix.unknowns(was)];
+            self.load[to.clone()].copy_from_slice(&earlier.load[from.clone()]);
+            for (sum, known) in self.moments.iter_mut().zip(&earlier.moments) {
+                sum[to.clone()].copy_from_slice(&known[from.clone()]);
+            }
+        }
     }
 
     fn zero(assembly: &Assembly<'_>, Functionals { free, duals }: Functionals<'_>) -> Self {
@@ -152,17 +205,23 @@ impl System {
             nitsche: 0.0,
             reactions: Reactions::default(),
             points: 0,
+            cells: Vec::new(),
             unresolved: Vec::new(),
+        }
+    }
+
+    fn add_functionals(&mut self, part: &CellSystem, assembly: &Assembly<'_>) {
+        let functionals = part.moments.iter().chain(&part.duals);
+        for (sum, part_of) in self.moments.iter_mut().chain(&mut self.duals).zip(functionals) {
+            let components = assembly.components();
+            part.functions.add_to(assembly.basis, &self.matrix, components, part_of, sum);
         }
     }
 
     fn add(&mut self, part: CellSystem, blocks: &[Mat<f64>], assembly: &Assembly<'_>) {
         let (basis, components) = (assembly.basis, assembly.components());
         part.functions.add_to(basis, &self.matrix, components, &part.load, &mut self.load);
-        let functionals = part.moments.iter().chain(&part.duals);
-        for (sum, part_of) in self.moments.iter_mut().chain(&mut self.duals).zip(functionals) {
-            part.functions.add_to(basis, &self.matrix, components, part_of, sum);
-        }
+        self.add_functionals(&part, assembly);
         let patches = &part.functions.patches;
         let pairs =
             patches.iter().enumerate().flat_map(|(k, p)| patches[k..].iter().map(move |q| (p, q)));

@@ -14,7 +14,7 @@ mod transform;
 mod williams;
 
 use crate::quadrature::{EdgeRule, Rule};
-use crate::space::Space;
+use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, in_batches};
 use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
@@ -43,15 +43,24 @@ pub(crate) struct StableBasis {
     /// Of each patch, the first functions of the jumps around corners and junctions of cracks of which nearly nothing lies
     /// where it is alone.
     pub(crate) lonely: Vec<Vec<usize>>,
+    grams: Vec<Gram>,
 }
 
+/// What was made for an earlier space, and what is as it was.
+pub(crate) type Earlier<'a, T> = Option<(&'a Unchanged, &'a T)>;
+
 impl StableBasis {
-    /// The basis of a space, from the Gram matrices of its patches. Advances the stage by twice the number of cells.
+    /// The basis of a space, from the Gram matrices of its patches, as far as they are not those of an earlier one. Advances the
+    /// stage by twice the number of cells.
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
-        let grams = grams(space, stage)?;
+    pub(crate) fn new(
+        space: &Space<'_>,
+        earlier: Earlier<'_, Self>,
+        stage: &Stage<'_>,
+    ) -> Result<Self, Halt> {
+        let grams = grams(space, earlier, stage)?;
         let reductions = reductions(space, &grams, stage)?;
         let none = Vec::new();
         let mut patches = Vec::with_capacity(grams.len());
@@ -67,7 +76,12 @@ impl StableBasis {
         )?;
         let sizes = patches.iter().map(LocalBasis::len).collect();
         let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
-        Ok(Self { patches, sizes, lonely })
+        Ok(Self { patches, sizes, lonely, grams })
+    }
+
+    /// True if a patch has the very functions that a patch of another basis has.
+    pub(crate) fn is_same(&self, patch: usize, other: &Self, its: usize) -> bool {
+        self.patches[patch].is_same(&other.patches[its])
     }
 
     /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions
@@ -260,8 +274,13 @@ impl Gram {
 /// φ at which nothing of φψ is left but rounding.
 const LEAST: f64 = 1e-280;
 
-/// The Gram matrix of every patch, over the domain.
-fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Gram>, Halt> {
+/// The Gram matrix of every patch, over the domain: of those that are as they were, the one that they had.
+fn grams(
+    space: &Space<'_>,
+    earlier: Earlier<'_, StableBasis>,
+    stage: &Stage<'_>,
+) -> Result<Vec<Gram>, Halt> {
+    let is_known = |coverers: &[u32]| earlier.is_some_and(|(unchanged, _)| unchanged.all(coverers));
     let quadrature = space.quadrature(0);
     let mut grams: Vec<_> = space.sizes.iter().map(|&n| Gram::zero(n)).collect();
     in_batches(
@@ -270,6 +289,9 @@ fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Gram>, Halt> {
         || (ShapeEvaluator::new(space), Shapes::default()),
         |(evaluator, shapes), cell| {
             let coverers = &space.coverers[cell];
+            if is_known(coverers) {
+                return Ok(Vec::new());
+            }
             let mut parts: Vec<_> =
                 coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
             for rule in space.rules(&quadrature, cell).iter() {
@@ -285,6 +307,11 @@ fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Gram>, Halt> {
             }
         },
     )?;
+    if let Some((unchanged, earlier)) = earlier {
+        for (patch, gram) in grams.iter_mut().enumerate() {
+            unchanged.patch(patch).into_iter().for_each(|k| gram.clone_from(&earlier.grams[k]));
+        }
+    }
     Ok(grams)
 }
 

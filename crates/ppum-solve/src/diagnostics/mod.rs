@@ -172,7 +172,7 @@ impl Case<'_> {
         watcher: &dyn Watcher,
     ) -> Result<Diagnosis, RecomputeError> {
         let Self { dataset, field, space, .. } = *self;
-        let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+        let stage = Stage::uncounted(watcher, Phase::Estimation)?;
         let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
         let cutters = Cutters::new(field.step, &dataset.domain);
         let adaptivity = self.problem.and_then(|problem| problem.adaptivity.as_ref());

@@ -1,7 +1,7 @@
 //! Restraints and loads of a piece of the plate: the rigid-body modes that nothing holds, and
 //! whether the loads are in equilibrium there.
 
-use super::pieces::{Piece, Pieces};
+use super::pieces::Pieces;
 use super::rigid::{MODES, PerMode, RigidModes};
 use crate::linear::{EigenError, SymmetricEigen};
 use faer::Mat;
@@ -80,13 +80,13 @@ pub(crate) struct Balance {
 impl Balance {
     /// One balance per piece, all empty.
     pub(crate) fn of(pieces: &Pieces, components: usize) -> Vec<Self> {
-        let empty = |piece: &Piece| Self {
-            modes: RigidModes::new(piece.centroid, piece.area.sqrt(), components),
+        let empty = |modes: RigidModes| Self {
+            modes,
             held: [[0.0; MODES]; MODES],
             resultant: [0.0; MODES],
             magnitude: 0.0,
         };
-        pieces.all().iter().map(empty).collect()
+        pieces.rigid_modes(components).into_iter().map(empty).collect()
     }
 
     /// Adds a point where loads act.

@@ -19,7 +19,7 @@ mod settle;
 pub use criterion::{Kink, kink};
 
 use crate::problem::{GrowthRule, Problem, ProblemError};
-use crate::solve::{Plan, SolveError};
+use crate::solve::{Plan, Shelf, SolveError};
 use decision::{Decision, decide, grown};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
 use ppum::progress::{Progress, Verdict, Watcher};
@@ -74,6 +74,8 @@ struct Before {
 struct Series<'a> {
     rule: &'a GrowthRule,
     memory: Option<u64>,
+    /// Integrals that the steps have in common.
+    shelf: Shelf,
 }
 
 /// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when it is complete: from the
@@ -92,7 +94,7 @@ pub fn grow<E>(
 ) -> Result<(), GrowthError<E>> {
     let single = GrowthRule::new(0);
     let rule = problem.growth.as_ref().unwrap_or(&single);
-    let series = Series { rule, memory };
+    let series = Series { rule, memory, shelf: Shelf::default() };
     let (mut number, mut current, mut before) = match start(problem, last) {
         Some(start) => start,
         None => return Ok(()),
@@ -196,11 +198,15 @@ impl Obstacle {
 
 impl Series<'_> {
     /// The plan of a problem whose loads balance.
-    fn plan<'p>(&self, problem: &'p Problem, watcher: &dyn Watcher) -> Result<Plan<'p>, Obstacle> {
+    fn plan<'p>(
+        &'p self,
+        problem: &'p Problem,
+        watcher: &dyn Watcher,
+    ) -> Result<Plan<'p>, Obstacle> {
         problem.check().map_err(Obstacle::Problem)?;
         let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
         plan.check(watcher).map_err(Obstacle::Solve)?;
-        Ok(plan)
+        Ok(plan.with_shelf(&self.shelf))
     }
 
     /// The dataset of a step under its load, with what is decided in it.

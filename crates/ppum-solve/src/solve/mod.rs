@@ -6,6 +6,7 @@ mod clock;
 mod error;
 mod estimate;
 mod goal;
+mod shelf;
 mod solution;
 mod solved;
 
@@ -24,6 +25,7 @@ use adaptive::adapted;
 use clock::Clock;
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::progress::{Phase, Watcher};
+pub(crate) use shelf::Shelf;
 use solution::{Assembled, Solving};
 use solved::{Found, Solved};
 
@@ -91,6 +93,8 @@ pub struct Plan<'p> {
     estimate: Estimate,
     /// Number of patches that a crack or rim crosses twice.
     crossed_twice: usize,
+    /// What the solution before has left, in a series.
+    shelf: Option<&'p Shelf>,
     clock: Clock,
 }
 
@@ -128,7 +132,13 @@ impl<'p> Plan<'p> {
         let space = Space::of_problem(problem, step)?;
         let estimate = fits(Estimate::of_space(problem, &space, memory), memory)?;
         clock.lap(Phase::Cover);
-        Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, clock })
+        let shelf = None;
+        Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, shelf, clock })
+    }
+
+    /// The plan of a solution that takes from a shelf what has not changed since the one before, and leaves there its own.
+    pub(crate) fn with_shelf(self, shelf: &'p Shelf) -> Self {
+        Self { shelf: Some(shelf), ..self }
     }
 
     /// The effort of the solution.
@@ -195,9 +205,9 @@ impl<'p> Plan<'p> {
 
     /// The solution with its factors.
     fn found(mut self, watcher: &dyn Watcher) -> Result<Found<'p>, SolveError> {
-        let Self { problem, ref mesh, ref space, estimate, .. } = self;
+        let Self { problem, ref mesh, ref space, estimate, shelf, .. } = self;
         let Estimate { solver: kind, falls_back, .. } = estimate;
-        let solving = Solving { problem, mesh, space, kind, falls_back, watcher };
+        let solving = Solving { problem, mesh, space, kind, falls_back, shelf, watcher };
         let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
         Found::new(self, solution, watcher)
@@ -209,9 +219,9 @@ impl<'p> Plan<'p> {
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {
-        let Self { problem, mesh, space, estimate, .. } = self;
+        let Self { problem, mesh, space, estimate, shelf, .. } = self;
         let Estimate { solver: kind, falls_back, .. } = *estimate;
-        Solving { problem, mesh, space, kind, falls_back, watcher }
+        Solving { problem, mesh, space, kind, falls_back, shelf: *shelf, watcher }
     }
 }
 

@@ -4,6 +4,7 @@ use super::SolveError;
 use super::chosen::{Chosen, Wanted};
 use super::clock::Clock;
 use super::goal::DualSolutions;
+use super::shelf::{Reused, Shelf};
 use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
@@ -13,7 +14,7 @@ use crate::law::Law;
 use crate::linear::LinearError;
 use crate::problem::Problem;
 use crate::report::{LinearKind, SolverReport, Unresolved};
-use crate::space::{Mesh, Space, SpaceError};
+use crate::space::{Mesh, Prints, Space, SpaceError};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
 use ppum::field::Field;
@@ -45,6 +46,8 @@ pub(super) struct Solving<'a> {
     /// The linear solver, and whether the direct one may take its place.
     pub(super) kind: LinearKind,
     pub(super) falls_back: bool,
+    /// What the solution before has left, in a series.
+    pub(super) shelf: Option<&'a Shelf>,
     pub(super) watcher: &'a dyn Watcher,
 }
 
@@ -53,6 +56,8 @@ pub(super) struct Assembled {
     pub(super) basis: StableBasis,
     pub(super) system: System,
     pub(super) gauge: Gauge,
+    /// What it is to be known by in the shelf, if there is one.
+    prints: Option<Prints>,
 }
 
 impl Solving<'_> {
@@ -73,10 +78,11 @@ impl Solving<'_> {
     }
 
     /// The stable basis, damped where the border cuts slivers.
-    fn basis(&self, law: &Law<'_>) -> Result<StableBasis, SolveError> {
+    fn basis(&self, law: &Law<'_>, reused: Option<&Reused>) -> Result<StableBasis, SolveError> {
         let Self { problem, space, watcher, .. } = *self;
         let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
-        let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
+        let mut basis = StableBasis::new(space, reused.and_then(Reused::basis), &stage)
+            .map_err(SolveError::of_basis)?;
         let assembly = Assembly { problem, space, basis: &basis, law };
         let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
         basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
@@ -96,17 +102,20 @@ impl Solving<'_> {
     ) -> Result<Assembled, SolveError> {
         let Self { problem, space, watcher, .. } = *self;
         let law = &Law::new(&problem.equation);
-        let basis = self.basis(law)?;
+        let reused = self.shelf.map(|shelf| shelf.take(space));
+        let basis = self.basis(law, reused.as_ref())?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(plate);
         let functionals = Functionals { free: &free, duals: &Duals::new(tips, space) };
-        let system = System::new(assembly, given, functionals, &stage);
+        let earlier = reused.as_ref().and_then(|reused| reused.system(space, &basis, given, &free));
+        let earlier = earlier.as_ref().map(|(unchanged, system)| (unchanged, *system));
+        let system = System::new(assembly, given, functionals, earlier, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         clock.lap(Phase::Assembly);
-        Ok(Assembled { basis, system, gauge })
+        Ok(Assembled { basis, system, gauge, prints: reused.map(Reused::into_prints) })
     }
 
     /// The solution of the problem, whose dataset has no coefficients yet.
@@ -129,7 +138,7 @@ impl Solving<'_> {
             other => other,
         };
         let Found { unknowns: solution, duals, report } = found?;
-        let Assembled { basis, system, gauge } = assembled;
+        let Assembled { basis, mut system, gauge, prints } = assembled;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
@@ -144,22 +153,26 @@ impl Solving<'_> {
             quadrature_points: Some(system.points as f64),
             ..report
         };
-        Ok(Solution {
+        let solution = Solution {
             coefficients: basis.plain(self.space, &solution, components),
             cut_off,
             reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
-            unresolved: system.unresolved,
-            lonely: basis.lonely,
+            unresolved: std::mem::take(&mut system.unresolved),
+            lonely: basis.lonely.clone(),
             duals,
             report,
-        })
+        };
+        if let (Some(shelf), Some(prints)) = (self.shelf, prints) {
+            shelf.put(prints, basis, system, gauge);
+        }
+        Ok(solution)
     }
 
     /// The solution of the system, without what is left of free motions, and the dual solutions.
     fn found(
         &self,
         kind: LinearKind,
-        Assembled { basis, system, gauge }: &mut Assembled,
+        Assembled { basis, system, gauge, .. }: &mut Assembled,
         plate: &Plate,
         tips: &[Sensitivity<'_>],
     ) -> Result<Found, SolveError> {

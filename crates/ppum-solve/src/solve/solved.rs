@@ -126,7 +126,7 @@ impl Solved<'_> {
             let case = Case { dataset, step: 0, field, space, problem, report, unresolved };
             case.diagnose(&tips, watcher)?
         };
-        clock.lap(Phase::Intensity);
+        clock.lap(Phase::Estimation);
         report.rounding = Some(diagnosis.rounding);
         report.seconds = clock.seconds;
         let step = &mut dataset.steps[0];

@@ -5,6 +5,7 @@ mod discretise;
 mod enrichment;
 mod inspect;
 mod mesh;
+mod prints;
 mod williams;
 
 use crate::problem::Problem;
@@ -23,6 +24,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use ppum::weight::WeightFunction;
+pub(crate) use prints::{Prints, Unchanged};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};

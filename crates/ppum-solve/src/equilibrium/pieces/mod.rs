@@ -8,6 +8,7 @@
 //! exact, so a crack that ends on the border cuts it, however the cells lie. A point on a face of a
 //! crack belongs to the triangle on that side of the edge that it lies on.
 
+use super::rigid::RigidModes;
 use crate::quadrature::{EdgeRule, Face};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
@@ -79,6 +80,16 @@ impl Pieces {
         };
         let found = Self::of_mesh(&domain, mesh, along);
         if domain.holes.is_empty() && found.all.len() == 1 { all_of_it() } else { found }
+    }
+
+    /// The rigid-body modes of the pieces. Those of a plate in one piece are about the centre of its box: they stay the same to the
+    /// last bit where cracks grow.
+    pub(crate) fn rigid_modes(&self, components: usize) -> Vec<RigidModes> {
+        let modes = |piece: &Piece| RigidModes::new(piece.centroid, piece.area.sqrt(), components);
+        match self.all.as_slice() {
+            [_] => vec![modes(&Piece::of_box(&self.bounds))],
+            several => several.iter().map(modes).collect(),
+        }
     }
 
     fn of_mesh(domain: &Domain, mesh: Mesh, along: Along) -> Self {
