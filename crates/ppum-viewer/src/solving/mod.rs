@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, Progress, Verdict, Watcher};
+use ppum_solve::growth::{GrowthError, grow};
 use ppum_solve::problem::{Location, Problem, ProblemError};
 use ppum_solve::solve::{Plan, SolveError};
 
@@ -44,9 +45,9 @@ pub struct Checked {
 pub enum Outcome {
     /// With a dataset, after so many seconds, and with warnings.
     Solved(f64, Vec<String>),
-    /// It was stopped.
-    Cancelled,
-    /// With an error.
+    /// It was stopped, with so many steps of a series, which are shown.
+    Cancelled(usize),
+    /// With an error; the steps of a series before it are shown.
     Failed(String),
 }
 
@@ -88,7 +89,7 @@ pub struct Running {
     pane: usize,
     start: Instant,
     told: Arc<Mutex<Told>>,
-    job: Job<Result<Dataset, Stopped>>,
+    job: Job<Result<Work, Stopped>>,
 }
 
 /// What is told of a solution while it is computed.
@@ -98,11 +99,22 @@ pub struct Told {
     pub progress: Option<Progress>,
     /// What it takes, in words, once that is known.
     pub estimate: Option<String>,
+    /// The number of the last step of a series.
+    pub steps: Option<usize>,
 }
 
+/// A dataset, and why it has no more steps than it has, if it should have.
 #[derive(Debug)]
+struct Work {
+    dataset: Dataset,
+    stopped: Option<Stopped>,
+}
+
+#[derive(Debug, thiserror::Error)]
 enum Stopped {
+    #[error("cancelled")]
     Cancelled,
+    #[error("{0}")]
     Failed(String),
 }
 
@@ -229,22 +241,42 @@ impl Solving {
         let (seconds, pane) = (running.seconds(), running.pane);
         self.running = None;
         match outcome.map_err(Stopped::Failed).flatten() {
-            Ok(dataset) => {
-                let warnings = dataset.steps.iter().flat_map(|step| &step.warnings);
-                let warnings = warnings.map(|warning| warning.message.clone()).collect();
-                self.outcome = Some(Outcome::Solved(seconds, warnings));
+            Ok(Work { dataset, stopped: None }) => {
+                self.outcome = Some(Outcome::Solved(seconds, warnings_of(&dataset)));
                 Some(Solved { pane, dataset: Arc::new(dataset) })
             }
-            Err(Stopped::Cancelled) => {
-                self.outcome = Some(Outcome::Cancelled);
-                None
+            Ok(Work { dataset, stopped: Some(stopped) }) => {
+                self.outcome = Some(stopped.outcome(dataset.steps.len()));
+                Some(Solved { pane, dataset: Arc::new(dataset) })
             }
-            Err(Stopped::Failed(error)) => {
-                self.outcome = Some(Outcome::Failed(error));
+            Err(stopped) => {
+                self.outcome = Some(stopped.outcome(0));
                 None
             }
         }
     }
+}
+
+impl Stopped {
+    /// The outcome with so many steps.
+    fn outcome(self, steps: usize) -> Outcome {
+        match self {
+            Self::Cancelled => Outcome::Cancelled(steps),
+            Self::Failed(error) if steps > 0 => Outcome::Failed(format!("step {steps}: {error}")),
+            Self::Failed(error) => Outcome::Failed(error),
+        }
+    }
+}
+
+/// What the warnings of all steps say, each once.
+fn warnings_of(dataset: &Dataset) -> Vec<String> {
+    let mut said = Vec::new();
+    for warning in dataset.steps.iter().flat_map(|step| &step.warnings) {
+        if !said.contains(&warning.message) {
+            said.push(warning.message.clone());
+        }
+    }
+    said
 }
 
 impl Running {
@@ -283,8 +315,9 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    fn tell(&self, estimate: String) {
-        self.told.lock().unwrap_or_else(PoisonError::into_inner).estimate = Some(estimate);
+    fn tell(&self, estimate: String, steps: Option<usize>) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        (told.estimate, told.steps) = (Some(estimate), steps);
     }
 }
 
@@ -292,7 +325,7 @@ impl Watcher for Follower<'_> {
     fn hear(&self, progress: Progress) -> Verdict {
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         // as many pictures as eyes can follow
-        let hundredth = |p: Progress| (p.phase, 100 * p.done / p.total.max(1));
+        let hundredth = |p: Progress| (p.step, p.phase, 100 * p.done / p.total.max(1));
         if told.progress.map(hundredth) != Some(hundredth(progress)) {
             self.ctx.request_repaint();
         }
@@ -312,15 +345,46 @@ fn solve(
     source: &Source,
     memory: Option<u64>,
     follower: &Follower<'_>,
-) -> Result<Dataset, Stopped> {
+) -> Result<Work, Stopped> {
     let problem = parse(text, source).map_err(|error| Stopped::Failed(summary(&error)))?;
     let plan = Plan::new(&problem, memory, follower)?;
-    follower.tell(plan.estimate().to_string());
-    ppum_format::check(plan.dataset()).map_err(|error| Stopped::Failed(error.to_string()))?;
+    let steps = problem.growth.as_ref().map(|rule| rule.steps);
+    follower.tell(plan.estimate().to_string(), steps);
+    holds(plan.dataset())?;
+    if problem.growth.is_some() {
+        return grown(&problem, memory, follower);
+    }
     let dataset = plan.solve(follower)?;
-    // what no file can hold is no solution: a load that is too large leaves numbers that are not finite
-    ppum_format::check(&dataset).map_err(|error| Stopped::Failed(error.to_string()))?;
-    Ok(dataset)
+    holds(&dataset)?;
+    Ok(Work { dataset, stopped: None })
+}
+
+/// What no file can hold is no solution: a load that is too large leaves numbers that are not finite.
+fn holds(dataset: &Dataset) -> Result<(), Stopped> {
+    ppum_format::check(dataset).map_err(|error| Stopped::Failed(error.to_string()))
+}
+
+/// All steps of a series, or those that are complete when it is stopped.
+fn grown(problem: &Problem, memory: Option<u64>, follower: &Follower<'_>) -> Result<Work, Stopped> {
+    let mut all: Option<Dataset> = None;
+    let keep = |step: Dataset| {
+        holds(&step)?;
+        match &mut all {
+            Some(all) => all.steps.extend(step.steps),
+            None => all = Some(step),
+        }
+        Ok(())
+    };
+    let stopped = match grow(problem, None, memory, follower, keep) {
+        Ok(()) => None,
+        Err(GrowthError::Solve(error)) => Some(Stopped::from(error)),
+        Err(GrowthError::Kept(stopped)) => Some(stopped),
+        Err(error) => Some(Stopped::Failed(error.to_string())),
+    };
+    match (all, stopped) {
+        (Some(dataset), stopped) => Ok(Work { dataset, stopped }),
+        (None, stopped) => Err(stopped.unwrap_or(Stopped::Cancelled)),
+    }
 }
 
 fn parse(text: &str, source: &Source) -> Result<Problem, ProblemError> {

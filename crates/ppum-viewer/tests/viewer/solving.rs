@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use ppum::crack::End;
 use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
@@ -127,9 +128,48 @@ fn a_solution_is_stopped_and_what_was_there_stays() {
     lab.settle();
     // within the time of a cell or of one step of the linear solver, on a machine that does other things too
     assert!(start.elapsed().as_secs_f64() < 30.0, "{:?}", start.elapsed());
-    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled));
+    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(0)));
     lab.window.get_by_label("Cancelled. What was there before is still shown.");
     assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
+}
+
+/// A plate whose crack grows.
+fn growing(steps: u32) -> String {
+    let growth = format!("\n[growth]\nincrement = 0.05\nsteps = {steps}\n");
+    text(2) + &growth
+}
+
+/// A series is shown with its first step, and all others are there.
+#[test]
+fn a_series_is_solved() {
+    let mut lab = lab(&growing(2));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.window.step();
+    lab.settle();
+    let dataset = lab.dataset(0).expect("it is solved");
+    let tips: Vec<f64> =
+        dataset.steps.iter().map(|step| step.cracks[0].end_point(End::Last).x).collect();
+    assert_eq!(tips.len(), 3);
+    assert!(tips.windows(2).all(|t| (t[1] - t[0] - 0.05).abs() < 1e-3), "{tips:?}");
+    assert!(matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))));
+}
+
+/// What is complete of a series stays when it is stopped.
+#[test]
+fn a_series_is_stopped() {
+    let mut lab = lab(&growing(9));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    lab.until("its third step is solved", |viewer| {
+        let progress = viewer.solving.running().and_then(|running| running.told().progress);
+        progress.is_some_and(|progress| progress.step == 3)
+    });
+    lab.window.get_by_label("Cancel").click();
+    lab.window.step();
+    lab.settle();
+    let steps = lab.dataset(0).expect("some of it is solved").steps.len();
+    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(steps)));
+    assert!((3..10).contains(&steps), "{steps}");
+    lab.window.get_by_label(&format!("Cancelled. The {steps} steps before are shown."));
 }
 
 #[test]

@@ -165,8 +165,14 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     let is_unsaved = opened.as_ref().is_some_and(|opened| opened.path.is_none());
     match &desk.solving.outcome {
         None => {}
-        Some(Outcome::Cancelled) => {
+        Some(Outcome::Cancelled(0)) => {
             ui.label("Cancelled. What was there before is still shown.");
+        }
+        Some(Outcome::Cancelled(steps)) => {
+            ui.horizontal_wrapped(|ui| {
+                ui.label(format!("Cancelled. The {steps} steps before are shown."));
+                save(ui, desk.actions);
+            });
         }
         Some(Outcome::Failed(error)) => {
             ui.colored_label(ui.visuals().error_fg_color, error);
@@ -234,7 +240,10 @@ fn progress(ui: &mut Ui, running: &Running) {
     let at = phase.and_then(|phase| PHASES.iter().position(|known| *known == phase)).unwrap_or(0);
     let name = phase.map_or("beginning", ppum::progress::Phase::name);
     let name = if running.is_cancelled() { "stopping" } else { name };
-    let text = format!("{} of {}: {name}, {:.0} s", at + 1, PHASES.len(), running.seconds());
+    let step = told.steps.zip(told.progress);
+    let step = step.map_or(String::new(), |(n, at)| format!("step {} of {n}, ", at.step));
+    let phase = format!("{} of {}: {name}", at + 1, PHASES.len());
+    let text = format!("{step}{phase}, {:.0} s", running.seconds());
     let bar = ui.add(ProgressBar::new(told.part()).desired_height(8.0));
     ui.label(&text);
     bar.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &text));
