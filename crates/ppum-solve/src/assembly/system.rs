@@ -14,6 +14,7 @@ use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::Mat;
 use ppum::vec2::Rect;
+use std::time::Instant;
 
 /// The assembled system.
 pub(crate) struct System {
@@ -28,8 +29,10 @@ pub(crate) struct System {
     pub(crate) nitsche: f64,
     /// Forces of the restraints on the plate.
     pub(crate) reactions: Reactions,
-    /// Number of quadrature points, those of loads that have their own among them.
-    pub(crate) points: usize,
+    /// Of each cell, the number of quadrature points, those of loads that have their own among them.
+    pub(crate) points: Vec<usize>,
+    /// Of each cell, the seconds that one core took to find its points and integrate.
+    pub(crate) seconds: Vec<f64>,
     /// Loads and data, functions and coefficients that are not resolved.
     pub(crate) unresolved: Vec<Unresolved>,
 }
@@ -114,6 +117,7 @@ impl System {
             assembly.n_cells(),
             || CellAssembler::new(assembly, Some(functionals)),
             |assembler, cell| {
+                let start = Instant::now();
                 let rules = space.rules(&quadrature, cell);
                 let pieces = given.border(space, &quadrature, cell);
                 let source = given.source(cell);
@@ -123,10 +127,12 @@ impl System {
                     .assemble(cell, &rules, source, &pieces)
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
                 let blocks = part.blocks(&assembly);
-                Ok((part, blocks, points, doubt_of(&rules, &pieces)))
+                let doubt = doubt_of(&rules, &pieces);
+                Ok((part, blocks, doubt, (points, start.elapsed().as_secs_f64())))
             },
-            |cell, (part, blocks, points, left)| {
-                system.points += points;
+            |cell, (part, blocks, left, (points, seconds))| {
+                system.points.push(points);
+                system.seconds.push(seconds);
                 doubt.add(&left);
                 let penalty = part.penalty * width(&space.partition().cell[cell]);
                 system.nitsche = system.nitsche.max(penalty);
@@ -141,6 +147,12 @@ impl System {
         Ok(system)
     }
 
+    /// Bytes of the matrix and of all right-hand sides.
+    pub(crate) fn bytes(&self) -> usize {
+        let sides = 1 + self.moments.len() + self.duals.len();
+        self.matrix.bytes() + sides * self.load.len() * size_of::<f64>()
+    }
+
     fn zero(assembly: &Assembly<'_>, Functionals { free, duals }: Functionals<'_>) -> Self {
         let sizes = assembly.basis.unknowns(assembly.components());
         let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
@@ -151,7 +163,8 @@ impl System {
             matrix,
             nitsche: 0.0,
             reactions: Reactions::default(),
-            points: 0,
+            points: Vec::new(),
+            seconds: Vec::new(),
             unresolved: Vec::new(),
         }
     }

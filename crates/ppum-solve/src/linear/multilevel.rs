@@ -124,8 +124,23 @@ impl<'a> Multilevel<'a> {
 
     /// Bytes of all levels.
     pub(crate) fn bytes(&self) -> usize {
-        let smoothed = self.levels.iter().map(|l| l.smoother.bytes() + l.transfer.bytes());
-        smoothed.sum::<usize>() + self.coarsest.0.bytes() + self.coarsest.1.bytes()
+        (0..self.n_levels()).map(|level| self.bytes_of(level)).sum()
+    }
+
+    fn bytes_of(&self, level: usize) -> usize {
+        match self.levels.get(level) {
+            Some(level) => level.smoother.bytes() + level.transfer.bytes(),
+            None => self.coarsest.0.bytes() + self.coarsest.1.bytes(),
+        }
+    }
+
+    /// Blocks, unknowns, stored values and bytes of all levels, the finest first.
+    pub(crate) fn sizes(&self) -> Vec<[usize; 4]> {
+        let size = |level| {
+            let matrix = &self.rows(level).matrix;
+            [matrix.n_blocks(), matrix.n_unknowns(), matrix.n_values(), self.bytes_of(level)]
+        };
+        (0..self.n_levels()).map(size).collect()
     }
 
     fn rows(&self, level: usize) -> &Rows<'a> {

@@ -12,7 +12,7 @@ use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
 use crate::linear::LinearError;
 use crate::problem::Problem;
-use crate::report::{LinearKind, SolverReport, Unresolved};
+use crate::report::{ASSEMBLY_SECONDS, LinearKind, SolverReport, Unresolved};
 use crate::space::{Mesh, Space, SpaceError};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
@@ -23,8 +23,8 @@ use ppum::progress::{Cancelled, Phase, Watcher};
 pub(super) struct Solution {
     /// Plain coefficients in the order of the system.
     coefficients: Vec<f64>,
-    /// Unknowns cut off, patch by patch.
-    cut_off: Vec<f64>,
+    /// Values for each patch.
+    attributes: Vec<Attribute>,
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
@@ -129,24 +129,41 @@ impl Solving<'_> {
             other => other,
         };
         let Found { unknowns: solution, duals, report } = found?;
-        let Assembled { basis, system, gauge } = assembled;
+        let Assembled { basis, mut system, gauge } = assembled;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
         let kept: usize = basis.unknowns(components).sum();
+        let all = kept as f64 + cut_off.iter().sum::<f64>();
+        let left = kept as f64 - report.dependent.unwrap_or(0.0);
+        let made = [(Phase::Basis, basis.bytes()), (Phase::Assembly, system.bytes())];
+        let bytes = made.map(|(phase, bytes)| (phase, bytes as f64)).into_iter();
+        let points: Vec<f64> = system.points.iter().map(|n| *n as f64).collect();
         let report = SolverReport {
-            unknowns: Some(kept as f64 + cut_off.iter().sum::<f64>()),
+            unknowns: Some(all),
             cut_off: Some(cut_off.iter().sum()),
+            bytes: bytes.chain(report.solver_bytes.map(|held| (Phase::Solution, held))).collect(),
+            worked: vec![
+                (Phase::Cover, all),
+                (Phase::Basis, all),
+                (Phase::Assembly, kept as f64),
+                (Phase::Solution, left),
+            ],
             nitsche: Some(system.nitsche),
             pieces: Some(plate.pieces.all().len() as f64),
             free_modes: Some(gauge.len() as f64),
             imbalance: Some(plate.imbalance()),
-            quadrature_points: Some(system.points as f64),
+            quadrature_points: Some(points.iter().sum()),
             ..report
         };
         Ok(Solution {
             coefficients: basis.plain(self.space, &solution, components),
-            cut_off,
+            attributes: vec![
+                attribute("cut-off", cut_off),
+                attribute("least-eigenvalue", basis.least()),
+                attribute("quadrature-points", points),
+                attribute(ASSEMBLY_SECONDS, std::mem::take(&mut system.seconds)),
+            ],
             reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
             unresolved: system.unresolved,
             lonely: basis.lonely,
@@ -225,9 +242,12 @@ impl Solution {
     pub(super) fn store(&mut self, step: &mut Step) {
         step.reactions = std::mem::take(&mut self.reactions);
         write_coefficients(&mut step.fields[0], &self.coefficients);
-        let values = std::mem::take(&mut self.cut_off);
-        step.attributes.push(Attribute { name: "cut-off".into(), values });
+        step.attributes.append(&mut self.attributes);
     }
+}
+
+fn attribute(name: &str, values: Vec<f64>) -> Attribute {
+    Attribute { name: name.into(), values }
 }
 
 /// Writes coefficients that stand patch by patch and in each patch component by component.
