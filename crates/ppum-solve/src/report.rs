@@ -85,9 +85,12 @@ pub struct LevelSize {
     pub bytes: f64,
 }
 
+/// A number of a level by its unit in files.
+type OfLevel = (&'static str, fn(&mut LevelSize) -> &mut f64);
+
 impl LevelSize {
-    /// The numbers with their units in files.
-    const NUMBERS: [(&'static str, fn(&mut Self) -> &mut f64); 4] = [
+    /// All numbers.
+    const NUMBERS: [OfLevel; 4] = [
         ("patches", |l| &mut l.patches),
         (UNKNOWNS, |l| &mut l.unknowns),
         ("values", |l| &mut l.values),
@@ -304,9 +307,8 @@ impl SolverReport {
             records.extend(of_phases.map(|(phase, value)| record(phase.name(), *value, unit)));
         }
         for (l, size) in report.levels.iter_mut().enumerate() {
-            let number = |(unit, number): (&str, fn(&mut LevelSize) -> &mut f64)| {
-                record(&format!("{LEVEL}{l}"), *number(size), unit)
-            };
+            let number =
+                |(unit, number): OfLevel| record(&format!("{LEVEL}{l}"), *number(size), unit);
             records.extend(LevelSize::NUMBERS.map(number));
         }
         for (step, residual) in self.residuals.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! Solution of K u = f by conjugate gradients, preconditioned by one cycle through coarser and coarser levels.
 //!
 //! ```text
-//! x = (D + L)⁻¹ f                      sweep forward
+//! x = (D + L)⁻¹ f                      sweep forward, then the knots
 //! x ← x + P y,  K_c y = Pᵀ (f − K x)   correction: the same on the next level, or by Cholesky on the coarsest
-//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         sweep backward
+//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         the knots, then sweep backward
 //! ```
 //!
 //! The coarse matrices K_c are what the caller gives: Pᵀ K P need not be among them. The cycle is symmetric and positive
@@ -156,12 +156,11 @@ impl<'a> Multilevel<'a> {
             factor.apply_inverse(&mut x);
             return rows.coloured(&x);
         };
-        let mut x = smoother.forward(f);
-        let rest = smoother.residual(&x);
+        let (mut x, rest) = smoother.before(f);
         let (fine, coarse) = (&smoother.rows, self.rows(level + 1));
         let correction = self.cycle(level + 1, &transfer.restricted((fine, &rest), coarse), norms);
         transfer.add_prolonged((coarse, &correction), fine, &mut x);
-        smoother.backward(f, &mut x);
+        smoother.after(f, &mut x, rest);
         x
     }
 
