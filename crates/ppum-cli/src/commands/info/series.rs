@@ -70,7 +70,7 @@ impl StepRow {
             first.insert(2, cycles.map_or_else(|| "–".into(), short));
         }
         let blank = vec![String::new(); first.len()];
-        let tips = self.grown.iter().take(TIPS).enumerate();
+        let tips = self.grown.iter().take(GROWING).enumerate();
         let mut lines: Vec<_> = tips
             .map(
                 |(k, tip)| {
@@ -111,6 +111,9 @@ fn grown(step: &Step) -> Vec<Vec<String>> {
 /// Tips that a line of the table has room for: two of an inner crack, two of another one.
 const TIPS: usize = 4;
 
+/// Lines of tips that grow for each step: a dozen cracks.
+const GROWING: usize = 24;
+
 /// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. Of cracks that grow there is a line for each
 /// tip, with what it does next.
 pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
@@ -126,7 +129,7 @@ pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     let heads: Vec<_> = heads.into_iter().chain((0..tips.min(TIPS)).flat_map(of_tip)).collect();
     let lines: Vec<_> = [heads].into_iter().chain(rows.iter().map(StepRow::words)).collect();
     write_lines(out, &lines, false)?;
-    and_more(out, tips)
+    and_more(out, tips, TIPS)
 }
 
 fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
@@ -137,7 +140,7 @@ fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     let heads: Vec<_> = heads.map(str::to_owned).collect();
     let steps = rows.iter().flat_map(|row| row.grown_words(has_cycles));
     write_lines(out, &[heads].into_iter().chain(steps).collect::<Vec<_>>(), true)?;
-    and_more(out, rows.iter().map(|row| row.grown.len()).max().unwrap_or(0))?;
+    and_more(out, rows.iter().map(|row| row.grown.len()).max().unwrap_or(0), GROWING)?;
     let Some(last) = rows.last() else { return Ok(()) };
     match last.growth.as_ref().and_then(|growth| growth.stop) {
         Some(stop) => writeln!(out, "ended with step {}: {stop}", last.step),
@@ -166,9 +169,9 @@ fn write_lines(out: &mut dyn Write, lines: &[Vec<String>], ends_in_words: bool) 
     Ok(())
 }
 
-fn and_more(out: &mut dyn Write, tips: usize) -> io::Result<()> {
-    if tips > TIPS {
-        let more = count(tips - TIPS, "tip", "tips");
+fn and_more(out: &mut dyn Write, tips: usize, told: usize) -> io::Result<()> {
+    if tips > told {
+        let more = count(tips - told, "tip", "tips");
         writeln!(out, "and {more} more, see `ppum sif` or --json")?;
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use ppum::dataset::Record;
 use ppum::progress::Phase;
-use ppum::text::{short, trimmed};
+use ppum::text::trimmed;
 use ppum_solve::report::{LinearKind, SolverReport};
 use serde::Serialize;
 
@@ -124,5 +124,5 @@ fn number(value: Option<f64>) -> String {
 }
 
 fn megabytes(bytes: Option<f64>) -> String {
-    bytes.map_or_else(String::new, |bytes| short(1e-6 * bytes))
+    bytes.map_or_else(String::new, |bytes| format!("{:.2}", 1e-6 * bytes))
 }

@@ -222,3 +222,47 @@ fn tips(dataset: &Dataset) -> Vec<TipId> {
     }
     tips
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::End;
+    use ppum::dataset::{Advance, Fate, Growth, TipIntensity};
+    use ppum_testkit::synthetic::growing;
+
+    /// Two tips: one grows by ½ in steps 0 and 1 and meets the border in the second, the other by ¼ in step 1 alone.
+    #[test]
+    fn extensions_stay_when_tips_have_ended() {
+        let mut dataset = growing(4);
+        let [a, b] = [End::Start, End::Last].map(|end| TipId { crack: 0, end });
+        for (k, step) in dataset.steps.iter_mut().enumerate() {
+            let row = |tip, length: f64, extension: f64| {
+                let fate = if length > 0.0 { Fate::Grows } else { Fate::Held };
+                Advance { length, extension, ..Advance::staying(tip, fate) }
+            };
+            let mut growth = Growth::default();
+            if k < 2 {
+                growth.tips.push(row(a, 0.5, 0.5 * k as f64));
+            }
+            let quarter = |is_so: bool| if is_so { 0.25 } else { 0.0 };
+            growth.tips.push(row(b, quarter(k == 1), quarter(k > 1)));
+            growth.cycles = Some(10.0 * k as f64);
+            step.growth = Some(growth);
+            step.intensities = vec![TipIntensity::new(b, 1.0 + k as f64, 0.0)];
+        }
+        let extensions = Extensions::new(&dataset);
+        let of = |tip| (0..4).map(|k| extensions.of(k, tip)).collect::<Vec<_>>();
+        assert_eq!(of(a), [0.0, 0.5, 1.0, 1.0].map(Some));
+        assert_eq!(of(b), [0.0, 0.0, 0.25, 0.25].map(Some));
+        assert_eq!([0, 1, 2, 3].map(|k| extensions.of_all(k)), [0.0, 0.5, 1.25, 1.25]);
+        // what is drawn over them
+        let found = curves(&dataset, Number::K1, Over::Extension);
+        assert_eq!(found[0].1, [[0.0, 1.0], [0.0, 2.0], [0.25, 3.0], [0.25, 4.0]]);
+        let found = curves(&dataset, Number::Extension, Over::Cycles);
+        assert_eq!(found[0].1, [[0.0, 0.0], [10.0, 0.0], [20.0, 0.25], [30.0, 0.25]]);
+        let found = curves(&dataset, Number::Load, Over::Extension);
+        assert!(
+            (found[0].1[2][0] - 1.25).abs() < 1e-15 && found[0].1[2][1] == dataset.steps[2].load
+        );
+    }
+}
