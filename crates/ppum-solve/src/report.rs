@@ -3,7 +3,10 @@
 //! It is kept in a dataset as the named records of a step's history. Names and order are in one
 //! table here; nothing else knows them.
 
-use ppum::dataset::Record;
+mod places;
+
+use places::{ITERATION, LEVEL, course_place, level_place};
+use ppum::dataset::{Record, Step};
 use ppum::progress::Phase;
 use ppum::vec2::Vec2;
 
@@ -56,11 +59,43 @@ pub struct SolverReport {
     pub rounding: Option<f64>,
     /// Seconds of each phase, in the order of the work.
     pub seconds: Vec<(Phase, f64)>,
+    /// Bytes of what a phase makes and keeps for the next ones; of phases that keep nothing none.
+    pub bytes: Vec<(Phase, f64)>,
+    /// Unknowns that a phase works with: all, those that the cut-off leaves, those that are solved for.
+    pub worked: Vec<(Phase, f64)>,
+    /// The levels of the multilevel solver, the finest first.
+    pub levels: Vec<LevelSize>,
     /// The residual before the first step of the multilevel solver and after each, in the norm of the preconditioner and as
     /// a part of the first.
     pub residuals: Vec<f64>,
     /// Before each step, the residual that reaches each level, the finest first, as a part of that of the first step.
     pub level_residuals: Vec<Vec<f64>>,
+}
+
+/// The size of a level of the multilevel solver.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LevelSize {
+    /// Patches.
+    pub patches: f64,
+    /// Unknowns.
+    pub unknowns: f64,
+    /// Values of its matrix that are stored, about one half of all.
+    pub values: f64,
+    /// Bytes of its matrix with the inverses or the factor, and of the way to the next coarser level.
+    pub bytes: f64,
+}
+
+/// A number of a level by its unit in files.
+type OfLevel = (&'static str, fn(&mut LevelSize) -> &mut f64);
+
+impl LevelSize {
+    /// All numbers.
+    const NUMBERS: [OfLevel; 4] = [
+        ("patches", |l| &mut l.patches),
+        (UNKNOWNS, |l| &mut l.unknowns),
+        ("values", |l| &mut l.values),
+        (BYTE, |l| &mut l.bytes),
+    ];
 }
 
 /// A solver of linear systems.
@@ -177,13 +212,38 @@ const STOP: &str = "adaptation stop";
 /// The record with the unit `B`.
 const BYTES: &str = "solver memory";
 
-/// What names of records of the course of iterations begin with: `iteration 7`, `iteration 7 level 2`.
-const ITERATION: &str = "iteration ";
+/// Units of records of phases and levels.
+const SECOND: &str = "s";
+const BYTE: &str = "B";
+const UNKNOWNS: &str = "unknowns";
+
+/// The attribute with the seconds that one core took for the cell of each patch in the assembly.
+pub const ASSEMBLY_SECONDS: &str = "assembly-seconds";
 
 /// True for names of records of the course of iterations, of which there are many.
 #[must_use]
 pub fn is_of_course(name: &str) -> bool {
     course_place(name).is_some()
+}
+
+/// True for records of the sizes of levels.
+#[must_use]
+pub fn is_of_level(record: &Record) -> bool {
+    let units = LevelSize::NUMBERS.map(|(unit, _)| unit);
+    level_place(&record.name).is_some() && units.contains(&record.unit.as_str())
+}
+
+/// True for records of a phase: its seconds, bytes and unknowns.
+#[must_use]
+pub fn is_of_phase(record: &Record) -> bool {
+    let units = [SECOND, BYTE, UNKNOWNS];
+    phase_of(record).is_some() && units.contains(&record.unit.as_str())
+}
+
+/// Removes the seconds from a step: all else is the same whenever and on however many threads it is solved.
+pub fn forget_times(step: &mut Step) {
+    step.history.retain(|record| record.unit != SECOND);
+    step.attributes.retain(|attribute| attribute.name != ASSEMBLY_SECONDS);
 }
 
 /// The word that a record's value stands for, if it is a code.
@@ -196,16 +256,7 @@ pub fn word(name: &str, value: f64) -> Option<&'static str> {
     }
 }
 
-/// The iteration that a name tells, and the level if it tells one.
-fn course_place(name: &str) -> Option<(usize, Option<usize>)> {
-    let place = name.strip_prefix(ITERATION)?;
-    match place.split_once(" level ") {
-        Some((step, level)) => Some((step.parse().ok()?, Some(level.parse().ok()?))),
-        None => Some((place.parse().ok()?, None)),
-    }
-}
-
-/// Phases of a solution; their times are records with the unit `s`.
+/// Phases of a solution; their times are records with the unit `s`, others with `B` and `unknowns`.
 const PHASES: [Phase; 6] = [
     Phase::Cover,
     Phase::Basis,
@@ -215,6 +266,11 @@ const PHASES: [Phase; 6] = [
     Phase::Estimation,
 ];
 
+/// The phase that a record is called by.
+fn phase_of(record: &Record) -> Option<Phase> {
+    PHASES.into_iter().find(|phase| phase.name() == record.name)
+}
+
 impl SolverReport {
     /// The report in a step's history. Of several records of one name the first counts; those of other
     /// names are left out.
@@ -222,9 +278,10 @@ impl SolverReport {
     pub fn of(history: &[Record]) -> Self {
         let mut report = Self::default();
         for record in history {
-            let is_of = |phase: &&Phase| record.unit == "s" && phase.name() == record.name;
-            if let Some(phase) = PHASES.iter().find(is_of) {
-                report.seconds.push((*phase, record.value));
+            if let Some(phase) = phase_of(record).filter(|_| is_of_phase(record)) {
+                report.of_phases(&record.unit).push((phase, record.value));
+            } else if is_of_level(record) {
+                report.add_level(record);
             } else if let Some(place) = course_place(&record.name) {
                 report.add_course(place, record.value);
             } else if let Some((_, entry)) = ENTRIES.iter().find(|(name, _)| *name == record.name) {
@@ -241,11 +298,19 @@ impl SolverReport {
         let record =
             |name: &str, value, unit: &str| Record { name: name.into(), value, unit: unit.into() };
         let numbers = ENTRIES.iter().filter_map(|(name, entry)| {
-            let unit = if *name == BYTES { "B" } else { "" };
+            let unit = if *name == BYTES { BYTE } else { "" };
             Some(record(name, (*entry(&mut report))?, unit))
         });
         let mut records: Vec<_> = numbers.collect();
-        records.extend(self.seconds.iter().map(|(phase, value)| record(phase.name(), *value, "s")));
+        for unit in [SECOND, BYTE, UNKNOWNS] {
+            let of_phases = report.of_phases(unit).iter();
+            records.extend(of_phases.map(|(phase, value)| record(phase.name(), *value, unit)));
+        }
+        for (l, size) in report.levels.iter_mut().enumerate() {
+            let number =
+                |(unit, number): OfLevel| record(&format!("{LEVEL}{l}"), *number(size), unit);
+            records.extend(LevelSize::NUMBERS.map(number));
+        }
         for (step, residual) in self.residuals.iter().enumerate() {
             records.push(record(&format!("{ITERATION}{step}"), *residual, ""));
             let of_levels = self.level_residuals.get(step).into_iter().flatten().enumerate();
@@ -254,6 +319,28 @@ impl SolverReport {
             records.extend(of_levels);
         }
         records
+    }
+
+    /// The numbers of phases with a unit.
+    fn of_phases(&mut self, unit: &str) -> &mut Vec<(Phase, f64)> {
+        match unit {
+            SECOND => &mut self.seconds,
+            BYTE => &mut self.bytes,
+            _ => &mut self.worked,
+        }
+    }
+
+    /// Takes a number of a level up if it is one of the last level or the first one of the next.
+    fn add_level(&mut self, record: &Record) {
+        let level = level_place(&record.name);
+        if level == Some(self.levels.len()) && record.unit == LevelSize::NUMBERS[0].0 {
+            self.levels.push(LevelSize::default());
+        }
+        let of_level = level.and_then(|l| self.levels.get_mut(l));
+        let number = LevelSize::NUMBERS.iter().find(|(unit, _)| *unit == record.unit);
+        if let Some((level, (_, number))) = of_level.zip(number) {
+            *number(level) = record.value;
+        }
     }
 
     /// Takes a residual of the course up if it is the next one.
@@ -301,20 +388,60 @@ mod tests {
             *entry(&mut report) = Some(k as f64);
         }
         report.seconds = PHASES.iter().map(|&phase| (phase, 0.5)).collect();
+        report.bytes = vec![(Phase::Basis, 80.0), (Phase::Assembly, 96.0)];
+        report.worked = vec![(Phase::Cover, 7.0), (Phase::Basis, 5.0)];
+        let size =
+            |n: f64| LevelSize { patches: n, unknowns: 2.0 * n, values: 9.0 * n, bytes: 72.0 };
+        report.levels = vec![size(16.0), size(4.0)];
         (report.residuals, report.level_residuals) =
             (vec![1.0, 0.25], vec![vec![1.0, 1.0], vec![0.5, 0.125]]);
         let mut records = report.records();
-        assert_eq!(records.len(), ENTRIES.len() + PHASES.len() + 6);
+        assert_eq!(records.len(), ENTRIES.len() + PHASES.len() + 4 + 8 + 6);
+        assert_eq!(records.iter().filter(|record| is_of_phase(record)).count(), PHASES.len() + 4);
+        assert_eq!(records.iter().filter(|record| is_of_level(record)).count(), 8);
         assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
         assert_eq!(records[12].name, "free motions");
         assert_eq!(SolverReport::of(&records), report);
         // a second record of a name, and names of other programs
-        for (name, unit) in
-            [("energy", ""), ("mood", ""), ("cover", ""), ("iteration 1", ""), ("iteration x", "")]
-        {
+        for (name, unit) in [
+            ("energy", ""),
+            ("mood", ""),
+            ("cover", ""),
+            ("iteration 1", ""),
+            ("iteration x", ""),
+            ("level 7", "patches"),
+            ("level 2", "unknowns"),
+            ("level 0", "mood"),
+            ("level x", "B"),
+        ] {
             records.push(Record { name: name.into(), value: -1.0, unit: unit.into() });
         }
         assert_eq!(SolverReport::of(&records), report);
+    }
+
+    /// Seconds are forgotten, in both places, and nothing else.
+    #[test]
+    fn times_are_forgotten() {
+        use ppum::dataset::Attribute;
+        let cover = ppum::cover::Cover::uniform(
+            ppum::vec2::Rect::new(Vec2::ZERO, ppum::vec2::vec2(1.0, 1.0)),
+            0,
+        );
+        let weight = ppum::weight::WeightFunction::Linear;
+        let mut step = Step::new(cover.and_then(|c| c.partition(1.3, weight)).expect("a cover"));
+        let attribute = |name: &str| Attribute { name: name.into(), values: vec![1.0] };
+        step.attributes = vec![attribute("order"), attribute(ASSEMBLY_SECONDS)];
+        let report = SolverReport {
+            seconds: vec![(Phase::Cover, 1.0)],
+            bytes: vec![(Phase::Cover, 8.0)],
+            energy: Some(2.0),
+            ..SolverReport::default()
+        };
+        step.history = report.records();
+        forget_times(&mut step);
+        assert_eq!(step.attributes, [attribute("order")]);
+        let left = SolverReport { seconds: Vec::new(), ..report };
+        assert_eq!(step.history, left.records());
     }
 
     #[test]

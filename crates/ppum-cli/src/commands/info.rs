@@ -3,9 +3,11 @@
 mod adapters;
 mod extrema;
 mod formulas;
+pub(super) mod growth;
 pub(super) mod reactions;
 pub(super) mod report;
 mod series;
+mod solver;
 mod text;
 
 use std::io::Write;
@@ -38,7 +40,8 @@ pub(crate) struct Args {
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K", requires = "file")]
     step: Option<usize>,
-    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity factors
+    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity factors, and of cracks
+    /// that grow the fate of each tip and what has ended the series
     #[arg(long, requires = "file", conflicts_with = "extrema")]
     steps: bool,
     /// Print JSON, see docs/cli.md

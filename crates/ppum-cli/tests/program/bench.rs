@@ -17,6 +17,30 @@ fn phases_are_measured() {
     assert!(sum > 0.0 && (sum - run["seconds"].as_f64().unwrap()).abs() < 1e-12);
 }
 
+/// Two levels have a table and a picture, three a line through their times.
+#[test]
+fn times_grow_with_the_unknowns() {
+    let lab = Lab::new();
+    let report = lab.json("bench solver --level 6 --solver multilevel --threads 2 -o times.svg");
+    let runs = report["solver"].as_array().unwrap();
+    assert_eq!(runs.len(), 3);
+    for run in runs {
+        assert_eq!(run["kind"], "multilevel");
+        assert!(run["bytes"].as_f64() > Some(0.0) && run["iterations"].as_f64() < Some(30.0));
+    }
+    for phases in ["all", "solution"] {
+        let fit = &report["fit"][phases];
+        let expected = ["exponent", "largest_deviation", "seconds", "seconds_per_unknown"];
+        assert_eq!(keys(fit), expected);
+    }
+    let svg = std::fs::read_to_string(lab.path("times.svg")).unwrap();
+    assert!(svg.contains("all phases, slope ") && svg.contains(">unknowns<"), "{svg}");
+    let text = lab.run("bench solver --level 5 --solver direct");
+    assert!(text.contains("bytes/unknown\n    4 ") && text.contains(" direct "), "{text}");
+    assert!(!text.contains("exponent"), "two points are no fit: {text}");
+    assert!(lab.fail("bench solver --level 4 -o a.png").contains("two levels"));
+}
+
 #[test]
 fn tables_for_people() {
     let lab = Lab::new();

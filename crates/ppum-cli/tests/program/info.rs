@@ -33,8 +33,8 @@ fn json_has_the_documented_shape() {
         json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
     assert_eq!(info["equation"], elasticity);
     let step = &info["steps"][0];
-    let expected = "attributes cell_values cells cracks energy fields functions history intensities levels load \
-                    orders patches points quantities reactions step tips unknowns warnings weight weight_breakpoints \
+    let expected = "attributes cell_values cells cracks energy fields functions growth history intensities levels load \
+                    orders patches points quantities reactions solver step tips unknowns warnings weight weight_breakpoints \
                     weight_formula";
     assert_eq!(keys(step).join(" "), expected);
     let crack = json!([{ "points": [[-0.5, 0.0], [0.5, 0.0]], "ends": ["tip", "tip"] }]);
@@ -56,6 +56,65 @@ fn json_has_the_documented_shape() {
     assert_eq!(unknowns["value"].as_f64(), step["unknowns"].as_f64());
     let solver = &step["intensities"];
     assert_eq!(solver, &lab.json("sif plate.h5")["tips"], "stored and computed are the same");
+}
+
+/// The solver's numbers are those of the history, in JSON and in words.
+#[test]
+fn the_solver_is_told() {
+    let lab = Lab::new();
+    let large = CRACKED.replace("level = 3", "level = 4").replace("order = 1", "order = 2");
+    assert_ne!(large, CRACKED);
+    lab.write("plate.toml", &format!("{large}\n[solver]\nkind = \"multilevel\"\n"));
+    lab.run("solve plate.toml");
+    let step = &lab.json("info plate.h5")["steps"][0];
+    let (solver, history) = (&step["solver"], step["history"].as_array().unwrap());
+    let record = |name: &str, unit: &str| {
+        let found = history.iter().find(|r| r["name"] == name && r["unit"] == unit);
+        found.map(|r| r["value"].clone()).unwrap_or_default()
+    };
+    assert_eq!(solver["kind"], "multilevel");
+    for (key, name, unit) in [
+        ("iterations", "iterations", ""),
+        ("condition", "preconditioned condition", ""),
+        ("residual", "residual", ""),
+        ("bytes", "solver memory", "B"),
+    ] {
+        assert!(solver[key].is_number() && solver[key] == record(name, unit), "{key}: {solver}");
+    }
+    let steps = solver["iterations"].as_f64().unwrap();
+    assert_eq!(solver["reduction"], record(&format!("iteration {steps}"), ""));
+    let phases = solver["phases"].as_array().unwrap();
+    assert_eq!(phases.len(), 6);
+    assert_eq!(phases[0]["unknowns"], record("unknowns", ""));
+    assert_eq!((&phases[3]["name"], &phases[3]["bytes"]), (&json!("solution"), &solver["bytes"]));
+    let levels = solver["levels"].as_array().unwrap();
+    assert!(levels.len() > 1 && levels[0]["unknowns"].as_f64() > levels[1]["unknowns"].as_f64());
+    let text = lab.run("info plate.h5");
+    for part in [
+        format!("solver       multilevel, {} levels, {steps} steps to ", levels.len()),
+        "\nphase         seconds          MB    unknowns\ncover ".into(),
+        "\nlevel     patches    unknowns      values          MB\n0 ".into(),
+    ] {
+        assert!(text.contains(&part), "{part}: {text}");
+    }
+    assert!(!text.contains("iteration 1") && !text.contains("level 0"), "{text}");
+    // of a file that does not tell there is nothing to say
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    dataset.steps[0].history.clear();
+    ppum_format::write(&dataset, &lab.path("bare.h5")).unwrap();
+    assert!(lab.json("info bare.h5")["steps"][0]["solver"].is_null());
+    assert!(!lab.run("info bare.h5").contains("solver"));
+}
+
+/// What the solver tells of patches has a picture.
+#[test]
+fn values_of_patches_are_drawn() {
+    let lab = Lab::solved(CRACKED);
+    let names = &lab.json("info plate.h5")["steps"][0]["cell_values"];
+    for name in ["cut-off", "least-eigenvalue", "quadrature-points", "assembly-seconds"] {
+        assert!(names.as_array().unwrap().contains(&json!(name)), "{names}");
+        lab.run(&format!("render plate.h5 -o a.png -q {name} --figure --size 500x400"));
+    }
 }
 
 #[test]

@@ -74,6 +74,36 @@ fn plots_are_drawn() {
     assert!(told.contains("plate: sxx, other: sxx"), "{told}");
 }
 
+/// The residuals of the iteration, the levels and the bytes of a solution, and what has none.
+#[test]
+fn the_solver_is_drawn() {
+    let lab = Lab::new();
+    let large = CRACKED.replace("level = 3", "level = 4").replace("order = 1", "order = 2");
+    lab.write("plate.toml", &format!("{large}\n[solver]\nkind = \"multilevel\"\n"));
+    lab.run("solve plate.toml");
+    let told = lab.run("plot plate.h5 --history=residuals -o a.svg");
+    let expected = "residual, on level 0, the finest, on level 1, the coarsest";
+    assert!(told.contains(expected), "{told}");
+    let svg = read(&lab, "a.svg");
+    assert!(svg.contains(">iteration<") && svg.contains(">relative residual<"), "{svg}");
+    assert!(svg.contains("10⁻"), "a logarithmic axis: {svg}");
+    let told = lab.run("plot plate.h5 --history=levels -o b.svg");
+    assert!(told.contains("values of the matrix, unknowns, patches"), "{told}");
+    let told = lab.run("plot plate.h5 --history=bytes -o c.svg");
+    let svg = read(&lab, "c.svg");
+    assert!(told.contains("plate") && svg.contains("memory [MB]"), "{svg}");
+    assert!(["basis", "assembly", "solution"].iter().all(|phase| svg.contains(phase)), "{svg}");
+    std::fs::copy(lab.path("plate.h5"), lab.path("other.h5")).unwrap();
+    let told = lab.run("plot plate.h5 other.h5 --history=residuals -o d.svg");
+    assert!(told.contains("plate: residual, other: residual"), "{told}");
+    let direct = Lab::solved(CRACKED);
+    for what in ["residuals", "levels"] {
+        let complaint = direct.fail(&format!("plot plate.h5 --history={what} -o a.svg"));
+        assert!(complaint.contains("[solver]"), "{complaint}");
+    }
+    assert!(direct.fail("plot plate.h5 --history=levels --step 3 -o a.svg").contains("step 3"));
+}
+
 #[test]
 fn plots_that_cannot_be_are_refused() {
     let lab = Lab::solved(CRACKED);

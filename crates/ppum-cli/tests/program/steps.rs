@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use ppum::crack::{End, TipId};
-use ppum::dataset::{Dataset, TipIntensity};
+use ppum::crack::{CrackEnd, End, TipId};
+use ppum::dataset::{Advance, Dataset, Fate, Growth, GrowthStop, TipIntensity};
 use ppum_testkit::synthetic::growing;
 use serde_json::json;
 
@@ -62,6 +62,7 @@ fn info_lists_the_steps() {
         assert!((length - step.cracks[0].length()).abs() < 1e-15, "{length}");
         let [k1, k2] = [1.0 + 0.25 * k as f64, -0.125 * k as f64];
         assert_eq!(row["tips"], json!([{ "crack": 0, "end": "end", "k1": k1, "k2": k2 }]));
+        assert!(row["growth"].is_null());
     }
     let text = lab.run("info growth.h5 --steps");
     let lines: Vec<Vec<&str>> =
@@ -148,7 +149,7 @@ fn plots_over_steps() {
         );
     }
     for (options, reason) in [
-        ("-q ux", "draws k1, k2, load and length, not `ux`"),
+        ("-q ux", "draws k1, k2, load, length and extension, not `ux`"),
         ("--step 1", "--step"),
         ("--history --over load", "--"),
     ] {
@@ -161,4 +162,91 @@ fn plots_over_steps() {
     bare.steps.iter_mut().for_each(|step| step.intensities.clear());
     let complaint = with(&bare).fail("plot growth.h5 --series -o a.svg");
     assert!(complaint.contains("no stress intensity factors"), "{complaint}");
+}
+
+/// A series of two tips with growth: the last end of crack 0 goes 0.5 each step and meets hole 3 after step 2; a second tip waits.
+/// 100 cycles a step.
+fn with_growth() -> Dataset {
+    let mut dataset = grown(4);
+    for (k, step) in dataset.steps.iter_mut().enumerate() {
+        let [last, start] = [End::Last, End::Start].map(|end| TipId { crack: 0, end });
+        step.cracks[0].ends = [CrackEnd::Tip; 2];
+        let mut way = Advance::staying(last, if k == 2 { Fate::MeetsHole(3) } else { Fate::Grows });
+        (way.length, way.extension, way.direction) = (0.5, 0.5 * k as f64, 0.25);
+        way.path = vec![ppum::vec2::vec2(0.5, 0.5)];
+        let mut growth = Growth::default();
+        growth.cycles = Some(100.0 * k as f64);
+        growth.tips = vec![Advance::staying(start, Fate::Waits)];
+        if k < 3 {
+            growth.tips.push(way);
+        } else {
+            growth.stop = Some(GrowthStop::AllHeld);
+        }
+        step.growth = Some(growth);
+    }
+    dataset
+}
+
+/// Each tip has a line with its fate, and the last line says what has ended the series.
+#[test]
+fn info_tells_how_cracks_grow() {
+    let lab = with(&with_growth());
+    let text = lab.run("info growth.h5 --steps");
+    let lines: Vec<Vec<&str>> =
+        text.lines().map(|line| line.split_whitespace().collect()).collect();
+    let head = lines.iter().position(|line| line.first() == Some(&"step"));
+    let head = head.unwrap_or_else(|| panic!("{text}"));
+    let heads = "step load cycles unknowns length tip K_I K_II grown by next";
+    assert_eq!(lines[head].join(" "), heads);
+    assert_eq!(lines[head + 5][..3], ["2", "0.666667", "200.000"], "{text}");
+    assert_eq!(
+        lines[head + 6].join(" "),
+        "0 end 1.50000 -0.250000 1.00000 0.500000 at 14.32°, meets hole 3"
+    );
+    assert_eq!(lines[head + 7].last(), Some(&"waits"));
+    assert_eq!(lines.last().unwrap().join(" "), "ended with step 3: no tip goes on");
+    let rows = &lab.json("info growth.h5 --steps")["series"];
+    let growth = &rows[2]["growth"];
+    assert_eq!((&growth["cycles"], &growth["stop"]), (&json!(200.0), &json!(null)));
+    let tip = &growth["tips"][1];
+    assert_eq!((&tip["fate"], &tip["extension"]), (&json!("meets hole 3"), &json!(1.0)));
+    assert_eq!(rows[3]["growth"]["stop"], "no tip goes on");
+    assert_eq!(lab.json("info growth.h5 --step 2")["steps"][0]["growth"], *growth);
+    let text = lab.run("info growth.h5 --step 2");
+    assert!(text.contains("growth       after 200 cycles\n"), "{text}");
+    assert!(
+        text.contains(" crack 0 end: 0.500000 at 14.32°, meets hole 3; grown by 1.00000"),
+        "{text}"
+    );
+    assert!(lab.run("info growth.h5").contains("ends here: no tip goes on"));
+    // a run that was interrupted
+    let mut part = with_growth();
+    part.steps.truncate(2);
+    assert!(with(&part).run("info growth.h5 --steps").contains("not ended by itself"));
+}
+
+/// Numbers of the polyline with most points, and of its places on the axes: curves of four points.
+#[test]
+fn plots_over_extensions_and_cycles() {
+    let lab = with(&with_growth());
+    for (options, label, value) in [
+        ("--over extension -q k1", "crack extension", "stress intensity factor"),
+        ("--over extension -q load", "crack extension", "load"),
+        ("--over cycles -q length", "load cycles", "crack length"),
+        ("--over cycles -q extension", "load cycles", "crack extension"),
+    ] {
+        lab.run(&format!("plot growth.h5 --series -o a.svg {options}"));
+        let svg = fs::read_to_string(lab.path("a.svg")).unwrap();
+        let is_named = |word: &str| svg.contains(&format!(">{word}<"));
+        // cycles up to 300 and extensions up to 1.5 are labelled in hundreds or halves
+        assert!(is_named(label) && is_named(value), "{options}: {svg}");
+    }
+    for (dataset, options, reason) in [
+        (grown(3), "--over extension", "[growth]"),
+        (grown(3), "-q extension", "[growth]"),
+        (grown(3), "--over cycles", "Paris"),
+    ] {
+        let complaint = with(&dataset).fail(&format!("plot growth.h5 --series -o c.svg {options}"));
+        assert!(complaint.contains(reason) && complaint.contains("growth"), "{complaint}");
+    }
 }

@@ -14,6 +14,7 @@ use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, in_batches};
 use faer::Mat;
 use ppum::vec2::Rect;
+use std::time::Instant;
 
 /// The assembled system.
 pub(crate) struct System {
@@ -28,12 +29,21 @@ pub(crate) struct System {
     pub(crate) nitsche: f64,
     /// Forces of the restraints on the plate.
     pub(crate) reactions: Reactions,
-    /// Number of quadrature points, those of loads that have their own among them.
-    pub(crate) points: usize,
-    /// Of each cell, its points and the errors that they leave.
-    cells: Vec<(usize, Doubt)>,
+    /// Of each cell, what its integrals have taken and what they leave.
+    cells: Vec<CellFacts>,
     /// Loads and data, functions and coefficients that are not resolved.
     pub(crate) unresolved: Vec<Unresolved>,
+}
+
+/// What is told of a cell.
+#[derive(Clone, Copy)]
+struct CellFacts {
+    /// Number of quadrature points, those of loads that have their own among them.
+    points: usize,
+    /// Errors that its rules leave.
+    doubt: Doubt,
+    /// Seconds that one core took to find its points and integrate.
+    seconds: f64,
 }
 
 /// What a cell adds to a system.
@@ -132,11 +142,14 @@ impl System {
             assembly.n_cells(),
             || CellAssembler::new(assembly, Some(functionals)),
             |assembler, cell| {
+                let start = Instant::now();
                 let pieces = given.border(space, &quadrature, cell);
                 if let Some(facts) = known(cell, &pieces) {
                     let rules = || space.rules(&quadrature, cell);
                     let near = !functionals.duals.is_far(cell);
-                    return Ok((facts, near.then(|| Part::Duals(assembler.duals(cell, &rules())))));
+                    let duals = near.then(|| Part::Duals(assembler.duals(cell, &rules())));
+                    let seconds = start.elapsed().as_secs_f64();
+                    return Ok((CellFacts { seconds, ..facts }, duals));
                 }
                 let rules = space.rules(&quadrature, cell);
                 let source = given.source(cell);
@@ -146,7 +159,9 @@ impl System {
                     .assemble(cell, &rules, source, &pieces)
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
                 let blocks = part.blocks(&assembly);
-                Ok(((points, doubt_of(&rules, &pieces)), Some(Part::Whole(part, blocks))))
+                let doubt = doubt_of(&rules, &pieces);
+                let seconds = start.elapsed().as_secs_f64();
+                Ok((CellFacts { points, doubt, seconds }, Some(Part::Whole(part, blocks))))
             },
             |cell, (facts, part)| {
                 system.cells.push(facts);
@@ -168,11 +183,10 @@ impl System {
         Ok(system)
     }
 
-    /// Points, and what is not resolved.
+    /// What is not resolved.
     fn sum_up(&mut self, given: &Given<'_>) {
         let mut doubt = Doubt::default();
-        self.cells.iter().for_each(|(_, left)| doubt.add(left));
-        self.points = self.cells.iter().map(|(points, _)| points).sum();
+        self.cells.iter().for_each(|cell| doubt.add(&cell.doubt));
         self.unresolved = given.unresolved();
         if doubt.functions > 0.0 {
             let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
@@ -194,6 +208,22 @@ impl System {
         }
     }
 
+    /// Of each cell, the number of quadrature points.
+    pub(crate) fn points(&self) -> Vec<f64> {
+        self.cells.iter().map(|cell| cell.points as f64).collect()
+    }
+
+    /// Of each cell, the seconds that one core took for it.
+    pub(crate) fn seconds(&self) -> Vec<f64> {
+        self.cells.iter().map(|cell| cell.seconds).collect()
+    }
+
+    /// Bytes of the matrix and of all right-hand sides.
+    pub(crate) fn bytes(&self) -> usize {
+        let sides = 1 + self.moments.len() + self.duals.len();
+        self.matrix.bytes() + sides * self.load.len() * size_of::<f64>()
+    }
+
     fn zero(assembly: &Assembly<'_>, Functionals { free, duals }: Functionals<'_>) -> Self {
         let sizes = assembly.basis.unknowns(assembly.components());
         let matrix = BlockMatrix::new(&sizes.collect::<Vec<_>>(), pattern(assembly.space));
@@ -204,7 +234,6 @@ impl System {
             matrix,
             nitsche: 0.0,
             reactions: Reactions::default(),
-            points: 0,
             cells: Vec::new(),
             unresolved: Vec::new(),
         }

@@ -19,6 +19,8 @@ pub(super) struct LocalBasis {
     pub(super) tie: Option<Mat<f64>>,
     /// Number of unknowns that were cut off for each component, or for all where they are tied.
     dropped: usize,
+    /// The least eigenvalue that was kept, see [`Transform::least`].
+    pub(super) least: f64,
 }
 
 impl LocalBasis {
@@ -38,9 +40,9 @@ impl LocalBasis {
         let rows = (!all.is_empty()).then(|| matrix(space.sizes[patch], &all));
         let transform = transform(gram, rows.as_ref(), space.n_polynomials(patch))?;
         let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
-        let dropped = transform.dropped + lost;
+        let (dropped, least) = (transform.dropped + lost, transform.least);
         let (Some(tied), Some(rows)) = (fields(space, patch), &rows) else {
-            return Ok(Self { matrix: transform.matrix, tie: None, dropped });
+            return Ok(Self { matrix: transform.matrix, tie: None, dropped, least });
         };
         let scalar = space.n_polynomials(patch)..rows.nrows() - n_series;
         let fields: Vec<VectorField> =
@@ -48,7 +50,7 @@ impl LocalBasis {
         let tie = tie(gram.weighted.as_ref(), &transform, &fields)?;
         let wanted = fields.len() + 2 * (space.n_polynomials(patch) + lost);
         let dropped = wanted - tie.nrows();
-        Ok(Self { matrix: transform.matrix, tie: Some(tie), dropped })
+        Ok(Self { matrix: transform.matrix, tie: Some(tie), dropped, least })
     }
 
     /// True if the functions are the same to the last bit.
@@ -64,7 +66,9 @@ impl LocalBasis {
             (None, None) => true,
             _ => false,
         };
-        tied && self.dropped == other.dropped && bits(&self.matrix, &other.matrix)
+        tied && self.dropped == other.dropped
+            && self.least.to_bits() == other.least.to_bits()
+            && bits(&self.matrix, &other.matrix)
     }
 
     /// Number of functions.

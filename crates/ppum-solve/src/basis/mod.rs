@@ -130,6 +130,18 @@ impl StableBasis {
         self.patches.iter().map(move |patch| patch.cut_off(components))
     }
 
+    /// Of each patch, the least eigenvalue of its Gram matrix that was kept, see [`LocalBasis::least`].
+    pub(crate) fn least(&self) -> Vec<f64> {
+        self.patches.iter().map(|patch| patch.least).collect()
+    }
+
+    /// Bytes of all transformations.
+    pub(crate) fn bytes(&self) -> usize {
+        let values = |m: &Mat<f64>| m.nrows() * m.ncols();
+        let of = |patch: &LocalBasis| values(&patch.matrix) + patch.tie.as_ref().map_or(0, values);
+        self.patches.iter().map(of).sum::<usize>() * size_of::<f64>()
+    }
+
     /// The transformation T of a patch \[kept, functions\].
     pub(crate) fn transform(&self, patch: u32) -> MatRef<'_, f64> {
         self.patches[patch as usize].matrix.as_ref()

@@ -59,6 +59,9 @@ pub(crate) struct Transform {
     pub(crate) polynomials: usize,
     /// Number of functions that were cut off.
     pub(crate) dropped: usize,
+    /// The least eigenvalue that was kept, of the polynomials as a part of their largest: far from one the functions nearly
+    /// depend on each other. One if nothing was kept.
+    pub(crate) least: f64,
 }
 
 impl Transform {
@@ -84,8 +87,9 @@ impl Transform {
             *d = d.min(REACH / n2.sqrt());
         }
         let m = scaled(gram, &d);
-        let polynomials = orthonormal_polynomials(m.submatrix(0, 0, p, p), eps)?;
-        let enrichments = orthonormal_enrichments(m.as_ref(), polynomials.as_ref(), eps)?;
+        let (polynomials, of_these) = orthonormal_polynomials(m.submatrix(0, 0, p, p), eps)?;
+        let (enrichments, of_those) =
+            orthonormal_enrichments(m.as_ref(), polynomials.as_ref(), eps)?;
         let kept = polynomials.nrows() + enrichments.nrows();
         let mut matrix = Mat::zeros(kept, n);
         matrix.submatrix_mut(0, 0, polynomials.nrows(), p).copy_from(&polynomials);
@@ -93,32 +97,41 @@ impl Transform {
         for (j, scale) in d.into_iter().enumerate() {
             matrix.col_mut(j).iter_mut().for_each(|entry| *entry *= scale);
         }
-        Ok(Self { matrix, polynomials: polynomials.nrows(), dropped: n - kept })
+        let least = of_these.min(of_those);
+        Ok(Self { matrix, polynomials: polynomials.nrows(), dropped: n - kept, least })
     }
 }
 
-/// T_P [kept × p] of the scaled polynomial block.
-fn orthonormal_polynomials(m: MatRef<'_, f64>, eps: f64) -> Result<Mat<f64>, EigenError> {
+/// T_P [kept × p] of the scaled polynomial block, and its least kept eigenvalue as a part of the largest.
+fn orthonormal_polynomials(m: MatRef<'_, f64>, eps: f64) -> Result<(Mat<f64>, f64), EigenError> {
     let eigen = SymmetricEigen::new(m)?;
     let largest = eigen.values.first().copied().unwrap_or(0.0);
-    Ok(eigen.inverse_root(eps * largest.max(0.0)))
+    let root = eigen.inverse_root(eps * largest.max(0.0));
+    let least = least_of(&eigen, root.nrows());
+    Ok((root, least / if largest > 0.0 { largest } else { 1.0 }))
 }
 
-/// T_E [kept × n] of the scaled Gram matrix `m`, given T_P.
+/// The last of the eigenvalues that were kept, one if there are none; they fall.
+fn least_of(eigen: &SymmetricEigen, kept: usize) -> f64 {
+    kept.checked_sub(1).map_or(1.0, |last| eigen.values[last])
+}
+
+/// T_E [kept × n] of the scaled Gram matrix `m`, given T_P, and the least kept eigenvalue of S.
 fn orthonormal_enrichments(
     m: MatRef<'_, f64>,
     polynomials: MatRef<'_, f64>,
     eps: f64,
-) -> Result<Mat<f64>, EigenError> {
+) -> Result<(Mat<f64>, f64), EigenError> {
     let (n, p) = (m.nrows(), polynomials.ncols());
     let projection = polynomials * m.submatrix(0, p, p, n - p);
     let schur = m.submatrix(p, p, n - p, n - p) - projection.transpose() * &projection;
-    let root = SymmetricEigen::new(schur.as_ref())?.inverse_root(eps);
+    let eigen = SymmetricEigen::new(schur.as_ref())?;
+    let root = eigen.inverse_root(eps);
     let mut rows = Mat::zeros(root.nrows(), n);
     rows.submatrix_mut(0, 0, root.nrows(), p)
         .copy_from(-(&root * projection.transpose() * polynomials));
     rows.submatrix_mut(0, p, root.nrows(), n - p).copy_from(&root);
-    Ok(rows)
+    Ok((rows, least_of(&eigen, root.nrows())))
 }
 
 #[cfg(test)]

@@ -166,6 +166,11 @@ impl BlockMatrix {
         &self.values[self.block_starts[k]..self.block_starts[k + 1]]
     }
 
+    /// Number of values that are stored.
+    pub(crate) fn n_values(&self) -> usize {
+        self.values.len()
+    }
+
     /// Bytes of the values and of their places.
     pub(crate) fn bytes(&self) -> usize {
         let places =

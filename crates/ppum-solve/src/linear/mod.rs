@@ -8,6 +8,7 @@ mod conjugate;
 mod dense;
 mod eigen;
 mod kernel;
+mod knots;
 mod multilevel;
 mod pencil;
 mod rows;

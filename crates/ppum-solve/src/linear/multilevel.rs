@@ -1,9 +1,9 @@
 //! Solution of K u = f by conjugate gradients, preconditioned by one cycle through coarser and coarser levels.
 //!
 //! ```text
-//! x = (D + L)⁻¹ f                      sweep forward
+//! x = (D + L)⁻¹ f                      sweep forward, then the knots
 //! x ← x + P y,  K_c y = Pᵀ (f − K x)   correction: the same on the next level, or by Cholesky on the coarsest
-//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         sweep backward
+//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         the knots, then sweep backward
 //! ```
 //!
 //! The coarse matrices K_c are what the caller gives: Pᵀ K P need not be among them. The cycle is symmetric and positive
@@ -124,8 +124,23 @@ impl<'a> Multilevel<'a> {
 
     /// Bytes of all levels.
     pub(crate) fn bytes(&self) -> usize {
-        let smoothed = self.levels.iter().map(|l| l.smoother.bytes() + l.transfer.bytes());
-        smoothed.sum::<usize>() + self.coarsest.0.bytes() + self.coarsest.1.bytes()
+        (0..self.n_levels()).map(|level| self.bytes_of(level)).sum()
+    }
+
+    fn bytes_of(&self, level: usize) -> usize {
+        match self.levels.get(level) {
+            Some(level) => level.smoother.bytes() + level.transfer.bytes(),
+            None => self.coarsest.0.bytes() + self.coarsest.1.bytes(),
+        }
+    }
+
+    /// Blocks, unknowns, stored values and bytes of all levels, the finest first.
+    pub(crate) fn sizes(&self) -> Vec<[usize; 4]> {
+        let size = |level| {
+            let matrix = &self.rows(level).matrix;
+            [matrix.n_blocks(), matrix.n_unknowns(), matrix.n_values(), self.bytes_of(level)]
+        };
+        (0..self.n_levels()).map(size).collect()
     }
 
     fn rows(&self, level: usize) -> &Rows<'a> {
@@ -141,12 +156,11 @@ impl<'a> Multilevel<'a> {
             factor.apply_inverse(&mut x);
             return rows.coloured(&x);
         };
-        let mut x = smoother.forward(f);
-        let rest = smoother.residual(&x);
+        let (mut x, rest) = smoother.before(f);
         let (fine, coarse) = (&smoother.rows, self.rows(level + 1));
         let correction = self.cycle(level + 1, &transfer.restricted((fine, &rest), coarse), norms);
         transfer.add_prolonged((coarse, &correction), fine, &mut x);
-        smoother.backward(f, &mut x);
+        smoother.after(f, &mut x, rest);
         x
     }
 

@@ -158,6 +158,19 @@ impl<'a> Rows<'a> {
         }
     }
 
+    /// The blocks that a block is coupled to, itself among them.
+    pub(super) fn neighbours(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
+        let entries = &self.entries[self.starts[i]..self.starts[i + 1]];
+        entries.iter().map(|entry| entry.column as usize)
+    }
+
+    /// r_i ← (f − K x)_i
+    pub(super) fn remainder(&self, i: usize, f: &[f64], x: &[f64], r: &mut [f64]) {
+        let own = self.unknowns(i);
+        r[own.clone()].copy_from_slice(&f[own.clone()]);
+        self.add_row(i, Part::All, &Vectors::whole(x), -1.0, &mut r[own]);
+    }
+
     /// Calls `work` with each block and its part of `out`, on all threads.
     pub(super) fn for_all(&self, out: &mut [f64], work: &(impl Fn(usize, &mut [f64]) + Sync)) {
         self.divide(0..self.n_blocks(), out, work);

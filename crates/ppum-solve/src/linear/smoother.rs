@@ -5,10 +5,12 @@
 //! ```
 //!
 //! D holds the diagonal blocks, L what couples a block to earlier colours. A sweep from zero, a correction and the sweep back
-//! make a symmetric positive definite preconditioner of whatever is done between them.
+//! make a symmetric positive definite preconditioner of whatever is done between them. Blocks that nearly depend on each other,
+//! [knots](super::knots), are relaxed together besides.
 
 use super::block_matrix::BlockMatrix;
 use super::eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
+use super::knots::{Knot, knots};
 use super::rows::{Part, Rows, Vectors, add_product};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, Side};
@@ -26,16 +28,24 @@ pub(super) struct Smoother<'a> {
     inverses: Vec<f64>,
     /// Where the inverse of each block begins.
     starts: Vec<usize>,
+    /// Blocks that are relaxed together besides.
+    knots: Vec<Knot>,
 }
 
 impl<'a> Smoother<'a> {
     pub(super) fn new(rows: Rows<'a>) -> Self {
         let matrix = &rows.matrix;
         let all: Vec<Vec<f64>> =
-            (0..matrix.n_blocks()).into_par_iter().map(|i| inverse(matrix, i)).collect();
+            (0..matrix.n_blocks()).into_par_iter().map(|i| inverse(diagonal(matrix, i))).collect();
         let mut starts = vec![0];
         all.iter().for_each(|inverse| starts.push(starts[starts.len() - 1] + inverse.len()));
-        Self { inverses: all.concat(), starts, rows }
+        Self { inverses: all.concat(), starts, knots: knots(&rows), rows }
+    }
+
+    /// Sweeps alone, to compare with.
+    #[cfg(test)]
+    pub(super) fn forget_knots(&mut self) {
+        self.knots.clear();
     }
 
     /// Bytes of the matrix, its rows and the inverses.
@@ -43,10 +53,29 @@ impl<'a> Smoother<'a> {
         self.rows.bytes()
             + size_of_val(self.inverses.as_slice())
             + size_of_val(self.starts.as_slice())
+            + self.knots.iter().map(Knot::bytes).sum::<usize>()
+    }
+
+    /// An approximation of K⁻¹ f, and what it leaves: a sweep, then the knots.
+    pub(super) fn before(&self, f: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut x = self.forward(f);
+        let mut rest = self.residual(&x);
+        for knot in &self.knots {
+            knot.relax(&self.rows, f, &mut x, &mut rest);
+        }
+        (x, rest)
+    }
+
+    /// The transposed way: the knots in the other order, then the sweep back.
+    pub(super) fn after(&self, f: &[f64], x: &mut [f64], mut rest: Vec<f64>) {
+        for knot in self.knots.iter().rev() {
+            knot.relax_alone(&self.rows, f, x, &mut rest);
+        }
+        self.backward(f, x);
     }
 
     /// (D + L)⁻¹ f
-    pub(super) fn forward(&self, f: &[f64]) -> Vec<f64> {
+    fn forward(&self, f: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; f.len()];
         for colour in 0..self.rows.n_colours() {
             let (others, own) = Vectors::without(&mut x, self.rows.of_colour(colour));
@@ -56,7 +85,7 @@ impl<'a> Smoother<'a> {
     }
 
     /// f − K x for the x of [`Smoother::forward`]: −Lᵀ x.
-    pub(super) fn residual(&self, x: &[f64]) -> Vec<f64> {
+    fn residual(&self, x: &[f64]) -> Vec<f64> {
         let mut residual = vec![0.0; x.len()];
         let x = Vectors::whole(x);
         self.rows.for_all(&mut residual, &|i, out| {
@@ -66,7 +95,7 @@ impl<'a> Smoother<'a> {
     }
 
     /// x ← x + (D + Lᵀ)⁻¹ (f − K x)
-    pub(super) fn backward(&self, f: &[f64], x: &mut [f64]) {
+    fn backward(&self, f: &[f64], x: &mut [f64]) {
         for colour in (0..self.rows.n_colours()).rev() {
             let (others, own) = Vectors::without(x, self.rows.of_colour(colour));
             self.rows.for_colour(colour, own, &|i, x| self.relax(i, Part::Others, f, &others, x));
@@ -82,9 +111,12 @@ impl<'a> Smoother<'a> {
     }
 }
 
-/// The inverse of a diagonal block, row-major; of one that is nearly singular the pseudo-inverse.
-fn inverse(matrix: &BlockMatrix, i: usize) -> Vec<f64> {
-    let block = matrix.block(i, i).expect("a block is coupled to itself");
+fn diagonal(matrix: &BlockMatrix, i: usize) -> MatRef<'_, f64> {
+    matrix.block(i, i).expect("a block is coupled to itself")
+}
+
+/// The inverse of a part of the matrix, row-major; of one that is nearly singular the pseudo-inverse.
+pub(super) fn inverse(block: MatRef<'_, f64>) -> Vec<f64> {
     let scale = inverse_root_diagonal(block, 0.0);
     let scaled = scaled(block, &scale);
     let inverse = well_conditioned_inverse(scaled.as_ref()).unwrap_or_else(|| pseudo(&scaled));

@@ -1,7 +1,7 @@
 //! The solver of a linear system: the place where one is chosen.
 
 use crate::linear::{BlockMatrix, Cholesky, Coarse, Course, LinearError, LinearSolver, Multilevel};
-use crate::report::{LinearKind, SolverReport};
+use crate::report::{LevelSize, LinearKind, SolverReport};
 
 /// The part of the error that iteration may leave, and who is asked whether to go on.
 pub(super) type Wanted<'a> = (f64, &'a (dyn Fn() -> bool + Sync));
@@ -49,6 +49,7 @@ impl<'a> Chosen<'a> {
             solver_levels: Some(levels.n_levels() as f64),
             iterations: Some(course.residuals.len() as f64 - 1.0),
             preconditioned_condition: Some(course.condition),
+            levels: levels.sizes().into_iter().map(level_size).collect(),
             residuals: course.residuals,
             level_residuals: course.levels,
             ..known
@@ -61,4 +62,9 @@ impl<'a> Chosen<'a> {
             Self::Multilevel(solver) => solver.as_ref(),
         }
     }
+}
+
+fn level_size(of: [usize; 4]) -> LevelSize {
+    let [patches, unknowns, values, bytes] = of.map(|n| n as f64);
+    LevelSize { patches, unknowns, values, bytes }
 }

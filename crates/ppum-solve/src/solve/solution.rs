@@ -13,7 +13,7 @@ use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
 use crate::linear::LinearError;
 use crate::problem::Problem;
-use crate::report::{LinearKind, SolverReport, Unresolved};
+use crate::report::{ASSEMBLY_SECONDS, LinearKind, SolverReport, Unresolved};
 use crate::space::{Mesh, Prints, Space, SpaceError};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
@@ -24,8 +24,8 @@ use ppum::progress::{Cancelled, Phase, Watcher};
 pub(super) struct Solution {
     /// Plain coefficients in the order of the system.
     coefficients: Vec<f64>,
-    /// Unknowns cut off, patch by patch.
-    cut_off: Vec<f64>,
+    /// Values for each patch.
+    attributes: Vec<Attribute>,
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
@@ -143,19 +143,36 @@ impl Solving<'_> {
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
         let kept: usize = basis.unknowns(components).sum();
+        let all = kept as f64 + cut_off.iter().sum::<f64>();
+        let left = kept as f64 - report.dependent.unwrap_or(0.0);
+        let made = [(Phase::Basis, basis.bytes()), (Phase::Assembly, system.bytes())];
+        let bytes = made.map(|(phase, bytes)| (phase, bytes as f64)).into_iter();
+        let points = system.points();
         let report = SolverReport {
-            unknowns: Some(kept as f64 + cut_off.iter().sum::<f64>()),
+            unknowns: Some(all),
             cut_off: Some(cut_off.iter().sum()),
+            bytes: bytes.chain(report.solver_bytes.map(|held| (Phase::Solution, held))).collect(),
+            worked: vec![
+                (Phase::Cover, all),
+                (Phase::Basis, all),
+                (Phase::Assembly, kept as f64),
+                (Phase::Solution, left),
+            ],
             nitsche: Some(system.nitsche),
             pieces: Some(plate.pieces.all().len() as f64),
             free_modes: Some(gauge.len() as f64),
             imbalance: Some(plate.imbalance()),
-            quadrature_points: Some(system.points as f64),
+            quadrature_points: Some(points.iter().sum()),
             ..report
         };
         let solution = Solution {
             coefficients: basis.plain(self.space, &solution, components),
-            cut_off,
+            attributes: vec![
+                attribute("cut-off", cut_off),
+                attribute("least-eigenvalue", basis.least()),
+                attribute("quadrature-points", points),
+                attribute(ASSEMBLY_SECONDS, system.seconds()),
+            ],
             reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
             unresolved: std::mem::take(&mut system.unresolved),
             lonely: basis.lonely.clone(),
@@ -238,9 +255,12 @@ impl Solution {
     pub(super) fn store(&mut self, step: &mut Step) {
         step.reactions = std::mem::take(&mut self.reactions);
         write_coefficients(&mut step.fields[0], &self.coefficients);
-        let values = std::mem::take(&mut self.cut_off);
-        step.attributes.push(Attribute { name: "cut-off".into(), values });
+        step.attributes.append(&mut self.attributes);
     }
+}
+
+fn attribute(name: &str, values: Vec<f64>) -> Attribute {
+    Attribute { name: name.into(), values }
 }
 
 /// Writes coefficients that stand patch by patch and in each patch component by component.

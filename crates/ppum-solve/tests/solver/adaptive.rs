@@ -12,7 +12,7 @@ use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::{AdaptKind, Adaptivity, Keep};
-use ppum_solve::report::Stop;
+use ppum_solve::report::{Stop, forget_times};
 use ppum_solve::solve::{Plan, SolveError, solve};
 use ppum_testkit::random::Random;
 use std::sync::Mutex;
@@ -138,7 +138,7 @@ fn results_do_not_depend_on_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         let mut dataset = pool.install(|| solved(&problem));
-        dataset.steps.iter_mut().for_each(|step| step.history.retain(|r| r.unit != "s"));
+        dataset.steps.iter_mut().for_each(forget_times);
         dataset
     };
     assert!(with(1) == with(3));

@@ -6,6 +6,7 @@ use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::growth::{GrowthError, Kink, Last, grow, kink, series};
 use ppum_solve::problem::{Criterion, Problem};
+use ppum_solve::report::forget_times;
 use ppum_solve::solve::SolveError;
 use std::path::Path;
 
@@ -465,7 +466,7 @@ fn series_go_on_from_their_steps() {
 /// A step without the seconds that it took.
 fn timeless(step: &Step) -> Step {
     let mut step = step.clone();
-    step.history.retain(|record| record.unit != "s");
+    forget_times(&mut step);
     // NaN is no number, and not equal to itself
     step.warnings.clear();
     step

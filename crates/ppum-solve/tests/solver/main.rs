@@ -35,6 +35,7 @@ mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
 mod tip_terms;
+mod visible;
 mod warnings;
 mod watched;
 mod weights;

@@ -9,7 +9,7 @@ use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
 use ppum_solve::diagnostics::effort::EffortError;
 use ppum_solve::diagnostics::{RecomputeError, recompute};
 use ppum_solve::problem::{OrderError, Problem, ProblemError};
-use ppum_solve::report::SolverReport;
+use ppum_solve::report::{SolverReport, forget_times};
 use ppum_solve::solve::{
     EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
 };
@@ -86,7 +86,7 @@ impl Watcher for Stopper {
 
 /// All but the seconds.
 fn without_seconds(mut dataset: Dataset) -> Dataset {
-    dataset.steps[0].history.retain(|record| record.unit != "s");
+    forget_times(&mut dataset.steps[0]);
     dataset
 }
 

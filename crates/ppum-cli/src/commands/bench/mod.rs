@@ -1,5 +1,6 @@
 //! `ppum bench`: what the solver and the renderers take on this machine.
 
+mod growth;
 mod renderer;
 mod solver;
 mod synthetic;
@@ -7,12 +8,18 @@ mod window;
 
 use std::io::Write;
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
+use anyhow::ensure;
 use clap::ValueEnum;
+use ppum_solve::problem::SolverKind;
 use serde::Serialize;
 
 use crate::number::json;
+use crate::output::Output;
+use crate::target;
 use crate::threads;
+use growth::Fits;
 use solver::Run;
 
 /// Measure the solver and the renderers on this machine
@@ -29,6 +36,12 @@ pub(crate) struct Args {
     /// Last level of the solver; 7 has 212,560 unknowns and takes about 10 s and 2 GB
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(FIRST..=10))]
     level: u32,
+    /// Linear solver
+    #[arg(long, value_enum, value_name = "KIND", default_value = "auto")]
+    solver: Kind,
+    /// Picture of the solver's times against the unknowns: .svg, .pdf or .png
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
     /// Frames that are drawn of each kind
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     frames: u32,
@@ -47,6 +60,7 @@ const EXAMPLES: &str = "\
 Examples:
   ppum bench
   ppum bench solver --level 5 --threads 1
+  ppum bench solver --level 8 --solver multilevel -o times.svg
   ppum bench renderer --frames 30
   ppum bench window --frames 100
   ppum bench solver --json | jq '.solver[-1].seconds'";
@@ -64,26 +78,61 @@ enum What {
     Window,
 }
 
+/// The linear solver of the problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// What is predicted to be faster
+    Auto,
+    /// Cholesky factorisation
+    Direct,
+    /// Conjugate gradients with coarser levels
+    Multilevel,
+}
+
+impl Kind {
+    fn of_problem(self) -> SolverKind {
+        match self {
+            Self::Auto => SolverKind::Auto,
+            Self::Direct => SolverKind::Direct,
+            Self::Multilevel => SolverKind::Multilevel,
+        }
+    }
+}
+
 #[derive(Debug, Serialize)]
 struct Report {
     threads: usize,
     solver: Vec<Run>,
+    /// Of three levels or more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fit: Option<Fits>,
     renderer: Option<renderer::Report>,
     #[serde(skip_serializing_if = "Option::is_none")]
     window: Option<window::Report>,
 }
 
 impl Args {
-    pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        if let Some(path) = &self.output {
+            target::check(path, target::Kind::Picture, [])?;
+            ensure!(
+                self.levels().count() > 1,
+                "-o draws the solver's times over levels; measure two levels or more"
+            );
+        }
         let threads = threads::with(self.threads, rayon::current_num_threads)?;
         let mut solver = Vec::new();
         for level in self.levels() {
-            let run = threads::with(self.threads, || Run::new(level))??;
+            let run = threads::with(self.threads, || Run::new(level, self.solver.of_problem()))??;
             if !self.json {
                 run.print(threads, out)?;
                 out.flush()?;
             }
             solver.push(run);
+        }
+        let fit = Fits::new(&solver);
+        if !self.json {
+            growth::print(&solver, fit.as_ref(), out)?;
         }
         let measure = || renderer::Report::new(self.quick, self.frames);
         let wanted = !matches!(self.what, Some(What::Solver | What::Window));
@@ -92,8 +141,11 @@ impl Args {
         let window = (self.what == Some(What::Window))
             .then(|| window::Report::new(self.quick, self.frames))
             .transpose()?;
+        if let Some(path) = &self.output {
+            growth::picture((&solver, fit.as_ref()), path, self.json, out)?;
+        }
         if self.json {
-            return Ok(json(out, &Report { threads, solver, renderer, window })?);
+            return Ok(json(out, &Report { threads, solver, fit, renderer, window })?);
         }
         renderer.iter().try_for_each(|renderer| renderer.print(threads, out))?;
         window.iter().try_for_each(|window| window.print(out))?;

@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ppum_solve::problem::{Cells, Problem};
-use ppum_solve::report::SolverReport;
+use ppum_solve::problem::{Cells, Problem, SolverKind};
+use ppum_solve::report::{LinearKind, SolverReport};
 use ppum_solve::solve::solve;
 use serde::Serialize;
 
@@ -16,11 +16,15 @@ const PROBLEM: &str = include_str!("../../../../../examples/centre-crack.toml");
 /// One solution.
 #[derive(Debug, Serialize)]
 pub(super) struct Run {
-    level: u32,
-    unknowns: u64,
+    pub(super) level: u32,
+    pub(super) unknowns: u64,
+    /// The linear solver, its steps, and the bytes that it held.
+    pub(super) kind: Option<&'static str>,
+    pub(super) iterations: Option<f64>,
+    pub(super) bytes: Option<f64>,
     phases: Vec<Phase>,
     /// Seconds in all.
-    seconds: f64,
+    pub(super) seconds: f64,
     /// Most memory the program has held so far, in bytes, where the system tells.
     peak_memory: Option<u64>,
 }
@@ -33,9 +37,10 @@ struct Phase {
 
 impl Run {
     /// Solves the centre crack on 4^level cells.
-    pub(super) fn new(level: u32) -> anyhow::Result<Self> {
+    pub(super) fn new(level: u32, solver: SolverKind) -> anyhow::Result<Self> {
         let mut problem = Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""))?;
         problem.discretization.cells = Cells::Level(level);
+        problem.solver.kind = solver;
         let dataset = solve(&problem, &Bar::new())?;
         let report = SolverReport::of(&dataset.steps[0].history);
         let phase = |&(phase, seconds): &(ppum::progress::Phase, f64)| Phase {
@@ -45,11 +50,20 @@ impl Run {
         let phases: Vec<_> = report.seconds.iter().map(phase).collect();
         Ok(Self {
             level,
+            kind: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
+            iterations: report.iterations,
+            bytes: report.solver_bytes,
             unknowns: report.unknowns.context("the solver counts unknowns")? as u64,
             seconds: phases.iter().map(|phase| phase.seconds).sum(),
             phases,
             peak_memory: peak_memory(),
         })
+    }
+
+    /// Seconds of the linear solver.
+    pub(super) fn solution(&self) -> f64 {
+        let name = ppum::progress::Phase::Solution.name();
+        self.phases.iter().filter(|phase| phase.name == name).map(|phase| phase.seconds).sum()
     }
 
     pub(super) fn print(&self, threads: usize, out: &mut dyn Write) -> anyhow::Result<()> {

@@ -12,12 +12,14 @@ use ppum::quantity::available;
 use ppum::text::{Places, trimmed};
 use ppum::vec2::Vec2;
 use ppum_render::cells;
-use ppum_solve::report::SolverReport;
+use ppum_solve::report::{SolverReport, is_of_course, is_of_level, is_of_phase};
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
+use super::growth::GrowthRow;
 use super::reactions::{self, ReactionRow};
 use super::series::StepRow;
+use super::solver::SolverRow;
 use ppum_scene::range::places;
 
 use crate::families::{Family, blocks, families};
@@ -132,7 +134,13 @@ pub(super) struct StepReport {
     pub(super) unknowns: usize,
     /// Energy of the solution, if the solver has told it.
     pub(super) energy: Option<Number>,
+    pub(super) solver: Option<SolverRow>,
     pub(super) history: Vec<HistoryRow>,
+    /// What the tips do next, in a series of cracks that grow.
+    pub(super) growth: Option<GrowthRow>,
+    /// Records that no table tells of.
+    #[serde(skip)]
+    pub(super) other_history: Vec<HistoryRow>,
     pub(super) intensities: Vec<Tip>,
     /// Those, and the tips that have none.
     #[serde(skip)]
@@ -230,7 +238,10 @@ impl StepReport {
             cell_values: cells::names(&field),
             unknowns: field.step.unknowns(),
             energy: SolverReport::of(history).energy.map(Number),
+            solver: SolverRow::new(history),
             history: history.iter().map(history_row).collect(),
+            growth: field.step.growth.as_ref().map(GrowthRow::new),
+            other_history: history.iter().filter(|r| !is_in_tables(r)).map(history_row).collect(),
             intensities: intensities.iter().map(|t| Tip::new(dataset, index, t)).collect(),
             all_tips: all_tips(dataset, index),
             warnings: rows(index, &field.step.warnings),
@@ -308,6 +319,11 @@ fn field_row(data: &FieldData) -> FieldRow {
         components: data.components.clone(),
         exact: data.exact.clone(),
     }
+}
+
+/// True for records that the table of the solver tells, or that only programs want.
+fn is_in_tables(record: &Record) -> bool {
+    is_of_phase(record) || is_of_level(record) || is_of_course(&record.name)
 }
 
 /// A record of the solver's report.

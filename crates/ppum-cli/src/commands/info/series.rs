@@ -7,6 +7,7 @@ use ppum::dataset::{Step, TipIntensity};
 use ppum::text::{short, trimmed};
 use serde::Serialize;
 
+use super::growth::{GrowthRow, way};
 use crate::number::{Number, count};
 
 /// A step, as far as its solver tells of it.
@@ -19,6 +20,11 @@ pub(super) struct StepRow {
     /// Length of all cracks.
     crack_length: f64,
     tips: Vec<TipRow>,
+    /// What the tips do next, in a series of cracks that grow.
+    growth: Option<GrowthRow>,
+    /// The lines of the tips for people, in such a series.
+    #[serde(skip)]
+    grown: Vec<Vec<String>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -37,19 +43,45 @@ impl StepRow {
             unknowns: Number(step.record("unknowns").unwrap_or(f64::NAN)),
             crack_length: step.cracks.iter().map(Crack::length).sum(),
             tips: step.intensities.iter().map(TipRow::new).collect(),
+            growth: step.growth.as_ref().map(GrowthRow::new),
+            grown: grown(step),
         }
     }
 
-    fn words(&self) -> Vec<String> {
-        let number = |value: f64| if value.is_nan() { "–".into() } else { short(value) };
+    /// Step, load, unknowns and length.
+    fn first_words(&self) -> Vec<String> {
         let unknowns = match self.unknowns.0 {
             n if n.is_nan() => "–".into(),
             n => trimmed(n),
         };
-        let first =
-            [self.step.to_string(), trimmed(self.load), unknowns, number(self.crack_length)];
+        vec![self.step.to_string(), trimmed(self.load), unknowns, number(self.crack_length)]
+    }
+
+    fn words(&self) -> Vec<String> {
         let tips = self.tips.iter().take(TIPS).flat_map(|tip| [tip.k1.0, tip.k2.0].map(number));
-        first.into_iter().chain(tips).collect()
+        self.first_words().into_iter().chain(tips).collect()
+    }
+
+    /// The lines of a step of cracks that grow: what is of the step stands in the first.
+    fn grown_words(&self, has_cycles: bool) -> Vec<Vec<String>> {
+        let mut first = self.first_words();
+        let cycles = self.growth.as_ref().and_then(|growth| growth.cycles);
+        if has_cycles {
+            first.insert(2, cycles.map_or_else(|| "–".into(), short));
+        }
+        let blank = vec![String::new(); first.len()];
+        let tips = self.grown.iter().take(GROWING).enumerate();
+        let mut lines: Vec<_> = tips
+            .map(
+                |(k, tip)| {
+                    if k == 0 { [&first[..], tip].concat() } else { [&blank[..], tip].concat() }
+                },
+            )
+            .collect();
+        if lines.is_empty() {
+            lines.push(first);
+        }
+        lines
     }
 }
 
@@ -60,11 +92,34 @@ impl TipRow {
     }
 }
 
+fn number(value: f64) -> String {
+    if value.is_nan() { "–".into() } else { short(value) }
+}
+
+/// Of each tip its name, factors, extension and fate.
+fn grown(step: &Step) -> Vec<Vec<String>> {
+    let rows = step.growth.iter().flat_map(|growth| &growth.tips);
+    let line = |row: &ppum::dataset::Advance| {
+        let factors = step.intensities.iter().find(|found| found.tip == row.tip);
+        let [k1, k2] = factors.map_or([f64::NAN; 2], |found| [found.k1, found.k2]).map(number);
+        let tip = format!("{} {}", row.tip.crack, row.tip.end.name());
+        vec![tip, k1, k2, short(row.extension), way(row)]
+    };
+    rows.map(line).collect()
+}
+
 /// Tips that a line of the table has room for: two of an inner crack, two of another one.
 const TIPS: usize = 4;
 
-/// A line for each step: load, unknowns, length of all cracks, K_I and K_II of the first tips.
+/// Lines of tips that grow for each step: a dozen cracks.
+const GROWING: usize = 24;
+
+/// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. Of cracks that grow there is a line for each
+/// tip, with what it does next.
 pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
+    if rows.iter().any(|row| row.growth.is_some()) {
+        return table_of_growth(out, rows);
+    }
     let tips = rows.iter().map(|row| row.tips.len()).max().unwrap_or(0);
     let heads = ["step", "load", "unknowns", "length"].map(str::to_owned);
     let of_tip = |tip: usize| match tips {
@@ -73,17 +128,50 @@ pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     };
     let heads: Vec<_> = heads.into_iter().chain((0..tips.min(TIPS)).flat_map(of_tip)).collect();
     let lines: Vec<_> = [heads].into_iter().chain(rows.iter().map(StepRow::words)).collect();
+    write_lines(out, &lines, false)?;
+    and_more(out, tips, TIPS)
+}
+
+fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
+    let has_cycles = rows.iter().flat_map(|row| &row.growth).any(|g| g.cycles.is_some());
+    let cycles = has_cycles.then_some("cycles");
+    let heads = ["step", "load"].into_iter().chain(cycles);
+    let heads = heads.chain(["unknowns", "length", "tip", "K_I", "K_II", "grown by", "next"]);
+    let heads: Vec<_> = heads.map(str::to_owned).collect();
+    let steps = rows.iter().flat_map(|row| row.grown_words(has_cycles));
+    write_lines(out, &[heads].into_iter().chain(steps).collect::<Vec<_>>(), true)?;
+    and_more(out, rows.iter().map(|row| row.grown.len()).max().unwrap_or(0), GROWING)?;
+    let Some(last) = rows.last() else { return Ok(()) };
+    match last.growth.as_ref().and_then(|growth| growth.stop) {
+        Some(stop) => writeln!(out, "ended with step {}: {stop}", last.step),
+        None => writeln!(
+            out,
+            "not ended by itself: all increments are made, or the run was interrupted"
+        ),
+    }
+}
+
+/// Lines of words in columns, to the right; in the last column to the left if that holds words.
+fn write_lines(out: &mut dyn Write, lines: &[Vec<String>], ends_in_words: bool) -> io::Result<()> {
+    let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         let words = lines.iter().filter_map(|line| line.get(column));
         words.map(|word| word.chars().count()).max().unwrap_or(0)
     };
-    let widths: Vec<_> = (0..lines[0].len()).map(width).collect();
-    for line in &lines {
-        let words = line.iter().zip(&widths).map(|(word, &width)| format!("{word:>width$}"));
-        writeln!(out, "{}", words.collect::<Vec<_>>().join("  "))?;
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    for line in lines {
+        let words = line.iter().zip(&widths).enumerate().map(|(k, (word, &width))| {
+            let is_left = ends_in_words && k + 1 == columns;
+            if is_left { word.clone() } else { format!("{word:>width$}") }
+        });
+        writeln!(out, "{}", words.collect::<Vec<_>>().join("  ").trim_end())?;
     }
-    if tips > TIPS {
-        let more = count(tips - TIPS, "tip", "tips");
+    Ok(())
+}
+
+fn and_more(out: &mut dyn Write, tips: usize, told: usize) -> io::Result<()> {
+    if tips > told {
+        let more = count(tips - told, "tip", "tips");
         writeln!(out, "and {more} more, see `ppum sif` or --json")?;
     }
     Ok(())

@@ -4,12 +4,14 @@ use std::io::{self, Write};
 
 use ppum::formula::one_line;
 use ppum::text::{Places, trimmed};
-use ppum_solve::report::{is_of_course, word};
+use ppum_solve::report::word;
 
 use super::formulas::{QuantityRow, TableRow};
+use super::growth::GrowthRow;
 use super::reactions::largest_force;
 use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, HoleRow, Report, StepReport};
 use super::series::table as table_of_steps;
+use super::solver::SolverRow;
 use crate::families::Family;
 use crate::number::count;
 use crate::tips::table;
@@ -70,10 +72,14 @@ impl Page<'_> {
         self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &step.unknowns.to_string())?;
-        let records = step.history.iter().filter(|row| !is_of_course(&row.name));
-        self.lines("history", records.map(history))?;
+        self.lines("solver", step.solver.iter().map(SolverRow::line))?;
+        self.lines("history", step.other_history.iter().map(history))?;
+        self.lines("growth", step.growth.iter().flat_map(GrowthRow::lines))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
         self.lines("of cells", wrapped(&step.cell_values).into_iter())?;
+        if let Some(solver) = &step.solver {
+            solver.write(self.0)?;
+        }
         if !step.intensities.is_empty() {
             writeln!(self.0, "\nstress intensity factors")?;
             table(self.0, &step.all_tips, places)?;

@@ -1,35 +1,149 @@
-//! The solver's work: seconds of its phases.
+//! The solver's work: what its phases take, and how its iteration goes.
 
 use anyhow::ensure;
+use clap::ValueEnum;
+use ppum::dataset::{Record, Step};
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_solve::report::{SolverReport, is_of_phase};
 
-use super::Named;
+use super::{Named, label};
 
-/// Bars of seconds, phase by phase, a colour for each dataset. Of a series, the sum over its steps unless one is
-/// asked for.
-pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
-    let mut phases: Vec<String> = Vec::new();
+/// What of the solver's work is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum What {
+    /// Seconds of the phases, of a series their sums
+    #[default]
+    Seconds,
+    /// Megabytes that the phases make and keep, of a series the most
+    Bytes,
+    /// Residuals after each iteration of the multilevel solver; of one file those that reach each level too
+    Residuals,
+    /// Patches, unknowns and values of the matrix on each level of the multilevel solver
+    Levels,
+}
+
+/// A plot of the work of one step, by default the last; of seconds and bytes that of all steps.
+pub(super) fn plot(datasets: &[Named], what: What, step: Option<usize>) -> anyhow::Result<Plot> {
+    let mut plot = match what {
+        What::Seconds => phases(datasets, step, ("s", PlotAxis::new("time", "s"), 1.0))?,
+        What::Bytes => phases(datasets, step, ("B", PlotAxis::new("memory", "MB"), 1e-6))?,
+        What::Residuals => residuals(datasets, step)?,
+        What::Levels => levels(datasets, step)?,
+    };
+    plot.title.clone_from(&datasets[0].dataset.title);
+    Ok(plot)
+}
+
+/// Bars phase by phase, a colour for each dataset: of seconds the sum over the steps, of bytes the most.
+fn phases(
+    datasets: &[Named],
+    step: Option<usize>,
+    (unit, axis, scale): (&str, PlotAxis, f64),
+) -> anyhow::Result<Plot> {
+    let mut names: Vec<String> = Vec::new();
     let mut curves = Vec::new();
     for Named { name, dataset } in datasets {
         let wanted = |k: usize| step.is_none_or(|step| step == k);
         let steps = dataset.steps.iter().enumerate().filter(|(k, _)| wanted(*k));
         let mut points: Vec<[f64; 2]> = Vec::new();
-        for record in steps.flat_map(|(_, step)| &step.history).filter(|r| r.unit == "s") {
-            let known = phases.iter().position(|phase| *phase == record.name);
-            let place = known.unwrap_or(phases.len());
+        let is_told = |r: &&Record| r.unit == unit && (unit == "s" || is_of_phase(r));
+        for record in steps.flat_map(|(_, step)| &step.history).filter(is_told) {
+            let known = names.iter().position(|phase| *phase == record.name);
+            let place = known.unwrap_or(names.len());
             if known.is_none() {
-                phases.push(record.name.clone());
+                names.push(record.name.clone());
             }
+            let value = scale * record.value;
             match points.iter_mut().find(|p| p[0] == place as f64) {
-                Some(point) => point[1] += record.value,
-                None => points.push([place as f64, record.value]),
+                Some(point) if unit == "s" => point[1] += value,
+                Some(point) => point[1] = point[1].max(value),
+                None => points.push([place as f64, value]),
             }
         }
-        ensure!(!points.is_empty(), "{name}: its history has no seconds");
+        let word = if unit == "s" { "seconds" } else { "bytes of phases" };
+        ensure!(!points.is_empty(), "{name}: its history has no {word}");
         curves.push(Curve::new(name.clone(), points).with_look(Look::Bars));
     }
-    let x = PlotAxis { names: phases, ..PlotAxis::default() };
-    let mut plot = Plot { x, y: PlotAxis::new("time", "s"), curves, ..Plot::default() };
-    plot.title.clone_from(&datasets[0].dataset.title);
-    Ok(plot)
+    let x = PlotAxis { names, ..PlotAxis::default() };
+    Ok(Plot { x, y: axis, curves, ..Plot::default() })
+}
+
+/// The report of a step, by default of the last one.
+fn report(named: &Named, step: Option<usize>) -> anyhow::Result<SolverReport> {
+    let steps = &named.dataset.steps;
+    let found: Option<&Step> = step.map_or(steps.last(), |step| steps.get(step));
+    ensure!(found.is_some(), "{}: there is no step {}", named.name, step.unwrap_or(0));
+    Ok(SolverReport::of(found.map_or(&[], |step| &step.history)))
+}
+
+/// The residual after each iteration as a part of the first one, on a logarithmic axis; of one dataset also what of it reaches
+/// each level, as a part of what did at first.
+fn residuals(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+    let mut curves = Vec::new();
+    for named in datasets {
+        let report = report(named, step)?;
+        ensure!(
+            report.residuals.len() > 1,
+            "{}: no iterations are told in its history; the multilevel solver has them (`kind = \"multilevel\"` in [solver])",
+            named.name
+        );
+        let name = label(datasets, named, "residual");
+        curves.push(Curve::new(name, numbered(&report.residuals)).with_look(Look::Dotted));
+        if datasets.len() == 1 {
+            curves.extend(on_levels(&report));
+        }
+    }
+    let (x, y) = (PlotAxis::new("iteration", ""), PlotAxis::new("relative residual", ""));
+    Ok(Plot { x, y: y.logarithmic(), curves, ..Plot::default() })
+}
+
+fn on_levels(report: &SolverReport) -> impl Iterator<Item = Curve> + '_ {
+    let count = report.level_residuals.iter().map(Vec::len).max().unwrap_or(0);
+    let values = |level: usize| {
+        let first = report.level_residuals.first().and_then(|of| of.get(level)).copied();
+        let part =
+            move |of: &Vec<f64>| of.get(level).map_or(f64::NAN, |r| r / first.unwrap_or(1.0));
+        report.level_residuals.iter().map(part).collect::<Vec<_>>()
+    };
+    let last = count.saturating_sub(1);
+    let name = move |level: usize| match level {
+        0 => "on level 0, the finest".to_owned(),
+        level if level == last => format!("on level {level}, the coarsest"),
+        level => format!("on level {level}"),
+    };
+    let levels = if count > 1 { 0..count } else { 0..0 };
+    levels
+        .map(move |level| Curve::new(name(level), numbered(&values(level))).with_look(Look::Dashed))
+}
+
+fn numbered(values: &[f64]) -> Vec<[f64; 2]> {
+    values.iter().enumerate().map(|(k, value)| [k as f64, *value]).collect()
+}
+
+/// What the levels hold, the finest being level 0, on a logarithmic axis.
+fn levels(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+    let mut curves = Vec::new();
+    let mut most = 0;
+    for named in datasets {
+        let report = report(named, step)?;
+        ensure!(
+            !report.levels.is_empty(),
+            "{}: no levels are told in its history; the multilevel solver has them (`kind = \"multilevel\"` in [solver])",
+            named.name
+        );
+        most = most.max(report.levels.len());
+        let values = |number: fn(&ppum_solve::report::LevelSize) -> f64| {
+            numbered(&report.levels.iter().map(number).collect::<Vec<_>>())
+        };
+        let curve = |name: &str, points| {
+            Curve::new(label(datasets, named, name), points).with_look(Look::Dotted)
+        };
+        curves.push(curve("values of the matrix", values(|level| level.values)));
+        curves.push(curve("unknowns", values(|level| level.unknowns)));
+        curves.push(curve("patches", values(|level| level.patches)));
+    }
+    let mut x = PlotAxis::new("level, 0 the finest", "");
+    x.marks = (0..most).map(|level| level as f64).collect();
+    let y = PlotAxis::new("number", "").logarithmic();
+    Ok(Plot { x, y, curves, ..Plot::default() })
 }

@@ -20,6 +20,7 @@ use crate::page;
 use crate::profile::Profile;
 use crate::standard::{self, is_standard};
 use crate::target;
+use history::What;
 use series::Over;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
@@ -39,9 +40,10 @@ pub(crate) struct Args {
     /// intensity factors from those of the largest dataset
     #[arg(long, group = "where")]
     convergence: bool,
-    /// Seconds of the solver's phases
-    #[arg(long, group = "where")]
-    history: bool,
+    /// The solver's work: seconds of its phases, or --history=residuals and others
+    #[arg(long, group = "where", value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "seconds")]
+    history: Option<What>,
     /// Stress intensity factors of all tips in the steps of a series
     #[arg(long, group = "where", conflicts_with = "step")]
     series: bool,
@@ -49,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, requires = "series", default_value = "step")]
     over: Over,
     /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with --series of k1, k2,
-    /// load and length [default: k1,k2]
+    /// load, length and extension [default: k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["convergence", "history"])]
     quantity: Vec<String>,
@@ -76,7 +78,8 @@ Examples:
   ppum plot coarse.h5 plate.h5 --circle 0,0,0.7 -q von-mises -o circle.svg
   ppum plot level-3.h5 level-4.h5 level-5.h5 level-6.h5 --convergence -o convergence.svg
   ppum plot plate.h5 --history -o seconds.svg
-  ppum plot growth.h5 --series --over length -o k.svg";
+  ppum plot plate.h5 --history=residuals -o residuals.svg
+  ppum plot growth.h5 --series --over extension -o k.svg";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Axis {
@@ -115,8 +118,8 @@ impl Args {
         if self.convergence {
             return convergence::plot(datasets, self.step);
         }
-        if self.history {
-            return history::plot(datasets, self.step);
+        if let Some(what) = self.history {
+            return history::plot(datasets, what, self.step);
         }
         if self.series {
             return series::plot(datasets, &self.quantity, self.over);
@@ -128,7 +131,7 @@ impl Args {
     fn open(&self, file: &Path) -> anyhow::Result<Dataset> {
         match () {
             () if self.convergence => open(file),
-            () if self.history || self.series => open_results(file),
+            () if self.history.is_some() || self.series => open_results(file),
             () => open_step(file, self.step),
         }
     }

@@ -19,6 +19,10 @@ pub(super) enum Over {
     Load,
     /// The length of all cracks
     Length,
+    /// The growth of the tip since the first step, of load and length that of all tips
+    Extension,
+    /// Load cycles
+    Cycles,
 }
 
 /// A number of a step, or of each of its tips.
@@ -28,11 +32,17 @@ enum Number {
     K2,
     Load,
     Length,
+    Extension,
 }
 
 /// Their names in options.
-const NAMES: [(&str, Number); 4] =
-    [("k1", Number::K1), ("k2", Number::K2), ("load", Number::Load), ("length", Number::Length)];
+const NAMES: [(&str, Number); 5] = [
+    ("k1", Number::K1),
+    ("k2", Number::K2),
+    ("load", Number::Load),
+    ("length", Number::Length),
+    ("extension", Number::Extension),
+];
 
 /// A curve for each number of each dataset, of stress intensity factors for each tip.
 pub(super) fn plot(datasets: &[Named], wanted: &[String], over: Over) -> anyhow::Result<Plot> {
@@ -44,6 +54,7 @@ pub(super) fn plot(datasets: &[Named], wanted: &[String], over: Over) -> anyhow:
             "{}: --series draws over steps, but there is one alone",
             named.name
         );
+        needs(named, &numbers, over)?;
         for &number in &numbers {
             for (name, points) in curves(&named.dataset, number, over) {
                 let curve = Curve::new(label(datasets, named, &name), points);
@@ -67,7 +78,7 @@ fn asked(wanted: &[String]) -> anyhow::Result<Vec<Number>> {
     let mut numbers = Vec::new();
     for name in wanted.iter().flat_map(|list| parts(list)) {
         let Some((_, number)) = NAMES.iter().find(|(known, _)| *known == name) else {
-            bail!("--series draws k1, k2, load and length, not `{name}`");
+            bail!("--series draws k1, k2, load, length and extension, not `{name}`");
         };
         numbers.push(*number);
     }
@@ -79,6 +90,8 @@ fn axis(over: Over) -> PlotAxis {
         Over::Step => PlotAxis::new("step", ""),
         Over::Load => PlotAxis::new("load", ""),
         Over::Length => PlotAxis::new("crack length", ""),
+        Over::Extension => PlotAxis::new("crack extension", ""),
+        Over::Cycles => PlotAxis::new("load cycles", ""),
     }
 }
 
@@ -88,6 +101,7 @@ fn value_axis(numbers: &[Number]) -> PlotAxis {
         Number::K1 | Number::K2 => "stress intensity factor",
         Number::Load => "load",
         Number::Length => "crack length",
+        Number::Extension => "crack extension",
     };
     let first = numbers.first().map_or("", name);
     let is_one = numbers.iter().all(|number| name(number) == first);
@@ -98,34 +112,104 @@ fn length(step: &Step) -> f64 {
     step.cracks.iter().map(Crack::length).sum()
 }
 
+/// Refuses what a dataset does not know: extensions and cycles are those of cracks that grow.
+fn needs(named: &Named, numbers: &[Number], over: Over) -> anyhow::Result<()> {
+    let Named { name, dataset } = named;
+    let growth = || dataset.steps.iter().filter_map(|step| step.growth.as_ref());
+    if over == Over::Extension || numbers.contains(&Number::Extension) {
+        ensure!(
+            growth().next().is_some(),
+            "{name}: extensions are known of cracks that grow ([growth] in the problem file), and the steps of this file \
+             hold no growth; --over length is known of all cracks"
+        );
+    }
+    if over == Over::Cycles {
+        ensure!(
+            growth().any(|growth| growth.cycles.is_some()),
+            "{name}: load cycles are known of growth by Paris' law (`paris` of [growth] in the problem file), and the steps \
+             of this file hold none"
+        );
+    }
+    Ok(())
+}
+
 /// The curves of a number with their names.
 fn curves(dataset: &Dataset, number: Number, over: Over) -> Vec<(String, Vec<[f64; 2]>)> {
-    let place = |(k, step): (usize, &Step)| match over {
-        Over::Step => k as f64,
-        Over::Load => step.load,
-        Over::Length => length(step),
+    let extensions = Extensions::new(dataset);
+    let place = |k: usize, tip: Option<TipId>| {
+        let step = &dataset.steps[k];
+        match (over, tip) {
+            (Over::Step, _) => Some(k as f64),
+            (Over::Load, _) => Some(step.load),
+            (Over::Length, _) => Some(length(step)),
+            (Over::Extension, Some(tip)) => extensions.of(k, tip),
+            (Over::Extension, None) => Some(extensions.of_all(k)),
+            (Over::Cycles, _) => step.growth.as_ref()?.cycles,
+        }
     };
-    let steps = || dataset.steps.iter().enumerate();
-    let of_steps = |value: fn(&Step) -> f64| {
-        steps().map(|(k, step)| [place((k, step)), value(step)]).collect::<Vec<_>>()
+    let points = |tip: Option<TipId>, value: &dyn Fn(usize, &Step) -> Option<f64>| {
+        let point = |(k, step): (usize, &Step)| Some([place(k, tip)?, value(k, step)?]);
+        dataset.steps.iter().enumerate().filter_map(point).collect::<Vec<_>>()
     };
     let symbol = match number {
         Number::K1 => "K_{I}",
         Number::K2 => "K_{II}",
-        Number::Load => return vec![("load".into(), of_steps(|step| step.load))],
-        Number::Length => return vec![("crack length".into(), of_steps(length))],
+        Number::Load => {
+            return vec![("load".into(), points(None, &|_, step| Some(step.load)))];
+        }
+        Number::Length => {
+            return vec![("crack length".into(), points(None, &|_, step| Some(length(step))))];
+        }
+        Number::Extension => "extension",
     };
     let tips = tips(dataset);
-    let of_tip = |(which, tip): (usize, &TipId)| {
-        let value = |step: &Step| {
-            let found = step.intensities.iter().find(|found| found.tip == *tip)?;
+    let of_tip = |(which, &tip): (usize, &TipId)| {
+        let factors = |step: &Step| {
+            let found = step.intensities.iter().find(|found| found.tip == tip)?;
             Some(if number == Number::K1 { found.k1 } else { found.k2 })
         };
-        let points = steps().filter_map(|(k, step)| Some([place((k, step)), value(step)?]));
+        let value = |k: usize, step: &Step| match number {
+            Number::Extension => extensions.of(k, tip),
+            _ => factors(step),
+        };
         let name = if tips.len() > 1 { format!("{symbol} of tip {which}") } else { symbol.into() };
-        (name, points.collect())
+        (name, points(Some(tip), &value))
     };
     tips.iter().enumerate().map(of_tip).collect()
+}
+
+/// What the tips have grown up to each step. A tip that has met something has grown no more since.
+struct Extensions {
+    steps: Vec<Vec<(TipId, f64)>>,
+}
+
+impl Extensions {
+    fn new(dataset: &Dataset) -> Self {
+        let (mut known, mut steps) = (Vec::<(TipId, f64)>::new(), Vec::new());
+        for step in &dataset.steps {
+            let rows = step.growth.iter().flat_map(|growth| &growth.tips);
+            let mut grown: Vec<_> = rows.clone().map(|row| (row.tip, row.extension)).collect();
+            let is_new = |(tip, _): &&(TipId, f64)| rows.clone().all(|row| row.tip != *tip);
+            grown.extend(known.iter().filter(is_new).copied().collect::<Vec<_>>());
+            steps.push(grown.clone());
+            // what the tips have in the next step if they are none any more
+            for row in rows {
+                let found = grown.iter_mut().find(|(tip, _)| *tip == row.tip);
+                found.into_iter().for_each(|(_, extension)| *extension += row.length);
+            }
+            known = grown;
+        }
+        Self { steps }
+    }
+
+    fn of(&self, step: usize, tip: TipId) -> Option<f64> {
+        let found = self.steps[step].iter().find(|(known, _)| *known == tip);
+        found.map(|(_, extension)| *extension)
+    }
+
+    fn of_all(&self, step: usize) -> f64 {
+        self.steps[step].iter().map(|(_, extension)| extension).sum()
+    }
 }
 
 /// The tips that have factors in any step, in the order in which they come up.
@@ -137,4 +221,48 @@ fn tips(dataset: &Dataset) -> Vec<TipId> {
         }
     }
     tips
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::crack::End;
+    use ppum::dataset::{Advance, Fate, Growth, TipIntensity};
+    use ppum_testkit::synthetic::growing;
+
+    /// Two tips: one grows by ½ in steps 0 and 1 and meets the border in the second, the other by ¼ in step 1 alone.
+    #[test]
+    fn extensions_stay_when_tips_have_ended() {
+        let mut dataset = growing(4);
+        let [a, b] = [End::Start, End::Last].map(|end| TipId { crack: 0, end });
+        for (k, step) in dataset.steps.iter_mut().enumerate() {
+            let row = |tip, length: f64, extension: f64| {
+                let fate = if length > 0.0 { Fate::Grows } else { Fate::Held };
+                Advance { length, extension, ..Advance::staying(tip, fate) }
+            };
+            let mut growth = Growth::default();
+            if k < 2 {
+                growth.tips.push(row(a, 0.5, 0.5 * k as f64));
+            }
+            let quarter = |is_so: bool| if is_so { 0.25 } else { 0.0 };
+            growth.tips.push(row(b, quarter(k == 1), quarter(k > 1)));
+            growth.cycles = Some(10.0 * k as f64);
+            step.growth = Some(growth);
+            step.intensities = vec![TipIntensity::new(b, 1.0 + k as f64, 0.0)];
+        }
+        let extensions = Extensions::new(&dataset);
+        let of = |tip| (0..4).map(|k| extensions.of(k, tip)).collect::<Vec<_>>();
+        assert_eq!(of(a), [0.0, 0.5, 1.0, 1.0].map(Some));
+        assert_eq!(of(b), [0.0, 0.0, 0.25, 0.25].map(Some));
+        assert_eq!([0, 1, 2, 3].map(|k| extensions.of_all(k)), [0.0, 0.5, 1.25, 1.25]);
+        // what is drawn over them
+        let found = curves(&dataset, Number::K1, Over::Extension);
+        assert_eq!(found[0].1, [[0.0, 1.0], [0.0, 2.0], [0.25, 3.0], [0.25, 4.0]]);
+        let found = curves(&dataset, Number::Extension, Over::Cycles);
+        assert_eq!(found[0].1, [[0.0, 0.0], [10.0, 0.0], [20.0, 0.25], [30.0, 0.25]]);
+        let found = curves(&dataset, Number::Load, Over::Extension);
+        assert!(
+            (found[0].1[2][0] - 1.25).abs() < 1e-15 && found[0].1[2][1] == dataset.steps[2].load
+        );
+    }
 }

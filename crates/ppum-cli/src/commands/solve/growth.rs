@@ -8,13 +8,14 @@ use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail, ensure};
-use ppum::dataset::{Advance, Dataset, Fate, Growth, Step, TipIntensity};
+use ppum::dataset::{Advance, Dataset, Growth, Step, TipIntensity};
 use ppum::text::short;
 use ppum_format::{Series, SeriesWriter};
 use ppum_solve::growth::{GrowthError, Last, grow, is_same_series};
 use ppum_solve::problem::{GrowthRule, Problem};
 use serde::Serialize;
 
+use super::super::info::growth::way;
 use super::{Args, Report};
 use crate::number::{Number, count, json};
 use crate::output::Output;
@@ -238,15 +239,8 @@ fn line(step: &Step, row: &Advance) -> String {
     let [k1, k2] = factors(step, row).map_or_else(unknown, |k| [short(k.k1), short(k.k2)]);
     let at = step.cracks[row.tip.crack as usize].end_point(row.tip.end);
     let at = format!("({:.5}, {:.5})", at.x, at.y);
-    let way = match row.fate {
-        fate if !fate.goes_on() => fate.words(),
-        fate => {
-            let way = format!("{} at {:.2}°", short(row.length), row.direction.to_degrees());
-            if fate == Fate::Grows { way } else { format!("{way}, {}", fate.words()) }
-        }
-    };
     let (crack, end) = (row.tip.crack, row.tip.end.name());
-    format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {way}")
+    format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {}", way(row))
 }
 
 /// The report of a series.

@@ -72,8 +72,10 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
                 ui.end_row();
             };
             row("patches", step.partition.len().to_string());
-            // the course of iterations, hundreds of records, is for programs
-            let told = numbers.into_iter().filter(|r| !r.name.starts_with("iteration "));
+            // the course of iterations and the sizes of levels, hundreds of records, are for programs
+            let many = ["iteration ", "level "];
+            let is_told = |r: &&Record| !many.iter().any(|word| r.name.starts_with(word));
+            let told = numbers.into_iter().filter(is_told);
             for Record { name, value, unit } in told {
                 row(name, format!("{} {unit}", trimmed(*value)).trim_end().to_owned());
             }
