@@ -31,6 +31,7 @@ pub(crate) const FATES: &Words<Fate> = &[
     (Fate::Closed, "closed"),
     (Fate::Unknown, "unknown"),
     (Fate::MeetsItself, "meets-itself"),
+    (Fate::Joined, "joined"),
 ];
 pub(crate) const MEETS_HOLE: &str = "meets-hole";
 pub(crate) const MEETS_CRACK: &str = "meets-crack";

@@ -82,6 +82,8 @@ pub enum Fate {
     Unknown,
     /// It would meet its own crack.
     MeetsItself,
+    /// Another crack goes on to it, so that it is a tip no more.
+    Joined,
 }
 
 impl Fate {
@@ -104,6 +106,7 @@ impl Fate {
             Self::Closed => "closed".into(),
             Self::Unknown => "no factors".into(),
             Self::MeetsItself => "would meet itself".into(),
+            Self::Joined => "is joined".into(),
         }
     }
 }

@@ -2,13 +2,16 @@
 //!
 //! ```text
 //! cargo run --release -p ppum-cli --example validation
+//! cargo run --release -p ppum-cli --example validation -- growth     its last part alone
 //! ```
 
 mod adaptive;
 mod benchmarks;
 mod convergence;
+mod growth;
 mod page;
 mod picture;
+mod series;
 #[path = "../../../ppum-solve/tests/studies/mod.rs"]
 mod studies;
 
@@ -36,9 +39,15 @@ them below. Their `spread` is the difference between three radii of one integral
 
 fn main() -> anyhow::Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    if std::env::args().nth(1).is_some_and(|part| part == "growth") {
+        let mut page = Page::before(&docs, "validation.md", growth::HEADING)?;
+        growth::write(&mut page)?;
+        return page.save("validation.md");
+    }
     let mut page = Page::new(&docs, HEAD);
     benchmarks::write(&mut page)?;
     convergence::write(&mut page);
     adaptive::write(&mut page)?;
+    growth::write(&mut page)?;
     page.save("validation.md")
 }

@@ -20,6 +20,15 @@ impl Page {
         Self { docs: docs.into(), text: format!("{head}\n") }
     }
 
+    /// The page as it is, up to a heading.
+    pub(crate) fn before(docs: &Path, name: &str, heading: &str) -> anyhow::Result<Self> {
+        let path = docs.join(name);
+        let text = std::fs::read_to_string(&path)
+            .with_context(|| format!("cannot read {}", path.display()))?;
+        let text = text.split(&format!("\n{heading}\n")).next().unwrap_or_default().to_owned();
+        Ok(Self { docs: docs.into(), text })
+    }
+
     /// A paragraph, or a heading.
     pub(crate) fn add(&mut self, text: &str) {
         eprintln!("{}", text.lines().next().unwrap_or_default());

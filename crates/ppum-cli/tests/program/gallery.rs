@@ -2,7 +2,7 @@
 
 use crate::{Lab, Png};
 
-/// Figures are made from problem files that are the examples; others wait for their solvers.
+/// Figures are made from problem files that are the examples.
 #[test]
 fn figures_by_their_numbers() {
     let lab = Lab::new();
@@ -18,7 +18,7 @@ fn figures_by_their_numbers() {
         let written = std::fs::read_to_string(lab.path(&format!("paper/{name}"))).unwrap();
         assert_eq!(written, std::fs::read_to_string(format!("{examples}/{name}")).unwrap());
     }
-    assert!(lab.fail("gallery -o paper --figure 7").contains("wait for their solvers"));
+    assert!(lab.fail("gallery -o paper --figure 9").contains("there are the figures 1, 2"));
     std::fs::write(lab.path("paper/paper-enrichment.toml"), "mine").unwrap();
     assert!(lab.fail("gallery -o paper --figure 2").contains("was edited"));
 }

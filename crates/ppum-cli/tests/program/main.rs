@@ -15,6 +15,7 @@ mod figures;
 mod files;
 mod formula;
 mod gallery;
+mod growing;
 mod info;
 mod messages;
 mod method;

@@ -149,6 +149,10 @@ impl<'a> Driven<'a> {
         if self.fate != Fate::Grows {
             return row;
         }
+        if is_joined(problem, cracks, self.tip) {
+            row.fate = Fate::Joined;
+            return row;
+        }
         row.due += self.share * increment;
         if row.due < DUE * increment {
             row.fate = Fate::Waits;
@@ -175,6 +179,15 @@ pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64
         extend(&mut so_far[row.tip.crack as usize], row);
     }
     bent
+}
+
+/// True if another crack has come to a tip in this step: both end there then, whichever of them would have gone on.
+fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
+    let at = problem.cracks[tip.crack as usize].end_point(tip.end);
+    let others = (0u32..).zip(cracks).filter(|(k, _)| *k != tip.crack);
+    others
+        .flat_map(|(_, crack)| [End::Start, End::Last].map(|end| crack.end_point(end)))
+        .any(|end| end == at)
 }
 
 /// Sends a tip along its arc, among the cracks as they are.

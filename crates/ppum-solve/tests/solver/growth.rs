@@ -287,6 +287,31 @@ fn ends_of_paths() {
     }
 }
 
+/// Two tips that come to each other in one step: one goes on to the other, which is a tip no more and stays, and the cracks are one.
+/// Which of them goes is a matter of their order.
+#[test]
+fn tips_that_meet() {
+    let cracks = ["[[-1, 0], [0, 0]]", "[[0.15, 0.03], [0.35, 0.03]]"];
+    for [first, other] in [[0, 1], [1, 0]].map(|order| order.map(|k: usize| cracks[k])) {
+        let first = format!("[[crack]]\npoints = {first}");
+        let steps = grown(&pulled(other, &first, "increment = 0.3, steps = 1"));
+        let rows = &steps[0].growth.as_ref().expect("growth").tips;
+        let of = |crack: u32, fate: Fate| {
+            rows.iter().find(|row| row.tip.crack == crack && row.fate == fate).expect("a fate")
+        };
+        let (goes, stays) = (of(0, Fate::MeetsCrack(1)), of(1, Fate::Joined));
+        assert!(goes.length > 0.1 && stays.length == 0.0 && stays.path.is_empty());
+        let [one, two] = [goes, stays].map(|row| {
+            let crack = &steps[1].cracks[row.tip.crack as usize];
+            assert_eq!(crack.ends[usize::from(row.tip.end == End::Last)], CrackEnd::Junction);
+            crack.end_point(row.tip.end)
+        });
+        assert_eq!(one, two);
+        // of a crack through more than half of the plate
+        assert!(steps[1].intensities.len() == 1 && steps[1].intensities[0].k1 > 5.0);
+    }
+}
+
 /// A plate that tears apart: the crack reaches the other side, and both halves are free of each other, with loads that do not balance.
 #[test]
 fn pieces_come_off() {

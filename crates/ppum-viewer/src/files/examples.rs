@@ -34,13 +34,17 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 26] = [
+pub const ALL: [Example; 30] = [
     example!("centre-crack"),
     example!("edge-crack"),
     example!("slanted-crack"),
     example!("kinked-crack"),
     example!("many-cracks"),
     example!("meeting-cracks"),
+    example!("edge-shear-growth"),
+    example!("two-holes-growth"),
+    example!("beam-three-holes"),
+    example!("network-growth"),
     example!("cracked-hole"),
     example!("square-hole"),
     example!("plate-with-hole"),

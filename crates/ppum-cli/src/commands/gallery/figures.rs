@@ -81,6 +81,19 @@ pub(super) const ALL: &[Figure] = &[
         ],
     },
     Figure {
+        number: 7,
+        title: "a crack that grows, in four steps and moving",
+        files: &[example!("edge-shear-growth.toml")],
+        lines: &[
+            "solve @/edge-shear-growth.toml",
+            "render @/edge-shear-growth.h5 -o @/figure-7-000.png -q magnitude,von-mises --layout 2x1 --step 0 --view 0,4,7,12 --size 900x480",
+            "render @/edge-shear-growth.h5 -o @/figure-7-005.png -q magnitude,von-mises --layout 2x1 --step 5 --view 0,4,7,12 --size 900x480",
+            "render @/edge-shear-growth.h5 -o @/figure-7-010.png -q magnitude,von-mises --layout 2x1 --step 10 --view 0,4,7,12 --size 900x480",
+            "render @/edge-shear-growth.h5 -o @/figure-7-013.png -q magnitude,von-mises --layout 2x1 --step 13 --view 0,4,7,12 --size 900x480",
+            "render @/edge-shear-growth.h5 -o @/figure-7.gif --steps ..13 --fps 4 --figure --view 0,4,7,12 --range 0,60 --size 480x480",
+        ],
+    },
+    Figure {
         number: 8,
         title: "covers that adapt, order 1 beside order 2",
         files: &[example!("paper-adaptive-1.toml"), example!("paper-adaptive-2.toml")],

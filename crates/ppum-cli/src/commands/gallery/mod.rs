@@ -56,8 +56,7 @@ impl Args {
         for wanted in &self.figure {
             ensure!(
                 ALL.iter().any(|figure| figure.number == *wanted),
-                "--figure {wanted}: there are the figures {}; those of growing cracks wait for \
-                 their solvers",
+                "--figure {wanted}: there are the figures {}",
                 known.join(", ")
             );
         }
