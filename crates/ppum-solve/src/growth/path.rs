@@ -96,12 +96,13 @@ impl Ahead<'_> {
     fn first(&self, from: Vec2, path: &[Vec2]) -> Option<Hit> {
         let (mut before, mut distance) = (from, 0.0);
         for (segment, &to) in path.iter().enumerate() {
-            let length = (to - before).length();
             let nearest = self.meets([before, to]).min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((part, at, fate)) = nearest {
-                return Some(Hit { segment, distance: distance + part * length, at, fate });
+            if let Some((_, at, fate)) = nearest {
+                // a tip beside the way is not on it
+                let distance = distance + (at - before).length();
+                return Some(Hit { segment, distance, at, fate });
             }
-            (before, distance) = (to, distance + length);
+            (before, distance) = (to, distance + (to - before).length());
         }
         None
     }
@@ -302,6 +303,7 @@ mod tests {
             (found.fate, found.path.as_slice()),
             (Fate::MeetsCrack(1), &[vec2(0.3, 0.05)][..])
         );
+        assert_eq!(found.length, vec2(0.3, 0.05).length());
         let bent: [&[[f64; 2]]; 1] =
             [&[[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, 0.0], [0.0, 0.0]]];
         let problem = plate(Vec::new(), &bent);
