@@ -24,8 +24,8 @@ pub(crate) fn guarded(work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Resu
     match panic::catch_unwind(AssertUnwindSafe(work)) {
         Ok(done) => done,
         Err(_) => bail!(
-            "ppum stopped at a mistake of its own: {}\nnothing was written; please report it, with the \
-             command and its files",
+            "ppum stopped at a mistake of its own: {}\nfiles are as they were, and a series has the steps that were complete; please report it, \
+             with the command and its files",
             told().unwrap_or_else(|| "it does not say where".to_owned())
         ),
     }

@@ -10,7 +10,7 @@ use crate::output::tell;
 #[derive(Debug, Serialize)]
 pub(crate) struct WarningRow {
     step: usize,
-    kind: String,
+    pub(crate) kind: String,
     at: Option<[f64; 2]>,
     value: Number,
     limit: Number,
@@ -31,6 +31,13 @@ pub(crate) fn rows(step: usize, warnings: &[Warning]) -> Vec<WarningRow> {
 pub(crate) fn warn(warnings: &[WarningRow]) {
     for warning in warnings {
         tell(&format!("warning: {}", warning.message));
+    }
+}
+
+/// The same of several steps of a series, which are named.
+pub(crate) fn warn_of_steps(warnings: &[WarningRow]) {
+    for warning in warnings {
+        tell(&format!("warning: step {}: {}", warning.step, warning.message));
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use ppum::dataset::Dataset;
 use ppum_format::Series;
+use ppum_solve::report::forget_times;
 
 use crate::Lab;
 
@@ -36,9 +37,7 @@ impl Lab {
     /// Everything in a series but the seconds that its solution took.
     fn content(&self, name: &str) -> Dataset {
         let mut dataset = ppum_format::read(&self.path(name)).unwrap();
-        for step in &mut dataset.steps {
-            step.history.retain(|record| record.unit != "s");
-        }
+        dataset.steps.iter_mut().for_each(forget_times);
         dataset
     }
 
@@ -144,4 +143,27 @@ fn one_run_writes_a_series() {
     child.wait().unwrap();
     assert!(Series::open(&lab.path("a.h5")).unwrap().len() >= 2);
     assert!(lab.files().iter().all(|name| !name.ends_with(".part")));
+}
+
+/// The cracks of a series are not those of one problem.
+#[test]
+fn a_series_does_not_converge() {
+    let complaint = Lab::grown().fail("plot whole.h5 --convergence -o c.svg");
+    assert!(complaint.contains("grow from step to step"), "{complaint}");
+}
+
+/// No step follows from one that has changed since it was written: its checksum is looked at first.
+#[test]
+fn a_damaged_step_is_not_gone_on_from() {
+    let lab = Lab::grown();
+    lab.write("plate.toml", &GROWING.replace("steps = 3", "steps = 5"));
+    let mut bytes = fs::read(lab.path("whole.h5")).unwrap();
+    let last = lab.content("whole.h5").steps.pop().unwrap();
+    let way = last.growth.unwrap().tips[0].path[0].x.to_le_bytes();
+    let at = bytes.windows(8).rposition(|found| found == way).expect("the way of the tip");
+    bytes[at + 2] ^= 1;
+    fs::write(lab.path("whole.h5"), &bytes).unwrap();
+    let complaint = lab.fail("solve plate.toml -o whole.h5 --resume");
+    assert!(complaint.contains("whole.h5") && complaint.contains("checksum"), "{complaint}");
+    assert!(fs::read(lab.path("whole.h5")).unwrap() == bytes);
 }

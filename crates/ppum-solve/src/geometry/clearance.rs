@@ -151,6 +151,13 @@ pub(crate) fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Vec2> {
 
 /// Distance of a tip to the part of its crack that does not lead away from it: the other end at least.
 fn comes_back(own: &Crack, end: End) -> f64 {
+    let ([_, rest], tip) = (led_away(own, end), own.end_point(end));
+    let end = rest.iter().map(|&p| (p - tip).length()).fold(f64::INFINITY, f64::min);
+    end.min(segment::polyline_distance(&rest, tip))
+}
+
+/// The vertices of the part of a crack that leads away from a tip, and of the rest, which begins where the other ends.
+pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
     let points: Vec<Vec2> = from_tip(own, end).collect();
     let (tip, axis) = (points[0], own.growth_direction(end));
     let leads_away = |s: &[Vec2]| (s[1] - s[0]).dot(s[0] - tip) > 0.0;
@@ -158,9 +165,7 @@ fn comes_back(own: &Crack, end: End) -> f64 {
     let first = |s: &&[Vec2]| s[0] == tip;
     let goes_on = |s: &&[Vec2]| (first(s) || leads_away(s)) && is_behind(s[1]);
     let away = points.windows(2).take_while(goes_on).count();
-    let rest = &points[away..];
-    let end = rest.iter().map(|&p| (p - tip).length()).fold(f64::INFINITY, f64::min);
-    end.min(segment::polyline_distance(rest, tip))
+    [points[..=away].to_vec(), points[away..].to_vec()]
 }
 
 /// Distance from a tip up to which θ surely jumps on its crack alone. Of a hook, whose extensions meet it or each other,

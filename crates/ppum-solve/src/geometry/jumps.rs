@@ -4,12 +4,13 @@
 //! other one there, and its straight extensions, across which the side jumps too, stay away. Wherever cracks meet,
 //! come back or end on holes the patch has the indicators of its [`Components`].
 
+use super::clearance::led_away;
 use super::clip::{clipped, inside, meets, segment_inside, solid_part};
 use super::components::Components;
 use super::placed::{Placed, around, wider};
 use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
-use ppum::segment::{Segment, distance, gap};
+use ppum::segment::{Segment, gap, polyline_distance};
 use ppum::vec2::{Rect, Vec2};
 
 /// Part of a patch's size below which a cut does not count.
@@ -95,19 +96,18 @@ impl<'p> Jumps<'p> {
     }
 
     /// True if the angle θ at a tip may jump in a box beside the tip's crack: it does so on the crack, or where
-    /// another part of a crack that comes back, or its other end's extension, is as near as the tip's own segment.
+    /// another part of a crack that comes back, or its other end's extension, is as near as the part that leads away from the
+    /// tip.
     pub(crate) fn mislead(&self, tip: TipId, within: &Rect) -> bool {
         if self.extensions[tip.crack as usize].is_some() {
             return false;
         }
         let crack = &self.cracks[tip.crack as usize];
-        let points = &crack.points;
-        let own = if tip.end == End::Start { 0 } else { points.len() - 2 };
-        let others = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
-        let others = others.filter(|(k, _)| *k != own).map(|(_, s)| s);
+        let [own, rest] = led_away(crack, tip.end);
+        let others = rest.windows(2).map(|s| [s[0], s[1]]);
         let other_end = if tip.end == End::Start { End::Last } else { End::Start };
         let mut others = others.chain([extension(crack, other_end, self.reach)]);
-        let farthest = within.corners().map(|p| distance([points[own], points[own + 1]], p));
+        let farthest = within.corners().map(|p| polyline_distance(&own, p));
         let farthest = farthest.into_iter().fold(0.0, f64::max);
         others.any(|s| super::clip::distance(s, within) <= farthest)
     }

@@ -5,6 +5,8 @@ use super::path::{Arc, way};
 use crate::problem::{GrowthRule, LoadControl, Problem, cracks};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
+use ppum::text::{short, trimmed};
+use ppum::vec2::Vec2;
 
 /// Loads at which tips reach their toughness that count as one, relative: those of a symmetric plate differ by the errors of
 /// their factors.
@@ -38,31 +40,70 @@ pub(super) struct Decision {
 /// A tip with what drives it.
 struct Driven<'a> {
     tip: TipId,
+    at: Vec2,
     /// The angle of the crack's direction to the x axis.
     axis: f64,
     kink: Option<Kink>,
     fate: Fate,
-    toughness: f64,
+    /// None if none is given: it grows however small K is.
+    toughness: Option<f64>,
     /// What it did after the step before.
     before: Option<&'a Advance>,
     /// Growth in parts of that of the tip that grows most.
     share: f64,
 }
 
+/// Numbers of a rule that nothing can be decided with.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Undecided {
+    /// A toughness that is none.
+    #[error(
+        "`toughness` is {toughness} at the tip ({x}, {y}), but must be positive and finite there: mend its formula",
+        toughness = short(*toughness), x = trimmed(at.x), y = trimmed(at.y)
+    )]
+    Toughness {
+        /// The tip.
+        at: Vec2,
+        /// Its value.
+        toughness: f64,
+    },
+    /// A load that is too far from the one that was given.
+    #[error(
+        "K reaches the toughness at {} times the loads, which is too far away to compute with: look at their \
+         units, and at that of `toughness`",
+        short(*.0)
+    )]
+    Load(f64),
+    /// Cycles without number.
+    #[error(
+        "the last increment took {} cycles: look at the units of `c` in `paris`, with which c ΔK^m is the length a \
+         cycle",
+        short(*.0)
+    )]
+    Cycles(f64),
+}
+
+/// Largest factor of a load, and one over the smallest: squares of it are far from the ends of f64.
+const FARTHEST: f64 = 1e60;
+
 /// Decides what the tips do, from their factors under the loads of the problem and from what was decided in the step before.
+///
+/// # Errors
+/// A toughness, a load or a number of cycles that is none.
 pub(super) fn decide(
     problem: &Problem,
     rule: &GrowthRule,
     factors: &[TipIntensity],
     before: Option<&Growth>,
-) -> Decision {
+) -> Result<Decision, Undecided> {
     let mut driven: Vec<_> =
         tips(&problem.cracks).map(|tip| Driven::new(problem, rule, tip, factors, before)).collect();
-    let load = load(rule, &driven);
+    driven.iter().filter(|tip| tip.fate == Fate::Grows).try_for_each(Driven::check)?;
+    let load = load(rule, &driven)?;
     share(rule, &mut driven, load);
     let increment = increment(problem, rule, &driven);
     let mut growth = Growth::default();
-    growth.cycles = cycles(rule, before, &driven);
+    growth.cycles = cycles(rule, before, &driven)?;
     let mut so_far = problem.cracks.clone();
     for tip in &driven {
         let row = tip.advance(problem, &so_far, increment);
@@ -70,7 +111,7 @@ pub(super) fn decide(
         growth.tips.push(row);
     }
     growth.stop = stop(rule, &driven, &growth);
-    Decision { growth, load }
+    Ok(Decision { growth, load })
 }
 
 /// The problem with the cracks that follow from what was decided.
@@ -109,10 +150,17 @@ impl<'a> Driven<'a> {
             (_, None) => Fate::Closed,
             _ => Fate::Grows,
         };
-        let toughness = rule.toughness.as_ref().map_or(0.0, |toughness| toughness.value(at));
+        let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
         let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
         let axis = along.y.atan2(along.x);
-        Self { tip, axis, kink, fate, toughness, before, share: 0.0 }
+        Self { tip, at, axis, kink, fate, toughness, before, share: 0.0 }
+    }
+
+    /// Asks whether the toughness at the tip is one, if there is any.
+    fn check(&self) -> Result<(), Undecided> {
+        let is_one = self.toughness.is_none_or(|k| k > 0.0 && k.is_finite());
+        let refused = |toughness| Undecided::Toughness { at: self.at, toughness };
+        if is_one { Ok(()) } else { Err(refused(self.toughness.unwrap_or(0.0))) }
     }
 
     fn strength(&self) -> f64 {
@@ -121,7 +169,7 @@ impl<'a> Driven<'a> {
 
     /// The direction in which the crack goes on.
     fn direction(&self) -> f64 {
-        self.axis + self.kink.map_or(0.0, |kink| kink.angle)
+        turned(0.0, self.axis + self.kink.map_or(0.0, |kink| kink.angle))
     }
 
     /// The curvature of the path: half of it how the direction has changed along the last increment, half what it was taken for
@@ -205,31 +253,36 @@ fn turned(from: f64, to: f64) -> f64 {
 }
 
 /// The factor of the load: the least at which a tip reaches its toughness, if that is asked for.
-fn load(rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
+fn load(rule: &GrowthRule, driven: &[Driven<'_>]) -> Result<f64, Undecided> {
     if rule.load == LoadControl::Constant {
-        return 1.0;
+        return Ok(1.0);
     }
     let growing = driven.iter().filter(|tip| tip.fate == Fate::Grows && tip.strength() > 0.0);
-    let least = growing.map(|tip| tip.toughness / tip.strength()).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { 1.0 }
+    let factors = growing.filter_map(|tip| Some(tip.toughness? / tip.strength()));
+    match factors.reduce(f64::min) {
+        None => Ok(1.0),
+        Some(least) if (1.0 / FARTHEST..=FARTHEST).contains(&least) => Ok(least),
+        Some(least) => Err(Undecided::Load(least)),
+    }
 }
 
 /// Finds which tips grow, and how much in parts of what the fastest grows.
 fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
     let enough = if rule.load == LoadControl::Critical { 1.0 - TOGETHER } else { 1.0 };
+    let most = driven.iter().map(|tip| load * tip.strength()).fold(0.0, f64::max);
     for tip in driven.iter_mut().filter(|tip| tip.fate == Fate::Grows) {
         let strength = load * tip.strength();
-        tip.share = match &rule.paris {
-            Some(paris) => paris.rate(strength),
-            None if strength >= enough * tip.toughness => 1.0,
-            None => 0.0,
+        let grows = match &rule.paris {
+            Some(paris) => paris.grows(strength),
+            None => tip.toughness.is_none_or(|toughness| strength >= enough * toughness),
         };
-        if tip.share == 0.0 {
+        // the parts of rates alone, which may be out of all range
+        let power = rule.paris.as_ref().map_or(0.0, |paris| paris.m);
+        tip.share = if grows { (strength / most).powf(power) } else { 0.0 };
+        if !grows {
             tip.fate = Fate::Held;
         }
     }
-    let most = driven.iter().map(|tip| tip.share).fold(0.0, f64::max);
-    driven.iter_mut().filter(|tip| tip.share > 0.0).for_each(|tip| tip.share /= most);
 }
 
 /// The length of the largest increment: the one given, or one that the cracks and the plate allow and the paths do not turn much
@@ -248,32 +301,37 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
 }
 
 /// Load cycles up to this step: those of the steps before, and those of the last increment of the tip that was driven most.
-fn cycles(rule: &GrowthRule, before: Option<&Growth>, driven: &[Driven<'_>]) -> Option<f64> {
-    let paris = rule.paris.as_ref()?;
-    let Some(before) = before else { return Some(0.0) };
+fn cycles(
+    rule: &GrowthRule,
+    before: Option<&Growth>,
+    driven: &[Driven<'_>],
+) -> Result<Option<f64>, Undecided> {
+    let Some(paris) = &rule.paris else { return Ok(None) };
+    let Some(before) = before else { return Ok(Some(0.0)) };
     let rows = before.tips.iter().filter(|row| row.length > 0.0);
+    let so_far = before.cycles.unwrap_or(0.0);
     let fastest = rows.max_by(|a, b| a.strength.total_cmp(&b.strength));
-    let last = fastest.map_or(0.0, |row| {
-        let then = paris.rate(row.strength);
-        let now = driven.iter().find(|tip| tip.tip == row.tip);
-        let now = now.map(|tip| paris.rate(tip.strength())).filter(|rate| *rate > 0.0);
-        cycles_along(row.length, then, now.unwrap_or(then))
-    });
-    Some(before.cycles.unwrap_or(0.0) + last)
+    let Some(row) = fastest else { return Ok(Some(so_far)) };
+    let then = paris.ln_rate(row.strength);
+    let now = driven.iter().find(|tip| tip.tip == row.tip && paris.grows(tip.strength()));
+    let now = now.map_or(then, |tip| paris.ln_rate(tip.strength()));
+    let last = cycles_along(row.length, then, now);
+    if last.is_normal() { Ok(Some(so_far + last)) } else { Err(Undecided::Cycles(last)) }
 }
 
-/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value to another.
+/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value to another, given by their
+/// logarithms.
 fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
-    let growth = (to / from).ln();
+    let growth = to - from;
     // (1 − e^−x) / x
     let mean = if growth == 0.0 { 1.0 } else { -(-growth).exp_m1() / growth };
-    length / from * mean
+    length * (-from).exp() * mean
 }
 
 /// What ends the series here.
 fn stop(rule: &GrowthRule, driven: &[Driven<'_>], growth: &Growth) -> Option<GrowthStop> {
     let breaks = |tip: &Driven<'_>| {
-        rule.paris.is_some() && rule.toughness.is_some() && tip.strength() >= tip.toughness
+        rule.paris.is_some() && tip.toughness.is_some_and(|toughness| tip.strength() >= toughness)
     };
     if driven.is_empty() {
         return Some(GrowthStop::NoTips);

@@ -17,6 +17,7 @@ mod path;
 mod settle;
 
 pub use criterion::{Kink, kink};
+pub use decision::Undecided;
 
 use crate::problem::{GrowthRule, Problem, ProblemError};
 use crate::solve::{Plan, Shelf, SolveError};
@@ -24,6 +25,7 @@ use decision::{Decision, decide, grown};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
 use ppum::progress::{Progress, Verdict, Watcher};
 use settle::settled;
+use std::convert::Infallible;
 
 /// A series that has ended before its end.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +34,9 @@ pub enum GrowthError<E> {
     /// A step that cannot be solved.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// Nothing can be decided in the first step.
+    #[error("growth: {0}")]
+    Undecided(#[from] Undecided),
     /// What a step was given to wants no more.
     #[error(transparent)]
     Kept(E),
@@ -114,7 +119,7 @@ pub fn grow<E>(
         let (cracks, dataset) = settled(plan, before.as_ref(), &series, &here)?;
         current.cracks = cracks;
         let growth_before = before.as_ref().map(|before| &before.growth);
-        let (dataset, growth) = series.decided(&current, dataset, growth_before);
+        let (dataset, growth) = series.decided(&current, dataset, growth_before)?;
         if growth.stop.is_some() || number == rule.steps {
             return keep(dataset).map_err(GrowthError::Kept);
         }
@@ -144,20 +149,17 @@ pub fn series(
     problem: &Problem,
     memory: Option<u64>,
     watcher: &dyn Watcher,
-) -> Result<Dataset, SolveError> {
+) -> Result<Dataset, GrowthError<Infallible>> {
     let mut all: Option<Dataset> = None;
-    let keep = |step: Dataset| -> Result<(), std::convert::Infallible> {
+    let keep = |step: Dataset| {
         match &mut all {
             Some(all) => all.steps.extend(step.steps),
             None => all = Some(step),
         }
         Ok(())
     };
-    match grow(problem, None, memory, watcher, keep) {
-        Ok(()) => Ok(all.expect("a series has a first step")),
-        Err(GrowthError::Solve(error)) => Err(error),
-        Err(GrowthError::Kept(never)) => match never {},
-    }
+    grow(problem, None, memory, watcher, keep)?;
+    Ok(all.expect("a series has a first step"))
 }
 
 /// Number and problem of the next step, and what was decided in the one before; none if the series has ended.
@@ -179,12 +181,15 @@ fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) 
         Some(Obstacle::Solve(error)) => (GrowthStop::Unsolvable, error.to_string()),
         Some(Obstacle::Problem(error)) => (GrowthStop::Unsolvable, error.to_string()),
     };
-    let step = &mut dataset.steps[0];
-    step.growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
-    let message = format!("growth ends here, {}: {message}", stop.words());
-    let kind = "growth".to_owned();
-    step.warnings.push(Warning { kind, at: None, value: 0.0, limit: 0.0, message });
+    dataset.steps[0].growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
+    dataset.steps[0].warnings.push(ending(stop, &message));
     (dataset, true)
+}
+
+/// The warning that a series ends before its end.
+fn ending(stop: GrowthStop, message: &str) -> Warning {
+    let message = format!("growth ends here, {}: {message}", stop.words());
+    Warning { kind: "growth".to_owned(), at: None, value: 0.0, limit: 0.0, message }
 }
 
 impl Obstacle {
@@ -209,18 +214,31 @@ impl Series<'_> {
         Ok(plan.with_shelf(&self.shelf))
     }
 
-    /// The dataset of a step under its load, with what is decided in it.
+    /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end of the series.
+    ///
+    /// # Errors
+    /// Nothing can be decided in the first step.
     fn decided(
         &self,
         problem: &Problem,
         mut dataset: Dataset,
         before: Option<&Growth>,
-    ) -> (Dataset, Growth) {
+    ) -> Result<(Dataset, Growth), Undecided> {
         let step = &mut dataset.steps[0];
-        let Decision { growth, load } = decide(problem, self.rule, &step.intensities, before);
+        let decision = decide(problem, self.rule, &step.intensities, before);
+        let Decision { growth, load } = match (decision, before) {
+            (Err(error), Some(Growth { cycles, .. })) => {
+                let stop = GrowthStop::Unsolvable;
+                step.warnings.push(ending(stop, &error.to_string()));
+                let mut growth = Growth::default();
+                (growth.cycles, growth.stop) = (*cycles, Some(stop));
+                Decision { growth, load: 1.0 }
+            }
+            (decision, _) => decision?,
+        };
         under(step, load);
         step.growth = Some(growth.clone());
-        (dataset, growth)
+        Ok((dataset, growth))
     }
 }
 

@@ -9,15 +9,17 @@ use super::{Before, Series};
 use crate::problem::Criterion;
 use crate::solve::{Attempt, Plan, SolveError};
 use ppum::crack::{Crack, TipId};
-use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity};
+use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning};
 use ppum::progress::Watcher;
+use ppum::text::trimmed;
 
 /// Angle of the criterion at the end of an arc, in radians, that counts as none: K_II is 5e-5 of K_I then. What is left has one
 /// sign along a path, and paths would drift by half of it.
 const SYMMETRIC: f64 = 1e-4;
 
-/// Most times that arcs are bent. The first leaves about a tenth of the angle, and each after it the product of the two before.
-const ROUNDS: usize = 4;
+/// Most times that arcs are bent. The first leaves about a tenth of the angle, and each after it the product of the two before;
+/// tips that shade each other need some more.
+const ROUNDS: usize = 8;
 
 /// The solution of a step, and its cracks, whose last arcs are bent if the criterion asks for it.
 pub(super) fn settled(
@@ -37,7 +39,7 @@ pub(super) fn settled(
     let mut known = Vec::new();
     for round in 1.. {
         let factors = match tried {
-            Attempt::Done(dataset) => return Ok((problem.cracks, *dataset)),
+            Attempt::Done(dataset) => return Ok((problem.cracks, warned(*dataset, &growth))),
             Attempt::Refused(factors) => factors,
         };
         let found: Vec<_> = angles(&growth, &factors).map(Bend::new).collect();
@@ -48,14 +50,38 @@ pub(super) fn settled(
         let Ok(plan) = series.plan(&bent, watcher) else {
             // what it led to cannot be solved: the arcs stay as they were
             let dataset = Plan::new(&problem, series.memory, watcher)?.solve(watcher)?;
-            return Ok((problem.cracks, dataset));
+            return Ok((problem.cracks, warned(dataset, &growth)));
         };
+        // arcs that turn as much as they may do not change any more
+        let is_last = round == ROUNDS || next == growth;
         growth = next;
-        let is_last = round == ROUNDS;
         tried = plan.attempt(watcher, &|factors| is_last || is_settled(&growth, factors))?;
         problem = bent;
     }
     unreachable!("the last round takes what it finds")
+}
+
+/// A step with a warning for each arc that is not bent as it should be.
+fn warned(mut dataset: Dataset, growth: &Growth) -> Dataset {
+    let step = &mut dataset.steps[0];
+    let left = angles(growth, &step.intensities).filter(|(_, angle)| angle.abs() > SYMMETRIC);
+    let left: Vec<_> = left.filter_map(|(row, _)| unsettled(row, &step.intensities)).collect();
+    step.warnings.extend(left);
+    dataset
+}
+
+fn unsettled(row: &Advance, factors: &[TipIntensity]) -> Option<Warning> {
+    let (factors, &at) = (factors.iter().find(|found| found.tip == row.tip)?, row.path.last()?);
+    let ratio = (factors.k2 / factors.k1).abs();
+    let message = format!(
+        "the last arc could not be bent until K_II = 0 at its tip ({}, {}): K_II is {:.1e} of K_I; with smaller \
+         increments paths turn less in each",
+        trimmed(at.x),
+        trimmed(at.y),
+        ratio
+    );
+    let (kind, limit) = ("growth".to_owned(), 0.5 * SYMMETRIC);
+    Some(Warning { kind, at: Some(at), value: ratio, limit, message })
 }
 
 /// A curvature and the angle that was found with it.

@@ -182,13 +182,8 @@ mod tests {
                 (2, true) => [c, 0.5, 0.0][a],
                 (2, false) => 0.0,
                 // away from the third function of the middle blocks, which is nearly used up
-                (_, same) => {
-                    if same && a == 2 || !same {
-                        0.0
-                    } else {
-                        0.01
-                    }
-                }
+                (_, true) if a < 2 => 0.01,
+                _ => 0.0,
             });
             matrix.add_block(i, i + 1, between.as_ref());
         }

@@ -1,9 +1,11 @@
 //! How cracks grow, step by step.
 
 use super::check::MistakeAt;
+use super::cracks::touch;
 use super::key::Key;
 use super::{Keep, Problem};
 use ppum::expression::Expression;
+use ppum::text::short;
 
 /// A quasi-static series: solve, let the tips go on, again.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +56,7 @@ pub struct Paris {
     pub m: f64,
     /// ΔK up to which nothing grows.
     pub threshold: f64,
-    /// Smallest load of a cycle in parts of the largest, below 1.
+    /// Smallest load of a cycle in parts of the largest, from −1000 to below 1.
     pub ratio: f64,
 }
 
@@ -80,13 +82,29 @@ impl Paris {
         Self { c, m, threshold: 0.0, ratio: 0.0 }
     }
 
-    /// da/dN of a tip of this strength.
+    /// ln da/dN of a tip of this strength that grows: powers may be out of all range.
     #[must_use]
-    pub fn rate(&self, strength: f64) -> f64 {
-        let range = (1.0 - self.ratio) * strength;
-        if range > self.threshold { self.c * range.powf(self.m) } else { 0.0 }
+    pub fn ln_rate(&self, strength: f64) -> f64 {
+        self.c.ln() + self.m * self.range(strength).ln()
+    }
+
+    /// True if ΔK of a tip of this strength is above the threshold.
+    #[must_use]
+    pub fn grows(&self, strength: f64) -> bool {
+        self.range(strength) > self.threshold
+    }
+
+    /// ΔK of a tip of this strength.
+    fn range(&self, strength: f64) -> f64 {
+        (1.0 - self.ratio) * strength
     }
 }
+
+/// Least increment in units of the length below which things touch: an arc may have several vertices.
+const LEAST_INCREMENT: f64 = 100.0;
+
+/// Least ratio of loads: in the largest cycles there are the load is turned around, ratio −1.
+const LEAST_RATIO: f64 = -1e3;
 
 /// Most increments: a step may take a second.
 const MOST_STEPS: usize = 100_000;
@@ -100,6 +118,15 @@ pub(super) fn check_growth(problem: &Problem) -> Vec<MistakeAt> {
         .map(|(name, message)| MistakeAt::new(key(name), message))
         .chain(rule.paris.iter().flat_map(broken_paris))
         .collect();
+    let least = LEAST_INCREMENT * touch(&problem.domain.bounds);
+    if rule.increment.is_some_and(|increment| increment > 0.0 && increment < least) {
+        let message = format!(
+            "`increment` is {}, but points of a crack in this plate must be {} apart: make it longer",
+            short(rule.increment.unwrap_or(0.0)),
+            short(least)
+        );
+        found.push(MistakeAt::new(key("increment"), message));
+    }
     if problem.equation.elastic().is_none() {
         let message = "cracks grow by their stress intensity factors, which only elasticity has; leave [growth] out";
         found.push(MistakeAt::new(Key::new("growth"), message));
@@ -143,8 +170,8 @@ fn broken_paris(paris: &Paris) -> Vec<MistakeAt> {
         (c > 0.0 && c.is_finite(), "c", "`c` must be positive and finite"),
         ((0.0..=100.0).contains(&m), "m", "`m` must be 0 to 100; 2 to 4 is usual"),
         (threshold >= 0.0 && threshold.is_finite(), "threshold", "`threshold` may not be negative"),
-        (ratio < 1.0 && ratio.is_finite(), "ratio", {
-            "`ratio` is that of the smallest to the largest load, and must be below 1"
+        ((LEAST_RATIO..1.0).contains(&ratio), "ratio", {
+            "`ratio` is that of the smallest to the largest load of a cycle, and must be below 1 and not below −1000"
         }),
     ];
     let key = |name| Key::new("growth").name("paris").name(name);

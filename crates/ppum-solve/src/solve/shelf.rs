@@ -98,8 +98,7 @@ mod tests {
             let [x, y] = edge[edge.len() - 1];
             edge.push([x + random.between(0.12, 0.2), y + random.between(-0.08, 0.08)]);
         }
-        let mut inner = vec![[0.75, 0.8], [0.5, 0.7], [0.4, 0.62], [0.33, 0.6]];
-        inner.reverse();
+        let inner = [[0.33, 0.6], [0.4, 0.62], [0.5, 0.7], [0.75, 0.8]];
         [4, 5, 6].map(|n| {
             let (edge, inner) = (&edge[..n], &inner[6 - n..]);
             let text = format!(

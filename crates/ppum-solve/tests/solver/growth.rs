@@ -433,6 +433,82 @@ fn cycles() {
     }
 }
 
+/// Powers of ΔK that no number holds leave the shares of tips and the cycles as they are: with c in units in which K is a
+/// billion times larger both are the same.
+#[test]
+fn powers_out_of_range() {
+    let cracks = "[[crack]]\npoints = [[-1, -0.5], [-0.5, -0.5]]";
+    let law = |c: &str| format!("steps = 2, increment = 0.05, paris = {{ c = {c}, m = 40 }}");
+    let loads = |scale: &str| {
+        let text = pulled("[[-1, 0.5], [-0.45, 0.5]]", cracks, &law(scale));
+        text.replace("[0, 1]", "[0, 1e9]").replace("[0, -1]", "[0, -1e9]")
+    };
+    let steps = [
+        grown(&pulled("[[-1, 0.5], [-0.45, 0.5]]", cracks, &law("1e10"))),
+        grown(&loads("1e-300")),
+    ];
+    for (one, other) in steps[0].iter().zip(&steps[1]) {
+        let [one, other] = [one, other].map(|step| step.growth.as_ref().expect("growth"));
+        for (a, b) in one.tips.iter().zip(&other.tips) {
+            assert_eq!((a.tip, a.fate), (b.tip, b.fate));
+            assert!((a.due - b.due).abs() + (a.length - b.length).abs() < 1e-9);
+        }
+        // (1e9)^40 times 1e-310 fewer
+        let [a, b] = [one, other].map(|growth| growth.cycles.expect("cycles"));
+        assert!((a - b * 1e50).abs() <= 1e-6 * a, "{a} {b}");
+    }
+}
+
+/// A toughness that is none at a tip, a load beyond all bounds, cycles without number: an error in the first step, and later
+/// the end of the series, with the reason.
+#[test]
+fn what_cannot_be_decided() {
+    let first = |growth: &str| {
+        let text = pulled("[[-0.3, 0], [0.3, 0]]", "", growth);
+        series(&parsed(&text), None, unwatched()).expect_err("no decision").to_string()
+    };
+    for toughness in ["sqrt(-1 - x^2)", "1/(x - x)", "-1 - x^2"] {
+        for more in ["", ", load = 'critical'", ", paris = { c = 1e-3, m = 3 }"] {
+            let told = first(&format!("steps = 2, toughness = '{toughness}'{more}"));
+            assert!(told.contains("`toughness` is") && told.contains("(-0.3, 0)"), "{told}");
+        }
+    }
+    let told = first("steps = 1, toughness = 1e200, load = 'critical'");
+    assert!(told.contains("K reaches the toughness at"), "{told}");
+    let later = [
+        (
+            "increment = 0.1, steps = 3, toughness = 'if(abs(x) > 0.35, -1, 1e-3)'",
+            "`toughness` is -1",
+        ),
+        (
+            "increment = 0.1, steps = 3, paris = { c = 1e-300, m = 90, ratio = 0.999 }",
+            "took inf cycles",
+        ),
+    ];
+    for (growth, reason) in later {
+        let steps = grown(&pulled("[[-0.3, 0], [0.3, 0]]", "", growth));
+        assert_eq!((steps.len(), stop(&steps)), (2, Some(GrowthStop::Unsolvable)));
+        let told = &steps[1].warnings.last().expect("a warning").message;
+        assert!(told.contains(reason), "{told}");
+    }
+}
+
+/// Arcs that turn too much for their length are not bent until K_II vanishes, and a warning says so.
+#[test]
+fn unsettled_arcs() {
+    let steps = grown(&pulled(
+        "[[-1, 0.1], [-0.4, 0.05]]",
+        "[[crack]]\npoints = [[0.1, -0.3], [0.5, -0.15]]",
+        "steps = 4, increment = 0.2, criterion = 'local-symmetry'",
+    ));
+    for step in &steps[1..] {
+        let ratio = step.intensities.iter().map(|tip| (tip.k2 / tip.k1).abs()).fold(0.0, f64::max);
+        let told = step.warnings.iter().find(|w| w.message.contains("could not be bent"));
+        println!("{ratio:.1e} {:?}", told.map(|warning| warning.value));
+        assert!(told.map_or(ratio < 6e-5, |warning| warning.value <= ratio && ratio > 4e-5));
+    }
+}
+
 /// The slower of two cracks has grown what the law says of its strength in the same cycles; it may lag by half an increment.
 #[test]
 fn slow_tips() {

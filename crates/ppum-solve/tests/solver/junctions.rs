@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem};
-use ppum_solve::solve::spectrum;
+use ppum_solve::solve::{Plan, spectrum};
 
 use crate::studies::exact_fields::MATERIAL;
 use crate::studies::support::{record, solved, strain_energy};
@@ -159,6 +159,38 @@ fn cracks_that_meet_in_all_ways() {
         println!("{name}");
         close(&factors(&plate(1.0, &lines, true, 3, 3)), &expected, 5e-4);
     }
+}
+
+/// Vertices on the straight parts of a hook change nothing: neither the number of cells by much nor factors. Those of a hook with
+/// one near a tip come to what hp finite elements of order 10 have (`tests/random`), from level to level.
+#[test]
+fn vertices_of_a_hook() {
+    let near = [[-0.58, 0.1], [-0.5, 0.1], [0.5, 0.1], [0.5, 0.3], [-0.2, 0.3], [-0.2, 0.15]];
+    for (level, tolerance) in [(3, 1e-3), (4, 1e-4)] {
+        let found = factors(&plate(1.0, &[near.to_vec()], true, level, 3));
+        close(&found, &[[1.967369, -0.026765], [0.000814, -0.002264]], tolerance);
+    }
+    let hook = [[-0.58, 0.1], [0.5, 0.1], [0.5, 0.3], [-0.2, 0.3], [-0.2, 0.15]];
+    let plain = plate(1.0, &[hook.to_vec()], true, 3, 2);
+    let (expected, cells) = (factors(&plain), n_cells(&plain));
+    let mut random = Random(31);
+    for _ in 0..4 {
+        let mut points = vec![hook[0]];
+        for pair in hook.windows(2) {
+            let [[x, y], [u, v]] = [pair[0], pair[1]];
+            let t = random.between(0.05, 0.95);
+            points.extend([[x + t * (u - x), y + t * (v - y)], [u, v]]);
+        }
+        println!("{points:?}");
+        let problem = plate(1.0, &[points], true, 3, 2);
+        assert!(n_cells(&problem) < 2 * cells, "{} {cells}", n_cells(&problem));
+        close(&factors(&problem), &expected, 2e-3);
+    }
+}
+
+fn n_cells(problem: &Problem) -> usize {
+    let plan = Plan::new(problem, None, unwatched()).expect("a plan");
+    plan.dataset().steps[0].partition.len()
 }
 
 /// A network of five cracks, most of which cross: the same reference, to the largest K.

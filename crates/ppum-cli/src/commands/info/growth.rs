@@ -79,7 +79,9 @@ pub(in crate::commands) fn way(row: &Advance) -> String {
     match row.fate {
         fate if !fate.goes_on() => fate.words(),
         fate => {
-            let way = format!("{} at {:.2}°", short(row.length), row.direction.to_degrees());
+            // no minus before a zero
+            let angle = (100.0 * row.direction.to_degrees()).round() / 100.0 + 0.0;
+            let way = format!("{} at {angle:.2}°", short(row.length));
             if fate == Fate::Grows { way } else { format!("{way}, {}", fate.words()) }
         }
     }

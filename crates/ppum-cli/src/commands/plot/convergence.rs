@@ -68,6 +68,13 @@ fn one_step_each(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Vec<
 
 /// Datasets of different problems have no common solution that they could come near.
 fn of_one_problem(datasets: &[Named]) -> anyhow::Result<()> {
+    for Named { name, dataset } in datasets {
+        ensure!(
+            dataset.steps.windows(2).all(|pair| pair[0].cracks == pair[1].cracks),
+            "--convergence compares solutions of one problem, but the cracks of {name} grow from step to step; \
+             --series draws what becomes of them"
+        );
+    }
     let [Named { name, dataset: first }, others @ ..] = datasets else { return Ok(()) };
     for Named { name: other, dataset } in others {
         let cracks = |dataset: &Dataset| dataset.steps.first().map(|step| step.cracks.clone());

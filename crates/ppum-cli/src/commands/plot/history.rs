@@ -43,6 +43,8 @@ fn phases(
     let mut names: Vec<String> = Vec::new();
     let mut curves = Vec::new();
     for Named { name, dataset } in datasets {
+        let last = step.unwrap_or(0);
+        ensure!(last < dataset.steps.len(), "{name}: there is no step {last}");
         let wanted = |k: usize| step.is_none_or(|step| step == k);
         let steps = dataset.steps.iter().enumerate().filter(|(k, _)| wanted(*k));
         let mut points: Vec<[f64; 2]> = Vec::new();

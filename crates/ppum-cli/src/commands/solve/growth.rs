@@ -10,19 +10,20 @@ use std::time::Instant;
 use anyhow::{Context as _, bail, ensure};
 use ppum::dataset::{Advance, Dataset, Growth, Step, TipIntensity};
 use ppum::text::short;
-use ppum_format::{Series, SeriesWriter};
+use ppum_format::SeriesWriter;
 use ppum_solve::growth::{GrowthError, Last, grow, is_same_series};
 use ppum_solve::problem::{GrowthRule, Problem};
 use serde::Serialize;
 
 use super::super::info::growth::way;
 use super::{Args, Report};
+use crate::dataset::{named, series};
 use crate::number::{Number, count, json};
 use crate::output::Output;
 use crate::progress::Bar;
 use crate::standard::is_standard;
 use crate::threads;
-use crate::warnings::warn;
+use crate::warnings::{WarningRow, rows, warn_of_steps};
 
 /// What has become of the cracks, in JSON.
 #[derive(Debug, Serialize)]
@@ -112,7 +113,7 @@ pub(super) fn run(
     let (lines, told) = channel();
     let run = Run { rule, target, start: Instant::now(), bar: Bar::new(), first, lines };
     let grown = Grown { first, steps: Vec::new(), stop: None };
-    let mut state = State { writer, grown, last: None };
+    let mut state = State { writer, grown, last: None, warnings: Vec::new() };
     thread::scope(|scope| {
         let state = &mut state;
         let solved = scope.spawn(move || {
@@ -127,12 +128,12 @@ pub(super) fn run(
         }
         solved.join().unwrap_or_else(|panic| resume_unwind(panic))
     })?;
-    report(args, target, state.grown, state.last, out)
+    report(args, target, state, out)
 }
 
 /// The last step of the series in a file, and its number.
 fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
-    let series = Series::open(target)?;
+    let series = series(target)?;
     let like = Problem::of_dataset(series.head()).ok().flatten();
     ensure!(
         like.is_some_and(|like| is_same_series(&like, problem)),
@@ -140,7 +141,8 @@ fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
         target.display()
     );
     let number = series.len() - 1;
-    let step = series.results(number)?;
+    // as a whole: the next one follows from it, and its checksum holds all of it together
+    let step = named(target, series.dataset(number))?.steps.remove(0);
     if step.growth.is_none() {
         bail!("{}: its last step does not say how it goes on", target.display());
     }
@@ -171,6 +173,21 @@ struct State {
     writer: Option<SeriesWriter>,
     grown: Grown,
     last: Option<Dataset>,
+    /// Warnings of the last step, and the first of each other kind.
+    warnings: Vec<WarningRow>,
+}
+
+impl State {
+    /// Takes the warnings of a step up.
+    fn warned(&mut self, number: usize, step: &Step) {
+        let mut kinds = Vec::new();
+        self.warnings.retain(|row| {
+            let is_new = !kinds.contains(&row.kind);
+            kinds.push(row.kind.clone());
+            is_new
+        });
+        self.warnings.extend(rows(number, &step.warnings));
+    }
 }
 
 impl Run<'_> {
@@ -186,6 +203,7 @@ impl Run<'_> {
         state.grown.steps.push(StepRow::new(number, step, growth));
         state.grown.stop = growth.stop.map(|stop| stop.words());
         self.bar.clear();
+        state.warned(number, step);
         // nobody may listen any more
         let _ = self.lines.send(self.lines_of(number, step, growth));
         self.bar.in_series(self.rule.steps, self.left(number));
@@ -201,7 +219,8 @@ impl Run<'_> {
             lines += &format!("{number:4} {load:>8}  {}\n", line(step, row));
         }
         if growth.tips.is_empty() {
-            lines += &format!("{number:4} {load:>8}  no tips\n");
+            let why = growth.stop.map_or("no tips", |stop| stop.words());
+            lines += &format!("{number:4} {load:>8}  {why}\n");
         }
         lines
     }
@@ -238,7 +257,10 @@ fn line(step: &Step, row: &Advance) -> String {
     let unknown = || ["–", "–"].map(String::from);
     let [k1, k2] = factors(step, row).map_or_else(unknown, |k| [short(k.k1), short(k.k2)]);
     let at = step.cracks[row.tip.crack as usize].end_point(row.tip.end);
-    let at = format!("({:.5}, {:.5})", at.x, at.y);
+    // so many that one sees the tip move
+    let digits = (2.0 - row.length.log10().floor()).clamp(5.0, 16.0) as usize;
+    let digits = if row.length > 0.0 { digits } else { 5 };
+    let at = format!("({:.digits$}, {:.digits$})", at.x + 0.0, at.y + 0.0);
     let (crack, end) = (row.tip.crack, row.tip.end.name());
     format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {}", way(row))
 }
@@ -247,16 +269,17 @@ fn line(step: &Step, row: &Advance) -> String {
 fn report(
     args: &Args,
     target: &Path,
-    grown: Grown,
-    last: Option<Dataset>,
+    State { grown, last, warnings, .. }: State,
     out: &mut Output,
 ) -> anyhow::Result<()> {
     let last = last.context("a series without a step")?;
     let number = grown.first + grown.steps.len() - 1;
     let mut report = Report::new(target.display().to_string(), &last);
     report.tips.clear();
+    report.warnings.clear();
+    warn_of_steps(&warnings);
     if args.json {
-        warn(&report.warnings);
+        report.warnings = warnings;
         report.growth = Some(grown);
         return Ok(json(out, &report)?);
     }
