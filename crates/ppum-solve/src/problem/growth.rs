@@ -5,7 +5,7 @@ use super::cracks::touch;
 use super::key::Key;
 use super::{Keep, Problem};
 use ppum::expression::Expression;
-use ppum::text::short;
+use ppum::text::trimmed;
 
 /// A quasi-static series: solve, let the tips go on, again.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,8 +122,8 @@ pub(super) fn check_growth(problem: &Problem) -> Vec<MistakeAt> {
     if rule.increment.is_some_and(|increment| increment > 0.0 && increment < least) {
         let message = format!(
             "`increment` is {}, but points of a crack in this plate must be {} apart: make it longer",
-            short(rule.increment.unwrap_or(0.0)),
-            short(least)
+            trimmed(rule.increment.unwrap_or(0.0)),
+            trimmed(least)
         );
         found.push(MistakeAt::new(key("increment"), message));
     }
