@@ -65,6 +65,7 @@ pub mod resample;
 pub mod samples;
 pub mod scale;
 pub mod scatter;
+pub mod shades;
 pub mod view;
 
 pub use error::RenderError;
@@ -83,7 +84,8 @@ mod tests {
             ("pixels", &["view"]),
             ("png", &["image"]),
         ],
-        &[("raster", &["error", "view"])],
+        &[("shades", &["colormap", "image", "scale"])],
+        &[("raster", &["error", "image", "shades", "view"])],
         &[
             ("animation", &["image", "png"]),
             ("cells", &["raster", "view"]),
@@ -92,7 +94,7 @@ mod tests {
             ("reference", &["error", "parts", "raster", "view"]),
             ("resample", &["error", "parts", "raster", "view"]),
             ("extrema", &["error", "parts", "raster", "view"]),
-            ("scatter", &["error", "parts", "pixels", "raster", "view"]),
+            ("scatter", &["error", "image", "parts", "pixels", "raster", "shades", "view"]),
         ],
         &[
             ("glyph", &["deform", "error", "parts", "view"]),
@@ -101,7 +103,10 @@ mod tests {
         ],
         &[(
             "picture",
-            &["colormap", "extrema", "image", "png", "range", "raster", "samples", "scale", "view"],
+            &[
+                "colormap", "extrema", "image", "png", "range", "raster", "samples", "scale",
+                "shades", "view",
+            ],
         )],
     ];
 

@@ -11,6 +11,7 @@ use crate::range::{Range, RangeError, Span};
 use crate::raster::{Raster, Sample};
 use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
+use crate::shades::Shades;
 use crate::view::View;
 
 /// The way values become colours.
@@ -77,10 +78,6 @@ pub struct Picture {
     pub samples: Samples,
 }
 
-/// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
-/// at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most one step.
-pub const PALETTE: usize = 4096;
-
 /// Lines of the hatching, what lies between them, and their distance in units of their width.
 const HATCH: Rgba = [96, 96, 102, 255];
 const HATCHED: Rgba = [196, 196, 200, 255];
@@ -122,21 +119,15 @@ impl Picture {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
         let Style { colormap, scale, undefined, .. } = style;
         let norm = span.normalization(*scale)?;
-        let shades = Shades {
-            palette: colormap.palette(PALETTE),
-            jumping: colormap.has_jumps().then_some(colormap),
-            norm,
-            undefined: *undefined,
-            below: colormap.below,
-            above: colormap.above,
-        };
+        let shades = Shades::new(colormap, norm, *undefined);
         let mut rgba = vec![0; 4 * raster.values.len()];
         let columns = raster.size[0].max(1) as usize;
         let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
-        let found = rows.map(|(pixels, values)| shades.paint(values, pixels.as_chunks_mut().0));
-        let seen = found.reduce(|| (false, false), |a, b| (a.0 | b.0, a.1 | b.1));
+        let found =
+            rows.map(|(pixels, values)| T::paint(&shades, values, pixels.as_chunks_mut().0));
+        let seen = found.reduce(|| [false; 2], |a, b| [a[0] | b[0], a[1] | b[1]]);
         let between = span.beyond().map(|value| value.is_some());
-        let (has_below, has_above) = (seen.0 | between[0], seen.1 | between[1]);
+        let (has_below, has_above) = (seen[0] | between[0], seen[1] | between[1]);
         Ok(Self {
             image: Image { size: raster.size, rgba },
             view: *view,
@@ -209,45 +200,6 @@ impl Picture {
         let basis = ("ppum:range-basis", self.span.basis.to_string());
         let entries = entries.into_iter().chain([basis]).chain(known);
         entries.map(|(key, text)| (key.to_owned(), text)).collect()
-    }
-}
-
-/// The means to find a value's colour.
-struct Shades<'a> {
-    palette: Vec<Rgba>,
-    /// The map where the palette is too coarse: jumps are where they are.
-    jumping: Option<&'a Colormap>,
-    norm: Normalization,
-    undefined: Rgba,
-    below: Rgba,
-    above: Rgba,
-}
-
-impl Shades<'_> {
-    /// Colours a row; tells whether a value lay below, and above, the range.
-    fn paint<T: Sample>(&self, values: &[T], pixels: &mut [Rgba]) -> (bool, bool) {
-        let (min, max) = (self.norm.min(), self.norm.max());
-        let (mut has_below, mut has_above) = (false, false);
-        for (pixel, &value) in pixels.iter_mut().zip(values) {
-            let value = value.into();
-            has_below |= value < min;
-            has_above |= value > max;
-            *pixel = match value {
-                v if v.is_nan() => self.undefined,
-                v if v < min => self.below,
-                v if v > max => self.above,
-                v => self.inside(v),
-            };
-        }
-        (has_below, has_above)
-    }
-
-    fn inside(&self, value: f64) -> Rgba {
-        if let Some(map) = self.jumping {
-            return map.color(self.norm.position(value));
-        }
-        let index = (self.norm.position(value) * (PALETTE - 1) as f64 + 0.5) as usize;
-        self.palette[index.min(PALETTE - 1)]
     }
 }
 

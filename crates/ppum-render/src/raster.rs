@@ -8,6 +8,8 @@ use ppum::real::Scalar;
 use rayon::prelude::*;
 
 use crate::error::RenderError;
+use crate::image::Rgba;
+use crate::shades::Shades;
 use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
@@ -27,6 +29,9 @@ pub trait Sample: Scalar + Into<f64> {
         quantity: &Quantity,
         watcher: &dyn Watcher,
     ) -> Result<Raster<Self>, RenderError>;
+
+    /// Colours a row of values, and tells whether one of them lay below, and above, the range.
+    fn paint(shades: &Shades, values: &[Self], pixels: &mut [Rgba]) -> [bool; 2];
 
     /// [`render_strips`](crate::scatter::render_strips) for this type.
     ///

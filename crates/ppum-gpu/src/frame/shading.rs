@@ -2,8 +2,8 @@
 
 use ppum_render::colormap::Colormap;
 use ppum_render::image::Rgba;
-use ppum_render::picture::PALETTE;
 use ppum_render::scale::{Normalization, Scale};
+use ppum_render::shades::PALETTE;
 
 use super::view_data::ViewRecord;
 

@@ -38,8 +38,10 @@ use ppum::weight::WeightFunction;
 use rayon::prelude::*;
 
 use crate::error::RenderError;
+use crate::image::Rgba;
 use crate::parts::Parts;
 use crate::raster::{Raster, Sample};
+use crate::shades::Shades;
 use crate::view::View;
 use collapse::ROWS;
 use plan::{COLUMNS, Plan, strips};
@@ -99,6 +101,10 @@ macro_rules! sample {
                 let all = view.pixels[1].max(1);
                 Self::render_strips(field, view, quantity, all, watcher, &mut |v| values = v)?;
                 Ok(Raster::new(view.pixels, values))
+            }
+
+            fn paint(shades: &Shades, values: &[Self], pixels: &mut [Rgba]) -> [bool; 2] {
+                shades.paint(values, pixels)
             }
 
             fn render_strips(
