@@ -85,7 +85,7 @@ words! {
 
 /// The bytes of words, as devices read them.
 pub(crate) fn bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+    words.iter().map(|word| word.to_le_bytes()).collect::<Vec<_>>().into_flattened()
 }
 
 /// A number of double precision as the sum of two of single precision.

@@ -3,6 +3,7 @@
 mod compute;
 mod corpus;
 mod points;
+mod prepare;
 mod rooms;
 mod texts;
 

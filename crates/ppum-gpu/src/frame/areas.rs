@@ -28,6 +28,12 @@ impl Area {
         let [width, height] = view.pixels;
         Self { rect: [0, 0, width, height], others }
     }
+
+    /// The first pixel, with these terms.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn pixel(others: Others) -> Self {
+        Self { rect: [0, 0, 1, 1], others }
+    }
 }
 
 /// The areas of a view, which cover it once.
@@ -73,12 +79,14 @@ mod tests {
     #[test]
     fn areas_cover_the_picture_once_and_hold_the_boxes() {
         let view = View::new(vec2(0.3, -0.2), 2.0, [133, 71]).expect("a view");
-        let [constants, polynomials] =
-            [true, false].map(|constants| Others { constants, polynomials: !constants });
+        let one = Others { constants: true, polynomials: false, group: Some(3) };
+        let other = Others { group: Some(4), ..one };
+        let polynomials = Others { constants: false, polynomials: true, group: None };
         let boxes = [
-            (Rect::around(vec2(0.1, -0.1), vec2(0.2, 0.1)), constants),
+            (Rect::around(vec2(0.1, -0.1), vec2(0.2, 0.1)), one),
+            (Rect::around(vec2(-0.1, -0.1), vec2(0.2, 0.1)), other),
             (Rect::around(vec2(0.2, -0.15), vec2(0.3, 0.01)), polynomials),
-            (Rect::around(vec2(0.9, -0.6), vec2(0.5, 0.2)), constants),
+            (Rect::around(vec2(0.9, -0.6), vec2(0.5, 0.2)), one),
             (Rect::around(vec2(9.0, 9.0), vec2(0.5, 0.2)), polynomials),
         ];
         let areas = areas(&view, &boxes);

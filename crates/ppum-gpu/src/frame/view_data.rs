@@ -9,7 +9,7 @@ use super::geometry::Geometry;
 use crate::layout::{halves, record};
 use crate::scene::UploadedRegion;
 use crate::scene::bodies::Components;
-use crate::scene::lattice::{Lattice, NO_PATCH};
+use crate::scene::lattice::NO_PATCH;
 
 record! {
     /// The uniform `view` of the shaders.
@@ -23,7 +23,7 @@ record! {
         pitch_high: vec2f,
         pitch_low: vec2f,
         per_pitch: vec2f,
-        /// One over the half-extent of the patches of a lattice.
+        /// One over the half-extent of the patches of a lattice, or of the largest ones.
         per_half: vec2f,
         /// Centre of the first pixel relative to the region's anchor, and the steps to the next column and
         /// row, high and low.
@@ -45,9 +45,8 @@ record! {
         cracks: u32,
         holes: u32,
         n_holes: u32,
-        /// Addresses in the region: list of the bins, records of the patches.
-        list: u32,
-        patches: u32,
+        /// The first texel of the bins' nodes in the region.
+        nodes: u32,
         /// The patch whose φ is wanted, by the address of its body.
         chosen: u32,
         /// The component that is wanted.
@@ -71,19 +70,19 @@ pub(crate) struct ViewData {
 }
 
 impl ViewData {
-    /// A view of a field, whose patches are those of a region.
+    /// A view of a field, whose patches are those of a region; `half` is what [`ViewRecord::per_half`] is of.
     pub(crate) fn new(
         field: &Field<'_>,
         view: &View,
         geometry: Geometry,
         place: &UploadedRegion,
-        lattice: Option<&Lattice>,
+        half: Option<Vec2>,
     ) -> Self {
         let Geometry { mut pairs, cracks, holes, n_holes } = geometry;
         let reference = pairs.len() as u32;
         pairs.extend(reference_of(field, view.center));
         let [xs, ys] = view.inside(&field.domain.bounds);
-        let UploadedRegion { region, list, patches, .. } = place;
+        let UploadedRegion { region, nodes, .. } = place;
         let (bins, side) = (&region.bins, view.pixel_size());
         let [grid_high, grid_low] = region.halves(bins.origin);
         let [pitch_high, pitch_low] = region.halves(bins.pitch);
@@ -98,7 +97,7 @@ impl ViewData {
             pitch_high,
             pitch_low,
             per_pitch: one_over(bins.pitch),
-            per_half: lattice.map_or([0.0; 2], |lattice| one_over(lattice.half)),
+            per_half: half.map_or([0.0; 2], one_over),
             first_high,
             first_low,
             step_high,
@@ -112,8 +111,7 @@ impl ViewData {
             cracks,
             holes,
             n_holes,
-            list: *list,
-            patches: *patches,
+            nodes: *nodes,
             chosen: NO_PATCH,
             ..ViewRecord::default()
         };

@@ -13,7 +13,7 @@ use crate::error::{GpuError, RenderError};
 use crate::frame::shading::Shading;
 use crate::scene::bodies::Others;
 use crate::scene::{Scene, SceneLayout};
-use crate::shader::compose::ShaderText;
+use crate::shader::compose::{Kind, ShaderText};
 use crate::shader::passes::Method;
 use output::{Colors, Output};
 use pipelines::Pipelines;
@@ -70,6 +70,11 @@ impl<'f, O: Output> Program<'f, O> {
         self.shader.method()
     }
 
+    /// The kind of areas with these terms.
+    pub(crate) fn kind(&self, others: Others) -> Kind {
+        self.shader.kind(others)
+    }
+
     /// The patch whose φ is drawn.
     pub(crate) fn chosen(&self) -> Option<u32> {
         match self.output.quantity() {
@@ -78,13 +83,19 @@ impl<'f, O: Output> Program<'f, O> {
         }
     }
 
+    /// Pipelines of areas that are made.
+    #[cfg(test)]
+    pub(crate) fn made(&self) -> usize {
+        self.pipelines.as_ref().map_or(0, |pipelines| pipelines.finish.len())
+    }
+
     /// The pipelines for the scene as it is, those of some kinds of areas among them: each is made when it is
     /// needed first.
     pub(crate) fn pipelines(
         &mut self,
         gpu: &Arc<Gpu>,
         layout: SceneLayout,
-        areas: impl IntoIterator<Item = Others>,
+        kinds: impl IntoIterator<Item = Kind>,
     ) -> Result<&Pipelines, GpuError> {
         let pipelines = match self.pipelines.take() {
             Some(pipelines) if pipelines.fit(gpu, layout) => pipelines,
@@ -92,7 +103,7 @@ impl<'f, O: Output> Program<'f, O> {
         };
         // what is made stays, also if something else cannot be
         let pipelines = self.pipelines.insert(pipelines);
-        pipelines.make_areas(&self.shader, areas)?;
+        pipelines.make_areas(&self.shader, kinds)?;
         Ok(pipelines)
     }
 }

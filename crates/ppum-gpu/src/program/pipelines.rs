@@ -9,8 +9,7 @@ use super::pipeline::{PipelineBuilder, data_layout, textures_layout};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::scene::SceneLayout;
-use crate::scene::bodies::Others;
-use crate::shader::compose::ShaderText;
+use crate::shader::compose::{Kind, ShaderText};
 use crate::shader::passes::{FieldPass, Method, Slots};
 
 /// Sampled textures that WebGPU promises to a shader.
@@ -31,7 +30,7 @@ pub(crate) struct Pipelines {
     /// The passes of splatting.
     pub(crate) splat: Option<SplatPasses>,
     /// The last pass; of gathering one for each kind of area.
-    pub(crate) finish: BTreeMap<Others, RenderPipeline>,
+    pub(crate) finish: BTreeMap<Kind, RenderPipeline>,
 }
 
 /// The first passes of splatting.
@@ -73,14 +72,14 @@ impl Pipelines {
     pub(crate) fn make_areas(
         &mut self,
         shader: &ShaderText,
-        areas: impl IntoIterator<Item = Others>,
+        kinds: impl IntoIterator<Item = Kind>,
     ) -> Result<(), GpuError> {
-        for others in areas {
-            if !self.finish.contains_key(&others) {
-                let text = shader.finish(self.layout, others);
+        for kind in kinds {
+            if !self.finish.contains_key(&kind) {
+                let text = shader.finish(self.layout, kind);
                 let builder = PipelineBuilder { gpu: &self.gpu, data: &self.data };
                 let pipeline = builder.finish(shader.last_pass(), &text, &self.textures)?;
-                self.finish.insert(others, pipeline);
+                self.finish.insert(kind, pipeline);
             }
         }
         Ok(())
@@ -101,10 +100,10 @@ impl SplatPasses {
     ) -> Result<Self, GpuError> {
         let gpu = builder.gpu;
         let sums = gpu.checked("describe the bindings", || textures_layout(gpu, slots.weights))?;
-        let text = shader.text(layout, FieldPass::NONE);
+        let text = shader.splat(layout, FieldPass::NONE);
         let weights = builder.quads("splat_weight", &text, slots.weights, None)?;
         let fields = slots.passes().map(|pass| {
-            let text = shader.text(layout, pass);
+            let text = shader.splat(layout, pass);
             builder.quads("splat_field", &text, pass.slots, Some(&sums))
         });
         Ok(Self { weights, fields: fields.collect::<Result<_, _>>()?, sums, slots })

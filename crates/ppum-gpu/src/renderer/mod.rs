@@ -4,6 +4,8 @@ pub(crate) mod drawn;
 mod targets;
 
 #[cfg(not(target_arch = "wasm32"))]
+use std::collections::BTreeMap;
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::Arc;
 
 use ppum::field::Field;
@@ -29,6 +31,8 @@ use crate::program::Program;
 use crate::program::output::Output;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::program::output::Values;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::scene::bodies::Others;
 use crate::scene::card::Card;
 use crate::scene::{OnCard, Scene};
 use crate::shader::passes::Method;
@@ -99,9 +103,26 @@ impl Renderer {
         let mut program = Program::new(scene, output, method)?;
         let layout = scene.on_card().layout;
         self.again(|renderer| {
-            program.pipelines(&renderer.card.gpu, layout, [layout.shape.others]).map(|_| ())
+            let kind = program.kind(layout.shape.others);
+            program.pipelines(&renderer.card.gpu, layout, [kind]).map(|_| ())
         })?;
         Ok(program)
+    }
+
+    /// Sees to it that no picture has to wait for a shader: compiles a program for all kinds of areas, and draws some
+    /// of a view with each, as drivers may leave the rest to the first picture. Waits until all is done.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn prepare<O: Output>(
+        &mut self,
+        program: &mut Program<'_, O>,
+        view: &View,
+    ) -> Result<(), GpuError> {
+        self.check_size(view)?;
+        self.again(|renderer| renderer.draw_areas(program, view, pixels_of_all))?;
+        self.wait()
     }
 
     /// Draws a view.
@@ -114,7 +135,8 @@ impl Renderer {
         view: &View,
     ) -> Result<Drawn<O>, GpuError> {
         self.check_size(view)?;
-        self.again(|renderer| renderer.draw_once(program, view))
+        let areas_of = |_: &Program<'_, O>, on_card: &OnCard| areas(view, &on_card.enriched);
+        self.again(|renderer| renderer.draw_areas(program, view, areas_of))
     }
 
     /// The values of a quantity at the pixel centres of a view: uploads, compiles, draws and reads. The
@@ -188,23 +210,26 @@ impl Renderer {
         Ok(())
     }
 
-    fn draw_once<O: Output>(
+    /// Draws the areas of a view that `areas_of` makes of what is on the card.
+    fn draw_areas<O: Output>(
         &mut self,
         program: &mut Program<'_, O>,
         view: &View,
+        areas_of: impl Fn(&Program<'_, O>, &OnCard) -> Vec<Area>,
     ) -> Result<Drawn<O>, GpuError> {
         let scene = program.scene().clone();
         let mut on_card = scene.on_card();
         on_card.bring(&self.card, &scene, view)?;
         let layout = on_card.layout;
         let areas = match program.method() {
-            Method::Gather => areas(view, &on_card.enriched),
+            Method::Gather => areas_of(program, &on_card),
             Method::Splat => vec![Area::whole(view, layout.shape.others)],
         };
         let frame = view_data(&scene, &on_card, program, view)?;
         let palette = program.output().shading().map(Shading::texels);
         let gpu = &self.card.gpu;
-        let pipelines = program.pipelines(gpu, layout, areas.iter().map(|area| area.others))?;
+        let areas: Vec<_> = areas.iter().map(|area| (*area, program.kind(area.others))).collect();
+        let pipelines = program.pipelines(gpu, layout, areas.iter().map(|(_, kind)| *kind))?;
         let targets = &mut self.targets;
         gpu.checked("draw", || {
             targets.prepare(gpu, view.pixels, pipelines, palette);
@@ -222,6 +247,19 @@ impl Renderer {
     }
 }
 
+/// A pixel for each kind of area that a scene may have.
+#[cfg(not(target_arch = "wasm32"))]
+fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<Area> {
+    let all = on_card.layout.shape.others;
+    let mixed = [false, all.constants].into_iter().flat_map(|constants| {
+        let with = move |polynomials| Others { constants, polynomials, group: None };
+        [false, all.polynomials].map(with)
+    });
+    let alone = on_card.enriched.iter().map(|(_, others)| *others);
+    let kinds: BTreeMap<_, _> = mixed.chain(alone).map(|o| (program.kind(o), o)).collect();
+    kinds.into_values().map(Area::pixel).collect()
+}
+
 /// Stages of [`Renderer::render`].
 #[cfg(not(target_arch = "wasm32"))]
 const STAGES: usize = 4;
@@ -237,7 +275,7 @@ fn view_data<O: Output>(
     let frames = scene.groups().frames(&field.step.functions);
     let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
     let region = on_card.region()?;
-    let mut data = ViewData::new(field, view, geometry, region, on_card.lattice.as_ref());
+    let mut data = ViewData::new(field, view, geometry, region, on_card.half());
     check_size(data.pairs.len())?;
     data.record.component = program.output().component().into();
     if let Some(shading) = program.output().shading() {

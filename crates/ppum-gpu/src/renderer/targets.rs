@@ -15,6 +15,7 @@ use crate::frame::view_data::ViewData;
 use crate::layout::bytes;
 use crate::program::pipelines::{Pipelines, SplatPasses};
 use crate::scene::OnCard;
+use crate::shader::compose::Kind;
 use crate::shader::passes::{Finish, SUMS};
 
 /// Textures that are used again from frame to frame.
@@ -131,7 +132,7 @@ impl Targets {
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
         pipelines: &Pipelines,
-        (data, areas): (&BindGroup, &[Area]),
+        (data, areas): (&BindGroup, &[(Area, Kind)]),
         last_pass: &Finish,
     ) -> Vec<Texture> {
         let palette = self.palette.as_ref().map(|(_, view)| view);
@@ -149,11 +150,12 @@ impl Targets {
         });
         pass.set_bind_group(0, data, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        for Area { rect: [x, y, width, height], others } in areas {
-            if let Some(pipeline) = pipelines.finish.get(others) {
+        for (Area { rect: [x, y, width, height], others }, kind) in areas {
+            if let Some(pipeline) = pipelines.finish.get(kind) {
+                let group = others.group.unwrap_or_default();
                 pass.set_pipeline(pipeline);
                 pass.set_scissor_rect(*x, *y, *width, *height);
-                pass.draw(0..3, 0..1);
+                pass.draw(0..3, group..group + 1);
             }
         }
         drop(pass);

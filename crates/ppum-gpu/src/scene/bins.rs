@@ -1,21 +1,24 @@
 //! Finding the patches of a pixel: a grid of bins over a region, halved where a bin meets many patches.
 //!
 //! ```text
-//! node   [first, count]      a leaf: its patches are entries first … first + count of the list
-//!        [first, INNER]      halved in x and y: nodes first … first + 3, by x + 2 y
+//! node   below INNER       a leaf, by the page at which its patches begin
+//!        INNER + texel     halved in x and y: its children are the four nodes of that texel, by x + 2 y
 //! ```
 //!
-//! The bins are as large as the largest cells, and their borders run through the centre of one: on a
-//! uniform cover a bin between four centres is met by their four patches and no other, so a patch
-//! is found in one step. Elsewhere a few steps down lead to at most a handful.
+//! The bins are as large as the largest cells, or smaller by a power of two as long as there are no more bins than
+//! patches, and their borders run through the centre of one of these cells: on a uniform cover a bin between four centres is
+//! met by their four patches and no other, so a patch is found in one step. Elsewhere a few steps down lead to at most a
+//! handful.
+
+use std::ops::Range;
 
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// The second word of a node with children.
-pub(crate) const INNER: u32 = u32::MAX;
+/// The first number of a node with children.
+pub(crate) const INNER: u32 = 1 << 31;
 
-/// A bin with no more patches than this is not halved.
-const FEW: usize = 4;
+/// Patches of a page. A bin with no more is not halved.
+pub(crate) const FEW: usize = 4;
 
 /// Halvings of a bin of the grid.
 const MAX_DEPTH: u32 = 24;
@@ -29,10 +32,23 @@ pub(crate) struct Bins {
     pub(crate) pitch: Vec2,
     /// Columns and rows of the grid.
     pub(crate) size: [u32; 2],
-    /// Nodes; those of the grid first, row by row.
-    pub(crate) nodes: Vec<[u32; 2]>,
+    /// Nodes; those of the grid first, row by row. What is between them and the first children is of no account.
+    pub(crate) nodes: Vec<u32>,
+    /// Leaves that meet patches, page by page.
+    pub(crate) leaves: Vec<Leaf>,
     /// Patches of the leaves.
     pub(crate) list: Vec<u32>,
+    /// Pages of the leaves; the first is of all leaves that meet none.
+    pub(crate) pages: u32,
+}
+
+/// A bin that is not halved.
+#[derive(Clone, Debug)]
+pub(crate) struct Leaf {
+    /// Its lower left corner.
+    pub(crate) corner: Vec2,
+    /// Its patches in the list.
+    pub(crate) patches: Range<usize>,
 }
 
 /// A patch as bins see it.
@@ -47,20 +63,14 @@ pub(crate) struct Covered {
 impl Bins {
     /// Bins over `bounds`, which holds all positions that will be looked up, give or take `margin`.
     pub(crate) fn new(bounds: Rect, patches: &[Covered], margin: f64) -> Self {
-        let mut bins = Self::grid(bounds, patches);
+        let mut bins = Self { pages: 1, ..Self::grid(bounds, patches) };
         let lists = bins.lists(patches, margin);
-        bins.nodes = vec![[0, 0]; lists.len()];
+        bins.nodes = vec![0; lists.len().next_multiple_of(4)];
         for (node, list) in lists.iter().enumerate() {
             let bin = bins.bin(node);
             bins.fill(node, bin, list, patches, margin, 0);
         }
         bins
-    }
-
-    /// Patches of the bin that meets most.
-    pub(crate) fn longest(&self) -> u32 {
-        let leaves = self.nodes.iter().filter(|node| node[1] != INNER);
-        leaves.map(|node| node[1]).max().unwrap_or_default()
     }
 
     /// The grid without nodes.
@@ -75,9 +85,13 @@ impl Bins {
         };
         // Cells of unlike shapes could make far more bins than patches.
         let most = (2 * patches.len() + 64) as f64;
-        let count = (size.x / pitch.x + 2.0) * (size.y / pitch.y + 2.0);
-        if count > most {
-            pitch = pitch * (count / most);
+        let count = |pitch: Vec2| (size.x / pitch.x + 2.0) * (size.y / pitch.y + 2.0);
+        if count(pitch) > most {
+            pitch = pitch * (count(pitch) / most);
+        }
+        let is_one = pitch == size;
+        while !is_one && count(pitch * 0.5) <= 0.5 * most {
+            pitch = pitch * 0.5;
         }
         let before = |low: f64, at: f64, step: f64| at - ((at - low) / step).ceil() * step;
         let origin =
@@ -131,16 +145,21 @@ impl Bins {
             let children = quarters.map(|quarter| meeting(quarter, list, patches, margin));
             if children.iter().any(|child| child.len() < list.len()) {
                 let first = self.nodes.len();
-                self.nodes[node] = [first as u32, INNER];
-                self.nodes.resize(first + 4, [0, 0]);
+                self.nodes[node] = INNER + first as u32 / 4;
+                self.nodes.resize(first + 4, 0);
                 for (k, child) in children.iter().enumerate() {
                     self.fill(first + k, quarters[k], child, patches, margin, depth + 1);
                 }
                 return;
             }
         }
-        self.nodes[node] = [self.list.len() as u32, list.len() as u32];
-        self.list.extend_from_slice(list);
+        if !list.is_empty() {
+            self.nodes[node] = self.pages;
+            self.pages += list.len().div_ceil(FEW) as u32;
+            let patches = self.list.len()..self.list.len() + list.len();
+            self.leaves.push(Leaf { corner: bin.min, patches });
+            self.list.extend_from_slice(list);
+        }
     }
 }
 
@@ -197,13 +216,25 @@ mod tests {
         let (i, j) = (x.floor().min(last[0]), y.floor().min(last[1]));
         let mut node = bins.nodes[j as usize * bins.size[0] as usize + i as usize];
         (x, y) = (x - i, y - j);
-        while node[1] == INNER {
+        while node >= INNER {
             (x, y) = (2.0 * x, 2.0 * y);
             let (right, upper) = (f64::from(x >= 1.0), f64::from(y >= 1.0));
             (x, y) = (x - right, y - upper);
-            node = bins.nodes[node[0] as usize + (right + 2.0 * upper) as usize];
+            node = bins.nodes[4 * (node - INNER) as usize + (right + 2.0 * upper) as usize];
         }
-        &bins.list[node[0] as usize..(node[0] + node[1]) as usize]
+        let mut page = 1;
+        for leaf in &bins.leaves {
+            if page == node {
+                return &bins.list[leaf.patches.clone()];
+            }
+            page += leaf.patches.len().div_ceil(FEW) as u32;
+        }
+        &[]
+    }
+
+    /// Patches of the bin that meets most.
+    fn longest(bins: &Bins) -> usize {
+        bins.leaves.iter().map(|leaf| leaf.patches.len()).max().unwrap_or_default()
     }
 
     #[test]
@@ -233,8 +264,11 @@ mod tests {
             let cover = Cover::uniform(UNIT, level).expect("a cover");
             let partition = cover.partition(overlap, WeightFunction::Linear).expect("an overlap");
             let bins = Bins::new(UNIT, &covered(&partition), 1e-9);
-            assert!(bins.nodes.iter().all(|node| node[1] <= 4), "level {level}");
-            assert!(bins.nodes.len() <= (1 + (1 << level)) * (1 + (1 << level)), "level {level}");
+            assert!(
+                longest(&bins) <= 4 && bins.nodes.iter().all(|&node| node < INNER),
+                "level {level}"
+            );
+            assert!(bins.leaves.len() <= (1 + (1 << level)) * (1 + (1 << level)), "level {level}");
         }
     }
 
@@ -246,7 +280,7 @@ mod tests {
         while cover.refine(|cell, level| level < 14 && cell.contains(tip)).expect("a cover") > 0 {}
         let partition = cover.partition(1.3, WeightFunction::Linear).expect("an overlap");
         let bins = Bins::new(UNIT, &covered(&partition), 1e-9);
-        assert!(bins.longest() <= 9, "{}", bins.longest());
+        assert!(longest(&bins) <= 9, "{}", longest(&bins));
         assert!(bins.nodes.len() < 20 * partition.len(), "{} nodes", bins.nodes.len());
     }
 

@@ -15,10 +15,12 @@
 //! each other before anything else, so that a plate that has moved far loses no digit of its strains.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use ppum::dataset::{FieldData, monomials};
 use ppum::field::Field;
 use ppum::vec2::Rect;
+use rayon::prelude::*;
 
 use super::groups::{Groups, SMOOTH_GROUP};
 use crate::layout::halves;
@@ -50,8 +52,8 @@ impl Components {
 /// The bodies of all patches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
-    /// Texels of four words.
-    pub(crate) words: Vec<u32>,
+    /// Texels of four words, part after part.
+    pub(crate) parts: Vec<Vec<u32>>,
     /// The address of each patch: its first texel.
     pub(crate) patches: Vec<u32>,
     /// The properties they have in common.
@@ -76,33 +78,79 @@ pub(crate) struct Others {
     pub(crate) constants: bool,
     /// Functions times polynomials.
     pub(crate) polynomials: bool,
+    /// The group that all are of, if they are of one, of constants, and no patch has two.
+    pub(crate) group: Option<u32>,
 }
 
 impl Others {
+    /// Terms of a group.
+    fn of(group: u32, constants: bool) -> Self {
+        Self { constants, polynomials: !constants, group: constants.then_some(group) }
+    }
+
     /// Both kinds.
     pub(crate) fn and(self, other: Self) -> Self {
+        let group = match (self == Self::default(), other == Self::default()) {
+            (true, _) => other.group,
+            (_, true) => self.group,
+            _ => self.group.filter(|_| self.group == other.group),
+        };
         Self {
             constants: self.constants | other.constants,
             polynomials: self.polynomials | other.polynomials,
+            group,
         }
     }
 }
 
+/// Patches that are written at a time.
+const AT_A_TIME: usize = 8192;
+
 impl Bodies {
     /// The bodies of a field's patches.
     pub(crate) fn new(field: &Field<'_>, groups: &Groups) -> Self {
-        let components = Components::new(field.components());
-        let mut writer = Writer { data: field.data, groups, components, words: Vec::new() };
         let count = field.step.partition.len();
-        let (mut patches, mut summary) = (Vec::with_capacity(count), Summary::default());
-        for patch in 0..count {
-            let terms = writer.terms(patch);
-            summary.add(&terms, field, patch);
-            patches.push(writer.patch(&terms));
+        let parts = (0..count.div_ceil(AT_A_TIME)).into_par_iter().map(|part| {
+            let first = part * AT_A_TIME;
+            Part::new(field, groups, first..count.min(first + AT_A_TIME))
+        });
+        Self::joined(parts.collect())
+    }
+
+    /// The bodies of all parts, one behind the other.
+    fn joined(parts: Vec<Part>) -> Self {
+        let (mut bodies, mut summary, mut texels) = (Self::default(), Summary::default(), 0);
+        for Part { words, patches, summary: of_part } in parts {
+            bodies.patches.extend(patches.iter().map(|address| texels + address));
+            texels += words.len() as u32 / 4;
+            bodies.parts.push(words);
+            summary.join(of_part);
         }
         let shape = summary.shape();
         let enriched = summary.enriched.into_iter().map(|((_, others), bounds)| (bounds, others));
-        Self { words: writer.words, patches, shape, enriched: enriched.collect() }
+        Self { shape, enriched: enriched.collect(), ..bodies }
+    }
+}
+
+/// The bodies of some patches, in whole texels; addresses count from the first.
+struct Part {
+    words: Vec<u32>,
+    patches: Vec<u32>,
+    summary: Summary,
+}
+
+impl Part {
+    fn new(field: &Field<'_>, groups: &Groups, patches: Range<usize>) -> Self {
+        let components = Components::new(field.components());
+        let mut writer = Writer { data: field.data, groups, components, words: Vec::new() };
+        let (mut addresses, mut summary) = (Vec::with_capacity(patches.len()), Summary::default());
+        for patch in patches {
+            let terms = writer.terms(patch);
+            summary.add(&terms, field, patch);
+            addresses.push(writer.patch(&terms));
+        }
+        writer.begin();
+        Self { words: writer.words, patches: addresses, summary }
     }
 }
 
@@ -118,15 +166,24 @@ impl Summary {
     fn add(&mut self, terms: &Terms, field: &Field<'_>, patch: usize) {
         let data = field.data;
         self.degrees.insert(terms.smooth.map(|block| data.block_degree[block]));
-        let support = field.step.partition.support(patch);
         for term in &terms.others {
             let is_constant =
                 |block: Option<usize>| block.is_some_and(|b| data.block_degree[b] == 0);
-            let constants = term.blocks.into_iter().all(is_constant);
-            let key = (term.group, Others { constants, polynomials: !constants });
-            let bounds = self.enriched.entry(key).or_insert(support);
-            *bounds = bounds.union(&support);
+            let all = Others::of(term.group, term.blocks.into_iter().all(is_constant));
+            let is_alone = terms.others.iter().filter(|t| t.group == term.group).count() == 1;
+            let others = Others { group: all.group.filter(|_| is_alone), ..all };
+            self.put((term.group, others), field.step.partition.support(patch));
         }
+    }
+
+    fn put(&mut self, key: (u32, Others), covered: Rect) {
+        let bounds = self.enriched.entry(key).or_insert(covered);
+        *bounds = bounds.union(&covered);
+    }
+
+    fn join(&mut self, other: Self) {
+        self.degrees.extend(other.degrees);
+        other.enriched.into_iter().for_each(|(key, bounds)| self.put(key, bounds));
     }
 
     fn shape(&self) -> Shape {
@@ -163,7 +220,7 @@ struct Writer<'f> {
     words: Vec<u32>,
 }
 
-impl Writer<'_> {
+impl<'f> Writer<'f> {
     /// The terms of a patch. A function that comes twice makes two terms.
     fn terms(&self, patch: usize) -> Terms {
         let (mut smooth, mut others) = (None, Vec::<Term>::new());
@@ -221,11 +278,12 @@ impl Writer<'_> {
     /// The smooth term's coefficients of a group of components, high and low of the constants.
     fn smooth(&mut self, block: usize, group: usize) {
         let degree = usize::from(self.data.block_degree[block]);
+        let lanes = self.lanes(block, group);
         for index in horner(degree).take_while(|&index| index > 0) {
-            self.coefficients(block, index, group);
+            self.push(lanes, |coefficients| coefficients[index] as f32);
         }
         for half in 0..2 {
-            self.lanes(group, |coefficients| halves(coefficients[0])[half], block);
+            self.push(lanes, |coefficients| halves(coefficients[0])[half]);
         }
     }
 
@@ -237,8 +295,9 @@ impl Writer<'_> {
         self.pair(term.group, degrees);
         for block in term.blocks() {
             for group in 0..self.components.groups {
+                let lanes = self.lanes(block, group);
                 for index in horner(self.data.block_degree[block].into()) {
-                    self.coefficients(block, index, group);
+                    self.push(lanes, |coefficients| coefficients[index] as f32);
                 }
             }
         }
@@ -246,22 +305,22 @@ impl Writer<'_> {
         self.words[4 * start as usize] |= texels << GROUP_BITS;
     }
 
-    /// A coefficient of all components of a group.
-    fn coefficients(&mut self, block: usize, index: usize, group: usize) {
-        self.lanes(group, |coefficients| coefficients[index] as f32, block);
+    /// The coefficients of a block, for each component of a group; none of those there are not.
+    fn lanes(&self, block: usize, group: usize) -> [&'f [f64]; 4] {
+        let Components { count, lanes, .. } = self.components;
+        let data: &'f FieldData = self.data;
+        [0, 1, 2, 3].map(|lane| match group * lanes + lane {
+            component if lane < lanes && component < count => {
+                data.block_coefficients(block, component)
+            }
+            _ => &[],
+        })
     }
 
-    /// One number of each component of a group, 0 for those there are not.
-    fn lanes(&mut self, group: usize, of: impl Fn(&[f64]) -> f32, block: usize) {
-        let Components { count, lanes, .. } = self.components;
-        for component in group * lanes..(group + 1) * lanes {
-            let value = if component < count {
-                of(self.data.block_coefficients(block, component))
-            } else {
-                0.0
-            };
-            self.words.push(value.to_bits());
-        }
+    /// One number of each component, 0 for those there are not.
+    fn push(&mut self, lanes: [&[f64]; 4], of: impl Fn(&[f64]) -> f32) {
+        let number = |lane: &&[f64]| if lane.is_empty() { 0 } else { of(lane).to_bits() };
+        self.words.extend(lanes[..self.components.lanes].iter().map(number));
     }
 }
 

@@ -9,15 +9,15 @@ use wgpu::{
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::layout::bytes;
 
 /// Texels in a row of a texture of data: a texture then holds up to 1 GiB on any device.
 pub(crate) const TEXELS: u32 = 8192;
 
-/// Rows that are written at once: 32 MiB, so that staging them takes little beside the data.
-const ROWS_AT_ONCE: usize = 256;
+/// Words of a row.
+const ROW: usize = 4 * TEXELS as usize;
 
-const WORDS_AT_ONCE: usize = 4 * TEXELS as usize * ROWS_AT_ONCE;
+/// Words that are written at once, whole rows: 32 MiB, so that staging them takes little beside the data.
+const AT_ONCE: usize = 256 * ROW;
 
 /// An open device as data see it.
 #[derive(Clone, Debug)]
@@ -34,10 +34,10 @@ impl Card {
         Self { gpu: Arc::new(gpu), rows }
     }
 
-    /// Uploads words; `what` names them in the plural.
-    pub(crate) fn upload(&self, what: &str, words: &[u32]) -> Result<TextureView, GpuError> {
-        let texels = words.len().div_ceil(4).max(1);
-        let rows = texels.div_ceil(TEXELS as usize);
+    /// Uploads words, part after part; `what` names them in the plural.
+    pub(crate) fn upload(&self, what: &str, parts: &[Vec<u32>]) -> Result<TextureView, GpuError> {
+        let words: usize = parts.iter().map(Vec::len).sum();
+        let rows = words.div_ceil(ROW).max(1);
         let size_of = |rows: usize| 16 * u64::from(TEXELS) * rows as u64;
         if rows > self.rows as usize {
             let (needed, most) = (size_of(rows), size_of(self.rows as usize));
@@ -45,11 +45,30 @@ impl Card {
         }
         self.gpu.checked(what, || {
             let texture = self.texture(what, rows as u32);
-            for (row, part) in (0..).step_by(ROWS_AT_ONCE).zip(words.chunks(WORDS_AT_ONCE)) {
-                self.write_rows(&texture, row, part);
-            }
+            self.write_parts(&texture, parts, words);
             texture.create_view(&TextureViewDescriptor::default())
         })
+    }
+
+    /// Writes all parts, some rows at a time.
+    fn write_parts(&self, texture: &Texture, parts: &[Vec<u32>], words: usize) {
+        let mut staged = Vec::with_capacity(words.min(AT_ONCE));
+        let mut row = 0;
+        for part in parts {
+            let mut left = &part[..];
+            while !left.is_empty() {
+                let (now, later) = left.split_at(left.len().min(AT_ONCE - staged.len()));
+                staged.extend(now.iter().map(|word| word.to_le_bytes()));
+                left = later;
+                if staged.len() == AT_ONCE {
+                    self.write_rows(texture, row, &staged);
+                    row += (AT_ONCE / ROW) as u32;
+                    staged.clear();
+                }
+            }
+        }
+        staged.resize(staged.len().next_multiple_of(4), [0; 4]);
+        self.write_rows(texture, row, &staged);
     }
 
     fn texture(&self, what: &str, rows: u32) -> Texture {
@@ -65,22 +84,19 @@ impl Card {
         })
     }
 
-    /// Writes words from the beginning of a row on; the last row may be short.
-    fn write_rows(&self, texture: &Texture, row: u32, words: &[u32]) {
-        let in_row = 4 * TEXELS as usize;
-        let (full, rest) = words.split_at(words.len() / in_row * in_row);
-        let height = (full.len() / in_row) as u32;
+    /// Writes texels from the beginning of a row on; the last row may be short.
+    fn write_rows(&self, texture: &Texture, row: u32, words: &[[u8; 4]]) {
+        let (full, rest) = words.split_at(words.len() / ROW * ROW);
+        let height = (full.len() / ROW) as u32;
         self.write(texture, row, full, [TEXELS, height]);
-        self.write(texture, row + height, rest, [rest.len().div_ceil(4) as u32, 1]);
+        self.write(texture, row + height, rest, [(rest.len() / 4) as u32, 1]);
     }
 
     /// Writes words into a rectangle of texels at the beginning of a row.
-    fn write(&self, texture: &Texture, y: u32, words: &[u32], [width, height]: [u32; 2]) {
+    fn write(&self, texture: &Texture, y: u32, words: &[[u8; 4]], [width, height]: [u32; 2]) {
         if words.is_empty() {
             return;
         }
-        let mut words = words.to_vec();
-        words.resize(words.len().next_multiple_of(4), 0);
         let target =
             TexelCopyTextureInfo { origin: Origin3d { x: 0, y, z: 0 }, ..texture.as_image_copy() };
         let layout = TexelCopyBufferLayout {
@@ -89,6 +105,6 @@ impl Card {
             rows_per_image: None,
         };
         let size = Extent3d { width, height, depth_or_array_layers: 1 };
-        self.gpu.queue().write_texture(target, &bytes(&words), layout, size);
+        self.gpu.queue().write_texture(target, words.as_flattened(), layout, size);
     }
 }

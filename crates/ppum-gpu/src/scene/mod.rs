@@ -1,9 +1,9 @@
 //! A field on the card: what stays there while views, functions and quantities change.
 //!
 //! ```text
-//! groups ─▶ bodies              coefficients of all patches, function by function
-//! bins, lattice ─▶ region       the patches around a view, and where they are found
-//! bodies, region ─▶ card        words on the device
+//! groups ─▶ bodies                     coefficients of all patches, function by function
+//! lattice, or bins ─▶ pages ─▶ region  the patches around a view, and where they are found
+//! bodies, region ─▶ card               words on the device
 //! ```
 
 pub(crate) mod bins;
@@ -11,12 +11,13 @@ pub(crate) mod bodies;
 pub(crate) mod card;
 pub(crate) mod groups;
 pub(crate) mod lattice;
+pub(crate) mod pages;
 pub(crate) mod region;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ppum::field::Field;
-use ppum::vec2::Rect;
+use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
 use wgpu::TextureView;
 
@@ -26,13 +27,11 @@ use bodies::{Bodies, Components, GROUP_BITS, Others, Shape};
 use card::Card;
 use groups::Groups;
 use lattice::Lattice;
+use pages::Levels;
 use region::{Region, RegionWords, has_own_frames};
 
 /// Components of a field: a term of four functions times polynomials of degree 8 then stays below 4096 texels.
 const MOST_COMPONENTS: usize = 64;
-
-/// Patches of a bin that shaders need no loop for.
-const SHORT_LIST: u32 = 32;
 
 /// A field on the card. Made by [`Renderer::upload`](crate::Renderer::upload); one for each step of a
 /// series, say, of which any can be drawn without further ado. Clones share what is on the card.
@@ -53,6 +52,7 @@ pub(crate) struct OnCard {
     /// The address of each patch's body.
     pub(crate) bodies: Vec<u32>,
     pub(crate) lattice: Option<Lattice>,
+    levels: Option<Levels>,
     /// Boxes around the patches with more than smooth terms.
     pub(crate) enriched: Vec<(Rect, Others)>,
     region: Option<UploadedRegion>,
@@ -70,8 +70,8 @@ pub(crate) struct SceneLayout {
     pub(crate) has_holes: bool,
     /// Some crack has several segments.
     pub(crate) has_kinks: bool,
-    /// Some bin of the region meets more than 32 patches.
-    pub(crate) has_long_lists: bool,
+    /// The sizes of patches are halves of the largest ones.
+    pub(crate) has_levels: bool,
 }
 
 /// A region on the card.
@@ -79,9 +79,8 @@ pub(crate) struct SceneLayout {
 pub(crate) struct UploadedRegion {
     pub(crate) region: Region,
     pub(crate) texture: TextureView,
-    /// First texels of list and records.
-    pub(crate) list: u32,
-    pub(crate) patches: u32,
+    /// First texel of the nodes.
+    pub(crate) nodes: u32,
 }
 
 impl<'f> Scene<'f> {
@@ -126,11 +125,11 @@ impl<'f> Scene<'f> {
 impl OnCard {
     fn new(card: &Card, field: &Field<'_>, groups: &Groups) -> Result<Self, GpuError> {
         check_sizes(field, groups)?;
-        let Bodies { words, patches, shape, enriched } = Bodies::new(field, groups);
-        let data = card.upload("the coefficients", &words)?;
-        let (layout, lattice) = SceneLayout::of(field, shape);
+        let Bodies { parts, patches, shape, enriched } = Bodies::new(field, groups);
+        let data = card.upload("the coefficients", &parts)?;
+        let (layout, lattice, levels) = SceneLayout::of(field, shape);
         let (gpu, bodies, region) = (Arc::clone(&card.gpu), patches, None);
-        Ok(Self { gpu, layout, data, bodies, lattice, enriched, region })
+        Ok(Self { gpu, layout, data, bodies, lattice, levels, enriched, region })
     }
 
     /// Sees to it that a scene and the patches of a view are on a device. Its functions may have been replaced
@@ -151,13 +150,17 @@ impl OnCard {
         }
         let lattice = self.lattice.as_ref();
         let region = Region::new(field, view, lattice);
-        let RegionWords { words, list, patches } =
-            region.words(field, self.layout.own_frames, lattice, &self.bodies);
-        let texture = card.upload("the patches in sight", &words)?;
-        // once it is so it stays: a program made for it draws all regions
-        self.layout.has_long_lists |= region.bins.longest() > SHORT_LIST;
-        self.region = Some(UploadedRegion { region, texture, list, patches });
+        let RegionWords { words, nodes } =
+            region.words(field, (lattice, self.levels.as_ref()), &self.bodies);
+        let texture = card.upload("the patches in sight", &[words])?;
+        self.region = Some(UploadedRegion { region, texture, nodes });
         Ok(())
+    }
+
+    /// The half-extents of the patches of a lattice, or of the largest ones.
+    pub(crate) fn half(&self) -> Option<Vec2> {
+        let largest = self.levels.as_ref().map(|levels| levels.half);
+        self.lattice.as_ref().map(|lattice| lattice.half).or(largest)
     }
 
     /// The region on the card, after [`OnCard::bring`].
@@ -167,10 +170,12 @@ impl OnCard {
 }
 
 impl SceneLayout {
-    /// That of a field, with its lattice if it has one.
-    pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>) {
-        let own_frames = has_own_frames(field);
-        let lattice = if own_frames { None } else { Lattice::of(&field.step.partition) };
+    /// That of a field, with its lattice or its levels if it has some.
+    pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>, Option<Levels>) {
+        let (own_frames, partition) = (has_own_frames(field), &field.step.partition);
+        let lattice = if own_frames { None } else { Lattice::of(partition) };
+        let searched = !own_frames && lattice.is_none();
+        let levels = if searched { Levels::of(partition) } else { None };
         let layout = Self {
             components: Components::new(field.components()),
             shape,
@@ -178,14 +183,9 @@ impl SceneLayout {
             own_frames,
             has_holes: !field.domain.holes.is_empty(),
             has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
-            has_long_lists: false,
+            has_levels: levels.is_some(),
         };
-        (layout, lattice)
-    }
-
-    /// The layout where no other terms than these beside the smooth one are.
-    pub(crate) fn with(self, others: Others) -> Self {
-        Self { shape: Shape { others, ..self.shape }, ..self }
+        (layout, lattice, levels)
     }
 }
 

@@ -8,11 +8,8 @@
 //! around it remain.
 //!
 //! ```text
-//! node of a bin    of a lattice: the addresses of the patches at its four corners, by x + 2 y
-//!                  else two nodes per texel, see bins.rs
-//! list             four patches per texel, by their records
-//! record           origin, high and low · reciprocal half-extents, address of the body
-//!                  the same for the frame of the polynomials, if that is another one
+//! of a lattice    for each bin the addresses of the patches at its four corners, by x + 2 y
+//! else            pages, see pages.rs; four nodes of bins per texel, see bins.rs
 //! ```
 
 use ppum::field::Field;
@@ -21,6 +18,7 @@ use ppum_render::view::View;
 
 use super::bins::{Bins, Covered};
 use super::lattice::Lattice;
+use super::pages::{Levels, Pages};
 use crate::layout::halves_by;
 
 /// Width of a new region in widths of the view.
@@ -100,36 +98,18 @@ impl Region {
     pub(crate) fn words(
         &self,
         field: &Field<'_>,
-        own_frames: bool,
-        lattice: Option<&Lattice>,
+        (lattice, levels): (Option<&Lattice>, Option<&Levels>),
         bodies: &[u32],
     ) -> RegionWords {
         if let Some(lattice) = lattice {
-            let words = lattice.nodes(&self.bins, self.anchor, bodies);
-            return RegionWords { words, list: 0, patches: 0 };
+            return RegionWords { words: lattice.nodes(&self.bins, self.anchor, bodies), nodes: 0 };
         }
-        let mut words: Vec<u32> = self.bins.nodes.as_flattened().to_vec();
-        let list = begin(&mut words);
-        words.extend(&self.bins.list);
-        let patches = begin(&mut words);
-        words.reserve(self.patches.len() * 4 * record_texels(own_frames) as usize);
-        for &index in &self.patches {
-            let (partition, index) = (&field.step.partition, index as usize);
-            let body = bodies[index];
-            self.push_frame(partition.center[index], partition.half[index], body, &mut words);
-            if own_frames {
-                self.push_frame(partition.origin[index], partition.scale[index], 0, &mut words);
-            }
-        }
-        RegionWords { words, list, patches }
-    }
-
-    /// Origin, high and low, reciprocal scale, and a word behind it.
-    fn push_frame(&self, origin: Vec2, scale: Vec2, word: u32, words: &mut Vec<u32>) {
-        let [high, low] = self.halves(origin - self.anchor);
-        let inverse = [(1.0 / scale.x) as f32, (1.0 / scale.y) as f32];
-        words.extend([high, low, inverse].iter().flatten().map(|v| v.to_bits()));
-        words.extend([word, 0]);
+        let (partition, anchor) = (&field.step.partition, self.anchor);
+        let pages = Pages { partition, anchor, levels, own_frames: has_own_frames(field), bodies };
+        let mut words = pages.words(&self.bins, &self.patches);
+        let nodes = words.len() as u32 / 4;
+        words.extend(&self.bins.nodes);
+        RegionWords { words, nodes }
     }
 }
 
@@ -138,29 +118,16 @@ fn longer(view: &View) -> f64 {
     view.width.max(view.height())
 }
 
-/// Goes to the next texel, whose number this is.
-fn begin(words: &mut Vec<u32>) -> u32 {
-    words.resize(words.len().next_multiple_of(4), 0);
-    (words.len() / 4) as u32
-}
-
-/// A region in texels of four words, and where its parts begin.
+/// A region in texels of four words.
 #[derive(Clone, Debug)]
 pub(crate) struct RegionWords {
     pub(crate) words: Vec<u32>,
-    /// The list of the bins.
-    pub(crate) list: u32,
-    /// The records of the patches.
-    pub(crate) patches: u32,
+    /// The first texel of the nodes.
+    pub(crate) nodes: u32,
 }
 
 /// True if polynomials of some patch have other coordinates than its weight.
 pub(crate) fn has_own_frames(field: &Field<'_>) -> bool {
     let partition = &field.step.partition;
     partition.origin != partition.center || partition.scale != partition.half
-}
-
-/// Texels of a patch's record.
-pub(crate) fn record_texels(own_frames: bool) -> u32 {
-    if own_frames { 4 } else { 2 }
 }

@@ -1,5 +1,6 @@
 //! The text of a shader, composed of its parts.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use ppum::field::Field;
@@ -9,7 +10,7 @@ use ppum::quantity::{Quantity, Source};
 use super::functions::{Surroundings, functions_wgsl};
 use super::passes::{FieldPass, Finish, Method, Slots};
 use super::quantity::quantity_wgsl;
-use super::smooth::{four_constants, straight_smooth};
+use super::smooth::{factors, four_constants, straight_smooth};
 use super::texts;
 use super::weight::weight_wgsl;
 use crate::error::GpuError;
@@ -24,7 +25,7 @@ use crate::scene::bodies::{self, Components, Others};
 use crate::scene::card::TEXELS;
 use crate::scene::groups::{Groups, SMOOTH_GROUP};
 use crate::scene::lattice::NO_PATCH;
-use crate::scene::region::record_texels;
+use crate::scene::pages::page_texels;
 
 /// The shaders of a program, but for the layout of the scene they are for.
 #[derive(Clone, Debug)]
@@ -39,27 +40,35 @@ pub(crate) struct ShaderText {
     has_part: bool,
     /// Weight, functions, quantity.
     formulas: String,
+    /// The kernel of each group of functions.
+    kernels: Vec<usize>,
     method: Method,
     last_pass: Finish,
 }
 
-/// Weight, functions and quantity of a field in WGSL.
+/// The terms beside the smooth one that a shader is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Kind {
+    constants: bool,
+    polynomials: bool,
+    /// The kernel of the one group of functions that all terms are of.
+    kernel: Option<usize>,
+}
+
+/// Weight, functions and quantity of a field in WGSL, and the kernel of each group of functions.
 fn formulas(
     groups: &Groups,
     field: &Field<'_>,
     quantity: &Quantity,
     order: u32,
-) -> Result<String, GpuError> {
+) -> Result<(String, Vec<usize>), GpuError> {
     let step = field.step;
     let surroundings =
         Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
-    Ok([
-        wgsl_prelude().to_owned(),
-        weight_wgsl(&step.partition.weight)?,
-        functions_wgsl(&step.functions, groups, surroundings)?,
-        quantity_wgsl(field, quantity)?,
-    ]
-    .concat())
+    let (functions, kernels) = functions_wgsl(&step.functions, groups, surroundings)?;
+    let weight = weight_wgsl(&step.partition.weight)?;
+    let quantity = quantity_wgsl(field, quantity)?;
+    Ok(([wgsl_prelude(), &weight, &functions, &quantity].concat(), kernels))
 }
 
 impl ShaderText {
@@ -71,12 +80,14 @@ impl ShaderText {
         method: Method,
         last_pass: Finish,
     ) -> Result<Self, GpuError> {
+        let (formulas, kernels) = formulas(groups, field, quantity, order)?;
         Ok(Self {
             order,
             has_field: quantity.source() != Source::Partition,
             has_smooth: groups.has_smooth(),
             has_part: matches!(quantity, Quantity::PartitionFunction(_)),
-            formulas: formulas(groups, field, quantity, order)?,
+            formulas,
+            kernels,
             method,
             last_pass,
         })
@@ -94,27 +105,43 @@ impl ShaderText {
 
     /// All shaders that a scene may need: those of the last pass, then those of splatting.
     pub(crate) fn all(&self, layout: SceneLayout) -> Vec<String> {
-        let kinds = self.kinds(layout).into_iter().map(|others| self.finish(layout, others));
+        let kinds = self.kinds(layout).into_iter().map(|kind| self.finish(layout, kind));
         let passes = self.slots(layout).passes().filter(|_| self.method == Method::Splat);
-        kinds.chain(passes.map(|pass| self.text(layout, pass))).collect()
+        kinds.chain(passes.map(|pass| self.splat(layout, pass))).collect()
     }
 
-    /// The shader of the last pass, in areas with these terms beside the smooth one.
-    pub(crate) fn finish(&self, layout: SceneLayout, others: Others) -> String {
-        self.text(layout.with(others), FieldPass::NONE)
+    /// The shader of the last pass, in areas of a kind.
+    pub(crate) fn finish(&self, layout: SceneLayout, kind: Kind) -> String {
+        self.text(layout, kind, FieldPass::NONE)
     }
 
-    /// The kinds of areas that are told apart.
-    fn kinds(&self, layout: SceneLayout) -> Vec<Others> {
+    /// A shader of a pass that splats.
+    pub(crate) fn splat(&self, layout: SceneLayout, pass: FieldPass) -> String {
+        self.text(layout, self.kind(layout.shape.others), pass)
+    }
+
+    /// The kind of areas with these terms.
+    pub(crate) fn kind(&self, others: Others) -> Kind {
+        let Others { constants, polynomials, group } = others;
+        let group = group.filter(|_| self.method == Method::Gather);
+        Kind { constants, polynomials, kernel: group.map(|group| self.kernels[group as usize]) }
+    }
+
+    /// The kinds of areas that may be told apart.
+    fn kinds(&self, layout: SceneLayout) -> BTreeSet<Kind> {
         let all = layout.shape.others;
         if self.method == Method::Splat {
-            return vec![all];
+            return [self.kind(all)].into();
         }
-        let both = [false, true];
-        let kinds = both
-            .into_iter()
-            .flat_map(|constants| both.map(|polynomials| Others { constants, polynomials }));
-        kinds.filter(|kind| kind.and(all) == all).collect()
+        let mut kinds = BTreeSet::new();
+        for constants in [false, all.constants] {
+            for polynomials in [false, all.polynomials] {
+                kinds.insert(Kind { constants, polynomials, kernel: None });
+            }
+            let one = |&kernel| Kind { constants, polynomials: false, kernel: Some(kernel) };
+            kinds.extend(self.kernels.iter().filter(|_| constants).map(one));
+        }
+        kinds
     }
 
     /// The textures of splatting.
@@ -125,8 +152,8 @@ impl ShaderText {
     }
 
     /// The whole text of a shader; `pass` is what it splats.
-    pub(crate) fn text(&self, layout: SceneLayout, pass: FieldPass) -> String {
-        let mut text = self.constants(layout);
+    fn text(&self, layout: SceneLayout, kind: Kind, pass: FieldPass) -> String {
+        let mut text = self.constants(layout, kind);
         text += &types(layout);
         text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
         text += BINDINGS;
@@ -135,9 +162,10 @@ impl ShaderText {
         let parts = [texts::LOAD, texts::PIXEL, texts::PATCH, texts::FINISH];
         text.extend(texts::POINT_FUNCTIONS.map(|(_, text)| text).into_iter().chain(parts));
         text += &self.formulas;
+        text += &kernel_wgsl(kind);
         text += self.last_pass.text;
         text += &match self.method {
-            Method::Gather => gather_text(layout.is_lattice),
+            Method::Gather => gather_text(layout) + &factors(layout.components.groups, self.order),
             Method::Splat => self.splat_text(layout, pass),
         };
         text + &palette_binding(match self.method {
@@ -156,10 +184,8 @@ impl ShaderText {
         smooth + &four_constants(lanes, groups)
     }
 
-    fn constants(&self, layout: SceneLayout) -> String {
-        let SceneLayout {
-            components, shape, own_frames, has_holes, has_kinks, has_long_lists, ..
-        } = layout;
+    fn constants(&self, layout: SceneLayout, kind: Kind) -> String {
+        let SceneLayout { components, own_frames, has_levels, has_holes, has_kinks, .. } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -167,8 +193,8 @@ impl ShaderText {
             ("LANES", components.lanes as u32),
             ("LANE_PAIRS", components.lanes as u32 / 2),
             ("GROUPS", components.groups as u32),
-            ("RECORD_TEXELS", record_texels(own_frames)),
-            ("TEXELS", TEXELS),
+            ("PAGE_TEXELS", page_texels(has_levels, own_frames)),
+            ("ROW_BITS", TEXELS.ilog2()),
             ("INNER", bins::INNER),
             ("NO_PATCH", NO_PATCH),
             ("SMOOTH_GROUP", SMOOTH_GROUP),
@@ -183,14 +209,15 @@ impl ShaderText {
         }
         for (name, value) in [
             ("OWN_FRAMES", own_frames),
+            ("HAS_LEVELS", has_levels),
             ("HAS_FIELD", self.has_field),
             ("HAS_SMOOTH", self.has_smooth),
             ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
             ("HAS_KINKS", has_kinks),
-            ("HAS_LONG_LISTS", has_long_lists),
-            ("HAS_CONSTANTS", shape.others.constants),
-            ("HAS_POLYNOMIALS", shape.others.polynomials),
+            ("HAS_CONSTANTS", kind.constants),
+            ("HAS_POLYNOMIALS", kind.polynomials),
+            ("IN_ONE_GROUP", kind.kernel.is_some()),
         ] {
             let _ = writeln!(text, "const {name}: bool = {value};");
         }
@@ -259,10 +286,21 @@ const BINDINGS: &str = "@group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(3) var places: texture_2d<u32>;
 ";
 
-fn gather_text(is_lattice: bool) -> String {
-    let bins = if is_lattice { texts::LATTICE } else { texts::BINS };
+fn gather_text(layout: SceneLayout) -> String {
+    let bins = if layout.is_lattice { texts::LATTICE } else { texts::BINS };
     let alias = "fn sample_of(pixel: Pixel) -> Sample { return gathered(pixel); }\n";
     [bins, texts::GATHER, alias].concat()
+}
+
+/// The function that evaluates the one group of functions that an area has.
+fn kernel_wgsl(kind: Kind) -> String {
+    let call = match kind.kernel {
+        Some(kernel) => format!("functions_{kernel}(group, offset)"),
+        None => "functions(group, offset)".to_owned(),
+    };
+    format!(
+        "\nfn functions_here(group: u32, offset: vec2<f32>) -> Functions {{\n    return {call};\n}}\n"
+    )
 }
 
 fn palette_binding(binding: u32) -> String {

@@ -31,7 +31,7 @@ pub(crate) struct Surroundings<'a> {
 }
 
 /// The kernels of all groups and the functions `functions(group: u32, offset: vec2<f32>) -> Functions` and
-/// `is_one(group: u32) -> bool`, for a table in which functions may be replaced.
+/// `is_one(group: u32) -> bool`, for a table in which functions may be replaced; and the number of each group's kernel.
 ///
 /// # Errors
 /// A formula that does not compile, or is too large for WGSL.
@@ -39,9 +39,10 @@ pub(crate) fn functions_wgsl(
     functions: &[Function],
     groups: &Groups,
     surroundings: Surroundings<'_>,
-) -> Result<String, GpuError> {
+) -> Result<(String, Vec<usize>), GpuError> {
     let frames = groups.frames(functions);
     let mut runs: Vec<(Kernel, Range<usize>)> = Vec::new();
+    let mut kernels = Vec::new();
     let (mut keys, mut text) = (Vec::new(), String::new());
     for (group, frame) in frames.iter().enumerate() {
         let key = (kind(frame), texts(functions, groups.members(group)));
@@ -50,6 +51,7 @@ pub(crate) fn functions_wgsl(
             text += &kernel.text(&key.0, functions, groups.members(group), surroundings)?;
             keys.push(key);
         }
+        kernels.push(kernel.0);
         match runs.last_mut() {
             Some((last, range)) if *last == kernel => range.end = group + 1,
             _ => runs.push((kernel, group..group + 1)),
@@ -57,7 +59,7 @@ pub(crate) fn functions_wgsl(
     }
     let is_one = |kernel: &Kernel| keys[kernel.0].0 == Kind::One;
     let ones = runs.iter().filter(|(kernel, _)| is_one(kernel)).map(|(_, range)| range);
-    Ok(text + &chooser(&runs) + &is_one_wgsl(ones))
+    Ok((text + &chooser(&runs) + &is_one_wgsl(ones), kernels))
 }
 
 /// The kind of code that evaluates a group.

@@ -53,6 +53,43 @@ pub(crate) fn four_constants(lanes: usize, groups: usize) -> String {
     text
 }
 
+/// The sums of weights times constants over the patches of a pixel, and the functions that add to them and take them
+/// times the functions: these are evaluated once a pixel.
+///
+/// ```text
+/// Σ_i W_i Σ_k c_ik f_k = Σ_k f_k C_k     C_k = Σ_i W_i c_ik
+/// ```
+pub(crate) fn factors(groups: usize, order: u32) -> String {
+    let count = 4 * groups;
+    let members = &MEMBERS[..[1, 3, 6][order as usize]];
+    let mut text = "struct Factors {\n    are_there: bool,\n".to_owned();
+    for member in members {
+        let _ = writeln!(text, "    {member}: array<Lanes, {count}>,");
+    }
+    text += "}\nfn add_factors(sums: ptr<function, Sums>, term: Smooth, w: Jet) {\n";
+    text += "    let are_there = term.terms > 0u;\n";
+    text += "    (*sums).factors.are_there |= are_there;\n";
+    text += "    let all = four_constants(term.others);\n";
+    for k in 0..count {
+        // what is there else is no number, perhaps
+        let _ = writeln!(text, "    let c{k} = select(Lanes(), all[{k}], are_there);");
+        for member in members {
+            let _ = writeln!(text, "    (*sums).factors.{member}[{k}] += w.{member} * c{k};");
+        }
+    }
+    text += "}\nfn times_factors(f: Functions, sums: Factors) -> array<Jets, GROUPS> {\n";
+    text += "    var out: array<Jets, GROUPS>;\n    var sum: Jets;\n";
+    for k in 0..count {
+        for member in members {
+            let _ = writeln!(text, "    sum.{member} = sums.{member}[{k}];");
+        }
+        let (entry, group) = (k / groups, k % groups);
+        let product = format!("jets_times(functions_entry(f, {entry}u), sum)");
+        let _ = writeln!(text, "    out[{group}] = jets_plus(out[{group}], {product});");
+    }
+    text + "    return out;\n}\n"
+}
+
 /// The numbers of all lanes in the texels `q0`, `q1`, ….
 fn slot(k: usize, lanes: usize) -> String {
     match lanes {

@@ -60,6 +60,8 @@ pub(super) enum Next {
 
 /// Time between pictures whose range glides.
 const GLIDE: Duration = Duration::from_millis(16);
+/// Time between looks at a card that is prepared meanwhile: should there be none after all, that is told.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// What a range is found from.
 type Ranged = (Same<Drawn>, Scale, String, bool);
@@ -101,6 +103,7 @@ impl Maker {
     /// Does the first thing that is left to do. `claim` says whether it is still wanted.
     pub(super) fn step(&mut self, wish: &Wish, now: Instant, claim: Ask<'_>) -> Result<Step, Stop> {
         let wanted = &wish.wanted;
+        self.values.renderer.look();
         let place = Place { subject: self.subjects.find(wanted)?, view: wanted.view };
         let watcher = |_: Progress| Verdict::go_on_unless(claim() != Claim::Wanted);
         let (drawn, is_whole) = self.drawn(wish, &place, claim)?;
@@ -113,11 +116,11 @@ impl Maker {
         let (span, is_there) =
             self.span(wanted, (&place.subject, &drawn), &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
-        if self
-            .newest
-            .as_ref()
-            .is_none_or(|f| !Arc::ptr_eq(&f.picture, &painted) || f.wanted != *wanted)
-        {
+        let note = self.values.renderer.note().map(str::to_owned);
+        let is_shown = |frame: &Arc<Frame>| {
+            Arc::ptr_eq(&frame.picture, &painted) && frame.wanted == *wanted && frame.note == note
+        };
+        if !self.newest.as_ref().is_some_and(is_shown) {
             let next = if is_there { Next::More } else { Next::After(GLIDE) };
             return Ok(self.show(wanted, &place, (drawn, painted), next));
         }
@@ -260,6 +263,7 @@ impl Maker {
         let Some(newest) = self.newest.clone() else {
             return Ok(self.show(wanted, place, (drawn, painted), Next::More));
         };
+        let next = if self.values.renderer.is_away() { Next::After(LOOK) } else { Next::Rest };
         let mut frame = Frame::clone(&newest);
         let seen = self.values.seen(place, watcher)?;
         let below = (&*drawn, &painted, seen.seen());
@@ -275,7 +279,7 @@ impl Maker {
             frame.other = Some(self.resampling.compare(compare, place, direct, watcher)?);
         }
         frame.is_final = true;
-        Ok(self.publish(frame, Next::Rest))
+        Ok(self.publish(frame, next))
     }
 
     /// A frame of a picture, with what lay over the one before until that is drawn anew.

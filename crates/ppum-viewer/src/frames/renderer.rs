@@ -68,6 +68,16 @@ impl Renderer {
         self.cards.is_open()
     }
 
+    /// True while a card is being prepared.
+    pub(super) fn is_away(&self) -> bool {
+        self.cards.is_away()
+    }
+
+    /// Sees whether the card is prepared.
+    pub(super) fn look(&mut self) {
+        self.cards.take_back();
+    }
+
     /// The reason why no card draws, if one was to.
     pub(super) fn note(&self) -> Option<&str> {
         self.cards.note.as_deref()
@@ -93,6 +103,7 @@ impl Renderer {
 mod cards {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread::{self, JoinHandle};
 
     use ppum::quantity::{Quantity, Source};
     use ppum_gpu::{Choice, GpuError, Method, Program, RenderError, Renderer, Values};
@@ -114,7 +125,8 @@ mod cards {
         }
     );
 
-    /// A graphics card, opened when it is needed first.
+    /// A graphics card, opened when it is needed first. Opening it, uploading and compiling take their time: a thread sees
+    /// to them, and until it is done the processor draws.
     pub(super) struct Cards {
         backend: Backend,
         card: Card,
@@ -127,8 +139,13 @@ mod cards {
     enum Card {
         Unopened,
         Open(Box<Renderer>),
+        /// Prepared for a subject by a thread.
+        Away(Subject, JoinHandle<Prepared>),
         None,
     }
+
+    /// The card, if it is open, and the subject compiled on it.
+    type Prepared = (Option<Box<Renderer>>, Result<Compiled, RenderError>);
 
     /// True once it is known that this machine has no card: each look for one keeps some megabytes of the drivers for good.
     static HAS_NO_CARD: AtomicBool = AtomicBool::new(false);
@@ -148,6 +165,11 @@ mod cards {
             matches!(self.card, Card::Open(_)) && !matches!(self.compiled, Some((_, None)))
         }
 
+        /// True while a thread has the card.
+        pub(super) fn is_away(&self) -> bool {
+            matches!(self.card, Card::Away(..))
+        }
+
         /// The values, and what drew them; nothing if the processor has to.
         pub(super) fn draw(
             &mut self,
@@ -158,49 +180,83 @@ mod cards {
             if quantity.source() == Source::Exact {
                 return None;
             }
-            match self.try_draw(subject, view, quantity) {
+            if self.compiled.as_ref().is_none_or(|(known, _)| known != subject) {
+                self.prepare(subject, view, quantity);
+            }
+            match self.try_draw(view) {
                 Ok(drawn) => drawn,
                 Err(error) => {
-                    self.give_up(subject, &error);
+                    self.give_up(subject.clone(), &error);
                     None
                 }
             }
         }
 
-        fn try_draw(
-            &mut self,
-            subject: &Subject,
-            view: &View,
-            quantity: &Quantity,
-        ) -> Result<Option<(Raster<f32>, String)>, RenderError> {
-            if matches!(self.card, Card::Unopened) {
-                self.card = Card::None;
-                let auto = self.backend == Backend::Auto;
-                let choice = if auto { Choice::Real } else { Choice::Any };
-                self.card = Card::Open(Box::new(Renderer::open(choice)?));
+        /// Takes the card back from a thread that is done.
+        pub(super) fn take_back(&mut self) {
+            if !matches!(&self.card, Card::Away(_, thread) if thread.is_finished()) {
+                return;
             }
-            let Card::Open(renderer) = &mut self.card else { return Ok(None) };
-            let splats = self.backend == Backend::Splat;
-            let method = if splats { Method::Splat } else { Method::Gather };
-            if self.compiled.as_ref().is_none_or(|(known, _)| known != subject) {
-                self.compiled = None;
-                self.note = None;
-                let compiled = Compiled::try_new(Arc::clone(&subject.field.0), |field| {
-                    let scene = renderer.upload(field.field())?;
-                    renderer.compile(&scene, Values(quantity.clone()), method)
-                })?;
-                self.compiled = Some((subject.clone(), Some(compiled)));
+            let Card::Away(subject, thread) = std::mem::replace(&mut self.card, Card::None) else {
+                return;
+            };
+            let lost = |_| (None, Err(GpuError::Lost.into()));
+            let (renderer, compiled) = thread.join().unwrap_or_else(lost);
+            self.card = renderer.map_or(Card::None, Card::Open);
+            match compiled {
+                Ok(compiled) => self.compiled = Some((subject, Some(compiled))),
+                Err(error) => self.give_up(subject, &error),
             }
-            let Some((_, Some(compiled))) = &mut self.compiled else { return Ok(None) };
+        }
+
+        /// Has the card prepared for a subject, if there is one and it is here.
+        fn prepare(&mut self, subject: &Subject, view: &View, quantity: &Quantity) {
+            let renderer = match std::mem::replace(&mut self.card, Card::None) {
+                Card::Unopened => None,
+                Card::Open(renderer) => Some(renderer),
+                other => {
+                    self.card = other;
+                    return;
+                }
+            };
+            (self.compiled, self.note) = (None, None);
+            let auto = self.backend == Backend::Auto;
+            let choice = if auto { Choice::Real } else { Choice::Any };
+            let (method, field) = (self.method(), Arc::clone(&subject.field.0));
+            let (view, quantity) = (*view, quantity.clone());
+            let thread = thread::spawn(move || {
+                let opened = renderer.map_or_else(|| Renderer::open(choice).map(Box::new), Ok);
+                match opened {
+                    Err(error) => (None, Err(error.into())),
+                    Ok(mut renderer) => {
+                        let compiled = compiled(&mut renderer, field, &quantity, method, &view);
+                        (Some(renderer), compiled)
+                    }
+                }
+            });
+            self.card = Card::Away(subject.clone(), thread);
+        }
+
+        fn method(&self) -> Method {
+            if self.backend == Backend::Splat { Method::Splat } else { Method::Gather }
+        }
+
+        fn try_draw(&mut self, view: &View) -> Result<Option<(Raster<f32>, String)>, RenderError> {
+            let method = self.method();
+            let (Card::Open(renderer), Some((_, Some(compiled)))) =
+                (&mut self.card, &mut self.compiled)
+            else {
+                return Ok(None);
+            };
             let raster = compiled.with_dependent_mut(|_, program| {
                 renderer.draw(program, view).and_then(|drawn| drawn.read())
             })?;
-            let way = if splats { "gpu splat f32" } else { "gpu f32" };
+            let way = if method == Method::Splat { "gpu splat f32" } else { "gpu f32" };
             Ok(Some((raster, format!("{way}, {}", renderer.gpu().info().name))))
         }
 
         /// Leaves a subject to the processor, or everything if the device is of no use.
-        fn give_up(&mut self, subject: &Subject, error: &RenderError) {
+        fn give_up(&mut self, subject: Subject, error: &RenderError) {
             let is_missing = matches!(error, RenderError::Gpu(GpuError::NoAdapter { .. }));
             let is_normal = self.backend == Backend::Auto && is_missing;
             HAS_NO_CARD.fetch_or(is_normal, Ordering::Relaxed);
@@ -217,8 +273,24 @@ mod cards {
             ) {
                 self.card = Card::None;
             }
-            self.compiled = Some((subject.clone(), None));
+            self.compiled = Some((subject, None));
         }
+    }
+
+    /// A field on the card, and a quantity of it compiled and ready for a view.
+    fn compiled(
+        renderer: &mut Renderer,
+        field: Arc<OwnedField>,
+        quantity: &Quantity,
+        method: Method,
+        view: &View,
+    ) -> Result<Compiled, RenderError> {
+        Compiled::try_new(field, |field| {
+            let scene = renderer.upload(field.field())?;
+            let mut program = renderer.compile(&scene, Values(quantity.clone()), method)?;
+            renderer.prepare(&mut program, view)?;
+            Ok(program)
+        })
     }
 }
 
@@ -247,6 +319,12 @@ mod cards {
         pub(super) fn is_open(&self) -> bool {
             false
         }
+
+        pub(super) fn is_away(&self) -> bool {
+            false
+        }
+
+        pub(super) fn take_back(&mut self) {}
 
         pub(super) fn draw(
             &mut self,

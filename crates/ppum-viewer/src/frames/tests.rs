@@ -390,7 +390,11 @@ fn a_thread_and_the_window_itself_make_the_same_picture() {
 #[test]
 fn a_graphics_device_draws_what_the_processor_draws() {
     let (dataset, mut maker) = (dataset(), Maker::new(Backend::Gpu));
+    // while the device is prepared nobody waits for it
     let mut wanted = wanted(&dataset);
+    let first = finished(&mut maker, &wanted);
+    assert!(first.iter().all(|frame| frame.drawn.by.starts_with("cpu ")));
+    wanted = beside(&wanted, 3.5, 0.0);
     let frames = finished(&mut maker, &wanted);
     let last = frames.last().unwrap();
     if last.drawn.by == "cpu f64" {

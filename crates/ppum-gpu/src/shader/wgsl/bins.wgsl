@@ -1,74 +1,90 @@
-// Finding the patches of a pixel, see bins.rs.
+// Finding the patches of a pixel on any cover, see bins.rs and pages.rs.
 
-// The bin of a pixel: a list of patches that may cover it.
+// The bin of a pixel: the page at hand, its texel, and the vector from the bin's lower left corner to the pixel, as the
+// sum of two.
 struct Bin {
-    first: u32,
-    count: u32,
-}
-
-// A patch that may cover a pixel: the address of its body, its record, and where the pixel lies in it.
-struct Candidate {
-    body: u32,
-    at: u32,
-    support: Coordinates,
-}
-
-fn node_at(index: u32) -> vec2<u32> {
-    let nodes = load_place(index / 2u);
-    return select(nodes.xy, nodes.zw, (index & 1u) == 1u);
+    page: u32,
+    high: vec2<f32>,
+    low: vec2<f32>,
 }
 
 fn bin_of(pixel: Pixel) -> Bin {
-    let from_origin = (pixel.high - view.grid_high) + (pixel.low - view.grid_low);
+    let from_high = pixel.high - view.grid_high;
+    let from_low = pixel.low - view.grid_low;
     let last = vec2<f32>(view.grid_size - 1u);
-    var t = max(from_origin * view.per_pitch, vec2<f32>(0.0));
-    let column_row = min(floor(t), last);
-    t -= column_row;
-    let index = vec2<u32>(column_row);
-    var node = node_at(index.y * view.grid_size.x + index.x);
-    while node.y == INNER {
-        t *= 2.0;
-        let half = select(vec2<f32>(0.0), vec2<f32>(1.0), t >= vec2<f32>(1.0));
-        t -= half;
-        let child = vec2<u32>(half);
-        node = node_at(node.x + child.x + 2u * child.y);
+    let index = clamp(floor((from_high + from_low) * view.per_pitch), vec2<f32>(0.0), last);
+    // of highs every step is exact
+    var high = from_high - index * view.pitch_high;
+    var low = from_low - index * view.pitch_low;
+    let column_row = vec2<u32>(index);
+    let bin = column_row.y * view.grid_size.x + column_row.x;
+    var node = load_place(view.nodes + bin / 4u)[bin & 3u];
+    var half_high = view.pitch_high;
+    var half_low = view.pitch_low;
+    loop {
+        if node < INNER {
+            break;
+        }
+        half_high *= 0.5;
+        half_low *= 0.5;
+        let is_upper = high + low >= half_high + half_low;
+        high -= select(vec2<f32>(0.0), half_high, is_upper);
+        low -= select(vec2<f32>(0.0), half_low, is_upper);
+        let child = select(0u, 1u, is_upper.x) + select(0u, 2u, is_upper.y);
+        node = load_place(view.nodes + (node - INNER))[child];
+        if node < INNER {
+            break;
+        }
     }
-    return Bin(node.x, node.y);
+    return Bin(node * PAGE_TEXELS, high, low);
 }
 
-fn candidate_of(bin: Bin, k: u32, pixel: Pixel) -> Candidate {
-    let entry = bin.first + k;
-    let four = load_place(view.list + entry / 4u);
-    let at = view.patches + four[entry & 3u] * RECORD_TEXELS;
-    return Candidate(load_place(at + 1u).z, at, coordinates_in(at, pixel));
-}
-
-// Coordinates of a pixel in the frame that begins at an address.
-fn coordinates_in(at: u32, pixel: Pixel) -> Coordinates {
-    let origin = bitcast<vec4<f32>>(load_place(at));
-    let inverse = bitcast<vec4<f32>>(load_place(at + 1u)).xy;
-    return Coordinates(((pixel.high - origin.xy) + (pixel.low - origin.zw)) * inverse, inverse);
-}
-
-// Where the polynomials of a candidate are taken.
-fn polynomial_coordinates(candidate: Candidate, pixel: Pixel) -> Coordinates {
-    if OWN_FRAMES {
-        return coordinates_in(candidate.at + 2u, pixel);
+fn four_of(bin: Bin) -> Four {
+    let x = texel_of(bin, 0u);
+    let y = texel_of(bin, 1u);
+    let bodies = load_place(bin.page + 2u);
+    let inverse_x = inverse_of(bin, view.per_half.x, 4u);
+    let inverse_y = inverse_of(bin, view.per_half.y, 5u);
+    let support = places_at(bin, x, y, inverse_x, inverse_y);
+    if !OWN_FRAMES {
+        return Four(bodies, support, support);
     }
-    return candidate.support;
+    let frame = places_at(bin, texel_of(bin, 6u), texel_of(bin, 7u), texel_of(bin, 8u), texel_of(bin, 9u));
+    return Four(bodies, support, frame);
 }
 
-// Which of up to 32 candidates from `first` on cover a pixel, a bit each.
-fn covering_of(bin: Bin, first: u32, pixel: Pixel) -> u32 {
-    var covering = 0u;
-    for (var k = first; k < min(bin.count, first + 32u); k++) {
-        let candidate = candidate_of(bin, k, pixel);
-        covering |= select(0u, 1u << (k - first), covers(candidate.support.xi));
+fn texel_of(bin: Bin, k: u32) -> vec4<f32> {
+    return bitcast<vec4<f32>>(load_place(bin.page + k));
+}
+
+// Reciprocal half-extents along an axis: those of the largest patches doubled level by level, or numbers of their own.
+fn inverse_of(bin: Bin, largest: f32, k: u32) -> vec4<f32> {
+    if !HAS_LEVELS {
+        return texel_of(bin, k);
     }
-    return covering;
+    let levels = load_place(bin.page + 3u).x;
+    let exponents = (vec4<u32>(levels) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(0xffu);
+    return largest * bitcast<vec4<f32>>((exponents + 127u) << vec4<u32>(23u));
 }
 
-// The first candidate of a set.
-fn first_of(candidates: u32) -> u32 {
-    return firstTrailingBit(candidates);
+// Where the pixel of a bin lies in frames with these origins, seen from its corner.
+fn places_at(
+    bin: Bin,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    inverse_x: vec4<f32>,
+    inverse_y: vec4<f32>,
+) -> Places {
+    let d_x = ((bin.high.x - x) + bin.low.x) * inverse_x;
+    let d_y = ((bin.high.y - y) + bin.low.y) * inverse_y;
+    return Places(d_x, d_y, inverse_x, inverse_y);
+}
+
+// False if another page of the bin follows.
+fn is_last(bin: Bin) -> bool {
+    return load_place(bin.page + 3u).y == 0u;
+}
+
+fn next_of(bin: Bin) -> Bin {
+    return Bin(bin.page + PAGE_TEXELS, bin.high, bin.low);
 }

@@ -8,8 +8,8 @@ struct Numbers {
 }
 
 @fragment
-fn draw_component(@builtin(position) position: vec4<f32>) -> Numbers {
-    let pixel = pixel_at(vec2<u32>(position.xy));
+fn draw_component(covered: Covered) -> Numbers {
+    let pixel = pixel_of(covered);
     let at = sample_of(pixel);
     if at.overlap == 0.0 || !is_inside(pixel) {
         let none = vec4<f32>(ppum_from_bits(0x7fc00000u));

@@ -9,7 +9,7 @@ fn value_of(at: Sample, pixel: Pixel) -> f32 {
 }
 
 @fragment
-fn draw_value(@builtin(position) position: vec4<f32>) -> @location(0) f32 {
-    let pixel = pixel_at(vec2<u32>(position.xy));
+fn draw_value(covered: Covered) -> @location(0) f32 {
+    let pixel = pixel_of(covered);
     return value_of(sample_of(pixel), pixel);
 }

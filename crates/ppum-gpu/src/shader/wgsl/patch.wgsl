@@ -118,20 +118,21 @@ fn other_field(term: Term, coordinates: Coordinates, offset: vec2<f32>) -> array
     }
     if HAS_POLYNOMIALS && !has_constants(term) {
         var at = 2u * term.address + LANE_PAIRS;
-        for (var entry = 0u; entry < 4u; entry++) {
-            // the loop ends with the last polynomial
-            if (term.degrees >> (8u * entry)) == (ALL_ABSENT >> (8u * entry)) {
-                break;
-            }
+        var entry = 0u;
+        loop {
             let degree = degree_of(term, entry);
-            if degree == ABSENT {
-                continue;
+            if degree != ABSENT {
+                let jet = functions_entry(f, entry);
+                for (var g = 0u; g < GROUPS; g++) {
+                    let p = polynomial(at, degree, coordinates.xi, coordinates.inverse);
+                    at += monomials(degree) * LANE_PAIRS;
+                    v[g] = jets_plus(v[g], jets_times(jet, p));
+                }
             }
-            let jet = functions_entry(f, entry);
-            for (var g = 0u; g < GROUPS; g++) {
-                let p = polynomial(at, degree, coordinates.xi, coordinates.inverse);
-                at += monomials(degree) * LANE_PAIRS;
-                v[g] = jets_plus(v[g], jets_times(jet, p));
+            entry++;
+            // the loop ends with the last polynomial
+            if entry == 4u || (term.degrees >> (8u * entry)) == (ALL_ABSENT >> (8u * entry)) {
+                break;
             }
         }
     }

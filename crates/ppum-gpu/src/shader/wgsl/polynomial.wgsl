@@ -18,13 +18,15 @@ fn polynomial_with(
 ) -> Jets {
     var sum = jets_zero();
     var next = at;
-    // `row` is degree - b
-    for (var row = 0u; row <= degree; row++) {
+    // `row` is degree - b; both loops end after the last round, not before one that is not needed
+    var row = 0u;
+    loop {
         // the factor of η^b with its derivatives by ξ
         var p = Lanes();
         var px = Lanes();
         var pxx = Lanes();
-        for (var k = 0u; k <= row; k++) {
+        var k = 0u;
+        loop {
             if ORDER >= 2u {
                 pxx = pxx * xi.x + (px + px);
             }
@@ -34,6 +36,10 @@ fn polynomial_with(
             let is_last = row == degree && k == row;
             p = p * xi.x + select(load_lanes(next), constant, is_last);
             next += LANE_PAIRS;
+            k++;
+            if k > row {
+                break;
+            }
         }
         if ORDER >= 2u {
             // half the second derivative until the end
@@ -46,6 +52,10 @@ fn polynomial_with(
             sum.x = sum.x * xi.y + px;
         }
         sum.v = sum.v * xi.y + p;
+        row++;
+        if row > degree {
+            break;
+        }
     }
     return polynomial_in_world(sum, inverse);
 }

@@ -63,7 +63,9 @@ fn shader(
     order: usize,
 ) -> (Module, String) {
     let surroundings = Surroundings { cracks: cracks.len(), tables, order };
-    let text = functions_wgsl(functions, groups, surroundings).expect("a text");
+    let (text, kernels) = functions_wgsl(functions, groups, surroundings).expect("a text");
+    assert_eq!(kernels.len(), groups.count());
+    assert!(kernels.iter().all(|kernel| text.contains(&format!("fn functions_{kernel}("))));
     let recipe =
         Recipe { level: 0, cells: [1, 1], tip_level: 0, cracks: vec![], ..Recipe::default() };
     let mut step = recipe.step();
