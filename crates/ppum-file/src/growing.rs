@@ -68,7 +68,7 @@ impl Growing {
     pub fn append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
         // a program that is about to end gives up its lock, and must not write from then on
         let _live = live();
-        if !is_at(self.file.file(), &self.target) || self.file.length()? < end {
+        if !is_at(self.file.file(), &self.target) || self.file.length(u64::MAX)? < end {
             let message =
                 "since this run began it was removed or cut, or another file took its place";
             return Err(io::Error::other(message));

@@ -1,10 +1,10 @@
 //! Reading parts of a file.
 
 use std::fs::File;
-use std::io::{self, Seek as _};
+use std::io;
 use std::path::Path;
 
-use crate::read::{open, within};
+use crate::read::{open, too_long};
 
 /// A file that is read in parts. It stays the same file if another one takes its place.
 #[derive(Debug)]
@@ -32,19 +32,10 @@ impl Ranged {
     /// Bytes of the file now: it may grow.
     ///
     /// # Errors
-    /// Whatever the system refuses.
-    pub fn length(&self) -> io::Result<u64> {
-        self.file.metadata().map(|data| data.len())
-    }
-
-    /// All bytes of the file, at most `limit`.
-    ///
-    /// # Errors
-    /// A longer file; whatever the system or the memory refuses.
-    pub fn all(&self, limit: u64) -> io::Result<Vec<u8>> {
-        let mut file = &self.file;
-        file.rewind()?;
-        within(file, limit)
+    /// More than `limit`; whatever the system refuses.
+    pub fn length(&self, limit: u64) -> io::Result<u64> {
+        let length = self.file.metadata()?.len();
+        if length > limit { Err(too_long(limit)) } else { Ok(length) }
     }
 
     /// Fills `buffer` with the bytes from `at` on.
@@ -105,9 +96,8 @@ mod tests {
             io::ErrorKind::UnexpectedEof
         );
         crate::replace(&path, |out| out.write_all(b"ab")).expect("written");
-        assert_eq!(file.all(10).expect("short enough"), b"0123456789");
-        assert!(file.all(9).is_err());
-        assert_eq!(file.length().expect("known"), 10);
+        assert_eq!(file.length(10).expect("known"), 10);
+        assert!(file.length(9).is_err());
         file.read(4, &mut part).expect("the old file is still open");
         assert_eq!(&part, b"456");
     }

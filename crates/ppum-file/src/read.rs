@@ -61,7 +61,7 @@ fn utf8(bytes: Vec<u8>) -> io::Result<String> {
     })
 }
 
-fn too_long(limit: u64) -> io::Error {
+pub(crate) fn too_long(limit: u64) -> io::Error {
     let limit = match limit {
         l if l >= 1 << 30 && l.is_multiple_of(1 << 30) => format!("{} GiB", l >> 30),
         l if l >= 1 << 20 && l.is_multiple_of(1 << 20) => format!("{} MiB", l >> 20),

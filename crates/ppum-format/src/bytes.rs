@@ -4,7 +4,7 @@ use ppum::dataset::{Dataset, Step};
 
 use crate::content::{Content, step_path};
 use crate::error::{ReadError, WriteError};
-use crate::hdf5::Trunk;
+use crate::hdf5::{Ranges, Trunk};
 use crate::limits::FORMAT_VERSION;
 use crate::{checksum, decode, encode, hdf5};
 
@@ -77,20 +77,32 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
 }
 
 fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
-    let mut content = hdf5::from_bytes(&bytes)?;
-    let minor = decode::check_version(&content)?;
-    checksum::verify(&mut content)?;
-    checked(content).map_err(|error| newer(error, minor))
+    let content = hdf5::from_bytes(&bytes)?;
+    drop(bytes);
+    checked(&content)
+}
+
+/// The dataset in a file of so many bytes.
+pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Dataset, ReadError> {
+    let read = hdf5::from_file(file, length).and_then(|content| checked(&content));
+    read.map_err(ReadError::shortened)
+}
+
+/// The dataset of a content. Its checksums are compared while it is made.
+pub(crate) fn checked(content: &Content) -> Result<Dataset, ReadError> {
+    let minor = decode::check_version(content)?;
+    let dataset = || {
+        let dataset = decode::dataset(content)?;
+        dataset.check()?;
+        Ok(dataset)
+    };
+    let (verified, dataset) = rayon::join(|| checksum::verify(content), dataset);
+    verified?;
+    dataset.map_err(|error| newer(error, minor))
 }
 
 /// The same error with the version of the file, if that is later than this program.
 pub(crate) fn newer(error: ReadError, minor: u32) -> ReadError {
     let source = Box::new(error);
     if minor > FORMAT_VERSION.1 { ReadError::Newer { minor, source } } else { *source }
-}
-
-pub(crate) fn checked(content: Content) -> Result<Dataset, ReadError> {
-    let dataset = decode::dataset(content)?;
-    dataset.check()?;
-    Ok(dataset)
 }

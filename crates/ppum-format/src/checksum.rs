@@ -1,8 +1,9 @@
 //! SHA-256 over the content, see "Checksum" in FORMAT.md.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
+use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use crate::content::{Array, Content, Form, Values, key, step_of};
@@ -37,6 +38,15 @@ impl Scope {
     fn key(&self) -> String {
         let (group, name) = self.place();
         key(group, name, Form::Attribute)
+    }
+
+    /// The items that count, by the names under which they do, in their order. Its own checksum does not count, nor
+    /// does that over all, which counts the others.
+    fn items<'c>(&'c self, content: &'c Content) -> BTreeMap<&'c str, (&'c String, &'c Array)> {
+        let begin = if let Self::Step(path) = self { path.as_str() } else { "" };
+        let left_out = [self.key(), Self::All.key()];
+        let counted = content.beginning(begin).filter(|(name, _)| !left_out.contains(name));
+        counted.filter_map(|item| Some((self.name(item.0)?, item))).collect()
     }
 
     /// The name under which an item counts, if it does.
@@ -100,28 +110,28 @@ pub(crate) fn is_whole(content: &Content) -> bool {
     content.contains_key(&Scope::All.key())
 }
 
-/// Takes the checksums out of the content and compares. A part without one is fine.
-pub(crate) fn verify(content: &mut Content) -> Result<(), ReadError> {
-    // the first counts the others as items
-    check(content, &Scope::All)?;
-    parts(content).iter().try_for_each(|scope| check(content, scope))
+/// Compares the checksums of the content. A part without one is fine.
+pub(crate) fn verify(content: &Content) -> Result<(), ReadError> {
+    let scopes: Vec<_> = [Scope::All].into_iter().chain(parts(content)).collect();
+    let compared: Vec<_> = scopes.par_iter().map(|scope| check(content, scope)).collect();
+    compared.into_iter().collect()
 }
 
 /// The same for what is in no step.
-pub(crate) fn verify_rest(content: &mut Content) -> Result<(), ReadError> {
+pub(crate) fn verify_rest(content: &Content) -> Result<(), ReadError> {
     check(content, &Scope::Rest)
 }
 
 /// The same for a step.
-pub(crate) fn verify_step(content: &mut Content, path: &str) -> Result<(), ReadError> {
+pub(crate) fn verify_step(content: &Content, path: &str) -> Result<(), ReadError> {
     check(content, &Scope::Step(path.to_owned()))
 }
 
-fn check(content: &mut Content, scope: &Scope) -> Result<(), ReadError> {
+fn check(content: &Content, scope: &Scope) -> Result<(), ReadError> {
     let (group, name) = scope.place();
     content.holds(group, name, Form::Attribute)?;
-    let Some(stored) = content.remove(&scope.key()) else { return Ok(()) };
-    let (Values::Text(stored), []) = (stored.values, stored.shape.as_slice()) else {
+    let Some(stored) = content.get(&scope.key()) else { return Ok(()) };
+    let (Values::Text(stored), []) = (&stored.values, stored.shape.as_slice()) else {
         let mistake = "expected a string of 64 hexadecimal digits";
         return Err(ReadError::object(&scope.key(), mistake));
     };
@@ -132,13 +142,9 @@ fn check(content: &mut Content, scope: &Scope) -> Result<(), ReadError> {
     Err(ReadError::Checksum { attribute: scope.key(), stored, computed })
 }
 
-fn digest<'c>(content: &'c Content, scope: &Scope) -> Result<String, ReadError> {
-    let named = |(full, array): (&'c String, &'c Array)| Some((scope.name(full)?, full, array));
-    let mut items: Vec<(&'c str, &'c String, &'c Array)> =
-        content.iter().filter_map(named).collect();
-    items.sort_by_key(|(name, ..)| *name);
+fn digest(content: &Content, scope: &Scope) -> Result<String, ReadError> {
     let mut hash = Sha256::new();
-    for (name, full, array) in items {
+    for (name, (full, array)) in scope.items(content) {
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
         let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
         hash.update(header.as_bytes());
@@ -152,11 +158,11 @@ fn digest<'c>(content: &'c Content, scope: &Scope) -> Result<String, ReadError> 
 
 fn update(hash: &mut Sha256, values: &Values) -> Result<(), String> {
     match values {
-        Values::F64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::F64(v) => update_by(hash, v, |x| x.to_le_bytes()),
         Values::U8(v) => hash.update(v),
-        Values::U32(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
-        Values::U64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
-        Values::I64(v) => v.iter().for_each(|x| hash.update(x.to_le_bytes())),
+        Values::U32(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        Values::U64(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        Values::I64(v) => update_by(hash, v, |x| x.to_le_bytes()),
         Values::Text(v) => v.iter().for_each(|x| {
             hash.update(x.as_bytes());
             hash.update([0]);
@@ -169,4 +175,20 @@ fn update(hash: &mut Sha256, values: &Values) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Numbers that are fed to a digest at once: what a call takes beside its bytes is then nothing.
+const BLOCK: usize = 1 << 9;
+
+fn update_by<T: Copy, const N: usize>(
+    hash: &mut Sha256,
+    numbers: &[T],
+    bytes: impl Fn(T) -> [u8; N],
+) {
+    let mut block = [[0; N]; BLOCK];
+    for numbers in numbers.chunks(BLOCK) {
+        let block = &mut block[..numbers.len()];
+        block.iter_mut().zip(numbers).for_each(|(block, number)| *block = bytes(*number));
+        hash.update(block.as_flattened());
+    }
 }

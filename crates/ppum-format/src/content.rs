@@ -100,6 +100,15 @@ impl Content {
         }
     }
 
+    /// The arrays and attributes whose names begin so.
+    pub(crate) fn beginning<'c>(
+        &'c self,
+        begin: &'c str,
+    ) -> impl Iterator<Item = (&'c String, &'c Array)> {
+        let from = self.arrays.range(begin.to_owned()..);
+        from.take_while(move |(name, _)| name.starts_with(begin))
+    }
+
     /// The names of the attributes of a group.
     pub(crate) fn attributes<'c>(&'c self, group: &str) -> impl Iterator<Item = &'c str> {
         let prefix = join(group, "@");
@@ -183,11 +192,12 @@ impl Values {
 }
 
 /// A Rust type that stands for one of the element types.
-pub(crate) trait Element: Sized {
+pub(crate) trait Element: Clone {
     /// Name of the type in messages and in the checksum.
     const NAME: &'static str;
     fn wrap(values: Vec<Self>) -> Values;
-    fn unwrap(values: Values) -> Result<Vec<Self>, Values>;
+    /// The values, if they are of this type.
+    fn of(values: &Values) -> Option<&[Self]>;
 }
 
 macro_rules! elements {
@@ -197,10 +207,10 @@ macro_rules! elements {
             fn wrap(values: Vec<Self>) -> Values {
                 Values::$variant(values)
             }
-            fn unwrap(values: Values) -> Result<Vec<Self>, Values> {
+            fn of(values: &Values) -> Option<&[Self]> {
                 match values {
-                    Values::$variant(values) => Ok(values),
-                    other => Err(other),
+                    Values::$variant(values) => Some(values),
+                    _ => None,
                 }
             }
         })*

@@ -48,18 +48,18 @@ pub(crate) fn check_version(content: &Content) -> Read<u32> {
 }
 
 /// The dataset in a content. Shapes and words are right afterwards, meaning is not yet checked.
-pub(crate) fn dataset(mut content: Content) -> Read<Dataset> {
-    let mut dataset = head(&mut content)?;
-    let mut root = Group { path: String::new(), content: &mut content };
+pub(crate) fn dataset(content: &Content) -> Read<Dataset> {
+    let mut dataset = head(content)?;
+    let root = Group { path: String::new(), content };
     let scopes = Scopes::new(&dataset.tables)?;
-    dataset.steps = numbered(&mut root, "steps", |group| step(group, &scopes))?;
+    dataset.steps = numbered(&root, "steps", |group| step(group, &scopes))?;
     Ok(dataset)
 }
 
 /// A step of the dataset with these tables, in a content that holds nothing else.
-pub(crate) fn one_step(mut content: Content, path: &str, tables: &[Arc<Table>]) -> Read<Step> {
-    let mut root = Group { path: String::new(), content: &mut content };
-    step(&mut root.group(path)?, &Scopes::new(tables)?)
+pub(crate) fn one_step(content: &Content, path: &str, tables: &[Arc<Table>]) -> Read<Step> {
+    let root = Group { path: String::new(), content };
+    step(&root.group(path)?, &Scopes::new(tables)?)
 }
 
 /// The members of a step that hold [`results`].
@@ -67,11 +67,11 @@ pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warni
 
 /// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The step has no
 /// patches.
-pub(crate) fn results(mut content: Content, path: &str) -> Read<Step> {
-    let mut step = empty(&mut content, path)?;
-    let mut root = Group { path: String::new(), content: &mut content };
-    let group = &mut root.group(path)?;
-    step.cracks = cracks(&mut group.group("cracks")?)?;
+pub(crate) fn results(content: &Content, path: &str) -> Read<Step> {
+    let mut step = empty(content, path)?;
+    let root = Group { path: String::new(), content };
+    let group = &root.group(path)?;
+    step.cracks = cracks(&group.group("cracks")?)?;
     step.intensities = optional(group, "intensities", intensities)?;
     step.history = optional(group, "history", history)?;
     step.warnings = optional(group, "warnings", warnings)?;
@@ -80,8 +80,8 @@ pub(crate) fn results(mut content: Content, path: &str) -> Read<Step> {
 }
 
 /// A step with its load alone.
-pub(crate) fn empty(content: &mut Content, path: &str) -> Read<Step> {
-    let mut root = Group { path: String::new(), content };
+pub(crate) fn empty(content: &Content, path: &str) -> Read<Step> {
+    let root = Group { path: String::new(), content };
     Ok(empty_step(root.group(path)?.attribute("load")?))
 }
 
@@ -102,31 +102,31 @@ pub(crate) fn empty_step(load: f64) -> Step {
     step
 }
 
-fn of_growth(group: &mut Group) -> Read<Option<Growth>> {
-    group.holds("growth", Form::Group)?.then(|| growth(&mut group.group("growth")?)).transpose()
+fn of_growth(group: &Group) -> Read<Option<Growth>> {
+    group.holds("growth", Form::Group)?.then(|| growth(&group.group("growth")?)).transpose()
 }
 
 /// The dataset without its steps.
-pub(crate) fn head(content: &mut Content) -> Read<Dataset> {
-    let mut root = Group { path: String::new(), content };
-    let tables = tables(&mut root)?;
+pub(crate) fn head(content: &Content) -> Read<Dataset> {
+    let root = Group { path: String::new(), content };
+    let tables = tables(&root)?;
     let scopes = Scopes::new(&tables)?;
     let title = root.attribute("title")?;
     let program = root.attribute("program")?;
-    let problem = problem(&mut root)?;
-    let domain = domain(&mut root.group("domain")?)?;
-    let mut dataset = Dataset::new(domain, equation(&mut root.group("equation")?, &scopes)?);
+    let problem = problem(&root)?;
+    let domain = domain(&root.group("domain")?)?;
+    let mut dataset = Dataset::new(domain, equation(&root.group("equation")?, &scopes)?);
     (dataset.title, dataset.program, dataset.problem) = (title, program, problem);
-    dataset.quantities = optional(&mut root, "quantities", quantities)?;
+    dataset.quantities = optional(&root, "quantities", quantities)?;
     dataset.tables = tables;
     Ok(dataset)
 }
 
-fn problem(root: &mut Group) -> Read<Option<String>> {
+fn problem(root: &Group) -> Read<Option<String>> {
     root.holds("problem", Form::Dataset)?.then(|| root.scalar("problem")).transpose()
 }
 
-fn domain(group: &mut Group) -> Read<Domain> {
+fn domain(group: &Group) -> Read<Domain> {
     let kind: String = group.attribute("kind")?;
     let with_holes = group.word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], &kind, "@kind")?;
     let bounds = Rect::new(group.attribute_point("min")?, group.attribute_point("max")?);
@@ -134,10 +134,10 @@ fn domain(group: &mut Group) -> Read<Domain> {
         group.refuse("holes", Form::Group, &kind)?;
         return Ok(Domain { bounds, holes: Vec::new() });
     }
-    Ok(Domain { bounds, holes: holes(&mut group.group("holes")?)? })
+    Ok(Domain { bounds, holes: holes(&group.group("holes")?)? })
 }
 
-fn holes(group: &mut Group) -> Read<Vec<Hole>> {
+fn holes(group: &Group) -> Read<Vec<Hole>> {
     let kinds = group.vector::<String>("kind")?;
     let points = group.points("points")?;
     let parts = group.offsets("offsets", kinds.len(), points.len())?;
@@ -159,12 +159,12 @@ fn holes(group: &mut Group) -> Read<Vec<Hole>> {
     .collect()
 }
 
-fn expect_kind(group: &mut Group, expected: &'static str) -> Read<()> {
+fn expect_kind(group: &Group, expected: &'static str) -> Read<()> {
     let kind: String = group.attribute("kind")?;
     group.word(&[((), expected)], &kind, "@kind")
 }
 
-fn equation(group: &mut Group, scopes: &Scopes) -> Read<Equation> {
+fn equation(group: &Group, scopes: &Scopes) -> Read<Equation> {
     let kind: String = group.attribute("kind")?;
     match kind.as_str() {
         "elasticity" => {
@@ -187,7 +187,7 @@ fn equation(group: &mut Group, scopes: &Scopes) -> Read<Equation> {
 }
 
 /// A constant of the material: a number, or the text of a formula.
-fn constant(group: &mut Group, name: &str, scopes: &Scopes) -> Read<Expression> {
+fn constant(group: &Group, name: &str, scopes: &Scopes) -> Read<Expression> {
     if !group.has_text(name) {
         return group.attribute(name).map(Expression::number);
     }
@@ -196,7 +196,7 @@ fn constant(group: &mut Group, name: &str, scopes: &Scopes) -> Read<Expression> 
         .map_err(|error| group.error(&format!("@{name}"), error.to_string()))
 }
 
-fn quantities(group: &mut Group) -> Read<Vec<NamedQuantity>> {
+fn quantities(group: &Group) -> Read<Vec<NamedQuantity>> {
     let names = group.vector::<String>("name")?;
     let formulas = group.column::<String>("formula", names.len())?;
     let units = group.column::<String>("unit", names.len())?;
@@ -204,12 +204,12 @@ fn quantities(group: &mut Group) -> Read<Vec<NamedQuantity>> {
     Ok(all.map(|((name, text), unit)| NamedQuantity { name, text, unit }).collect())
 }
 
-fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
+fn step(group: &Group, scopes: &Scopes) -> Read<Step> {
     let load = group.attribute("load")?;
-    let mut step = Step::new(partition(&mut group.group("partition")?, scopes)?);
+    let mut step = Step::new(partition(&group.group("partition")?, scopes)?);
     step.load = load;
-    step.cracks = cracks(&mut group.group("cracks")?)?;
-    step.functions = functions(&mut group.group("functions")?)?;
+    step.cracks = cracks(&group.group("cracks")?)?;
+    step.functions = functions(&group.group("functions")?)?;
     step.fields = numbered(group, "fields", field)?;
     step.attributes = optional(group, "attributes", attributes)?;
     step.intensities = optional(group, "intensities", intensities)?;
@@ -220,7 +220,7 @@ fn step(group: &mut Group, scopes: &Scopes) -> Read<Step> {
     Ok(step)
 }
 
-fn partition(group: &mut Group, scopes: &Scopes) -> Read<Partition> {
+fn partition(group: &Group, scopes: &Scopes) -> Read<Partition> {
     expect_kind(group, "shepard-box")?;
     let weight = weight(group, scopes)?;
     let center = group.points("center")?;
@@ -236,8 +236,8 @@ fn partition(group: &mut Group, scopes: &Scopes) -> Read<Partition> {
         scale: group.points("scale")?,
         cell: group
             .rows("cell")?
-            .into_iter()
-            .map(|[x0, y0, x1, y1]| Rect::new(vec2(x0, y0), vec2(x1, y1)))
+            .iter()
+            .map(|&[x0, y0, x1, y1]| Rect::new(vec2(x0, y0), vec2(x1, y1)))
             .collect(),
         level: group.vector("level")?,
         point,
@@ -246,7 +246,7 @@ fn partition(group: &mut Group, scopes: &Scopes) -> Read<Partition> {
     })
 }
 
-fn weight(group: &mut Group, scopes: &Scopes) -> Read<WeightFunction> {
+fn weight(group: &Group, scopes: &Scopes) -> Read<WeightFunction> {
     let word: String = group.attribute("weight")?;
     let breakpoints = group.vector::<f64>("weight_breakpoints")?;
     if word == "formula" {
@@ -278,19 +278,19 @@ fn point_index(group: &Group, p: i64) -> Read<Option<u32>> {
     }
 }
 
-fn cracks(group: &mut Group) -> Read<Vec<Crack>> {
+fn cracks(group: &Group) -> Read<Vec<Crack>> {
     let points = group.points("points")?;
     let ends = group.rows::<String, 2>("ends")?;
     let parts = group.offsets("offsets", ends.len(), points.len())?;
     let kind = |word: &str| -> Read<CrackEnd> { group.word(CRACK_ENDS, word, "ends") };
     std::iter::zip(parts, ends)
         .map(|(part, [start, last])| {
-            Ok(Crack { points: points[part].to_vec(), ends: [kind(&start)?, kind(&last)?] })
+            Ok(Crack { points: points[part].to_vec(), ends: [kind(start)?, kind(last)?] })
         })
         .collect()
 }
 
-fn field(group: &mut Group) -> Read<FieldData> {
+fn field(group: &Group) -> Read<FieldData> {
     let components = group.vector::<String>("components")?;
     let mut data = FieldData::new(&group.attribute::<String>("name")?, &[]);
     data.unit = group.attribute("unit")?;
@@ -304,23 +304,23 @@ fn field(group: &mut Group) -> Read<FieldData> {
     Ok(data)
 }
 
-fn exact(group: &mut Group) -> Read<Vec<String>> {
+fn exact(group: &Group) -> Read<Vec<String>> {
     if group.holds("exact", Form::Dataset)? { group.vector("exact") } else { Ok(Vec::new()) }
 }
 
-fn attributes(group: &mut Group) -> Read<Vec<Attribute>> {
+fn attributes(group: &Group) -> Read<Vec<Attribute>> {
     let names = group.vector::<String>("name")?;
     let values = group.matrix("values", names.len())?;
     Ok(std::iter::zip(names, values).map(|(name, values)| Attribute { name, values }).collect())
 }
 
-fn intensities(group: &mut Group) -> Read<Vec<TipIntensity>> {
+fn intensities(group: &Group) -> Read<Vec<TipIntensity>> {
     let crack = group.vector::<u32>("crack")?;
     let n = crack.len();
     let end = group.column::<String>("end", n)?;
     let (k1, k2) = (group.column::<f64>("k1", n)?, group.column::<f64>("k2", n)?);
-    let ring = |[r1, r2, k1, k2]: [f64; 4]| Ring { r1, r2, k1, k2 };
-    let rings: Vec<Ring> = group.rows("rings")?.into_iter().map(ring).collect();
+    let ring = |&[r1, r2, k1, k2]: &[f64; 4]| Ring { r1, r2, k1, k2 };
+    let rings: Vec<Ring> = group.rows("rings")?.iter().map(ring).collect();
     let parts = group.offsets("ring_offsets", n, rings.len())?;
     let (t_stress, j) = (known(group, "t_stress", n)?, known(group, "j", n)?);
     let error = known(group, "error", n)?;
@@ -333,7 +333,7 @@ fn intensities(group: &mut Group) -> Read<Vec<TipIntensity>> {
 }
 
 /// Values that are not there, or NaN, where they are not known.
-fn known(group: &mut Group, name: &str, n: usize) -> Read<Vec<Option<f64>>> {
+fn known(group: &Group, name: &str, n: usize) -> Read<Vec<Option<f64>>> {
     if !group.holds(name, Form::Dataset)? {
         return Ok(vec![None; n]);
     }
@@ -341,7 +341,7 @@ fn known(group: &mut Group, name: &str, n: usize) -> Read<Vec<Option<f64>>> {
     Ok(values.into_iter().map(|v| (!v.is_nan()).then_some(v)).collect())
 }
 
-fn history(group: &mut Group) -> Read<Vec<Record>> {
+fn history(group: &Group) -> Read<Vec<Record>> {
     let names = group.vector::<String>("name")?;
     let values = group.column::<f64>("value", names.len())?;
     let units = group.column::<String>("unit", names.len())?;
@@ -349,7 +349,7 @@ fn history(group: &mut Group) -> Read<Vec<Record>> {
     Ok(records.map(|((name, value), unit)| Record { name, value, unit }).collect())
 }
 
-fn warnings(group: &mut Group) -> Read<Vec<Warning>> {
+fn warnings(group: &Group) -> Read<Vec<Warning>> {
     let kinds = group.vector::<String>("kind")?;
     let n = kinds.len();
     let at = group.array::<f64>("at", &[Extent::Is(n as u64), Extent::Is(2)])?;
@@ -367,7 +367,7 @@ fn warnings(group: &mut Group) -> Read<Vec<Warning>> {
     Ok(texts.map(warning).collect())
 }
 
-fn reactions(group: &mut Group) -> Read<Vec<Reaction>> {
+fn reactions(group: &Group) -> Read<Vec<Reaction>> {
     let places = group.vector::<String>("on")?;
     let n = places.len();
     let (held, forces) = (group.matrix("held", n)?, group.matrix("force", n)?);

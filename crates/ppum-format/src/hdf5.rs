@@ -19,7 +19,7 @@ mod write;
 pub(crate) use append::{Step, Trunk};
 #[cfg(feature = "damage")]
 pub(crate) use lookup3::lookup3;
-pub(crate) use read::{Outline, Ranges, from_bytes};
+pub(crate) use read::{Outline, Ranges, from_bytes, from_file};
 #[cfg(feature = "damage")]
 pub(crate) use write::to_compressed_bytes;
 pub(crate) use write::{check_texts, to_bytes};

@@ -6,7 +6,7 @@ use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
 use ppum_file::Ranged;
 
-use crate::bytes::{from_bytes, newer};
+use crate::bytes::{from_file, newer};
 use crate::content::step_path;
 use crate::error::ReadError;
 use crate::hdf5::{Outline, Ranges};
@@ -45,7 +45,7 @@ impl Series {
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let io = |error| ReadError::io(path, error);
         let file = Ranged::open(path, MAX_SERIES_LENGTH).map_err(io)?;
-        let outline = || Outline::read(&file, file.length().map_err(io)?);
+        let outline = || Outline::read(&file, file.length(MAX_SERIES_LENGTH).map_err(io)?);
         let mut read = outline();
         for _ in 1..ATTEMPTS {
             match read {
@@ -53,12 +53,12 @@ impl Series {
                 _ => break,
             }
         }
-        let mut outline = read.map_err(ReadError::shortened)?;
+        let outline = read.map_err(ReadError::shortened)?;
         let minor = decode::check_version(&outline.content)?;
         if checksum::is_whole(&outline.content) {
-            return from_bytes(file.all(MAX_LENGTH).map_err(io)?).map(Self::of);
+            return from_file(&file, file.length(MAX_LENGTH).map_err(io)?).map(Self::of);
         }
-        let head = head(&mut outline).map_err(|error| newer(error, minor).shortened())?;
+        let head = head(&outline).map_err(|error| newer(error, minor).shortened())?;
         Ok(Self { head, minor, steps: Steps::Stored(file, outline) })
     }
 
@@ -97,16 +97,14 @@ impl Series {
     /// [`ReadError`]: there is no such step, or it is not what it should be. The dataset returned has passed
     /// [`Dataset::check`].
     pub fn dataset(&self, number: usize) -> Result<Dataset, ReadError> {
-        let mut dataset = self.head.clone();
         match &self.steps {
-            Steps::Read(steps) => dataset.steps.push(get(steps, number)?.clone()),
-            Steps::Stored(file, outline) => {
-                let step = self.step(file, outline, number);
-                dataset.steps.push(self.explained(step)?);
-                self.explained(dataset.check().map_err(|error| numbered(error, number).into()))?;
+            Steps::Read(steps) => {
+                let mut dataset = self.head.clone();
+                dataset.steps.push(get(steps, number)?.clone());
+                Ok(dataset)
             }
+            Steps::Stored(file, outline) => self.explained(self.stored(file, outline, number)),
         }
-        Ok(dataset)
     }
 
     /// The cracks of a step and what its solver tells of it: load, stress intensity factors, history and warnings.
@@ -186,14 +184,27 @@ impl Series {
         };
         let path = path(number, self.len())?;
         let read = outline.step(file, &path, Some(&[]));
-        self.explained(read.and_then(|mut content| decode::empty(&mut content, &path)))
+        self.explained(read.and_then(|content| decode::empty(&content, &path)))
     }
 
-    fn step(&self, file: &dyn Ranges, outline: &Outline, number: usize) -> Result<Step, ReadError> {
+    /// The dataset with a step that is read now. The step's checksum is compared while it is made.
+    fn stored(
+        &self,
+        file: &dyn Ranges,
+        outline: &Outline,
+        number: usize,
+    ) -> Result<Dataset, ReadError> {
         let path = path(number, self.len())?;
-        let mut content = outline.step(file, &path, None)?;
-        checksum::verify_step(&mut content, &path)?;
-        decode::one_step(content, &path, &self.head.tables)
+        let content = outline.step(file, &path, None)?;
+        let dataset = || {
+            let mut dataset = self.head.clone();
+            dataset.steps.push(decode::one_step(&content, &path, &self.head.tables)?);
+            dataset.check().map_err(|error| numbered(error, number))?;
+            Ok(dataset)
+        };
+        let (verified, dataset) = rayon::join(|| checksum::verify_step(&content, &path), dataset);
+        verified?;
+        dataset
     }
 
     fn stored_results(
@@ -204,7 +215,7 @@ impl Series {
     ) -> Result<Step, ReadError> {
         let path = path(number, self.len())?;
         let content = outline.step(file, &path, Some(decode::RESULTS))?;
-        let step = decode::results(content, &path)?;
+        let step = decode::results(&content, &path)?;
         let place = |error: CheckError| ReadError::object(&path, error.to_string());
         step.check_results().map_err(place)?;
         Ok(step)
@@ -216,9 +227,9 @@ impl Series {
 }
 
 /// The dataset without steps, and that their numbers are without gaps.
-fn head(outline: &mut Outline) -> Result<Dataset, ReadError> {
-    checksum::verify_rest(&mut outline.content)?;
-    let head = decode::head(&mut outline.content)?;
+fn head(outline: &Outline) -> Result<Dataset, ReadError> {
+    checksum::verify_rest(&outline.content)?;
+    let head = decode::head(&outline.content)?;
     let count = outline.steps().len();
     if count == 0 {
         // it says that there is none

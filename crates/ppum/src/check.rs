@@ -6,6 +6,8 @@
 mod domain;
 mod formulas;
 mod growth;
+mod marks;
+mod ranks;
 mod tiling;
 mod work;
 
@@ -105,9 +107,19 @@ fn check_all<T>(
     good: impl Fn(&T) -> bool,
     mistake: impl Fn(&T) -> String,
 ) -> Checked {
-    match values.iter().position(|v| !good(v)) {
+    check_each(name, values.len(), |k| good(&values[k]), |k| mistake(&values[k]))
+}
+
+/// The same of what belongs to each of so many entries.
+fn check_each(
+    name: &str,
+    count: usize,
+    good: impl Fn(usize) -> bool,
+    mistake: impl Fn(usize) -> String,
+) -> Checked {
+    match (0..count).find(|&k| !good(k)) {
         None => Ok(()),
-        Some(k) => fail(&format!("{name}[{k}]"), mistake(&values[k])),
+        Some(k) => fail(&format!("{name}[{k}]"), mistake(k)),
     }
 }
 
@@ -194,10 +206,13 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
 /// thinner than any cover's; a hair below the bound of covers, for rounding.
 const LEAST_REACH: f64 = 0.005 - 1e-9;
 
+/// Most patches: their borders are counted in 32 bits.
+const MOST_PATCHES: usize = 1 << 30;
+
 fn check_partition(partition: &Partition) -> Checked {
     let n = partition.len();
     require(n > 0, "center", || "there is no patch".into())?;
-    require(u32::try_from(n).is_ok(), "center", || format!("{n} patches are too many"))?;
+    require(n <= MOST_PATCHES, "center", || format!("{n} patches are too many"))?;
     for (name, length) in [
         ("half", partition.half.len()),
         ("origin", partition.origin.len()),
@@ -216,22 +231,22 @@ fn check_partition(partition: &Partition) -> Checked {
     check_all("cell", &partition.cell, is_box, |c| {
         format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
     })?;
-    let supports = (0..n).map(|patch| (partition.support(patch), &partition.cell[patch]));
-    let thin: Vec<_> = supports.map(|(support, cell)| thin_strip(&support, cell)).collect();
-    check_all("half", &thin, Option::is_none, |reach| {
-        format!(
-            "makes the support reach {} times the cell's size beyond it: patches overlap in strips too thin \
+    let reach = |patch: usize| thin_strip(&partition.support(patch), &partition.cell[patch]);
+    check_each(
+        "half",
+        n,
+        |patch| reach(patch).is_none(),
+        |patch| {
+            format!(
+                "makes the support reach {} times the cell's size beyond it: patches overlap in strips too thin \
              for their numbers, give them {} times the cell at least",
-            reach.unwrap_or_default(),
-            OVERLAP.start()
-        )
-    })?;
-    check_all(
-        "center",
-        &(0..n).collect::<Vec<_>>(),
-        |&patch| partition.support(patch).overlaps(&partition.cell[patch]),
-        |_| "puts the support beside its cell".into(),
+                reach(patch).unwrap_or_default(),
+                OVERLAP.start()
+            )
+        },
     )?;
+    let meets = |patch: usize| partition.support(patch).overlaps(&partition.cell[patch]);
+    check_each("center", n, meets, |_| "puts the support beside its cell".into())?;
     let points = partition.points.len();
     check_all(
         "point",

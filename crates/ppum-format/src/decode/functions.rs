@@ -22,7 +22,7 @@ struct Columns {
     declared: Vec<Declared>,
 }
 
-pub(super) fn functions(group: &mut Group) -> Read<Vec<Function>> {
+pub(super) fn functions(group: &Group) -> Read<Vec<Function>> {
     let names = group.vector::<String>("name")?;
     let n = names.len();
     let kinds = group.column::<String>("kind", n)?;
@@ -46,7 +46,7 @@ pub(super) fn functions(group: &mut Group) -> Read<Vec<Function>> {
     names.into_iter().zip(kinds).enumerate().map(function).collect()
 }
 
-fn parameters(group: &mut Group, functions: usize) -> Read<Vec<Vec<(String, f64)>>> {
+fn parameters(group: &Group, functions: usize) -> Read<Vec<Vec<(String, f64)>>> {
     let names = group.vector::<String>("parameter_name")?;
     let values = group.column::<f64>("parameter_value", names.len())?;
     let parts = group.offsets("parameter_offsets", functions, names.len())?;
@@ -55,16 +55,16 @@ fn parameters(group: &mut Group, functions: usize) -> Read<Vec<Vec<(String, f64)
 }
 
 /// The cuts of components, which may be missing from the file.
-fn cuts(group: &mut Group, functions: usize) -> Read<Vec<Vec<Cut>>> {
+fn cuts(group: &Group, functions: usize) -> Read<Vec<Vec<Cut>>> {
     if !(group.holds("cuts", Form::Dataset)? || group.holds("cut_offsets", Form::Dataset)?) {
         return Ok(vec![Vec::new(); functions]);
     }
     let rows = group.rows::<i64, 4>("cuts")?;
     let parts = group.offsets("cut_offsets", functions, rows.len())?;
     let cuts: Vec<_> = rows
-        .into_iter()
+        .iter()
         .enumerate()
-        .map(|(k, row)| cut(row).ok_or_else(|| group.error("cuts", format!("row {k} is no cut"))))
+        .map(|(k, row)| cut(*row).ok_or_else(|| group.error("cuts", format!("row {k} is no cut"))))
         .collect::<Read<_>>()?;
     Ok(parts.into_iter().map(|part| cuts[part].to_vec()).collect())
 }
@@ -81,11 +81,11 @@ fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
 }
 
 /// Kinks and singular points, each of which may be missing from the file.
-fn declared(group: &mut Group, functions: usize) -> Read<Vec<Declared>> {
+fn declared(group: &Group, functions: usize) -> Read<Vec<Declared>> {
     let mut declared = vec![Declared::default(); functions];
     if group.holds("kinks", Form::Dataset)? || group.holds("kink_offsets", Form::Dataset)? {
-        let segment = |[x0, y0, x1, y1]: [f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
-        let kinks: Vec<_> = group.rows("kinks")?.into_iter().map(segment).collect();
+        let segment = |&[x0, y0, x1, y1]: &[f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
+        let kinks: Vec<_> = group.rows("kinks")?.iter().map(segment).collect();
         let parts = group.offsets("kink_offsets", functions, kinks.len())?;
         std::iter::zip(&mut declared, parts).for_each(|(d, part)| d.kinks = kinks[part].to_vec());
     }

@@ -7,15 +7,15 @@ use crate::content::{Content, Element, Form, Values, join, key};
 use crate::error::ReadError;
 use crate::names::{Words, value};
 
-/// A place in the file to take arrays from. What is taken is gone: nothing is copied.
+/// A place in the file to take arrays from.
 pub(super) struct Group<'a> {
     pub(super) path: String,
-    pub(super) content: &'a mut Content,
+    pub(super) content: &'a Content,
 }
 
-impl Group<'_> {
+impl<'a> Group<'a> {
     /// A group in this one.
-    pub(super) fn group(&mut self, name: &str) -> Read<Group<'_>> {
+    pub(super) fn group(&self, name: &str) -> Read<Group<'a>> {
         if self.holds(name, Form::Group)? {
             Ok(Group { path: self.path_of(name), content: self.content })
         } else {
@@ -46,11 +46,10 @@ impl Group<'_> {
     }
 
     /// The values of an array or attribute of the given shape.
-    fn take<T: Element>(&mut self, name: &str, form: Form, shape: &[Extent]) -> Read<Vec<T>> {
+    fn look<T: Element>(&self, name: &str, form: Form, shape: &[Extent]) -> Read<&'a [T]> {
         let key = key(&self.path, name, form);
         self.holds(name, form)?;
-        let array =
-            self.content.remove(&key).ok_or_else(|| ReadError::object(&key, "is missing"))?;
+        let array = self.content.get(&key).ok_or_else(|| ReadError::object(&key, "is missing"))?;
         let fits = array.shape.len() == shape.len()
             && array.shape.iter().zip(shape).all(|(n, extent)| extent.allows(*n));
         if !fits {
@@ -60,8 +59,9 @@ impl Group<'_> {
                 format!("has shape {:?}, expected [{}]", array.shape, wanted.join(", ")),
             ));
         }
-        T::unwrap(array.values).map_err(|other| {
-            ReadError::object(&key, format!("has type {}, expected {}", other.type_name(), T::NAME))
+        T::of(&array.values).ok_or_else(|| {
+            let found = array.values.type_name();
+            ReadError::object(&key, format!("has type {found}, expected {}", T::NAME))
         })
     }
 
@@ -71,67 +71,66 @@ impl Group<'_> {
         array.is_some_and(|array| matches!(array.values, Values::Text(_)))
     }
 
-    pub(super) fn scalar<T: Element>(&mut self, name: &str) -> Read<T> {
+    pub(super) fn scalar<T: Element>(&self, name: &str) -> Read<T> {
         self.one(name, Form::Dataset)
     }
 
-    pub(super) fn attribute<T: Element>(&mut self, name: &str) -> Read<T> {
+    pub(super) fn attribute<T: Element>(&self, name: &str) -> Read<T> {
         self.one(name, Form::Attribute)
     }
 
-    fn one<T: Element>(&mut self, name: &str, form: Form) -> Read<T> {
-        let value = self.take(name, form, &[])?.pop();
-        value.ok_or_else(|| ReadError::object(&key(&self.path, name, form), "is empty"))
+    fn one<T: Element>(&self, name: &str, form: Form) -> Read<T> {
+        let value = self.look::<T>(name, form, &[])?.first();
+        value.cloned().ok_or_else(|| ReadError::object(&key(&self.path, name, form), "is empty"))
     }
 
-    pub(super) fn attribute_point(&mut self, name: &str) -> Read<Vec2> {
-        let p = self.take::<f64>(name, Form::Attribute, &[Extent::Is(2)])?;
+    pub(super) fn attribute_point(&self, name: &str) -> Read<Vec2> {
+        let p = self.look::<f64>(name, Form::Attribute, &[Extent::Is(2)])?;
         Ok(vec2(p[0], p[1]))
     }
 
     /// The values of an array of the given shape, row-major.
-    pub(super) fn array<T: Element>(&mut self, name: &str, shape: &[Extent]) -> Read<Vec<T>> {
-        self.take(name, Form::Dataset, shape)
+    pub(super) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Read<Vec<T>> {
+        self.look(name, Form::Dataset, shape).map(<[T]>::to_vec)
     }
 
     /// A vector of any length.
-    pub(super) fn vector<T: Element>(&mut self, name: &str) -> Read<Vec<T>> {
-        self.take(name, Form::Dataset, &[Extent::Any])
+    pub(super) fn vector<T: Element>(&self, name: &str) -> Read<Vec<T>> {
+        self.array(name, &[Extent::Any])
     }
 
     /// A vector as long as another.
-    pub(super) fn column<T: Element>(&mut self, name: &str, length: usize) -> Read<Vec<T>> {
-        self.take(name, Form::Dataset, &[Extent::Is(length as u64)])
+    pub(super) fn column<T: Element>(&self, name: &str, length: usize) -> Read<Vec<T>> {
+        self.array(name, &[Extent::Is(length as u64)])
     }
 
     /// A matrix of `N` columns.
-    pub(super) fn rows<T: Element + Clone, const N: usize>(
-        &mut self,
-        name: &str,
-    ) -> Read<Vec<[T; N]>> {
-        let values = self.take::<T>(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)])?;
-        Ok(values.as_chunks::<N>().0.to_vec())
+    pub(super) fn rows<T: Element, const N: usize>(&self, name: &str) -> Read<&'a [[T; N]]> {
+        let values = self.look(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)])?;
+        Ok(values.as_chunks().0)
     }
 
-    pub(super) fn points(&mut self, name: &str) -> Read<Vec<Vec2>> {
-        Ok(self.rows(name)?.into_iter().map(Vec2::from).collect())
+    pub(super) fn points(&self, name: &str) -> Read<Vec<Vec2>> {
+        Ok(self.rows(name)?.iter().map(|&p: &[f64; 2]| p.into()).collect())
     }
 
     /// The rows of a matrix with a given number of them.
-    pub(super) fn matrix(&mut self, name: &str, rows: usize) -> Read<Vec<Vec<f64>>> {
-        let values = self.array::<f64>(name, &[Extent::Is(rows as u64), Extent::Any])?;
+    pub(super) fn matrix(&self, name: &str, rows: usize) -> Read<Vec<Vec<f64>>> {
+        let shape = [Extent::Is(rows as u64), Extent::Any];
+        let values = self.look::<f64>(name, Form::Dataset, &shape)?;
         let columns = values.len().checked_div(rows).unwrap_or(0);
         Ok((0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect())
     }
 
     /// Compressed rows of `count` parts over `length` entries, as ranges.
     pub(super) fn offsets(
-        &mut self,
+        &self,
         name: &str,
         count: usize,
         length: usize,
     ) -> Read<Vec<std::ops::Range<usize>>> {
-        let ends = self.column::<u64>(name, count + 1)?;
+        let shape = [Extent::Is(count as u64 + 1)];
+        let ends = self.look::<u64>(name, Form::Dataset, &shape)?;
         let rising = ends.windows(2).all(|w| w[0] <= w[1]);
         if ends[0] != 0 || !rising || ends[count] != length as u64 {
             return Err(
@@ -172,14 +171,14 @@ impl std::fmt::Display for Extent {
 
 /// The groups `0000`, `0001`, … of a group. Members that are no numbers are of no concern.
 pub(super) fn numbered<T>(
-    parent: &mut Group,
+    parent: &Group,
     name: &str,
-    mut item: impl FnMut(&mut Group) -> Read<T>,
+    mut item: impl FnMut(&Group) -> Read<T>,
 ) -> Read<Vec<T>> {
     if !parent.holds(name, Form::Group)? {
         return Ok(Vec::new());
     }
-    let mut list = parent.group(name)?;
+    let list = parent.group(name)?;
     let is_number = |name: &&str| name.bytes().all(|b| b.is_ascii_digit());
     let count = list.content.members(&list.path).filter(is_number).count();
     let mut items = Vec::new();
@@ -188,7 +187,7 @@ pub(super) fn numbered<T>(
         if !list.holds(&number, Form::Group)? {
             return Err(missing(&list.path_of(&number), count));
         }
-        items.push(item(&mut list.group(&number)?)?);
+        items.push(item(&list.group(&number)?)?);
     }
     Ok(items)
 }
@@ -204,9 +203,9 @@ pub(crate) fn missing(path: &str, count: usize) -> ReadError {
 
 /// The content of a group, nothing if it is not there.
 pub(super) fn optional<T>(
-    parent: &mut Group,
+    parent: &Group,
     name: &str,
-    items: impl Fn(&mut Group) -> Read<Vec<T>>,
+    items: impl Fn(&Group) -> Read<Vec<T>>,
 ) -> Read<Vec<T>> {
-    if parent.holds(name, Form::Group)? { items(&mut parent.group(name)?) } else { Ok(Vec::new()) }
+    if parent.holds(name, Form::Group)? { items(&parent.group(name)?) } else { Ok(Vec::new()) }
 }

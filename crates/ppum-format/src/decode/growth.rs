@@ -8,7 +8,7 @@ use super::group::Group;
 use crate::content::Form;
 use crate::names::{ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
 
-pub(super) fn growth(group: &mut Group) -> Read<Growth> {
+pub(super) fn growth(group: &Group) -> Read<Growth> {
     let mut growth = Growth::default();
     if group.holds("cycles", Form::Attribute)? {
         growth.cycles = Some(group.attribute("cycles")?);
@@ -29,7 +29,7 @@ pub(super) fn growth(group: &mut Group) -> Read<Growth> {
 }
 
 /// The tips with their fates, and no numbers yet.
-fn tips(group: &mut Group) -> Read<Vec<Advance>> {
+fn tips(group: &Group) -> Read<Vec<Advance>> {
     let cracks = group.vector::<u32>("crack")?;
     let n = cracks.len();
     let ends = group.column::<String>("end", n)?;

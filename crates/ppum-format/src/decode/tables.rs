@@ -30,12 +30,12 @@ impl Scopes {
     }
 }
 
-pub(super) fn tables(root: &mut Group) -> Read<Vec<Arc<Table>>> {
+pub(super) fn tables(root: &Group) -> Read<Vec<Arc<Table>>> {
     let mut left = MAX_TABLE_VALUES;
     numbered(root, "tables", |group| table(group, &mut left).map(Arc::new))
 }
 
-fn table(group: &mut Group, left: &mut usize) -> Read<Table> {
+fn table(group: &Group, left: &mut usize) -> Read<Table> {
     let name: String = group.attribute("name")?;
     let x = group.vector::<f64>("x")?;
     let y = if group.holds("y", Form::Dataset)? { Some(group.vector::<f64>("y")?) } else { None };

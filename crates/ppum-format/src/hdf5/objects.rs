@@ -24,9 +24,7 @@ pub(super) fn group(
 ) -> Result<u64, WriteError> {
     let mut layouts = BTreeMap::new();
     let inside = join(path, "");
-    for (name, array) in
-        content.range(inside.clone()..).take_while(|(name, _)| name.starts_with(&inside))
-    {
+    for (name, array) in content.beginning(&inside) {
         let is_attribute = name.contains('@');
         if !is_attribute && let Some(layout) = large(addition, name, array, compressed)? {
             layouts.insert(name.as_str(), layout);

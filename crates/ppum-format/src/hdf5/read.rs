@@ -2,12 +2,15 @@
 
 mod arrays;
 mod attributes;
+mod batch;
 mod chunks;
 mod filters;
 mod header;
 mod heap;
+mod inflate;
 mod links;
 mod packing;
+mod shuffle;
 mod source;
 mod storage;
 mod store;
@@ -48,6 +51,13 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Content, ReadError> {
     let mut walk = Walk::new(source, Choice::All);
     walk.root(start.root)?;
     Ok(walk.content)
+}
+
+/// The same of a file of so many bytes, of which no more than that is read.
+pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Content, ReadError> {
+    let start = Start::of_file(file, length).map_err(unreadable)?;
+    let (content, _) = parts(start, file, length, |walk| walk.root(start.root))?;
+    Ok(content)
 }
 
 fn unreadable(Mistake(message): Mistake) -> ReadError {
@@ -241,8 +251,15 @@ impl<'f> Walk<'f> {
         if !self.source.account.pay_memory(cost) {
             return fail(format!("its shape {:?} is too large for the file's length", space.shape));
         }
-        let raw = elements(header, &space, kind.size)?;
-        Ok(Array { values: kind.values(&raw, &mut self.texts)?, shape: space.shape })
+        // the bytes of all values fit into memory's numbers, too
+        let fits =
+            |n: &u64| n.checked_mul(kind.size as u64).is_some_and(|n| usize::try_from(n).is_ok());
+        let Some(count) = space.count().filter(fits) else { return fail("its shape is too large") };
+        let fill = |bytes: &mut [u8]| elements(header, &space, kind.size, bytes);
+        Ok(Array {
+            values: kind.values(count as usize, &mut self.texts, fill)?,
+            shape: space.shape,
+        })
     }
 }
 

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, FinishedGroup, GroupBuilder};
 
 use super::account::{PLAIN_BYTES, memory_of};
+use super::values::shrinks;
 use crate::content::{Array, Content, Values, join};
 use crate::error::WriteError;
 
-/// Arrays from this length on are stored in chunks, shuffled and deflated. Geometry and indices shrink
-/// to a few percent, coefficients to some 80 %.
+/// Arrays from this length on are stored in chunks, shuffled and deflated, if they shrink to less than half. Geometry and
+/// indices shrink to a few percent; coefficients would to some 80 %, and then take longer to inflate than all else does
+/// to read (docs/decisions/0028-opening-files.md).
 const COMPRESSED_ELEMENTS: u64 = 1 << 12;
 
 /// Elements of a chunk: 1 MiB of doubles, which h5py's default cache just holds.
@@ -144,7 +146,7 @@ fn store(
 /// True for arrays that are compressed where that is allowed.
 pub(super) fn is_chunked(array: &Array) -> bool {
     let is_large = array.shape.iter().product::<u64>() >= COMPRESSED_ELEMENTS;
-    is_large && !matches!(array.values, Values::Text(_))
+    is_large && !matches!(array.values, Values::Text(_)) && shrinks(array)
 }
 
 /// The largest block of whole rows with at most [`CHUNK_ELEMENTS`] elements.

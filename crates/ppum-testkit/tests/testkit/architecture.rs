@@ -48,7 +48,7 @@ const ARROWS: [(&str, &[&str]); 12] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 22] = [
+const DOORS: [(&str, &str); 23] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
@@ -71,6 +71,7 @@ const DOORS: [(&str, &str); 22] = [
     ("sysinfo", "ppum-cli"),
     ("toml", "ppum-solve"),
     ("wgpu", "ppum-gpu"),
+    ("zlib-rs", "ppum-format"),
 ];
 
 /// Things that formulas and the field do without: threads, files of any kind, messages, graphics.

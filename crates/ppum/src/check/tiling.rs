@@ -1,11 +1,11 @@
 //! The cells of a partition tile the box of the domain; where holes are, cells may be missing.
 //!
 //! A line sweeps over the box from left to right. What it crosses is a list of intervals in y, each of a cell or
-//! of a gap, and it changes only where a cell begins or ends: O(n log n) for n cells.
+//! of a gap, and it changes only where a cell begins or ends: linear in n cells, but for the sorting of different borders.
 
-use std::collections::BTreeMap;
-
-use super::{Checked, fail};
+use super::marks::Marks;
+use super::ranks::{Ranks, in_order};
+use super::{CheckError, Checked, fail};
 use crate::dataset::Partition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};
@@ -25,37 +25,105 @@ const BESIDE: f64 = 1e-9;
 
 /// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap beside holes.
 pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
-    let (cells, bounds) = (&partition.cell, &domain.bounds);
-    let x = Borders::new(cells, bounds, |p| p.x);
-    let y = Borders::new(cells, bounds, |p| p.y);
-    let mut sweep =
-        Sweep::new(x.index(bounds.min.x), [y.index(bounds.min.y), y.index(bounds.max.y)]);
-    let mut rows = Vec::with_capacity(cells.len());
-    let mut events = Vec::with_capacity(2 * cells.len());
-    for (k, cell) in cells.iter().enumerate() {
-        let [columns, these] = [x.ends(cell), y.ends(cell)];
-        if columns[0] == columns[1] || these[0] == these[1] {
-            return wrong(k, cell, "is thinner than the rounding of its corners");
-        }
-        if !(x.hold(columns, bounds) && y.hold(these, bounds)) {
-            return wrong(k, cell, "reaches out of the domain's box");
-        }
-        rows.push(these);
-        events.extend([(columns[0], true, k as u32), (columns[1], false, k as u32)]);
+    let layout = Layout::new(&partition.cell, &domain.bounds)?;
+    if layout.covers_once() {
+        return Ok(());
     }
-    // of those at one place cells that end come first
-    events.sort_unstable();
-    for (at, begins, k) in events {
-        if !begins {
-            sweep.end(at, rows[k as usize]);
-        } else if !sweep.begin(at, rows[k as usize]) {
-            return wrong(k as usize, &cells[k as usize], "overlaps another cell");
+    match layout.gaps() {
+        Ok(gaps) => {
+            check_gaps(gaps.into_iter().map(|gap| layout.rect(gap)).collect(), &domain.holes)
         }
+        Err(k) => wrong(k, &partition.cell[k], "overlaps another cell"),
     }
-    let gaps = sweep.gaps(x.index(bounds.max.x)).into_iter();
-    let rect =
-        |[x0, y0, x1, y1]: [u32; 4]| Rect::new(vec2(x.at(x0), y.at(y0)), vec2(x.at(x1), y.at(y1)));
-    check_gaps(gaps.map(rect).collect(), &domain.holes)
+}
+
+/// Cells by the numbers of their borders.
+struct Layout {
+    x: Borders,
+    y: Borders,
+    places: Vec<Place>,
+}
+
+struct Place {
+    columns: [u32; 2],
+    rows: [u32; 2],
+}
+
+/// Most intervals between borders, as multiples of the number of cells, that are marked one by one.
+const MARKED: u64 = 64;
+
+impl Layout {
+    fn new(cells: &[Rect], bounds: &Rect) -> Result<Self, CheckError> {
+        let x = Borders::new(cells, bounds, |p| p.x);
+        let y = Borders::new(cells, bounds, |p| p.y);
+        let mut places = Vec::with_capacity(cells.len());
+        for (k, cell) in cells.iter().enumerate() {
+            let place = Place { columns: x.ends(cell), rows: y.ends(cell) };
+            if [place.columns, place.rows].iter().any(|[from, to]| from == to) {
+                wrong(k, cell, "is thinner than the rounding of its corners")?;
+            }
+            if !(x.hold(place.columns) && y.hold(place.rows)) {
+                wrong(k, cell, "reaches out of the domain's box")?;
+            }
+            places.push(place);
+        }
+        Ok(Self { x, y, places })
+    }
+
+    fn rect(&self, [x0, y0, x1, y1]: [u32; 4]) -> Rect {
+        Rect::new(vec2(self.x.at(x0), self.y.at(y0)), vec2(self.x.at(x1), self.y.at(y1)))
+    }
+
+    /// True if each interval between two borders in both directions is covered once. Of covers with many different
+    /// borders that is not asked.
+    fn covers_once(&self) -> bool {
+        let [width, height] = [&self.x, &self.y].map(Borders::intervals);
+        let all = width * height;
+        let covered = self.places.iter().map(Place::intervals).fold(0, u64::saturating_add);
+        if covered != all || all > MARKED * self.places.len() as u64 {
+            return false;
+        }
+        let mut marks = vec![false; all as usize];
+        self.places.iter().all(|place| self.mark(place, &mut marks, width as usize))
+    }
+
+    /// Marks what a cell covers; false if some of it is marked already.
+    fn mark(&self, place: &Place, marks: &mut [bool], width: usize) -> bool {
+        let [left, right] = place.columns.map(|column| (column - self.x.bounds[0]) as usize);
+        let [below, above] = place.rows.map(|row| (row - self.y.bounds[0]) as usize);
+        marks.chunks_exact_mut(width).take(above).skip(below).all(|row| {
+            let is_free = !row[left..right].contains(&true);
+            row[left..right].fill(true);
+            is_free
+        })
+    }
+
+    /// What no cell covers, or a cell that overlaps another.
+    fn gaps(&self) -> Result<Vec<[u32; 4]>, usize> {
+        let Self { x, y, places } = self;
+        // of those at one border cells that end come first
+        let keys = places.iter().flat_map(|place| {
+            let [begin, end] = place.columns;
+            [2 * begin + 1, 2 * end]
+        });
+        let mut sweep = Sweep::new(x.bounds[0], y.bounds, y.ranks.len());
+        for event in in_order(keys, 2 * x.ranks.len()) {
+            let Place { columns, rows } = &places[event as usize / 2];
+            if event % 2 == 1 {
+                sweep.end(columns[1], *rows);
+            } else if !sweep.begin(columns[0], *rows) {
+                return Err(event as usize / 2);
+            }
+        }
+        Ok(sweep.gaps(x.bounds[1]))
+    }
+}
+
+impl Place {
+    fn intervals(&self) -> u64 {
+        let [width, height] = [self.columns, self.rows].map(|[from, to]| u64::from(to - from));
+        width * height
+    }
 }
 
 fn wrong(index: usize, cell: &Rect, mistake: &str) -> Checked {
@@ -68,44 +136,47 @@ fn corners(b: &Rect) -> String {
 
 /// The borders of cells and of the box in one direction, increasing; those that rounding parts are one.
 struct Borders {
-    places: Vec<f64>,
+    ranks: Ranks,
+    /// Those of the box.
+    bounds: [u32; 2],
     along: fn(Vec2) -> f64,
 }
 
 impl Borders {
     fn new(cells: &[Rect], bounds: &Rect, along: fn(Vec2) -> f64) -> Self {
         let corners = cells.iter().chain([bounds]).flat_map(|b| [b.min, b.max]);
-        let mut places: Vec<f64> = corners.map(along).collect();
         let (from, to) = (along(bounds.min), along(bounds.max));
         let near = ROUNDING * (to - from) + f64::EPSILON * from.abs().max(to.abs());
-        places.sort_unstable_by(f64::total_cmp);
-        places.dedup_by(|next, kept| *next - *kept <= near);
-        Self { places, along }
-    }
-
-    /// The last border at a place or before it.
-    fn index(&self, place: f64) -> u32 {
-        self.places.partition_point(|&p| p <= place).saturating_sub(1) as u32
+        let mut borders =
+            Self { ranks: Ranks::new(corners.map(along), near), bounds: [0; 2], along };
+        borders.bounds = borders.ends(bounds);
+        borders
     }
 
     fn at(&self, index: u32) -> f64 {
-        self.places[index as usize]
+        self.ranks.at(index)
     }
 
+    /// Intervals between the borders in the box.
+    fn intervals(&self) -> u64 {
+        u64::from(self.bounds[1] - self.bounds[0])
+    }
+
+    /// The last borders at the ends of a cell or before them.
     fn ends(&self, b: &Rect) -> [u32; 2] {
-        [b.min, b.max].map(|p| self.index((self.along)(p)))
+        [b.min, b.max].map(|p| self.ranks.up_to((self.along)(p)).saturating_sub(1))
     }
 
-    fn hold(&self, [from, to]: [u32; 2], bounds: &Rect) -> bool {
-        let [first, last] = self.ends(bounds);
-        first <= from && to <= last
+    fn hold(&self, [from, to]: [u32; 2]) -> bool {
+        self.bounds[0] <= from && to <= self.bounds[1]
     }
 }
 
 /// The cells and gaps that a line parallel to the y axis crosses, as it moves to the right.
 struct Sweep {
-    /// Intervals that follow each other, by their lower ends.
-    line: BTreeMap<u32, Interval>,
+    /// Intervals that follow each other, each at its lower end, and marks where one begins.
+    line: Vec<Interval>,
+    starts: Marks,
     /// Rectangles that no cell covers.
     gaps: Vec<[u32; 4]>,
 }
@@ -118,35 +189,44 @@ struct Interval {
 }
 
 impl Sweep {
-    fn new(at: u32, [from, to]: [u32; 2]) -> Self {
-        let line = BTreeMap::from([(from, Interval { end: to, gap: Some(at) })]);
-        Self { line, gaps: Vec::new() }
+    fn new(at: u32, [from, to]: [u32; 2], borders: usize) -> Self {
+        let line = vec![Interval { end: to, gap: Some(at) }; borders];
+        let mut starts = Marks::new(borders);
+        starts.set(from);
+        Self { line, starts, gaps: Vec::new() }
+    }
+
+    fn put(&mut self, start: u32, interval: Interval) {
+        self.line[start as usize] = interval;
+        self.starts.set(start);
     }
 
     /// A cell ends: a gap begins, if only of no width.
     fn end(&mut self, at: u32, [from, to]: [u32; 2]) {
-        self.line.insert(from, Interval { end: to, gap: Some(at) });
+        self.put(from, Interval { end: to, gap: Some(at) });
     }
 
     /// A cell begins: the gaps before it end. False if there is a cell.
     fn begin(&mut self, at: u32, [from, to]: [u32; 2]) -> bool {
         let mut place = from;
         while place < to {
-            let found = self.line.range(..=place).next_back();
-            let Some((&start, &Interval { end, gap: Some(since) })) = found else { return false };
-            self.line.remove(&start);
+            let Some(start) = self.starts.last_up_to(place) else { return false };
+            let Interval { end, gap: Some(since) } = self.line[start as usize] else {
+                return false;
+            };
+            self.starts.clear(start);
             let gap = Some(since);
             if start < place {
-                self.line.insert(start, Interval { end: place, gap });
+                self.put(start, Interval { end: place, gap });
             }
             if to < end {
-                self.line.insert(to, Interval { end, gap });
+                self.put(to, Interval { end, gap });
             }
             let until = end.min(to);
             self.leave([since, place, at, until]);
             place = until;
         }
-        self.line.insert(from, Interval { end: to, gap: None });
+        self.put(from, Interval { end: to, gap: None });
         true
     }
 
@@ -156,10 +236,13 @@ impl Sweep {
         }
     }
 
-    /// All gaps, up to where the box ends.
+    /// All gaps, up to where the box ends, where no cell is left.
     fn gaps(mut self, at: u32) -> Vec<[u32; 4]> {
-        for (from, interval) in std::mem::take(&mut self.line) {
-            self.leave([interval.gap.unwrap_or(at), from, at, interval.end]);
+        for from in 0..self.line.len() as u32 {
+            if self.starts.last_up_to(from) == Some(from) {
+                let Interval { end, gap } = self.line[from as usize];
+                self.leave([gap.unwrap_or(at), from, at, end]);
+            }
         }
         self.gaps
     }
@@ -227,6 +310,8 @@ mod tests {
         for seed in 0..50 {
             let mut partition = cover(seed);
             assert_eq!(mistake(&partition, vec![]), None, "seed {seed}");
+            let layout = Layout::new(&partition.cell, &BOX).expect("cells of the box");
+            assert!(layout.covers_once() && layout.gaps() == Ok(vec![]), "seed {seed}");
             partition.cell.reverse();
             let ulp = |x: f64| x + f64::EPSILON * x;
             for cell in partition.cell.iter_mut().step_by(2) {

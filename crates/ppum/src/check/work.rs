@@ -3,8 +3,7 @@
 //! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
 //! a point takes is bounded here, once, and all others rely on it.
 
-use std::collections::BTreeMap;
-
+use super::ranks::{Ranks, in_order};
 use super::{Checked, fail};
 use crate::dataset::{Dataset, FieldData, Partition, Step, monomials};
 use crate::function::{FunctionTable, Slot};
@@ -27,7 +26,14 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
         let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables);
         let Ok(table) = table else { continue };
         for (f, field) in step.fields.iter().enumerate() {
-            let Some(at) = too_much(&works(step, field, &table)) else { continue };
+            let mut parts = Parts::new(step.partition.len(), &dataset.domain.bounds);
+            each_work(step, field, &table, |part, work| parts.add(&part, work));
+            if parts.most() <= MOST_WORK as i64 {
+                continue;
+            }
+            let mut works = Vec::new();
+            each_work(step, field, &table, |part, work| works.push((part, work)));
+            let Some(at) = too_much(&works) else { continue };
             let place = format!("steps[{k}].fields[{f}]");
             let mistake = format!(
                 "an evaluation at a point near ({}, {}) takes more than {MOST_WORK} coefficients of the patches that \
@@ -41,10 +47,15 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
     Ok(())
 }
 
-/// Cost of each patch where it is, and of each group of functions where a patch has it.
-fn works(step: &Step, field: &FieldData, table: &FunctionTable) -> Vec<(Rect, u64)> {
-    let (partition, mut all) = (&step.partition, Vec::new());
-    let mut groups: BTreeMap<u32, Rect> = BTreeMap::new();
+/// Visits the cost of each patch where it is, and of each group of functions where a patch has it.
+fn each_work(
+    step: &Step,
+    field: &FieldData,
+    table: &FunctionTable,
+    mut visit: impl FnMut(Rect, u64),
+) {
+    let partition = &step.partition;
+    let mut groups: Vec<Option<Rect>> = vec![None; table.groups()];
     let own = PATCH + weight(partition);
     for patch in 0..partition.len() {
         let support = partition.support(patch);
@@ -52,15 +63,17 @@ fn works(step: &Step, field: &FieldData, table: &FunctionTable) -> Vec<(Rect, u6
         for block in field.blocks(patch) {
             work += monomials(field.block_degree[block].into()) * field.components.len();
             if let Slot::Jet { group, .. } = table.of(field.block_function[block]) {
-                let part = groups.entry(group).or_insert(support);
-                *part = part.union(&support);
+                let part = &mut groups[group as usize];
+                *part = Some(part.map_or(support, |part| part.union(&support)));
             }
         }
-        all.push((support, work as u64));
+        visit(support, work as u64);
     }
-    let cost = |group: u32| table.cost(group as usize, &step.cracks) as u64;
-    all.extend(groups.into_iter().map(|(group, part)| (part, cost(group))));
-    all
+    for (group, part) in groups.into_iter().enumerate() {
+        if let Some(part) = part {
+            visit(part, table.cost(group, &step.cracks) as u64);
+        }
+    }
 }
 
 /// Operations of a weight, in both directions.
@@ -71,29 +84,74 @@ fn weight(partition: &Partition) -> usize {
     }
 }
 
+/// Most parts of the plane in each direction.
+const PARTS: usize = 1 << 10;
+
+/// Equal parts of the plane, about as many as there are patches, with the works of the boxes that reach into each: at no
+/// point of a part there is more. Most covers are known to be fine by this.
+struct Parts {
+    /// The changes of the sums from each part to the next in both directions, with a row and a column more at the end.
+    changes: Vec<i64>,
+    stride: usize,
+    from: Vec2,
+    scale: Vec2,
+}
+
+impl Parts {
+    fn new(patches: usize, bounds: &Rect) -> Self {
+        let parts = patches.isqrt().clamp(1, PARTS);
+        let (size, count, stride) = (bounds.size(), parts as f64, parts + 1);
+        let scale = vec2(count / size.x, count / size.y);
+        Self { changes: vec![0; stride * stride], stride, from: bounds.min, scale }
+    }
+
+    /// The column and the row of a point, the nearest of one beyond them.
+    fn at(&self, p: Vec2) -> [usize; 2] {
+        let last = self.stride - 2;
+        let d = p - self.from;
+        [d.x * self.scale.x, d.y * self.scale.y].map(|place| (place as usize).min(last))
+    }
+
+    fn add(&mut self, b: &Rect, work: u64) {
+        let ([left, below], [right, above]) = (self.at(b.min), self.at(b.max));
+        let work = work as i64;
+        for (row, work) in [(below, work), (above + 1, -work)] {
+            self.changes[row * self.stride + left] += work;
+            self.changes[row * self.stride + right + 1] -= work;
+        }
+    }
+
+    fn most(&self) -> i64 {
+        let (mut before, mut most) = (vec![0; self.stride], 0);
+        for row in self.changes.chunks_exact(self.stride) {
+            let mut change = 0;
+            for (sum, next) in before.iter_mut().zip(row) {
+                change += next;
+                *sum += change;
+                most = most.max(*sum);
+            }
+        }
+        most
+    }
+}
+
 /// A point at which the works of the boxes over it are too much together; half-open boxes do not touch. A line sweeps
 /// over the plane from left to right. O(n log n).
 fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
-    if boxes.iter().map(|(_, work)| work).sum::<u64>() <= MOST_WORK {
-        return None;
-    }
-    let mut heights: Vec<f64> = boxes.iter().flat_map(|(b, _)| [b.min.y, b.max.y]).collect();
-    heights.sort_unstable_by(f64::total_cmp);
-    heights.dedup();
-    let rank = |y: f64| heights.partition_point(|&known| known < y);
-    let mut events: Vec<(f64, bool, u32)> = Vec::with_capacity(2 * boxes.len());
-    for (k, (b, _)) in (0..).zip(boxes) {
-        events.extend([(b.min.x, true, k), (b.max.x, false, k)]);
-    }
+    let x = Ranks::new(boxes.iter().flat_map(|(b, _)| [b.min.x, b.max.x]), 0.0);
+    let y = Ranks::new(boxes.iter().flat_map(|(b, _)| [b.min.y, b.max.y]), 0.0);
+    let column = |at: f64| x.up_to(at) - 1;
+    let row = |at: f64| y.up_to(at) as usize - 1;
     // what ends at a place goes before what begins there
-    events.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut line = Line::new(heights.len());
-    for (x, begins, k) in events {
-        let (b, work) = &boxes[k as usize];
-        let work = if begins { *work as i64 } else { -(*work as i64) };
-        line.add(rank(b.min.y), rank(b.max.y), work);
+    let keys = boxes.iter().flat_map(|(b, _)| [2 * column(b.min.x) + 1, 2 * column(b.max.x)]);
+    let mut line = Line::new(y.len());
+    for event in in_order(keys, 2 * x.len()) {
+        let (b, work) = &boxes[event as usize / 2];
+        let (at, work) =
+            if event % 2 == 0 { (b.min.x, *work as i64) } else { (b.max.x, -(*work as i64)) };
+        line.add(row(b.min.y), row(b.max.y), work);
         if line.most[1] > MOST_WORK as i64 {
-            return Some(vec2(x, heights[line.place()]));
+            return Some(vec2(at, y.at(line.place() as u32)));
         }
     }
     None
@@ -194,6 +252,9 @@ mod tests {
                     .collect();
                 let most = largest(&boxes);
                 let told = too_much(&boxes);
+                let mut parts = Parts::new(n as usize, &Rect::new(vec2(1.0, 0.0), vec2(8.0, 9.0)));
+                boxes.iter().for_each(|(b, work)| parts.add(b, *work));
+                assert!(parts.most() >= most as i64, "{boxes:?}");
                 assert_eq!(told.is_some(), most > MOST_WORK, "{boxes:?}");
                 if let Some(at) = told {
                     let over = boxes.iter().filter(|(b, _)| {
@@ -205,6 +266,21 @@ mod tests {
             }
         }
         assert!((20..180).contains(&found), "{found}");
+    }
+
+    /// What lies in one part is added up, and nothing else.
+    #[test]
+    fn sums_of_parts() {
+        let mut parts = Parts::new(16, &Rect::new(vec2(0.0, 0.0), vec2(4.0, 4.0)));
+        let mut add = |x0, y0, x1, y1, work| {
+            parts.add(&Rect::new(vec2(x0, y0), vec2(x1, y1)), work);
+            parts.most()
+        };
+        assert_eq!(add(0.5, 0.5, 1.5, 1.5, 10), 10);
+        assert_eq!(add(2.1, 2.1, 9.0, 9.0, 7), 10);
+        assert_eq!(add(3.5, 3.5, 3.6, 3.6, 4), 11);
+        assert_eq!(add(-9.0, -9.0, 0.1, 0.1, 5), 15);
+        assert_eq!(add(f64::NEG_INFINITY, 1.2, f64::INFINITY, 1.3, 20), 30);
     }
 
     /// Blocks share no coefficients, and what could be multiplied by something else has a limit.

@@ -84,6 +84,11 @@ impl Attribute<'_> {
         if !self.data.source.account.pay_memory(cost) {
             return fail("its shape is too large for the file's length");
         }
-        Ok(Array { shape: space.shape, values: self.kind.values(raw, texts)? })
+        let fill = |bytes: &mut [u8]| {
+            bytes.copy_from_slice(raw);
+            Ok(())
+        };
+        let values = self.kind.values(size / self.kind.size, texts, fill)?;
+        Ok(Array { shape: space.shape, values })
     }
 }

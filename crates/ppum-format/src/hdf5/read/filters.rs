@@ -1,12 +1,12 @@
 //! The filters that chunks went through when they were written, and how each is undone.
 
 use std::borrow::Cow;
-use std::io::{Read as _, copy, sink};
-
-use flate2::read::ZlibDecoder;
 
 use super::super::account::Account;
+use super::chunks::Stored;
+use super::inflate;
 use super::packing::{scale_offset, unpacked};
+use super::shuffle::unshuffle;
 use super::source::{Cursor, Parsed, fail};
 
 /// Numbers under which filters are registered.
@@ -47,18 +47,26 @@ fn filter(message: &mut Cursor, is_old: bool) -> Parsed<Filter> {
 }
 
 /// The filters of the chunks of an array.
-pub(super) struct Pipeline<'f> {
+pub(super) struct Pipeline {
     pub(super) filters: Vec<Filter>,
     /// Bytes of an element and of a chunk.
     pub(super) size: usize,
     pub(super) bytes: u64,
-    pub(super) account: &'f Account,
 }
 
 /// Bytes by which a filter may lengthen a chunk: checksums, headers of packed numbers.
 const LENGTHENING: u64 = 1024;
 
-impl Pipeline<'_> {
+/// What deflation gives of a chunk.
+enum Inflated {
+    /// Of each of so many planes of a length, which make up the chunk, its first bytes. One is a chunk that is not
+    /// divided.
+    Planes { count: u64, length: u64, keep: u64 },
+    /// All of what other filters have made of it.
+    All,
+}
+
+impl Pipeline {
     /// The filters that were applied to a chunk.
     fn applied(&self, mask: u32) -> Vec<&Filter> {
         let is_left_out = |k: usize| 1_u32.checked_shl(k as u32).is_some_and(|bit| mask & bit != 0);
@@ -71,99 +79,113 @@ impl Pipeline<'_> {
         !self.applied(mask).is_empty()
     }
 
-    /// The bytes of a chunk as they were before the filters, of the first `keep` elements at least.
-    pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> Parsed<Cow<'r, [u8]>> {
+    /// Pays for what [`undo`](Self::undo) does with a chunk: for the bytes that filters give, and for those of them that
+    /// are kept for a while.
+    pub(super) fn pay(&self, stored: Stored, keep: u64, account: &Account) -> Parsed<()> {
+        let applied = self.applied(stored.mask);
+        for (k, filter) in applied.iter().enumerate().rev() {
+            let (expanded, kept) = match filter.id {
+                DEFLATE => self.inflated(&applied[..k], keep).cost(self.bytes),
+                SCALE_OFFSET | LZF => (self.bytes, self.most()),
+                _ => (0, stored.bytes),
+            };
+            if !(account.pay_expanded(expanded) && account.has_memory(kept)) {
+                return fail(TOO_LARGE);
+            }
+        }
+        Ok(())
+    }
+
+    /// Most bytes of a chunk that has to be there as a whole.
+    fn most(&self) -> u64 {
+        self.bytes.saturating_add(LENGTHENING)
+    }
+
+    fn whole(&self) -> Parsed<usize> {
+        usize::try_from(self.most()).or(fail(TOO_LARGE))
+    }
+
+    /// The elements of a chunk as they were before the filters, the first `keep` at least. It has been paid for.
+    pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> Parsed<Undone<'r>> {
         let (applied, mut data) = (self.applied(mask), Cow::Borrowed(raw));
-        let mut rest = applied.as_slice();
-        while let Some((filter, before)) = rest.split_last() {
+        for (k, filter) in applied.iter().enumerate().rev() {
             data = match filter.id {
-                DEFLATE => self.inflate(&data, before, keep)?.into(),
-                SHUFFLE => self.unshuffle(&data, filter)?.into(),
+                DEFLATE => self.inflate(&data, &applied[..k], keep)?.into(),
+                SHUFFLE if self.is_other_size(filter) => {
+                    return fail("its chunks are shuffled by elements of another size");
+                }
+                SHUFFLE if k == 0 => return Ok(Undone { data, planes: self.size }),
+                SHUFFLE => Undone { data, planes: self.size }.all().into(),
                 FLETCHER32 => checked(data)?,
                 SCALE_OFFSET => scale_offset(&data, &filter.parameters, self.whole()?)?.into(),
                 LZF => unpacked(&data, self.whole()?)?.into(),
                 id => return fail(other(id)),
             };
-            rest = before;
         }
-        Ok(data)
+        Ok(Undone { data, planes: 1 })
     }
 
-    /// Most bytes of a chunk that has to be there as a whole, which are paid for.
-    fn whole(&self) -> Parsed<usize> {
-        let most = self.bytes.saturating_add(LENGTHENING);
-        self.pay(self.bytes, most)?;
-        usize::try_from(most).or(fail(TOO_LARGE))
+    fn is_other_size(&self, shuffle: &Filter) -> bool {
+        shuffle.parameters.first().is_some_and(|&size| size as usize != self.size)
     }
 
-    /// Pays for bytes that a filter gives, and for those of them that are kept for a while.
-    fn pay(&self, expanded: u64, kept: u64) -> Parsed<()> {
-        if self.account.pay_expanded(expanded) && self.account.has_memory(kept) {
-            return Ok(());
-        }
-        fail(TOO_LARGE)
-    }
-
-    /// Undoes deflation. Of a chunk that is larger than its array only the beginning is kept: of its bytes,
-    /// or of each of the planes that shuffling divides it into.
-    fn inflate(&self, data: &[u8], before: &[&Filter], keep: u64) -> Parsed<Vec<u8>> {
+    /// What deflation gives, which came after some other filters. Of a chunk that is larger than its array only the
+    /// beginning is kept: of its bytes, or of each of the planes that shuffling divides it into.
+    fn inflated(&self, before: &[&Filter], keep: u64) -> Inflated {
         let size = self.size as u64;
         match before {
-            [] => self.planes(data, 1, keep * size, self.bytes),
-            [one] if one.id == SHUFFLE => self.planes(data, size, keep, self.bytes / size),
-            _ => self.all(data),
-        }
-    }
-
-    /// The first `keep` bytes of each of `count` planes of `length` bytes.
-    fn planes(&self, data: &[u8], count: u64, keep: u64, length: u64) -> Parsed<Vec<u8>> {
-        let is_whole = keep == length;
-        self.pay(length * (count - 1) + keep, keep * count)?;
-        let mut planes = Vec::with_capacity((keep * count) as usize);
-        let mut stream = ZlibDecoder::new(data);
-        for plane in 1..=count {
-            let read = stream.by_ref().take(keep).read_to_end(&mut planes);
-            let skip = if plane < count { length - keep } else { 0 };
-            let skipped = copy(&mut stream.by_ref().take(skip), &mut sink());
-            if read.ok() != Some(keep as usize) || skipped.ok() != Some(skip) {
-                return fail("a chunk cannot be decompressed");
+            [] => Inflated::Planes { count: 1, length: self.bytes, keep: keep * size },
+            [one] if one.id == SHUFFLE => {
+                Inflated::Planes { count: size, length: self.bytes / size, keep }
             }
-        }
-        // at the end is a checksum, which is looked at if more is asked for
-        if is_whole && stream.read(&mut [0]).ok() != Some(0) {
-            return fail("a chunk cannot be decompressed");
-        }
-        Ok(planes)
-    }
-
-    fn all(&self, data: &[u8]) -> Parsed<Vec<u8>> {
-        let (most, mut all) = (self.whole()?, Vec::new());
-        match ZlibDecoder::new(data).take(most as u64).read_to_end(&mut all) {
-            Ok(_) => Ok(all),
-            Err(_) => fail("a chunk cannot be decompressed"),
+            _ => Inflated::All,
         }
     }
 
-    /// Undoes shuffling, by which the first bytes of all elements come first, then the second ones.
-    fn unshuffle(&self, data: &[u8], filter: &Filter) -> Parsed<Vec<u8>> {
-        let size = filter.parameters.first().map_or(self.size, |&size| size as usize);
-        if size != self.size {
-            return fail("its chunks are shuffled by elements of another size");
+    fn inflate(&self, data: &[u8], before: &[&Filter], keep: u64) -> Parsed<Vec<u8>> {
+        let inflated = match self.inflated(before, keep) {
+            Inflated::Planes { count, length, keep } => planes(data, [count, length, keep]),
+            Inflated::All => inflate::all(data, self.whole()?),
+        };
+        inflated.ok_or_else(|| "a chunk cannot be decompressed".into())
+    }
+}
+
+impl Inflated {
+    /// The bytes that are made, and those of them that are kept.
+    fn cost(&self, chunk: u64) -> (u64, u64) {
+        match *self {
+            Self::Planes { count, length, keep } => (length * (count - 1) + keep, keep * count),
+            Self::All => (chunk, chunk.saturating_add(LENGTHENING)),
         }
-        if !self.account.has_memory(data.len() as u64) {
-            return fail(TOO_LARGE);
-        }
-        let mut elements = vec![0; data.len()];
-        let count = data.len() / size;
-        for (k, plane) in data.chunks_exact(count.max(1)).take(size).enumerate() {
-            for (element, byte) in elements.chunks_exact_mut(size).zip(plane) {
-                element[k] = *byte;
-            }
-        }
-        // what does not make a whole element stays as it is
-        let whole = count * size;
-        elements[whole..].copy_from_slice(&data[whole..]);
-        Ok(elements)
+    }
+}
+
+fn planes(data: &[u8], [count, length, keep]: [u64; 3]) -> Option<Vec<u8>> {
+    inflate::planes(data, count as usize, length, usize::try_from(keep).ok()?)
+}
+
+/// A chunk before its filters, but that it may still be shuffled.
+pub(super) struct Undone<'r> {
+    data: Cow<'r, [u8]>,
+    /// Planes that it is divided into: one if it is not shuffled.
+    planes: usize,
+}
+
+impl Undone<'_> {
+    pub(super) fn len(&self) -> usize {
+        self.data.len()
+    }
+
+    /// Puts the first elements where they belong, as many as there is room for.
+    pub(super) fn put(&self, elements: &mut [u8]) {
+        unshuffle(&self.data, self.planes, elements);
+    }
+
+    fn all(&self) -> Vec<u8> {
+        let mut elements = vec![0; self.data.len()];
+        self.put(&mut elements);
+        elements
     }
 }
 

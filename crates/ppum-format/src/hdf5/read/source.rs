@@ -74,6 +74,12 @@ impl<'f> Source<'f> {
         self.bytes.values(address, length, self.account)
     }
 
+    /// Fills a buffer with the bytes of values.
+    pub(super) fn fill(self, address: u64, buffer: &mut [u8]) -> Parsed<()> {
+        self.pay(address, buffer.len() as u64)?;
+        self.bytes.fill(address, buffer, self.account)
+    }
+
     fn pay(self, address: u64, length: u64) -> Parsed<()> {
         if address.checked_add(length).is_none_or(|end| end > self.length()) {
             return fail("it leads beyond the end of the file");

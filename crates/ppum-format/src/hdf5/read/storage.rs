@@ -1,8 +1,7 @@
 //! Places of the values of an array: in its header, in one piece, or in chunks.
 
-use std::borrow::Cow;
-
-use super::chunks::{Grid, Index, Stored};
+use super::batch::{Batch, Part};
+use super::chunks::{Grid, Index};
 use super::filters::{Pipeline, filters};
 use super::header::{EXTERNAL_FILES, FILL_VALUE, FILTERS, Header, LAYOUT, OLD_FILL_VALUE};
 use super::source::{Cursor, Parsed, fail};
@@ -14,28 +13,22 @@ const CONTIGUOUS: u8 = 1;
 const CHUNKED: u8 = 2;
 const VIRTUAL: u8 = 3;
 
-/// The bytes of all elements of an array, row-major. The caller has paid for them.
-pub(super) fn elements<'f>(
-    header: &Header<'f>,
+/// Fills a buffer, which is zero, with the bytes of all elements of an array, row-major.
+pub(super) fn elements(
+    header: &Header,
     space: &Space,
     size: usize,
-) -> Parsed<Cow<'f, [u8]>> {
-    let bytes = space.count().and_then(|count| count.checked_mul(size as u64));
-    let Some(bytes) = bytes.and_then(|bytes| usize::try_from(bytes).ok()) else {
-        return fail("its shape is too large");
-    };
+    array: &mut [u8],
+) -> Parsed<()> {
     let mut layout = header.get(LAYOUT)?;
     let version = layout.u8()?;
     if !(3..=5).contains(&version) {
         return fail(format!("its layout has version {version}, which is not read"));
     }
     match layout.u8()? {
-        COMPACT => {
-            let stored = layout.u16()?;
-            complete(layout.take(stored.into())?, bytes)
-        }
-        CONTIGUOUS => contiguous(header, layout, bytes, size),
-        CHUNKED => chunked(header, layout, version, space, size).map(Cow::Owned),
+        COMPACT => compact(layout, array),
+        CONTIGUOUS => contiguous(header, layout, size, array),
+        CHUNKED => chunked(header, layout, version, space, size, array),
         VIRTUAL => {
             fail("its values stand in other datasets (a virtual dataset), which is not read")
         }
@@ -43,41 +36,41 @@ pub(super) fn elements<'f>(
     }
 }
 
-fn complete(stored: &[u8], bytes: usize) -> Parsed<Cow<'_, [u8]>> {
-    match stored.get(..bytes) {
-        Some(values) => Ok(values.into()),
-        None => fail(FEWER),
+fn compact(mut layout: Cursor, array: &mut [u8]) -> Parsed<()> {
+    let stored = layout.u16()?;
+    match layout.take(stored.into())?.get(..array.len()) {
+        Some(values) => array.copy_from_slice(values),
+        None => return fail(FEWER),
     }
+    Ok(())
 }
 
 const FEWER: &str = "holds fewer values than its shape says";
 
-fn contiguous<'f>(
-    header: &Header<'f>,
-    mut layout: Cursor<'f>,
-    bytes: usize,
-    size: usize,
-) -> Parsed<Cow<'f, [u8]>> {
+fn contiguous(header: &Header, mut layout: Cursor, size: usize, array: &mut [u8]) -> Parsed<()> {
     let (address, stored) = (layout.offset()?, layout.length()?);
     if header.has(EXTERNAL_FILES) {
         return fail("its values stand in another file, which is not read");
     }
+    let bytes = array.len() as u64;
     // every value that is not stored is the same: an array of them must not be longer than the file
-    if bytes as u64 > header.source.length() {
+    if bytes > header.source.length() {
         return fail("it is longer than the file");
     }
     match address {
-        None => Ok(filled(bytes, &fill(header, size)?).into()),
-        Some(address) if bytes as u64 <= stored => header.source.values(address, bytes as u64),
+        None => {
+            repeat(array, &fill(header, size)?);
+            Ok(())
+        }
+        Some(address) if bytes <= stored => header.source.fill(address, array),
         Some(_) => fail(FEWER),
     }
 }
 
-fn filled(bytes: usize, fill: &[u8]) -> Vec<u8> {
-    if fill.iter().all(|&byte| byte == 0) {
-        vec![0; bytes]
-    } else {
-        fill.repeat(bytes / fill.len())
+/// Fills a buffer, which is zero, with elements that are all the same.
+fn repeat(array: &mut [u8], element: &[u8]) {
+    if element.iter().any(|&byte| byte != 0) {
+        array.chunks_exact_mut(element.len()).for_each(|place| place.copy_from_slice(element));
     }
 }
 
@@ -115,7 +108,8 @@ fn chunked(
     version: u8,
     space: &Space,
     size: usize,
-) -> Parsed<Vec<u8>> {
+    array: &mut [u8],
+) -> Parsed<()> {
     let pipeline = header.find(FILTERS)?.map_or(Ok(vec![]), filters)?;
     let (flags, chunk, index) =
         if version == 3 { old_chunks(&mut layout)? } else { new_chunks(&mut layout, space)? };
@@ -129,39 +123,15 @@ fn chunked(
         return fail("its chunks are too large");
     };
     let grid = Grid { space, chunk, bytes, is_filtered: !pipeline.is_empty() };
-    let pipeline = Pipeline { filters: pipeline, size, bytes, account: header.source.account };
-    let count = space.count().unwrap_or(0) as usize;
-    let mut array = filled(count * size, &fill(header, size)?);
+    let pipeline = Pipeline { filters: pipeline, size, bytes };
+    repeat(array, &fill(header, size)?);
+    let mut batch = Batch::new(header.source, &pipeline, array);
     index.visit(header.source, &grid, &mut |start, stored| {
         let Some(part) = Part::new(&grid, start) else { return Ok(()) };
         let is_plain = flags & PLAIN_BORDER != 0 && part.extent != grid.chunk;
-        let values = values(header, &pipeline, stored, part.keep(), is_plain)?;
-        part.copy(&values, &mut array, size);
-        Ok(())
+        batch.add(part, stored, is_plain)
     })?;
-    Ok(array)
-}
-
-/// The first elements of a chunk, as many as are asked for.
-fn values<'f>(
-    header: &Header<'f>,
-    pipeline: &Pipeline,
-    stored: Stored,
-    keep: u64,
-    is_plain: bool,
-) -> Parsed<Cow<'f, [u8]>> {
-    let bytes = keep * pipeline.size as u64;
-    if is_plain || !pipeline.applies(stored.mask) {
-        return header.source.values(stored.address, bytes);
-    }
-    let values = match header.source.values(stored.address, stored.bytes)? {
-        Cow::Borrowed(raw) => pipeline.undo(raw, stored.mask, keep)?,
-        Cow::Owned(raw) => pipeline.undo(&raw, stored.mask, keep)?.into_owned().into(),
-    };
-    if (values.len() as u64) < bytes {
-        return fail("a chunk holds fewer values than its shape says");
-    }
-    Ok(values)
+    batch.finish()
 }
 
 /// Flags, shape with the bytes of an element, index.
@@ -178,53 +148,6 @@ fn new_chunks(layout: &mut Cursor, space: &Space) -> Parsed<Chunks> {
     let (flags, rank, width) = (layout.u8()?, layout.u8()?, layout.u8()?);
     let chunk = (0..rank).map(|_| layout.number(width.into())).collect::<Parsed<_>>()?;
     Ok((flags, chunk, Index::parse(layout, flags, space)?))
-}
-
-/// The part of an array that is in a chunk.
-struct Part<'a> {
-    grid: &'a Grid<'a>,
-    start: &'a [u64],
-    extent: Vec<u64>,
-}
-
-impl<'a> Part<'a> {
-    /// None for a chunk outside the array.
-    fn new(grid: &'a Grid<'a>, start: &'a [u64]) -> Option<Self> {
-        let shape = grid.space.shape.iter().zip(grid.chunk).zip(start);
-        let extent: Vec<u64> =
-            shape.map(|((n, chunk), start)| n.saturating_sub(*start).min(*chunk)).collect();
-        (!extent.contains(&0)).then_some(Self { grid, start, extent })
-    }
-
-    /// Elements of the chunk up to the last one in the array.
-    fn keep(&self) -> u64 {
-        let shape = self.grid.chunk.iter().zip(&self.extent);
-        shape.fold(0, |last, (chunk, extent)| last * chunk + extent - 1) + 1
-    }
-
-    /// Copies the rows of the part to where they belong.
-    fn copy(&self, chunk: &[u8], array: &mut [u8], size: usize) {
-        let (outer, row) = match self.extent.split_last() {
-            Some((row, outer)) => (outer, *row as usize * size),
-            None => (&[][..], size),
-        };
-        let mut at = vec![0; outer.len()];
-        loop {
-            let from = place(&at, &[], self.grid.chunk) * size;
-            let to = place(&at, self.start, &self.grid.space.shape) * size;
-            array[to..to + row].copy_from_slice(&chunk[from..from + row]);
-            if !step(&mut at, outer) {
-                break;
-            }
-        }
-    }
-}
-
-/// The place of an element in a row-major array; coordinates that are left out are zero.
-fn place(at: &[u64], start: &[u64], shape: &[u64]) -> usize {
-    let coordinate = |k: usize, of: &[u64]| of.get(k).copied().unwrap_or(0);
-    let sum = |sum: u64, (k, n): (usize, &u64)| sum * n + coordinate(k, at) + coordinate(k, start);
-    shape.iter().enumerate().fold(0, sum) as usize
 }
 
 /// The next place in an array of this shape, in row-major order; false after the last one.

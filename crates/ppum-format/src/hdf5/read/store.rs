@@ -106,8 +106,13 @@ impl<'f> Parts<'f> {
     fn read(&self, from: u64, length: u64) -> Parsed<Vec<u8>> {
         let Ok(size) = usize::try_from(length) else { return fail("it is too large") };
         let mut bytes = vec![0; size];
-        match self.file.read(self.start + from, &mut bytes) {
-            Ok(()) => Ok(bytes),
+        self.fill(from, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn fill(&self, from: u64, buffer: &mut [u8]) -> Parsed<()> {
+        match self.file.read(self.start + from, buffer) {
+            Ok(()) => Ok(()),
             Err(error) => fail(format!("it cannot be read: {error}")),
         }
     }
@@ -140,5 +145,15 @@ impl<'f> Bytes<'f> {
             Self::File(parts) if length > PAGE => parts.read(address, length).map(Cow::Owned),
             _ => self.get(address, length, account).map(Cow::Borrowed),
         }
+    }
+
+    /// Fills a buffer with the bytes of values. They are within the file.
+    pub(super) fn fill(self, address: u64, buffer: &mut [u8], account: &Account) -> Parsed<()> {
+        let length = buffer.len() as u64;
+        match self {
+            Self::File(parts) if length > PAGE => return parts.fill(address, buffer),
+            _ => buffer.copy_from_slice(self.get(address, length, account)?),
+        }
+        Ok(())
     }
 }

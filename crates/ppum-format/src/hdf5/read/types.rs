@@ -1,6 +1,6 @@
 //! Types and shapes of arrays and attributes, and their values.
 
-use std::borrow::Cow;
+use bytemuck::Pod;
 
 use super::source::{Cursor, Parsed, fail};
 use super::texts::{Texts, text};
@@ -84,35 +84,50 @@ impl Type {
         matches!(self.kind, Kind::Text(_) | Kind::LongText)
     }
 
-    /// The values that the bytes of elements stand for.
-    pub(super) fn values(&self, raw: &[u8], texts: &mut Texts) -> Parsed<Values> {
-        let turned = self.is_big.then(|| {
-            raw.chunks_exact(self.size).flat_map(|bytes| bytes.iter().rev().copied()).collect()
-        });
-        self.little_endian_values(&turned.map_or(Cow::Borrowed(raw), Cow::Owned), texts)
-    }
-
-    fn little_endian_values(&self, raw: &[u8], texts: &mut Texts) -> Parsed<Values> {
-        let elements = raw.chunks_exact(self.size);
+    /// So many values, whose bytes are put where they are wanted by `fill`.
+    pub(super) fn values(
+        &self,
+        count: usize,
+        texts: &mut Texts,
+        fill: impl FnOnce(&mut [u8]) -> Parsed<()>,
+    ) -> Parsed<Values> {
         Ok(match &self.kind {
-            Kind::F64 => f64::wrap(numbers(raw, f64::from_le_bytes)),
-            Kind::U8 => u8::wrap(raw.to_vec()),
-            Kind::U32 => u32::wrap(numbers(raw, u32::from_le_bytes)),
-            Kind::U64 => u64::wrap(numbers(raw, u64::from_le_bytes)),
-            Kind::I64 => i64::wrap(numbers(raw, i64::from_le_bytes)),
-            Kind::Text(padding) => {
-                String::wrap(elements.map(|raw| text(padding.cut(raw))).collect::<Parsed<_>>()?)
-            }
-            Kind::LongText => {
-                String::wrap(elements.map(|place| texts.read(place)).collect::<Parsed<_>>()?)
+            Kind::F64 => f64::wrap(self.numbers(count, fill)?),
+            Kind::U8 => u8::wrap(self.numbers(count, fill)?),
+            Kind::U32 => u32::wrap(self.numbers(count, fill)?),
+            Kind::U64 => u64::wrap(self.numbers(count, fill)?),
+            Kind::I64 => i64::wrap(self.numbers(count, fill)?),
+            Kind::Text(_) | Kind::LongText => {
+                let mut raw = vec![0; count * self.size];
+                fill(&mut raw)?;
+                let texts = raw.chunks_exact(self.size).map(|raw| self.text(raw, texts));
+                String::wrap(texts.collect::<Parsed<_>>()?)
             }
             Kind::Other(name) => Values::Other(name.clone()),
         })
     }
-}
 
-fn numbers<T, const N: usize>(raw: &[u8], number: impl Fn([u8; N]) -> T) -> Vec<T> {
-    raw.as_chunks().0.iter().map(|bytes| number(*bytes)).collect()
+    fn text(&self, raw: &[u8], texts: &mut Texts) -> Parsed<String> {
+        match self.kind {
+            Kind::Text(padding) => text(padding.cut(raw)),
+            _ => texts.read(raw),
+        }
+    }
+
+    /// The numbers themselves are what is filled: large arrays are not copied.
+    fn numbers<T: Pod>(
+        &self,
+        count: usize,
+        fill: impl FnOnce(&mut [u8]) -> Parsed<()>,
+    ) -> Parsed<Vec<T>> {
+        let mut numbers = bytemuck::zeroed_vec(count);
+        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut numbers);
+        fill(bytes)?;
+        if self.is_big != cfg!(target_endian = "big") {
+            bytes.chunks_exact_mut(self.size).for_each(<[u8]>::reverse);
+        }
+        Ok(numbers)
+    }
 }
 
 fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {

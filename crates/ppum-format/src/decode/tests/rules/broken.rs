@@ -186,7 +186,7 @@ pub(super) const RULES: &[Rule] = &[
         PLAIN,
         |c| {
             let cell = c["steps/0000/partition/cell"].values.clone();
-            let Ok(cell) = f64::unwrap(cell) else { panic!("numbers") };
+            let Some(cell) = f64::of(&cell) else { panic!("numbers") };
             edit(c, "steps/0000/partition/center", |center: &mut Vec<f64>| {
                 edit_half(&mut center[0], cell[0], cell[2]);
             });

@@ -1,6 +1,6 @@
 //! Edits of contents.
 
-use crate::content::{Array, Content, Element, Values};
+use crate::content::{Array, Content, Element};
 
 /// Changes the values of an array; a vector becomes as long as they are then.
 pub(super) fn edit<T: Element>(
@@ -9,8 +9,8 @@ pub(super) fn edit<T: Element>(
     change: impl FnOnce(&mut Vec<T>),
 ) {
     let array = content.get_mut(name).unwrap_or_else(|| panic!("{name} is there"));
-    let values = std::mem::replace(&mut array.values, Values::U8(vec![]));
-    let Ok(mut values) = T::unwrap(values) else { panic!("{name} is of another type") };
+    let Some(values) = T::of(&array.values) else { panic!("{name} is of another type") };
+    let mut values = values.to_vec();
     change(&mut values);
     if let [length] = array.shape.as_mut_slice() {
         *length = values.len() as u64;

@@ -1,0 +1,156 @@
+//! Chunks on their way into an array.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::chunks::{Grid, Stored};
+use super::filters::{Pipeline, Undone};
+use super::source::{Parsed, Source, fail};
+use super::storage::step;
+
+/// Chunks whose filters are undone together, on several threads.
+pub(super) struct Batch<'a, 'f> {
+    source: Source<'f>,
+    pipeline: &'a Pipeline,
+    array: &'a mut [u8],
+    waiting: Vec<Waiting<'a, 'f>>,
+}
+
+/// A chunk as it is stored.
+struct Waiting<'a, 'f> {
+    part: Part<'a>,
+    raw: Cow<'f, [u8]>,
+    mask: u32,
+}
+
+/// Most chunks of a batch, and most bytes that they have together, with and without filters, unless one has more.
+const BATCH_CHUNKS: usize = 16;
+const BATCH_BYTES: u64 = 1 << 24;
+
+impl<'a, 'f> Batch<'a, 'f> {
+    pub(super) fn new(source: Source<'f>, pipeline: &'a Pipeline, array: &'a mut [u8]) -> Self {
+        Self { source, pipeline, array, waiting: Vec::new() }
+    }
+
+    pub(super) fn add(&mut self, part: Part<'a>, stored: Stored, is_plain: bool) -> Parsed<()> {
+        if is_plain || !self.pipeline.applies(stored.mask) {
+            return self.copy(&part, stored.address);
+        }
+        let cost = |raw: u64, part: &Part| raw.saturating_add(self.kept(part));
+        let waiting = self.waiting.iter().map(|w| cost(w.raw.len() as u64, &w.part)).sum::<u64>();
+        let is_full = waiting.saturating_add(cost(stored.bytes, &part)) > BATCH_BYTES;
+        if is_full || self.waiting.len() == BATCH_CHUNKS {
+            self.finish()?;
+        }
+        let raw = self.source.values(stored.address, stored.bytes)?;
+        self.pipeline.pay(stored, part.keep(), self.source.account)?;
+        self.waiting.push(Waiting { part, raw, mask: stored.mask });
+        Ok(())
+    }
+
+    /// Bytes of the elements of a chunk that are kept.
+    fn kept(&self, part: &Part) -> u64 {
+        part.keep() * self.pipeline.size as u64
+    }
+
+    /// Copies a chunk without filters.
+    fn copy(&mut self, part: &Part, address: u64) -> Parsed<()> {
+        let size = self.pipeline.size;
+        if let Some(place) = part.place(size) {
+            return self.source.fill(address, &mut self.array[place]);
+        }
+        let values = self.source.values(address, self.kept(part))?;
+        part.copy(&values, self.array, size);
+        Ok(())
+    }
+
+    /// Undoes the filters of the chunks that wait. Of several mistakes that of the first chunk is told.
+    pub(super) fn finish(&mut self) -> Parsed<()> {
+        let (pipeline, waiting) = (self.pipeline, std::mem::take(&mut self.waiting));
+        let undone: Vec<_> = waiting
+            .par_iter()
+            .map(|Waiting { part, raw, mask }| pipeline.undo(raw, *mask, part.keep()))
+            .collect();
+        for (Waiting { part, .. }, undone) in waiting.iter().zip(undone) {
+            self.put(part, &undone?)?;
+        }
+        Ok(())
+    }
+
+    /// Puts the elements of a chunk where they belong.
+    fn put(&mut self, part: &Part, undone: &Undone) -> Parsed<()> {
+        let bytes = self.kept(part) as usize;
+        let size = self.pipeline.size;
+        if undone.len() < bytes {
+            return fail("a chunk holds fewer values than its shape says");
+        }
+        match part.place(size) {
+            Some(place) => undone.put(&mut self.array[place]),
+            None => {
+                let mut elements = vec![0; bytes];
+                undone.put(&mut elements);
+                part.copy(&elements, self.array, size);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The part of an array that is in a chunk.
+pub(super) struct Part<'a> {
+    grid: &'a Grid<'a>,
+    start: Vec<u64>,
+    pub(super) extent: Vec<u64>,
+}
+
+impl<'a> Part<'a> {
+    /// None for a chunk outside the array.
+    pub(super) fn new(grid: &'a Grid<'a>, start: &[u64]) -> Option<Self> {
+        let shape = grid.space.shape.iter().zip(grid.chunk).zip(start);
+        let extent: Vec<u64> =
+            shape.map(|((n, chunk), start)| n.saturating_sub(*start).min(*chunk)).collect();
+        (!extent.contains(&0)).then(|| Self { grid, start: start.to_vec(), extent })
+    }
+
+    /// The bytes of the array in which the part lies in one piece, as it does in the chunk: it is one row, or some whole
+    /// rows that the chunk has as whole ones, too.
+    fn place(&self, size: usize) -> Option<Range<usize>> {
+        let (chunk, shape) = (self.grid.chunk, &self.grid.space.shape);
+        let first = self.extent.iter().take_while(|n| **n == 1).count();
+        let is_whole = |k: usize| self.extent[k] == chunk[k] && self.extent[k] == shape[k];
+        let start = place(&[], &self.start, shape) * size;
+        (first + 1..shape.len()).all(is_whole).then(|| start..start + self.keep() as usize * size)
+    }
+
+    /// Elements of the chunk up to the last one in the array.
+    fn keep(&self) -> u64 {
+        let shape = self.grid.chunk.iter().zip(&self.extent);
+        shape.fold(0, |last, (chunk, extent)| last * chunk + extent - 1) + 1
+    }
+
+    /// Copies the rows of the part to where they belong.
+    fn copy(&self, chunk: &[u8], array: &mut [u8], size: usize) {
+        let (outer, row) = match self.extent.split_last() {
+            Some((row, outer)) => (outer, *row as usize * size),
+            None => (&[][..], size),
+        };
+        let mut at = vec![0; outer.len()];
+        loop {
+            let from = place(&at, &[], self.grid.chunk) * size;
+            let to = place(&at, &self.start, &self.grid.space.shape) * size;
+            array[to..to + row].copy_from_slice(&chunk[from..from + row]);
+            if !step(&mut at, outer) {
+                break;
+            }
+        }
+    }
+}
+
+/// The place of an element in a row-major array; coordinates that are left out are zero.
+fn place(at: &[u64], start: &[u64], shape: &[u64]) -> usize {
+    let coordinate = |k: usize, of: &[u64]| of.get(k).copied().unwrap_or(0);
+    let sum = |sum: u64, (k, n): (usize, &u64)| sum * n + coordinate(k, at) + coordinate(k, start);
+    shape.iter().enumerate().fold(0, sum) as usize
+}
