@@ -1,5 +1,7 @@
 //! From a raster of values to colours.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
@@ -120,12 +122,7 @@ impl Picture {
         let Style { colormap, scale, undefined, .. } = style;
         let norm = span.normalization(*scale)?;
         let shades = Shades::new(colormap, norm, *undefined);
-        let mut rgba = vec![0; 4 * raster.values.len()];
-        let columns = raster.size[0].max(1) as usize;
-        let rows = rgba.par_chunks_mut(4 * columns).zip(raster.values.par_chunks(columns));
-        let found =
-            rows.map(|(pixels, values)| T::paint(&shades, values, pixels.as_chunks_mut().0));
-        let seen = found.reduce(|| [false; 2], |a, b| [a[0] | b[0], a[1] | b[1]]);
+        let (rgba, seen) = painted(&shades, &raster.values);
         let between = span.beyond().map(|value| value.is_some());
         let (has_below, has_above) = (seen[0] | between[0], seen[1] | between[1]);
         Ok(Self {
@@ -201,6 +198,27 @@ impl Picture {
         let entries = entries.into_iter().chain([basis]).chain(known);
         entries.map(|(key, text)| (key.to_owned(), text)).collect()
     }
+}
+
+/// Pixels that are coloured at a time.
+const BLOCK: usize = 1024;
+
+/// The colours of values, and whether one of them lay below, and above, the range. Blocks are put where they stay: memory that is
+/// cleared first takes as long as half of the colours.
+fn painted<T: Sample>(shades: &Shades, values: &[T]) -> (Vec<u8>, [bool; 2]) {
+    let beyond = [const { AtomicBool::new(false) }; 2];
+    let block = |values: &[T]| {
+        let mut block = [[0; 4]; BLOCK];
+        let seen = T::paint(shades, values, &mut block[..values.len()]);
+        for (beyond, _) in beyond.iter().zip(seen).filter(|(_, seen)| *seen) {
+            beyond.store(true, Ordering::Relaxed);
+        }
+        block
+    };
+    let blocks: Vec<_> = values.par_chunks(BLOCK).with_min_len(16).map(block).collect();
+    let mut rgba = blocks.into_flattened().into_flattened();
+    rgba.truncate(4 * values.len());
+    (rgba, beyond.map(AtomicBool::into_inner))
 }
 
 #[cfg(test)]

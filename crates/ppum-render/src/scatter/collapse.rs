@@ -9,6 +9,7 @@
 //! The collapse works on lanes of rows; the rows are then evaluated on lanes of columns.
 
 use ppum::dataset::monomials;
+use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
 /// Rows of a tile, and of the tables here: whole vectors of lanes.
@@ -44,7 +45,7 @@ pub(super) const fn known(constant: usize, number: usize) -> usize {
 
 /// [`collapse_degree`] with the common degrees as constants.
 #[inline(always)]
-pub(super) fn collapse<R: Real, const D: usize>(
+pub(super) fn collapse<R: Real, const D: usize, const ADD: bool>(
     coefficients: &[f64],
     degree: usize,
     shift: f64,
@@ -52,11 +53,11 @@ pub(super) fn collapse<R: Real, const D: usize>(
     table: &mut [R::Scalar],
 ) {
     match degree {
-        0 => collapse_degree::<R, D, 0>(coefficients, degree, shift, rows, table),
-        1 => collapse_degree::<R, D, 1>(coefficients, degree, shift, rows, table),
-        2 => collapse_degree::<R, D, 2>(coefficients, degree, shift, rows, table),
-        3 => collapse_degree::<R, D, 3>(coefficients, degree, shift, rows, table),
-        _ => collapse_degree::<R, D, ANY>(coefficients, degree, shift, rows, table),
+        0 => collapse_degree::<R, D, 0, ADD>(coefficients, degree, shift, rows, table),
+        1 => collapse_degree::<R, D, 1, ADD>(coefficients, degree, shift, rows, table),
+        2 => collapse_degree::<R, D, 2, ADD>(coefficients, degree, shift, rows, table),
+        3 => collapse_degree::<R, D, 3, ADD>(coefficients, degree, shift, rows, table),
+        _ => collapse_degree::<R, D, ANY, ADD>(coefficients, degree, shift, rows, table),
     }
 }
 
@@ -70,11 +71,11 @@ pub(super) struct Rows<R> {
     pub(super) scale: [f64; 2],
 }
 
-/// Writes the table of one block: for k from the degree down to 0 the lanes of A_k, B_k and D_k.
+/// Writes the table of one block, or adds to it: for k from the degree down to 0 the lanes of A_k, B_k and D_k.
 ///
 /// `shift` is subtracted from the constant coefficient.
 #[inline(always)]
-fn collapse_degree<R: Real, const D: usize, const P: usize>(
+fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
     coefficients: &[f64],
     degree: usize,
     shift: f64,
@@ -92,12 +93,12 @@ fn collapse_degree<R: Real, const D: usize, const P: usize>(
         k -= 1;
         let [a, b] = inner::<R, D>(coefficients, degree, k, shift, rows.eta);
         let weighted = rows.factor.value * a;
-        weighted.store(&mut table[at..]);
+        put::<R, ADD>(weighted, &mut table[at..]);
         if D >= 1 {
-            rows.factor.slope.mul_add(a, scaled * b).store(&mut table[at + ROWS..]);
+            put::<R, ADD>(rows.factor.slope.mul_add(a, scaled * b), &mut table[at + ROWS..]);
             if k > 0 {
                 let slope = weighted * rows.eta.lit(k as f64 * rows.scale[0]);
-                slope.store(&mut table[at + 5 * ROWS..]);
+                put::<R, ADD>(slope, &mut table[at + 5 * ROWS..]);
             }
         }
         at += polynomials::<D>() * ROWS;
@@ -130,38 +131,49 @@ fn inner<R: Real, const D: usize>(
     [a, b]
 }
 
-/// A block on lanes of columns: Σ A_k ξ^k and its derivatives by x and y. `table` begins at the
-/// row; `P` is the degree or [`ANY`].
+/// A block of `C` components on lanes of columns: of each Σ A_k ξ^k and its derivatives by x and y. Its tables have the
+/// row at `row`; `P` is the degree or [`ANY`].
 #[inline(always)]
-pub(super) fn evaluate<R: Real, const D: usize, const P: usize>(
-    table: &[R::Scalar],
+pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
+    tables: [&[R::Scalar]; C],
+    row: usize,
     degree: usize,
     xi: R,
-) -> [R; 3] {
+) -> [Jet<R>; C] {
     let degree = known(P, degree);
-    let zero = xi.lit(0.0);
-    let table = &table[..((degree + 1) * polynomials::<D>() - 1) * ROWS + 1];
-    let mut v = splat(zero, table[0]);
-    let (mut vx, mut vy) = (zero, zero);
-    if D >= 1 {
-        vy = splat(zero, table[ROWS]);
-    }
-    let mut k = 0;
-    let mut at = 0;
-    while k < degree {
-        k += 1;
-        at += polynomials::<D>() * ROWS;
-        v = v.mul_add(xi, splat(zero, table[at]));
-        if D >= 1 {
-            vy = vy.mul_add(xi, splat(zero, table[at + ROWS]));
-            vx = if k == 1 {
-                splat(zero, table[at + 2 * ROWS])
-            } else {
-                vx.mul_add(xi, splat(zero, table[at + 2 * ROWS]))
-            };
+    let mut v = [Jet::constant(xi.lit(0.0)); C];
+    let (mut at, mut k) = (row, 0);
+    while k <= degree {
+        let mut c = 0;
+        while c < C {
+            let table = &tables[c][at..];
+            v[c].v = next::<R>(k, v[c].v, xi, table[0]);
+            if D >= 1 {
+                v[c].y = next::<R>(k, v[c].y, xi, table[ROWS]);
+                if k > 0 {
+                    v[c].x = next::<R>(k - 1, v[c].x, xi, table[2 * ROWS]);
+                }
+            }
+            c += 1;
         }
+        at += polynomials::<D>() * ROWS;
+        k += 1;
     }
-    [v, vx, vy]
+    v
+}
+
+/// A step of Horner's scheme; the first takes the coefficient.
+#[inline(always)]
+fn next<R: Real>(k: usize, value: R, xi: R, coefficient: R::Scalar) -> R {
+    let coefficient = splat(xi, coefficient);
+    if k == 0 { coefficient } else { value.mul_add(xi, coefficient) }
+}
+
+/// Writes, or adds.
+#[inline(always)]
+pub(super) fn put<R: Real, const ADD: bool>(value: R, to: &mut [R::Scalar]) {
+    let value = if ADD { value + value.load(to) } else { value };
+    value.store(to);
 }
 
 /// A number in every lane.

@@ -1,20 +1,21 @@
-//! From the sums of a tile to the values of a quantity.
+//! From the field's components at a column of vectors to the values of a quantity.
 
 use ppum::jet::Jet;
 use ppum::quantity::{Quantity, Sample, Source};
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, ROWS, known, splat};
-use super::plan::COLUMNS;
-use super::spread::size;
+use super::collapse::{ANY, known};
+use super::sums::size;
 use super::tile::{Scratch, Tile, load_jet};
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
-    /// Divides, makes the quantity, writes it to the raster and clears the sums. The quantity most
+    /// Makes the quantity of what begins at `start` and writes it to the raster. The quantity most
     /// often drawn is compiled as a constant: the choice between thirty costs more than it.
     #[inline(always)]
     pub(super) fn finish<R: Real<Scalar = T>>(
         &self,
+        vector: usize,
+        start: usize,
         scratch: &mut Scratch<T>,
         out: &mut [T],
         zero: R,
@@ -22,12 +23,20 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let uniform = self.scene.field.equation.is_uniform();
         match (self.scene.quantity, scratch.shift.len()) {
             (Quantity::VonMises, 2) if uniform => {
-                self.finish_as::<R, 2, true>(&Quantity::VonMises, scratch, out, zero);
+                self.finish_as::<R, 2, true>(
+                    &Quantity::VonMises,
+                    (vector, start),
+                    scratch,
+                    out,
+                    zero,
+                );
             }
             (quantity, 2) if uniform => {
-                self.finish_as::<R, 2, true>(quantity, scratch, out, zero);
+                self.finish_as::<R, 2, true>(quantity, (vector, start), scratch, out, zero);
             }
-            (quantity, _) => self.finish_as::<R, ANY, false>(quantity, scratch, out, zero),
+            (quantity, _) => {
+                self.finish_as::<R, ANY, false>(quantity, (vector, start), scratch, out, zero)
+            }
         }
     }
 
@@ -37,6 +46,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn finish_as<R: Real<Scalar = T>, const C: usize, const UNIFORM: bool>(
         &self,
         quantity: &Quantity,
+        (vector, start): (usize, usize),
         scratch: &mut Scratch<T>,
         out: &mut [T],
         zero: R,
@@ -55,64 +65,46 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let (equation, anchor) = (self.scene.field.equation, self.scene.view.center);
         let moduli = equation.moduli(anchor, [zero; 2]);
         let source = quantity.source();
-        let stride = size::<R, D>() * (1 + components);
+        let stride = self.stride::<R>();
         let width = self.scene.view.pixels[0] as usize;
-        let [mut column, first_row] = self.corner();
-        let end = width.min(column + COLUMNS);
-        let mut start = 0;
-        while column < end {
-            for (row, line) in out.chunks_exact_mut(width).enumerate() {
-                let cell = &mut scratch.sums[start + row * stride..][..stride];
-                if source == Source::Exact {
-                    exact.resize(components, zero);
-                    let pixel = [column, first_row + row];
-                    self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
-                }
-                let weight = divide::<R, D>(cell, jets, zero);
-                if matches!(source, Source::Values | Source::Partition)
-                    || matches!(quantity, Quantity::Formula(_))
-                {
-                    for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
-                        jet.v = jet.v + zero.lit(shift);
-                    }
-                }
-                let value = match source {
-                    Source::Partition if components == 0 => weight,
-                    Source::Partition => jets[0].v,
-                    _ => {
-                        let x = zero.load(&self.scene.xs[column..]);
-                        let offset = [x, splat(zero, self.scene.ys[first_row + row])];
-                        let moduli = if UNIFORM { moduli } else { equation.moduli(anchor, offset) };
-                        quantity.of_field(&Sample { anchor, offset, moduli, jets, exact: &exact })
-                    }
-                };
-                clear(cell, zero);
-                value.store_some(&mut line[column..]);
+        let [column, first_row] = self.corner();
+        let column = column + vector * R::LANES;
+        for (row, line) in out.chunks_exact_mut(width).enumerate() {
+            let cell = &scratch.sums[start + row * stride..][..stride];
+            if source == Source::Exact {
+                exact.resize(components, zero);
+                let pixel = [column, first_row + row];
+                self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
             }
-            column += R::LANES;
-            start += ROWS * stride;
+            load::<R, D>(cell, jets, zero);
+            if matches!(source, Source::Values | Source::Partition)
+                || matches!(quantity, Quantity::Formula(_))
+            {
+                for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
+                    jet.v = jet.v + zero.lit(shift);
+                }
+            }
+            let value = match source {
+                Source::Partition if components == 0 => zero.load(cell),
+                Source::Partition => jets[0].v,
+                _ => {
+                    let offset = self.offset(vector, row, zero);
+                    let moduli = if UNIFORM { moduli } else { equation.moduli(anchor, offset) };
+                    quantity.of_field(&Sample { anchor, offset, moduli, jets, exact: &exact })
+                }
+            };
+            value.store_some(&mut line[column..]);
         }
     }
 }
 
-/// The quotients of the sums, and the sum of the weights.
+/// The components, behind the weight.
 #[inline(always)]
-fn divide<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero: R) -> R {
+fn load<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero: R) {
     let size = size::<R, D>();
-    let weight = load_jet::<R, D>(cell, zero);
     let mut component = 0;
     while component < jets.len() {
-        let sum = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
-        jets[component] = sum.over::<D>(weight);
+        jets[component] = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
         component += 1;
-    }
-    weight.v
-}
-
-#[inline(always)]
-fn clear<R: Real>(cell: &mut [R::Scalar], like: R) {
-    let zero = like.lit(0.0);
-    for lanes in cell.chunks_exact_mut(R::LANES) {
-        zero.store(lanes);
     }
 }

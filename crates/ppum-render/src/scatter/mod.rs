@@ -8,9 +8,10 @@
 //!
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
-//! cover, any degree, any number of functions. A patch's weight and polynomials collapse on each row
-//! to polynomials in x (module `collapse`); functions are evaluated once for a tile, and only
-//! where a patch needs them.
+//! cover, any degree, any number of functions. On each row a patch's weight and polynomials collapse to polynomials in x
+//! (module `collapse`), those of patches above each other to one (`strips`). Column by column of vectors (`sweep`) these are summed
+//! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
+//! evaluated once for a column, and only where a patch needs them.
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
 //! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
@@ -24,7 +25,11 @@
 mod collapse;
 mod finish;
 mod plan;
-mod spread;
+mod strips;
+mod sums;
+mod sweep;
+#[cfg(test)]
+mod tests;
 mod tile;
 
 use std::ops::Range;
@@ -40,11 +45,12 @@ use rayon::prelude::*;
 use crate::error::RenderError;
 use crate::image::Rgba;
 use crate::parts::Parts;
-use crate::raster::{Raster, Sample};
+use crate::raster::{Raster, Sample, zeros};
 use crate::shades::Shades;
 use crate::view::View;
 use collapse::ROWS;
 use plan::{COLUMNS, Plan, strips};
+use strips::Savings;
 use tile::{Band, Scratch};
 
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
@@ -154,6 +160,7 @@ struct Scene<'f, T> {
     xs: Vec<T>,
     /// Offsets of the rows.
     ys: Vec<T>,
+    savings: Savings,
     field: &'f Field<'f>,
 }
 
@@ -170,6 +177,7 @@ impl<'f, T: Sample> Scene<'f, T> {
             plan,
             xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
             ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
+            savings: Savings::ALL,
             field,
         }
     }
@@ -187,7 +195,7 @@ impl<'f, T: Sample> Scene<'f, T> {
         let entries = self.plan.entries_of_bands();
         for first in (0..rows).step_by(bands * ROWS) {
             let count = (rows - first).min(bands * ROWS);
-            let mut values = vec![T::default(); columns * count];
+            let mut values = zeros(columns * count);
             let mut rest = values.as_mut_slice();
             for bands in strips(first / ROWS..(first + count).div_ceil(ROWS), &entries) {
                 let pixels = rest.len().min(bands.len() * columns * ROWS);

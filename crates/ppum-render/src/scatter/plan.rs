@@ -16,7 +16,7 @@ use crate::view::View;
 pub(super) const COLUMNS: usize = 64;
 
 /// ξ = `scale` · offset + `shift` in one direction.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Affine {
     pub(super) scale: f64,
     pub(super) shift: f64,
@@ -237,8 +237,6 @@ pub(super) struct Tiles {
     first: usize,
     starts: Vec<u32>,
     patches: Vec<u32>,
-    /// True if patches of the tile have functions.
-    functions: Vec<bool>,
 }
 
 impl Tiles {
@@ -259,26 +257,19 @@ impl Tiles {
             starts[tile + 2] += starts[tile + 1];
         }
         let mut entries = vec![0; starts[count + 1] as usize];
-        let mut functions = vec![false; count];
         for (index, patch) in (0u32..).zip(patches) {
             for_each_tile(patch, &mut |tile| {
                 entries[starts[tile + 1] as usize] = index;
                 starts[tile + 1] += 1;
-                functions[tile] |= patch.blocks.len() > 1;
             });
         }
-        Self { columns, first: bands.start, starts, patches: entries, functions }
+        Self { columns, first: bands.start, starts, patches: entries }
     }
 
     /// The patches that meet a tile, ascending.
     pub(super) fn of(&self, column: usize, band: usize) -> &[u32] {
         let tile = self.index(column, band);
         &self.patches[self.starts[tile] as usize..self.starts[tile + 1] as usize]
-    }
-
-    /// True if a patch of the tile may have functions.
-    pub(super) fn has_functions(&self, column: usize, band: usize) -> bool {
-        self.functions[self.index(column, band)]
     }
 
     fn index(&self, column: usize, band: usize) -> usize {

@@ -1,31 +1,26 @@
-//! A tile of pixels: which functions it needs, and the sums over its patches.
+//! A tile of pixels: which functions it needs, and its patches, batch by batch.
 
 use std::ops::Range;
 
-use ppum::crack::Side;
+use ppum::crack::{LocalTip, Side};
 use ppum::formula::Scratch as FormulaScratch;
-use ppum::function::{GROUP, Slot};
+use ppum::function::{GROUP, at_tip};
 use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
 use super::collapse::{ROWS, splat};
 use super::plan::{COLUMNS, Patch, Tiles};
-use super::spread::{Collapsed, size};
-
-/// Vectors of points at which formulas are evaluated at a time.
-const VECTORS: usize = 32;
-
-/// Groups of functions that are kept at a time for the patches of a tile, more if one patch has them: 25 MB.
-const MOST_ACTIVE: usize = 256;
+use super::strips::Strips;
+use super::sums::{Entry, TOGETHER, basis_len, basis_stride, size, store_jet};
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch<T> {
-    /// Σ W, then Σ W v of each component, each with derivatives, at the vectors of points of a tile,
-    /// column by column. Zero between tiles.
+    /// At the vectors of points of a column: Σ W, then Σ W v of each component, each with derivatives; when all patches are
+    /// there, the field's components in place of these. Of all columns where patches come in batches.
     pub(super) sums: Vec<T>,
-    /// The functions of each active group with derivatives, at the same points.
+    /// The functions of each active group with derivatives, at the vectors of a column.
     pub(super) basis: Vec<T>,
     /// Working space of formulas.
     pub(super) formulas: FormulaScratch<T>,
@@ -33,8 +28,14 @@ pub(super) struct Scratch<T> {
     pub(super) active: Vec<Active>,
     /// Of each group its place among the active ones, if it is one of them.
     pub(super) places: Vec<u32>,
-    /// The patch at hand.
-    pub(super) collapsed: Collapsed<T>,
+    /// The patches at hand.
+    pub(super) strips: Strips<T>,
+    /// The strips of a column of vectors.
+    pub(super) entries: Vec<Entry>,
+    /// Those of them that cover some rows.
+    pub(super) here: Vec<usize>,
+    /// Factors of weights and coordinates of the strips of a column.
+    pub(super) across: Vec<T>,
     /// Subtracted from each component.
     pub(super) shift: Vec<f64>,
 }
@@ -50,7 +51,15 @@ pub(super) struct Part {
 #[derive(Debug)]
 pub(super) struct Active {
     pub(super) group: u32,
-    part: Part,
+    pub(super) part: Part,
+}
+
+/// Patches of a tile that are summed together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Batch {
+    /// Nothing is summed before it, or after it.
+    pub(super) is_first: bool,
+    pub(super) is_last: bool,
 }
 
 /// Draws a band: the tiles of some rows, with `D` derivatives.
@@ -70,9 +79,8 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
     fn run<R: Real<Scalar = T>>(self, zero: R) {
         let mut column = 0;
         while column < self.tiles.columns {
-            let tile = Tile::<T, D> { scene: self.scene, column, band: self.band };
-            tile.sum(self.tiles, self.scratch, zero);
-            tile.finish(self.scratch, self.out, zero);
+            let tile = Tile::<T, D>::new(self.scene, column, self.band);
+            tile.draw(self.tiles, self.scratch, self.out, zero);
             column += 1;
         }
     }
@@ -85,35 +93,76 @@ pub(super) struct Tile<'a, 'f, T, const D: usize> {
     band: usize,
 }
 
-impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
+    #[inline(always)]
+    pub(super) fn new(scene: &'a Scene<'f, T>, column: usize, band: usize) -> Self {
+        Self { scene, column, band }
+    }
+
     /// First column and row.
     #[inline(always)]
     pub(super) fn corner(&self) -> [usize; 2] {
         [self.column * COLUMNS, self.band * ROWS]
     }
 
-    /// Sums over the patches.
+    /// Sums over the patches, and finishes column by column.
     #[inline(always)]
-    fn sum<R: Real<Scalar = T>>(&self, tiles: &Tiles, scratch: &mut Scratch<T>, zero: R) {
-        let plan = &self.scene.plan;
+    fn draw<R: Real<Scalar = T>>(
+        &self,
+        tiles: &Tiles,
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
         let mut list = tiles.of(self.column, self.band);
-        let len = points::<R>() * size::<R, D>() * (1 + plan.coefficients.len());
-        scratch.sums.resize(len, T::default());
         self.choose_shift(list, &mut scratch.shift);
-        let has_functions = tiles.has_functions(self.column, self.band);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
-        while !list.is_empty() {
-            scratch.active.clear();
-            let count = if has_functions { self.activate::<R>(list, scratch) } else { list.len() };
-            self.evaluate_functions(scratch, zero);
-            for &index in &list[..count] {
-                let patch = &plan.patches[index as usize];
-                let part = self.part::<R>(patch);
-                self.collapse(patch, &part, scratch, zero);
-                self.spread(patch, &part, scratch, zero);
-            }
+        let mut is_first = true;
+        loop {
+            let count = self.gather(list, scratch, zero);
             list = &list[count..];
+            let batch = Batch { is_first, is_last: list.is_empty() };
+            self.sweep_columns(batch, scratch, out, zero);
+            if list.is_empty() {
+                break;
+            }
+            is_first = false;
         }
+    }
+
+    /// Adds a batch column by column; finishes those that are complete.
+    #[inline(always)]
+    fn sweep_columns<R: Real<Scalar = T>>(
+        &self,
+        batch: Batch,
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
+        let is_only = batch.is_first && batch.is_last;
+        let len = ROWS * self.stride::<R>();
+        let width = self.scene.view.pixels[0] as usize;
+        let vectors = (width - self.corner()[0]).min(COLUMNS).div_ceil(R::LANES);
+        let needed = if is_only { len } else { vectors * len };
+        if scratch.sums.len() < needed {
+            scratch.sums.resize(needed, T::default());
+        }
+        let mut vector = 0;
+        while vector < vectors {
+            let start = if is_only { 0 } else { vector * len };
+            self.evaluate_functions(vector, scratch, zero);
+            self.sweep(vector, start, batch, scratch, zero);
+            if batch.is_last {
+                self.finish(vector, start, scratch, out, zero);
+            }
+            vector += 1;
+        }
+    }
+
+    /// Numbers at a vector of points.
+    #[inline(always)]
+    pub(super) fn stride<R: Real<Scalar = T>>(&self) -> usize {
+        size::<R, D>() * (1 + self.scene.plan.coefficients.len())
     }
 
     /// Takes the constants to subtract: midway between those of the first and the last patch, which
@@ -132,113 +181,110 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 
     /// The part of the tile a patch may cover.
     #[inline(always)]
-    fn part<R: Real<Scalar = T>>(&self, patch: &Patch) -> Part {
+    pub(super) fn part<R: Real<Scalar = T>>(&self, patch: &Patch) -> Part {
         let [column, row] = self.corner();
         let columns = within(&patch.columns, column, COLUMNS);
+        let rows = within(&patch.rows, row, ROWS);
         Part {
             vectors: columns.start / R::LANES..columns.end.div_ceil(R::LANES),
-            rows: within(&patch.rows, row, ROWS),
+            rows: rows.start / TOGETHER * TOGETHER..rows.end.next_multiple_of(TOGETHER),
         }
     }
 
-    /// Finds the groups of functions the patches need, and where; returns for how many of the patches: all,
-    /// unless they need more than there is room for.
+    /// Fills the basis at a column of vectors.
     #[inline(always)]
-    fn activate<R: Real<Scalar = T>>(&self, list: &[u32], scratch: &mut Scratch<T>) -> usize {
-        let plan = &self.scene.plan;
-        for (count, &index) in list.iter().enumerate() {
-            let patch = &plan.patches[index as usize];
-            let (known, part) = (scratch.active.len(), self.part::<R>(patch));
-            let mut last = None;
-            for block in &plan.blocks[patch.blocks()] {
-                if let Slot::Jet { group, .. } = block.function
-                    && last != Some(group)
-                {
-                    need(scratch, group, &part);
-                    last = Some(group);
-                }
-            }
-            if scratch.active.len() > MOST_ACTIVE && count > 0 {
-                // the parts of those before may have grown: that does no harm
-                scratch.active.truncate(known);
-                return count;
-            }
-        }
-        list.len()
-    }
-
-    /// Fills the basis.
-    #[inline(always)]
-    fn evaluate_functions<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
+    fn evaluate_functions<R: Real<Scalar = T>>(
+        &self,
+        vector: usize,
+        scratch: &mut Scratch<T>,
+        zero: R,
+    ) {
         let len = basis_len::<R, D>() * scratch.active.len();
         if scratch.basis.len() < len {
             scratch.basis.resize(len, T::default());
         }
         let groups = scratch.basis.chunks_exact_mut(basis_len::<R, D>());
         for (active, basis) in scratch.active.iter().zip(groups) {
-            if self.scene.functions.is_native(active.group as usize) {
-                self.evaluate_group(active, basis, zero);
+            if !active.part.vectors.contains(&vector) {
+                continue;
+            }
+            let functions = &self.scene.functions;
+            if let Some(tip) = functions.tip(active.group as usize) {
+                self.evaluate_tip(tip, active, vector, basis, zero);
+            } else if functions.is_native(active.group as usize) {
+                self.evaluate_one(active, vector, basis, zero);
             } else {
-                self.evaluate_formulas(active, (&mut scratch.formulas, basis), zero);
+                self.evaluate_formulas(active, vector, (&mut scratch.formulas, basis), zero);
             }
         }
     }
 
-    /// Formulas at many vectors at a time, so that what a step of them costs is shared.
+    /// Formulas at all rows at a time, so that what a step of them costs is shared.
     #[inline(always)]
     fn evaluate_formulas<R: Real<Scalar = T>>(
         &self,
         active: &Active,
+        vector: usize,
         (memory, basis): (&mut FormulaScratch<T>, &mut [T]),
         zero: R,
     ) {
-        let [column, row] = self.corner();
-        let mut offsets = [[zero; 2]; VECTORS];
-        let mut places = [0; VECTORS];
-        let mut jets = [[Jet::constant(zero); GROUP]; VECTORS];
-        let (vectors, rows) = (active.part.vectors.clone(), active.part.rows.clone());
-        let count = vectors.len() * rows.len();
-        let mut done = 0;
-        while done < count {
-            let n = VECTORS.min(count - done);
-            let mut k = 0;
-            while k < n {
-                let vector = vectors.start + (done + k) / rows.len();
-                let at = rows.start + (done + k) % rows.len();
-                let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
-                offsets[k] = [x, splat(zero, self.scene.ys[row + at])];
-                places[k] = (vector * ROWS + at) * basis_stride::<R, D>();
-                k += 1;
-            }
-            let group = active.group as usize;
-            let functions = &self.scene.functions;
-            functions.fill::<R, D>(group, &offsets[..n], Side::Above, memory, &mut jets);
-            let mut k = 0;
-            while k < n {
-                store_jets::<R, D>(&jets[k], &mut basis[places[k]..]);
-                k += 1;
-            }
-            done += n;
+        let mut offsets = [[zero; 2]; ROWS];
+        let mut jets = [[Jet::constant(zero); GROUP]; ROWS];
+        let Range { start, end } = active.part.rows;
+        let mut row = start;
+        while row < end {
+            offsets[row - start] = self.offset(vector, row, zero);
+            row += 1;
+        }
+        let functions = &self.scene.functions;
+        let offsets = &offsets[..end - start];
+        functions.fill::<R, D>(active.group as usize, offsets, Side::Above, memory, &mut jets);
+        let mut row = start;
+        while row < end {
+            store_jets::<R, D>(&jets[row - start], &mut basis[row * basis_stride::<R, D>()..]);
+            row += 1;
         }
     }
 
     #[inline(always)]
-    fn evaluate_group<R: Real<Scalar = T>>(&self, active: &Active, basis: &mut [T], zero: R) {
-        let stride = basis_stride::<R, D>();
-        let [column, row] = self.corner();
-        let functions = &self.scene.functions;
-        let group = active.group as usize;
-        for vector in active.part.vectors.clone() {
-            let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
-            for k in active.part.rows.clone() {
-                let y = splat(zero, self.scene.ys[row + k]);
-                // All are stored, however many the group has: so they stay in registers.
-                let mut jets = [Jet::constant(zero); GROUP];
-                functions.evaluate::<R, D>(group, [x, y], Side::Above, &mut jets);
-                let start = (vector * ROWS + k) * stride;
-                store_jets::<R, D>(&jets, &mut basis[start..start + stride]);
-            }
+    fn evaluate_tip<R: Real<Scalar = T>>(
+        &self,
+        tip: &LocalTip,
+        active: &Active,
+        vector: usize,
+        basis: &mut [T],
+        zero: R,
+    ) {
+        for row in active.part.rows.clone() {
+            let jets = at_tip::<R, D>(tip, self.offset(vector, row, zero), Side::Above);
+            store_jets::<R, D>(&jets, &mut basis[row * basis_stride::<R, D>()..]);
         }
+    }
+
+    /// A group of one function: a side or a component.
+    #[inline(always)]
+    fn evaluate_one<R: Real<Scalar = T>>(
+        &self,
+        active: &Active,
+        vector: usize,
+        basis: &mut [T],
+        zero: R,
+    ) {
+        let group = active.group as usize;
+        for row in active.part.rows.clone() {
+            let mut jet = [Jet::constant(zero)];
+            let offset = self.offset(vector, row, zero);
+            self.scene.functions.evaluate::<R, D>(group, offset, Side::Above, &mut jet);
+            store_jet::<R, D>(jet[0], &mut basis[row * basis_stride::<R, D>()..]);
+        }
+    }
+
+    /// A vector of points relative to the view's centre.
+    #[inline(always)]
+    pub(super) fn offset<R: Real<Scalar = T>>(&self, vector: usize, row: usize, zero: R) -> [R; 2] {
+        let [column, first_row] = self.corner();
+        let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
+        [x, splat(zero, self.scene.ys[first_row + row])]
     }
 }
 
@@ -247,24 +293,6 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 fn within(range: &Range<u32>, start: usize, count: usize) -> Range<usize> {
     let [from, to] = [range.start as usize, range.end as usize];
     from.max(start) - start..to.min(start + count) - start
-}
-
-/// Vectors of points of a tile.
-#[inline(always)]
-const fn points<R: Real>() -> usize {
-    COLUMNS / R::LANES * ROWS
-}
-
-/// Numbers a group has at a vector of points.
-#[inline(always)]
-pub(super) const fn basis_stride<R: Real, const D: usize>() -> usize {
-    GROUP * size::<R, D>()
-}
-
-/// Numbers a group has in the basis.
-#[inline(always)]
-pub(super) const fn basis_len<R: Real, const D: usize>() -> usize {
-    points::<R>() * basis_stride::<R, D>()
 }
 
 #[inline(always)]
@@ -282,31 +310,11 @@ fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scal
     let to = &mut to[..basis_stride::<R, D>()];
     let mut k = 0;
     while k < GROUP {
-        let to = &mut to[k * size::<R, D>()..];
-        jets[k].v.store(to);
-        if D >= 1 {
-            jets[k].x.store(&mut to[R::LANES..]);
-            jets[k].y.store(&mut to[2 * R::LANES..]);
-        }
+        store_jet::<R, D>(jets[k], &mut to[k * size::<R, D>()..]);
         k += 1;
     }
 }
 
-/// Notes that a group is needed on a part.
-fn need<T>(scratch: &mut Scratch<T>, group: u32, part: &Part) {
-    let place = &mut scratch.places[group as usize];
-    match scratch.active.get_mut(*place as usize).filter(|known| known.group == group) {
-        None => {
-            *place = scratch.active.len() as u32;
-            scratch.active.push(Active { group, part: part.clone() });
-        }
-        Some(known) => {
-            known.part.vectors = union(&known.part.vectors, &part.vectors);
-            known.part.rows = union(&known.part.rows, &part.rows);
-        }
-    }
-}
-
-fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+pub(super) fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     a.start.min(b.start)..a.end.max(b.end)
 }

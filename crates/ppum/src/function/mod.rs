@@ -11,7 +11,8 @@ pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 pub use indicator::{Cut, Part};
 pub use table::{
-    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, function_scope, native,
+    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, at_tip,
+    function_scope, native,
 };
 pub use westergaard::westergaard;
 

@@ -435,12 +435,8 @@ impl<'t> LocalFunctions<'t> {
             LocalGroup::Side(crack) => out[0] = Jet::constant(crack.side(offset, side)),
             LocalGroup::Component(of) => out[0] = Jet::constant(of.value(offset, side)),
             LocalGroup::Westergaard(tip) => {
-                let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
-                let (x, y) = (offset[0].lit(tip.axis.x), offset[0].lit(tip.axis.y));
-                out[0] = a.turned::<D>(x, y);
-                out[1] = b.turned::<D>(x, y);
-                out[2] = c.turned::<D>(x, y);
-                out[3] = d.turned::<D>(x, y);
+                let [a, b, c, d] = at_tip::<R, D>(tip, offset, side);
+                (out[0], out[1], out[2], out[3]) = (a, b, c, d);
             }
             LocalGroup::Formulas(formulas) => formulas.evaluate::<R, D>(offset, side, out),
         }
@@ -467,9 +463,28 @@ impl<'t> LocalFunctions<'t> {
         }
     }
 
+    /// The tip of a group, if its functions are the four of [`westergaard()`]: [`at_tip`] evaluates them. Who knows this before a
+    /// loop over points spares the loop the choice, and keeps the functions in registers.
+    #[inline(always)]
+    #[must_use]
+    pub fn tip(&self, group: usize) -> Option<&LocalTip> {
+        match self.group(group) {
+            LocalGroup::Westergaard(tip) => Some(tip),
+            _ => None,
+        }
+    }
+
     /// True if a group is evaluated by a kernel, not by formulas.
     #[must_use]
     pub fn is_native(&self, group: usize) -> bool {
         !matches!(self.table.groups[group], Group::Formulas(_))
     }
+}
+
+/// The functions of [`westergaard()`] at a tip, with derivatives in the world.
+#[inline(always)]
+pub fn at_tip<R: Real, const D: usize>(tip: &LocalTip, offset: [R; 2], side: Side) -> [Jet<R>; 4] {
+    let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
+    let (x, y) = (offset[0].lit(tip.axis.x), offset[0].lit(tip.axis.y));
+    [a.turned::<D>(x, y), b.turned::<D>(x, y), c.turned::<D>(x, y), d.turned::<D>(x, y)]
 }
