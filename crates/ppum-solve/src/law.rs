@@ -62,11 +62,26 @@ impl<'e> Law<'e> {
         }
     }
 
+    /// The law at a point, as a matrix.
+    pub(crate) fn rigidity(&self, x: Vec2) -> Rigidity {
+        let mut sum = [[0.0; 3]; 3];
+        for (term, a) in self.terms.iter().zip(self.coefficients(x)) {
+            let Rigidity(part) = term.rigidity();
+            let entries = sum.as_flattened_mut().iter_mut().zip(part.as_flattened());
+            entries.for_each(|(sum, part)| *sum += a * part);
+        }
+        Rigidity(sum)
+    }
+
     /// True if the law is the same everywhere.
     pub(crate) fn is_uniform(&self) -> bool {
         self.uniform
     }
 }
+
+/// The law as a matrix on strains (ε_11, ε_22, 2ε_12), or on the gradient of a potential, with zeros after it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rigidity(pub(crate) [[f64; 3]; 3]);
 
 /// The tensors of the coefficients λ and μ, or κ.
 fn units(components: usize) -> Vec<LawAt> {
@@ -102,11 +117,15 @@ impl LawAt {
         self.components
     }
 
-    /// Σ_kl C\[i\]\[k\]\[j\]\[l\] parts\[k\]\[l\].
-    #[must_use]
-    pub(crate) fn contract(&self, i: usize, j: usize, parts: &[[f64; 2]; 2]) -> f64 {
-        let entry = |k: usize, l: usize| self.tensor[i][k][j][l] * parts[k][l];
-        entry(0, 0) + entry(0, 1) + entry(1, 0) + entry(1, 1)
+    fn rigidity(&self) -> Rigidity {
+        let entry = |[i, k]: [usize; 2], [j, l]: [usize; 2]| self.tensor[i][k][j][l];
+        let pairs: &[[usize; 2]] =
+            if self.components == 1 { &[[0, 0], [0, 1]] } else { &[[0, 0], [1, 1], [0, 1]] };
+        let mut matrix = [[0.0; 3]; 3];
+        for (row, &a) in matrix.iter_mut().zip(pairs) {
+            row.iter_mut().zip(pairs).for_each(|(sum, &b)| *sum = entry(a, b));
+        }
+        Rigidity(matrix)
     }
 
     /// Component i of the traction σ n of the function N e_j with gradient `d`.

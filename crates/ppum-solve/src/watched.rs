@@ -64,10 +64,14 @@ impl<'w> Stage<'w> {
             Some(total) => Progress::new(self.phase, done.min(total), total),
             None => Progress::start(self.phase, 1),
         };
-        if self.is_stopped.load(Relaxed) {
-            return Err(Cancelled);
-        }
+        self.goes_on()?;
         self.watcher.report(progress).inspect_err(|_| self.is_stopped.store(true, Relaxed))
+    }
+
+    /// # Errors
+    /// The watcher has wanted the work to stop.
+    fn goes_on(&self) -> Result<(), Cancelled> {
+        if self.is_stopped.load(Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 }
 
@@ -89,8 +93,25 @@ impl Halt {
     }
 }
 
-/// Calls `work` for 0 … n − 1 on all cores, a batch at a time, then `add` in order. Sums formed in
-/// `add` so have the same bits whatever the number of threads. `state` makes what a core keeps.
+/// Calls `work` for 0 … n − 1 on all cores, beside the counted parts of a stage.
+///
+/// # Errors
+/// The first one in the order of the items; the watcher of `stage` wants the work to stop.
+pub(crate) fn each<T: Send>(
+    stage: &Stage<'_>,
+    n: usize,
+    work: impl Fn(usize) -> Result<T, Halt> + Sync,
+) -> Result<Vec<T>, Halt> {
+    let watched = |item| {
+        stage.advance(0)?;
+        work(item)
+    };
+    let all: Vec<_> = (0..n).into_par_iter().map(watched).collect();
+    all.into_iter().collect()
+}
+
+/// Calls `work` for 0 … n − 1 on all cores, a batch at a time, then `add` in order, while the next batch is worked on. Sums
+/// formed in `add` so have the same bits whatever the number of threads. `state` makes what a core keeps.
 ///
 /// # Errors
 /// The first one in the order of the items; the watcher of `stage` wants the work to stop.
@@ -99,19 +120,29 @@ pub(crate) fn in_batches<S, T: Send>(
     n: usize,
     state: impl Fn() -> S + Sync,
     work: impl Fn(&mut S, usize) -> Result<T, Halt> + Sync,
-    mut add: impl FnMut(usize, T),
+    mut add: impl FnMut(usize, T) + Send,
 ) -> Result<(), Halt> {
     let watched = |state: &mut S, item: usize| {
+        stage.goes_on()?;
         let part = work(state, item);
         stage.advance(1)?;
         part
     };
+    let batch = |first: usize| -> Vec<Result<T, Halt>> {
+        (first..n.min(first + BATCH)).into_par_iter().map_init(&state, watched).collect()
+    };
+    let mut parts = batch(0);
     for first in (0..n).step_by(BATCH) {
-        let batch = first..n.min(first + BATCH);
-        let parts: Vec<_> = batch.clone().into_par_iter().map_init(&state, watched).collect();
-        for (item, part) in batch.zip(parts) {
-            add(item, part?);
-        }
+        let add = &mut add;
+        let added = move || -> Result<(), Halt> {
+            (first..).zip(parts).try_for_each(|(item, part)| {
+                add(item, part?);
+                Ok(())
+            })
+        };
+        let (added, next) = rayon::join(added, || batch(first + BATCH));
+        added?;
+        parts = next;
     }
     Ok(())
 }

@@ -8,15 +8,15 @@
 //! what the next one misses. Where a patch is alone the integrand vanishes: its error is seen at the rim of its flat top.
 //! Of two fields the same integral has the product (σ(u_i) − σ(u)) : (ε(v_i) − ε(v)) in place of the square.
 
+use crate::assembly::Strains;
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::law::{Law, LawAt};
+use crate::law::Law;
 use crate::quadrature::Rule;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Mat, MatMut, Par};
 use ppum::dataset::FieldData;
-use ppum::vec2::{Vec2, vec2};
 use std::ops::Range;
 
 /// φ below which a local field is not made out of φ times it: its share is rounding.
@@ -38,14 +38,15 @@ pub(super) fn disagreements(
         (0..space.partition().len()).map(|patch| of_patch(fields, space, patch)).collect();
     let n = coefficients.len();
     let mut all = Vec::with_capacity(n);
-    let start = || (ShapeEvaluator::new(space), Shapes::default());
-    let work = |(evaluator, shapes): &mut (ShapeEvaluator<'_>, Shapes), cell: usize| {
+    let start = || (ShapeEvaluator::new(space), Shapes::default(), Strains::default());
+    let work = |seen: &mut (ShapeEvaluator<'_>, Shapes, Strains), cell: usize| {
+        let (evaluator, shapes, strains) = seen;
         let mut sum = Mat::zeros(fields.len(), fields.len());
         let rules = space.rules(&quadrature, cell);
         for rule in rules.iter().filter(|rule| rule.patches.len() > 1) {
             evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
             let seen = Seen { space, rule, shapes, coefficients: &coefficients, lonely };
-            seen.add(&law, fields.len(), &mut sum);
+            seen.add(&law, strains, &mut sum);
         }
         Ok(sum)
     };
@@ -78,33 +79,27 @@ struct Seen<'a> {
     lonely: &'a [Vec<usize>],
 }
 
-/// φ u and its gradient of all components of a patch: [components of all fields, points].
+/// φ u and its gradient of all components of all fields of a patch: a row of points for each.
 struct Products {
     patch: usize,
     /// The row of φ among the shapes.
     phi: usize,
     /// s_i
     share: f64,
-    value: Mat<f64>,
-    dx: Mat<f64>,
-    dy: Mat<f64>,
+    value: Vec<f64>,
+    dx: Vec<f64>,
+    dy: Vec<f64>,
 }
 
 impl Seen<'_> {
-    fn add(&self, law: &Law<'_>, fields: usize, sum: &mut Mat<f64>) {
-        let products = self.products();
-        let (dx, dy) = (total(&products, |part| &part.dx), total(&products, |part| &part.dy));
-        let mut differences = vec![[Vec2::ZERO; 2]; fields];
-        for (q, weight) in self.rule.weights.iter().enumerate() {
-            let law = law.at(self.rule.anchor + self.rule.offsets[q]);
-            let whole = [dx.col_as_slice(q), dy.col_as_slice(q)];
-            for part in &products {
-                let phi = self.at(&self.shapes.value, part.phi, q);
-                if phi >= LEAST && !self.is_lonely(part, q) {
-                    self.differences(part, whole, q, &mut differences);
-                    add_products(&law, &differences, weight * part.share * phi, sum);
-                }
-            }
+    fn add(&self, law: &Law<'_>, strains: &mut Strains, sum: &mut Mat<f64>) {
+        let mut products = self.products();
+        let whole = [total(&products, |part| &part.dx), total(&products, |part| &part.dy)];
+        for part in &mut products {
+            let weights = self.weights(part);
+            self.make_differences(part, &whole, &weights);
+            let slopes = [part.dx.as_slice(), part.dy.as_slice()];
+            strains.add_products(law, (self.rule, &weights), slopes, sum);
         }
     }
 
@@ -122,49 +117,61 @@ impl Seen<'_> {
         self.rule.patches.iter().map(of_patch).collect()
     }
 
+    /// s φ times the weights of the rule; zero where the local field does not count.
+    fn weights(&self, part: &Products) -> Vec<f64> {
+        let weight = |(q, (weight, phi)): (usize, (&f64, &f64))| {
+            let counts = *phi >= LEAST && !self.is_lonely(part, q);
+            if counts { weight * part.share * phi } else { 0.0 }
+        };
+        let phi = self.row(&self.shapes.value, part.phi);
+        self.rule.weights.iter().zip(phi).enumerate().map(weight).collect()
+    }
+
     fn is_lonely(&self, part: &Products, q: usize) -> bool {
-        let of = |function: &usize| self.at(&self.shapes.value, part.phi + function, q);
+        let of = |function: &usize| self.row(&self.shapes.value, part.phi + function)[q];
         self.lonely[part.patch].iter().any(|function| of(function) != 0.0)
     }
 
-    fn combined(&self, patch: usize, array: &[f64], range: Range<usize>) -> Mat<f64> {
+    fn combined(&self, patch: usize, array: &[f64], range: Range<usize>) -> Vec<f64> {
         let (rows, coefficients) = (self.shapes.rows(array, range), &self.coefficients[patch]);
-        let mut out = Mat::zeros(coefficients.nrows(), rows.ncols());
-        matmul(out.as_mut(), Accum::Replace, coefficients, rows, 1.0, Par::Seq);
+        let (n, points) = (coefficients.nrows(), rows.ncols());
+        let mut out = vec![0.0; n * points];
+        let target = MatMut::from_row_major_slice_mut(&mut out, n, points);
+        matmul(target, Accum::Replace, coefficients, rows, 1.0, Par::Seq);
         out
     }
 
-    fn at(&self, array: &[f64], row: usize, q: usize) -> f64 {
-        array[row * self.shapes.points + q]
+    fn row<'a>(&self, array: &'a [f64], row: usize) -> &'a [f64] {
+        &array[row * self.shapes.points..][..self.shapes.points]
     }
 
-    /// ∇u_i − ∇u of all fields at a point: ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i, and ∇u, given whole, is Σ_i ∇(φ_i u_i).
-    fn differences(&self, part: &Products, whole: [&[f64]; 2], q: usize, out: &mut [[Vec2; 2]]) {
-        let [value, dx, dy] = [&part.value, &part.dx, &part.dy].map(|array| array.col_as_slice(q));
-        let [phi, px, py] = [&self.shapes.value, &self.shapes.dx, &self.shapes.dy]
-            .map(|array| self.at(array, part.phi, q));
-        let components = value.len() / out.len();
-        for (row, (value, (dx, dy))) in value.iter().zip(dx.iter().zip(dy)).enumerate() {
-            let u = value / phi;
-            let local = vec2(dx - u * px, dy - u * py) / phi;
-            out[row / components][row % components] = local - vec2(whole[0][row], whole[1][row]);
+    /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i, and ∇u, given whole, being
+    /// Σ_i ∇(φ_i u_i); some finite number where they have no weight.
+    fn make_differences(&self, part: &mut Products, whole: &[Vec<f64>; 2], weights: &[f64]) {
+        let phi = self.row(&self.shapes.value, part.phi).iter().zip(weights);
+        let inverse: Vec<f64> =
+            phi.map(|(phi, weight)| if *weight > 0.0 { 1.0 / phi } else { 0.0 }).collect();
+        let points = self.shapes.points;
+        for (slopes, of_phi, whole) in [
+            (&mut part.dx, self.row(&self.shapes.dx, part.phi), &whole[0]),
+            (&mut part.dy, self.row(&self.shapes.dy, part.phi), &whole[1]),
+        ] {
+            let rows = slopes.chunks_exact_mut(points).zip(part.value.chunks_exact(points));
+            for ((slopes, values), whole) in rows.zip(whole.chunks_exact(points)) {
+                for q in 0..points {
+                    let u = values[q] * inverse[q];
+                    slopes[q] = (slopes[q] - u * of_phi[q]) * inverse[q] - whole[q];
+                }
+            }
         }
     }
 }
 
 /// The sum over the patches.
-fn total(products: &[Products], of: fn(&Products) -> &Mat<f64>) -> Mat<f64> {
-    let zero = of(&products[0]).clone() * faer::Scale(0.0);
-    products.iter().fold(zero, |sum, part| sum + of(part))
-}
-
-/// Adds weight · σ(d_a):d_b for all pairs of fields.
-fn add_products(law: &LawAt, differences: &[[Vec2; 2]], weight: f64, sum: &mut Mat<f64>) {
-    for (a, d) in differences.iter().enumerate() {
-        let flux = law.flux(d);
-        for (b, e) in differences.iter().enumerate() {
-            let of_component = |i: usize| flux[i][0] * e[i].x + flux[i][1] * e[i].y;
-            sum[(a, b)] += weight * (0..law.components()).map(of_component).sum::<f64>();
-        }
+fn total(products: &[Products], of: fn(&Products) -> &Vec<f64>) -> Vec<f64> {
+    let mut sum = of(&products[0]).clone();
+    for part in &products[1..] {
+        sum.iter_mut().zip(of(part)).for_each(|(sum, part)| *sum += part);
     }
+    sum
 }

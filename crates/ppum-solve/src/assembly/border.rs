@@ -264,19 +264,24 @@ impl<'a> Border<'a> {
         Ok(needed.max(self.modulus * ratio / self.length))
     }
 
-    /// Adds Nitsche's terms to a system whose stiffness is complete; `size` is that of the cell.
+    /// Adds Nitsche's terms to the stiffness of the cell, which is complete, and to its system; `size` is that of the cell.
     ///
     /// # Errors
     /// Entries that are not finite.
-    pub(crate) fn finish(self, size: f64, system: &mut CellSystem) -> Result<(), EigenError> {
+    pub(crate) fn finish(
+        self,
+        size: f64,
+        stiffness: &mut Mat<f64>,
+        system: &mut CellSystem,
+    ) -> Result<(), EigenError> {
         if self.length == 0.0 {
             return Ok(());
         }
-        let beta = self.penalty(&system.matrix, size)?;
+        let beta = self.penalty(stiffness, size)?;
         system.penalty = beta / self.modulus;
-        system.matrix -= &self.consistency;
-        system.matrix -= self.consistency.transpose();
-        system.matrix += faer::Scale(beta) * &self.mass;
+        *stiffness -= &self.consistency;
+        *stiffness -= self.consistency.transpose();
+        *stiffness += faer::Scale(beta) * &self.mass;
         let loads = self.value_load.iter().zip(&self.traction_load);
         for (load, (value, traction)) in system.load.iter_mut().zip(loads) {
             *load += beta * value - traction;

@@ -10,12 +10,10 @@ use super::cell_system::CellSystem;
 use super::dual::Duals;
 use super::functions::CellFunctions;
 use super::gauge::FreeModes;
+use super::stiffness::{CellMatrix, Stiffness, Strains};
 use crate::basis::{BasisEvaluator, Shapes};
-use crate::law::LawAt;
-use crate::linear::{EigenError, add_at};
+use crate::linear::EigenError;
 use crate::quadrature::Rule;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
 use ppum::vec2::Vec2;
 
 /// Data given at a point: position → values, one per component.
@@ -42,15 +40,18 @@ pub(crate) struct CellAssembler<'s> {
     functionals: Option<Functionals<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
+    strains: Strains,
 }
 
 impl<'s> CellAssembler<'s> {
     pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        Self { assembly, functionals, evaluator, shapes: Shapes::default() }
+        let (shapes, strains) = (Shapes::default(), Strains::default());
+        Self { assembly, functionals, evaluator, shapes, strains }
     }
 
-    /// The system of one cell, given its quadrature, body forces and the pieces of its border.
+    /// The system of one cell, given its quadrature, body forces and the pieces of its border. A stiffness that is `known`
+    /// needs no rules, and if nothing on the border is held it is the cell's: none is returned then.
     ///
     /// # Errors
     /// Entries that are not finite, which data that are not finite cause.
@@ -60,42 +61,55 @@ impl<'s> CellAssembler<'s> {
         rules: &[Rule],
         source: Option<Source<'_>>,
         border: &[BorderPiece<'_>],
-    ) -> Result<CellSystem, EigenError> {
-        let functions = CellFunctions::new(&self.assembly, cell);
-        let (n, components) = (functions.len(), self.assembly.law.components);
-        let matrix = Mat::zeros(n * components, n * components);
-        let mut system = self.zero(functions, matrix);
-        let zero = || Mat::zeros(n, n);
-        let products = || Products { xx: zero(), xy: zero(), yy: zero() };
-        let mut products: Vec<_> = self.assembly.law.terms.iter().map(|_| products()).collect();
-        let own = source.and_then(|source| Some((source.values, source.rules?)));
+        known: Option<&Stiffness<'_>>,
+    ) -> Result<(CellSystem, Option<CellMatrix>), EigenError> {
+        let is_held = border.iter().any(|piece| piece.held.contains(&true));
+        let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
+        let mut matrix = known.is_none().then(|| system.functions.zero(&self.assembly, !is_held));
         let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
         for rule in rules {
-            self.volume((cell, rule), shared, &mut products, &mut system);
+            self.volume((cell, rule), shared, !is_held, matrix.as_mut(), &mut system);
         }
-        if let Some((values, rules)) = own {
-            for rule in rules {
-                self.evaluate(rule);
-                self.load(rule, values, &mut system);
-            }
+        for rule in source.and_then(|source| source.rules).unwrap_or_default() {
+            self.evaluate(rule);
+            self.load(rule, source.map(|source| source.values), &mut system);
         }
-        for (products, term) in products.iter().zip(&self.assembly.law.terms) {
-            products.add_to(&mut system.matrix, term, components);
+        if border.is_empty() {
+            return Ok((system, matrix));
         }
-        if !border.is_empty() {
-            let mut on_border = Border::new(self.assembly, n * components);
-            for piece in border {
-                on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
-            }
-            let size = self.assembly.space.partition().cell[cell].size();
-            on_border.finish(size.x.max(size.y), &mut system)?;
+        let unknowns = system.load.len();
+        let mut on_border = Border::new(self.assembly, unknowns);
+        for piece in border {
+            on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
         }
-        Ok(system)
+        if !is_held {
+            return Ok((system, matrix));
+        }
+        let components = self.assembly.components();
+        let block = |k: usize, l: usize| match (&matrix, known) {
+            (Some(own), _) => own.block(k, l),
+            (None, known) => known.expect("it is made unless it is known").block(k, l),
+        };
+        let mut free = system.functions.free_matrix(components, &block);
+        let size = self.assembly.space.partition().cell[cell].size();
+        on_border.finish(size.x.max(size.y), &mut free, &mut system)?;
+        let tied = system.functions.tied_matrix(&self.assembly, &free);
+        Ok((system, Some(tied)))
+    }
+
+    /// The stiffness of a cell of which nothing on the border is held.
+    pub(super) fn stiffness(&mut self, cell: usize, rules: &[Rule]) -> CellMatrix {
+        let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
+        let mut matrix = system.functions.zero(&self.assembly, true);
+        for rule in rules {
+            self.volume((cell, rule), None, true, Some(&mut matrix), &mut system);
+        }
+        matrix
     }
 
     /// The part of one cell in the factors of tips, in a system without matrix.
     pub(crate) fn duals(&mut self, cell: usize, rules: &[Rule]) -> CellSystem {
-        let mut system = self.zero(CellFunctions::new(&self.assembly, cell), Mat::new());
+        let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
         if let Some(Functionals { duals, .. }) = self.functionals {
             for rule in rules {
                 self.evaluate(rule);
@@ -107,11 +121,10 @@ impl<'s> CellAssembler<'s> {
     }
 
     /// A system of a cell of which nothing but the size is known.
-    fn zero(&self, functions: CellFunctions, matrix: Mat<f64>) -> CellSystem {
+    fn zero(&self, functions: CellFunctions) -> CellSystem {
         let unknowns = functions.len() * self.assembly.law.components;
         let zeros = |count: usize| vec![vec![0.0; unknowns]; count];
         CellSystem {
-            matrix,
             load: vec![0.0; unknowns],
             moments: zeros(self.functionals.map_or(0, |all| all.free.len())),
             duals: zeros(self.functionals.map_or(0, |all| all.duals.len())),
@@ -123,11 +136,13 @@ impl<'s> CellAssembler<'s> {
 
     /// The functions at the points of a rule.
     fn evaluate(&mut self, rule: &Rule) {
-        self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut self.shapes);
+        self.evaluator.see(rule);
+        self.evaluator.apply(&rule.patches, &mut self.shapes);
     }
 
-    /// Adds the source at the points of the rule that was evaluated last.
-    fn load(&self, rule: &Rule, source: Data<'_>, system: &mut CellSystem) {
+    /// Adds a source at the points of the rule that was evaluated last.
+    fn load(&self, rule: &Rule, source: Option<Data<'_>>, system: &mut CellSystem) {
+        let Some(source) = source else { return };
         let numbers = system.functions.numbers(&rule.patches);
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let x = rule.anchor + offset;
@@ -137,80 +152,39 @@ impl<'s> CellAssembler<'s> {
         }
     }
 
+    /// Adds the points of a rule to the functionals, and to a matrix of fields, or of functions where they are not tied.
     fn volume(
         &mut self,
         (cell, rule): (usize, &Rule),
         source: Option<Data<'_>>,
-        products: &mut [Products],
+        tied: bool,
+        matrix: Option<&mut CellMatrix>,
         system: &mut CellSystem,
     ) {
-        self.evaluate(rule);
-        if let Some(source) = source {
-            self.load(rule, source, system);
+        let Assembly { law, .. } = self.assembly;
+        let plain = self.evaluator.see(rule);
+        if let Some(matrix) = matrix {
+            let fields = self.assembly.fields(&rule.patches, tied);
+            let places = system.functions.positions(&rule.patches);
+            self.strains.integrate(law, (rule, plain), (&fields, &places), matrix);
         }
-        let shapes = &mut self.shapes;
-        let numbers = system.functions.numbers(&rule.patches);
-        if let Some(Functionals { free, duals }) = self.functionals {
-            free.add(rule, shapes, &numbers, self.assembly.law.components, &mut system.moments);
-            duals.add((cell, rule), shapes, &numbers, &mut system.duals);
-        }
-        if self.assembly.law.is_uniform() {
-            shapes.scale(&rule.weights);
-            products[0].add(&numbers, shapes, shapes);
+        let functionals = self.functionals.filter(|all| all.are_of(cell));
+        if source.is_none() && functionals.is_none() {
             return;
         }
-        let points = rule.offsets.iter().map(|&offset| rule.anchor + offset);
-        let coefficients: Vec<_> = points.map(|x| self.assembly.law.coefficients(x)).collect();
-        for (m, products) in products.iter_mut().enumerate() {
-            let mut right = shapes.clone();
-            let weights: Vec<_> =
-                rule.weights.iter().zip(&coefficients).map(|(w, a)| w * a[m]).collect();
-            right.scale(&weights.iter().map(|w| w.abs()).collect::<Vec<_>>());
-            // λ is negative where ν is: the sign goes to one side of the product.
-            let mut left = right.clone();
-            left.multiply(&weights.iter().map(|w| w.signum()).collect::<Vec<_>>());
-            products.add(&numbers, &left, &right);
+        self.evaluator.apply(&rule.patches, &mut self.shapes);
+        self.load(rule, source, system);
+        if let Some(Functionals { free, duals }) = functionals {
+            let numbers = system.functions.numbers(&rule.patches);
+            free.add(rule, &self.shapes, &numbers, law.components, &mut system.moments);
+            duals.add((cell, rule), &self.shapes, &numbers, &mut system.duals);
         }
     }
 }
 
-/// The products ∫ ∂_k N ∂_l Nᵀ over the cell's functions; yx is the transpose of xy.
-struct Products {
-    xx: Mat<f64>,
-    xy: Mat<f64>,
-    yy: Mat<f64>,
-}
-
-impl Products {
-    /// Adds the points of shapes that carry the roots of the weights, the left ones with their signs.
-    fn add(&mut self, numbers: &[usize], left: &Shapes, right: &Shapes) {
-        let all = 0..left.functions;
-        let (dx, dy) = (left.rows(&left.dx, all.clone()), left.rows(&left.dy, all.clone()));
-        let (ex, ey) = (right.rows(&right.dx, all.clone()), right.rows(&right.dy, all));
-        for (sum, left, right) in
-            [(&mut self.xx, dx, ex), (&mut self.xy, dx, ey), (&mut self.yy, dy, ey)]
-        {
-            let mut product = Mat::zeros(numbers.len(), numbers.len());
-            matmul(product.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
-            add_at(sum, numbers, numbers, &product);
-        }
-    }
-
-    /// K = Σ_kl C_ikjl ∫ ∂_k N ∂_l Nᵀ.
-    fn add_to(&self, matrix: &mut Mat<f64>, law: &LawAt, c: usize) {
-        let yx = self.xy.transpose().to_owned();
-        for b in 0..self.xx.ncols() {
-            let [xx, xy, yx, yy] =
-                [&self.xx, &self.xy, &yx, &self.yy].map(|product| product.col_as_slice(b));
-            for j in 0..c {
-                let column = matrix.col_as_slice_mut(b * c + j).chunks_exact_mut(c);
-                for (a, entries) in column.enumerate() {
-                    let parts = [[xx[a], xy[a]], [yx[a], yy[a]]];
-                    for (i, entry) in entries.iter_mut().enumerate() {
-                        *entry += law.contract(i, j, &parts);
-                    }
-                }
-            }
-        }
+impl Functionals<'_> {
+    /// True if some of them have a part in a cell.
+    pub(super) fn are_of(&self, cell: usize) -> bool {
+        self.free.len() > 0 || !self.duals.is_far(cell)
     }
 }

@@ -1,18 +1,13 @@
-//! The contribution of one cell to the system.
+//! The contribution of one cell to the right-hand sides.
 
-use super::Assembly;
 use super::functions::CellFunctions;
 use super::reaction::CellReaction;
-use crate::linear::{product, taken};
-use faer::Mat;
 
-/// The contribution of one cell. Unknown (function a, component i) is row a · components + i.
+/// The contribution of one cell beside its stiffness. Unknown (function a, component i) is row a · components + i.
 #[derive(Clone, Debug)]
 pub(crate) struct CellSystem {
     /// The functions that live in the cell.
     pub(crate) functions: CellFunctions,
-    /// Stiffness, square, all of it.
-    pub(crate) matrix: Mat<f64>,
     /// Right-hand side.
     pub(crate) load: Vec<f64>,
     /// ∫ N·m of each free mode m.
@@ -23,22 +18,4 @@ pub(crate) struct CellSystem {
     pub(crate) penalty: f64,
     /// Forces of the restraints in the cell, one entry per condition that gives values.
     pub(crate) reactions: Vec<CellReaction>,
-}
-
-impl CellSystem {
-    /// The stiffness between the unknowns of all pairs of patches, in the order of the system: of patch 0 and all from 0 on, of
-    /// patch 1 and all from 1 on, …
-    pub(crate) fn blocks(&self, assembly: &Assembly<'_>) -> Vec<Mat<f64>> {
-        let n = self.functions.patches.len();
-        let pairs = (0..n).flat_map(|k| (k..n).map(move |l| (k, l)));
-        pairs.map(|(k, l)| self.block(assembly, k, l)).collect()
-    }
-
-    fn block(&self, assembly: &Assembly<'_>, k: usize, l: usize) -> Mat<f64> {
-        let [rows, columns] = [k, l].map(|k| self.functions.free(k, assembly.components()));
-        let free = taken(&self.matrix, &rows, &columns);
-        let [left, right] = [k, l].map(|k| assembly.basis.tie(self.functions.patches[k]));
-        let half = left.map(|tie| product(tie.as_ref(), free.as_ref())).unwrap_or(free);
-        right.map(|tie| product(half.as_ref(), tie.transpose())).unwrap_or(half)
-    }
 }

@@ -5,6 +5,8 @@ use crate::geometry::Placed;
 use crate::intensity::{FACTORS, Sensitivity};
 use crate::quadrature::Rule;
 use crate::space::Space;
+use faer::Mat;
+use ppum::vec2::Vec2;
 
 /// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed over the tips.
 pub(crate) struct Duals<'a> {
@@ -45,9 +47,14 @@ impl<'a> Duals<'a> {
     ) {
         for &tip in &self.near[cell] {
             let kernels = self.tips[tip as usize].kernels(rule);
-            for (q, kernels) in kernels.iter().enumerate() {
-                for (kernel, part) in kernels.iter().zip(parts.iter_mut()) {
-                    shapes.add_slopes(q, numbers, kernel, part);
+            // a column for each component of each mode
+            let columns = |of: fn(Vec2) -> f64| {
+                Mat::from_fn(kernels.len(), 2 * FACTORS, |q, k| of(kernels[q][k / 2][k % 2]))
+            };
+            let sums = shapes.slopes_along([&columns(|g| g.x), &columns(|g| g.y)]);
+            for (k, &number) in numbers.iter().enumerate() {
+                for (mode, part) in parts.iter_mut().enumerate() {
+                    (0..2).for_each(|i| part[2 * number + i] += sums[(k, 2 * mode + i)]);
                 }
             }
         }

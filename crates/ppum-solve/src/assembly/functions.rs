@@ -1,8 +1,10 @@
 //! The functions that live in a cell, and the places of their unknowns in the system.
 
 use super::Assembly;
+use super::stiffness::CellMatrix;
 use crate::basis::StableBasis;
-use crate::linear::BlockMatrix;
+use crate::linear::{BlockMatrix, add_at, product, taken};
+use faer::{Mat, MatRef};
 
 /// The functions of a cell's patches, numbered patch after patch.
 #[derive(Clone, Debug)]
@@ -35,6 +37,57 @@ impl CellFunctions {
             self.first[k]..self.first[k + 1]
         };
         patches.iter().flat_map(range).collect()
+    }
+
+    /// The places of some of the patches.
+    pub(crate) fn positions(&self, patches: &[u32]) -> Vec<usize> {
+        patches.iter().map(|&patch| self.position(patch)).collect()
+    }
+
+    /// A matrix of zeros over all unknowns, or over all functions in each component where these are not tied.
+    pub(super) fn zero(&self, assembly: &Assembly<'_>, tied: bool) -> CellMatrix {
+        let fields = assembly.fields(&self.patches, tied);
+        CellMatrix::new(fields.iter().map(|fields| fields.len(assembly.components())))
+    }
+
+    /// The whole matrix over all functions in each component, component i of function a at a · components + i, of its blocks of
+    /// pairs of patches.
+    pub(super) fn free_matrix<'m>(
+        &self,
+        components: usize,
+        block: &dyn Fn(usize, usize) -> MatRef<'m, f64>,
+    ) -> Mat<f64> {
+        let n = self.len() * components;
+        let mut matrix = Mat::zeros(n, n);
+        for (k, l) in self.pairs() {
+            let [rows, columns] = [k, l].map(|k| self.free(k, components));
+            let block = block(k, l);
+            add_at(&mut matrix, &rows, &columns, &block.to_owned());
+            if k != l {
+                add_at(&mut matrix, &columns, &rows, &block.transpose().to_owned());
+            }
+        }
+        matrix
+    }
+
+    /// The matrix over the unknowns from the one over all functions.
+    pub(super) fn tied_matrix(&self, assembly: &Assembly<'_>, free: &Mat<f64>) -> CellMatrix {
+        let mut matrix = self.zero(assembly, true);
+        for (k, l) in self.pairs() {
+            let [rows, columns] = [k, l].map(|k| self.free(k, assembly.components()));
+            let block = taken(free, &rows, &columns);
+            let [left, right] = [k, l].map(|k| assembly.basis.tie(self.patches[k]));
+            let half = left.map(|tie| product(tie.as_ref(), block.as_ref())).unwrap_or(block);
+            let whole = right.map(|tie| product(half.as_ref(), tie.transpose())).unwrap_or(half);
+            matrix.block_mut(k, l).copy_from(&whole);
+        }
+        matrix
+    }
+
+    /// All pairs of patches, in the order of the system: of patch 0 and all from 0 on, of patch 1 and all from 1 on, …
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let n = self.patches.len();
+        (0..n).flat_map(move |k| (k..n).map(move |l| (k, l)))
     }
 
     /// The cell's unknowns of patch `k` in the order of the system, component-major; ties are still to come.

@@ -16,13 +16,16 @@ mod gauge;
 mod given;
 mod loads;
 mod reaction;
+mod stiffness;
 mod system;
+mod template;
 
 pub(crate) use cell::Functionals;
 pub(crate) use dual::Duals;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use loads::border_rules;
+pub(crate) use stiffness::Strains;
 pub(crate) use system::{System, pattern, slivers};
 
 use crate::basis::StableBasis;

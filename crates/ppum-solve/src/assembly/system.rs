@@ -6,14 +6,16 @@ use super::cell::{CellAssembler, Functionals};
 use super::cell_system::CellSystem;
 use super::given::Given;
 use super::reaction::Reactions;
+use super::stiffness::Stiffness;
+use super::template::Templates;
 use crate::basis::{Earlier, Penalty};
 use crate::linear::{BlockMatrix, BlockPattern};
 use crate::quadrature::{Doubt, EdgeRule, Rule};
 use crate::report::Unresolved;
 use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, in_batches};
-use faer::Mat;
 use ppum::vec2::Rect;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// The assembled system.
@@ -47,9 +49,9 @@ struct CellFacts {
 }
 
 /// What a cell adds to a system.
-enum Part {
-    /// All that there is, with the blocks of its matrix.
-    Whole(CellSystem, Vec<Mat<f64>>),
+enum Part<'t> {
+    /// All that there is.
+    Whole(CellSystem, Stiffness<'t>),
     /// Its part in the factors of tips: the rest is known.
     Duals(CellSystem),
 }
@@ -79,8 +81,8 @@ pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<P
             }
             let rect = space.partition().cell[cell];
             let rules = space.rules(&quadrature, cell);
-            let part = assembler.assemble(cell, &rules, None, &on_border);
-            let weight = part.map_err(|_| Halt::at(rect))?.penalty;
+            let part = assembler.assemble(cell, &rules, None, &on_border, None);
+            let weight = part.map_err(|_| Halt::at(rect))?.0.penalty;
             let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
             Ok((weight * width(&rect) > SLIVER).then_some(Penalty { rules, weight }))
         },
@@ -97,10 +99,9 @@ fn n_cell_points(rules: &[Rule]) -> usize {
     rules.iter().map(|rule| rule.weights.len()).sum()
 }
 
-fn n_points(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> usize {
+fn n_border_points(pieces: &[BorderPiece<'_>]) -> usize {
     let own = |piece: &BorderPiece<'_>| piece.own.map_or(0, n_edge_points);
-    let border = pieces.iter().map(|piece| n_edge_points(&piece.rules) + own(piece));
-    n_cell_points(rules) + border.sum::<usize>()
+    pieces.iter().map(|piece| n_edge_points(&piece.rules) + own(piece)).sum()
 }
 
 fn n_edge_points(rules: &[EdgeRule]) -> usize {
@@ -130,7 +131,8 @@ impl System {
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
         let quadrature = space.quadrature(0);
-        let mut system = Self::zero(&assembly, functionals);
+        let (mut system, templates) =
+            (Self::zero(&assembly, functionals), Templates::new(assembly));
         let known = |cell: usize, pieces: &[BorderPiece<'_>]| {
             let (unchanged, earlier) = earlier?;
             let is_known = pieces.is_empty() && unchanged.all(&space.coverers[cell]);
@@ -151,27 +153,34 @@ impl System {
                     let seconds = start.elapsed().as_secs_f64();
                     return Ok((CellFacts { seconds, ..facts }, duals));
                 }
-                let rules = space.rules(&quadrature, cell);
                 let source = given.source(cell);
-                let own = source.and_then(|source| source.rules);
-                let points = n_points(&rules, &pieces) + own.map_or(0, n_cell_points);
-                let part = assembler
-                    .assemble(cell, &rules, source, &pieces)
+                let template = templates.of(cell);
+                let shares_rules = source.is_some_and(|source| source.rules.is_none());
+                let rules = match &template {
+                    Some(_) if !shares_rules && !functionals.are_of(cell) => Cow::default(),
+                    _ => space.rules(&quadrature, cell),
+                };
+                let own = source.and_then(|source| source.rules).map_or(0, n_cell_points);
+                let inside = templates.points(cell).unwrap_or_else(|| n_cell_points(&rules));
+                let points = inside + n_border_points(&pieces) + own;
+                let (part, matrix) = assembler
+                    .assemble(cell, &rules, source, &pieces, template.as_ref())
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
-                let blocks = part.blocks(&assembly);
+                let made = matrix.map(|m| Stiffness { matrix: Cow::Owned(m), seats: None });
+                let stiffness = made.or(template).expect("it is made unless there is a template");
                 let doubt = doubt_of(&rules, &pieces);
                 let seconds = start.elapsed().as_secs_f64();
-                Ok((CellFacts { points, doubt, seconds }, Some(Part::Whole(part, blocks))))
+                Ok((CellFacts { points, doubt, seconds }, Some(Part::Whole(part, stiffness))))
             },
             |cell, (facts, part)| {
                 system.cells.push(facts);
                 match part {
                     None => {}
                     Some(Part::Duals(part)) => system.add_functionals(&part, &assembly),
-                    Some(Part::Whole(part, blocks)) => {
+                    Some(Part::Whole(part, stiffness)) => {
                         let penalty = part.penalty * width(&space.partition().cell[cell]);
                         system.nitsche = system.nitsche.max(penalty);
-                        system.add(part, &blocks, &assembly);
+                        system.add(part, &stiffness, &assembly);
                     }
                 }
             },
@@ -247,17 +256,16 @@ impl System {
         }
     }
 
-    fn add(&mut self, part: CellSystem, blocks: &[Mat<f64>], assembly: &Assembly<'_>) {
+    fn add(&mut self, part: CellSystem, stiffness: &Stiffness<'_>, assembly: &Assembly<'_>) {
         let (basis, components) = (assembly.basis, assembly.components());
         part.functions.add_to(basis, &self.matrix, components, &part.load, &mut self.load);
         self.add_functionals(&part, assembly);
         let patches = &part.functions.patches;
-        let pairs =
-            patches.iter().enumerate().flat_map(|(k, p)| patches[k..].iter().map(move |q| (p, q)));
-        for ((&p, &q), block) in pairs.zip(blocks) {
+        for (k, l) in part.functions.pairs() {
+            let [p, q] = [k, l].map(|k| patches[k] as usize);
             // patches may meet the cell, but not each other
-            if self.matrix.couples(p as usize, q as usize) {
-                self.matrix.add_block(p as usize, q as usize, block.as_ref());
+            if self.matrix.couples(p, q) {
+                self.matrix.add_block(p, q, stiffness.block(k, l));
             }
         }
         self.reactions.push(part);

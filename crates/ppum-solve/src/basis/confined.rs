@@ -24,6 +24,7 @@ use ppum::vec2::Vec2;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Part of the square of a jump outside of another patch up to which the other patch confines it.
 const OUTSIDE: f64 = 0.1;
@@ -57,7 +58,7 @@ struct Common {
 /// Functions that are not finite, with their place; cancelled.
 pub(super) fn reductions(
     space: &Space<'_>,
-    grams: &[Gram],
+    grams: &[Arc<Gram>],
     stage: &Stage<'_>,
 ) -> Result<BTreeMap<usize, Vec<Part>>, Halt> {
     let jumps: Vec<Jump> =
@@ -90,7 +91,7 @@ struct Kept {
 /// Jumps and what pairs of them have in common.
 struct Shared<'a> {
     jumps: &'a [Jump],
-    grams: &'a [Gram],
+    grams: &'a [Arc<Gram>],
     /// By the numbers of two jumps, the smaller one first; only those that confine each other.
     common: BTreeMap<(usize, usize), Mat<f64>>,
 }

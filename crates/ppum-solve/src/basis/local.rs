@@ -17,10 +17,49 @@ pub(super) struct LocalBasis {
     pub(super) matrix: Mat<f64>,
     /// What the unknowns are of the functions of all components, where these share any: [unknowns, components · kept].
     pub(super) tie: Option<Mat<f64>>,
+    tied: Option<Tied>,
     /// Number of unknowns that were cut off for each component, or for all where they are tied.
     dropped: usize,
     /// The least eigenvalue that was kept, see [`Transform::least`].
     pub(super) least: f64,
+}
+
+/// The unknowns of a patch where components share any: first those of functions that each component has for itself,
+/// component by component, then those of vector fields.
+#[derive(Clone, Debug)]
+struct Tied {
+    /// Number of functions that each component has for itself: the first ones. They are polynomials.
+    scalar: usize,
+    /// Of these, the number of plain functions that they are made of: the first ones.
+    polynomials: usize,
+    /// Each component of the fields in the plain functions, C_i T: [fields, functions].
+    fields: [Mat<f64>; 2],
+}
+
+impl Tied {
+    /// Of a tie whose first rows are those of `scalar` functions of each component.
+    fn new(tie: &Mat<f64>, matrix: &Mat<f64>, scalar: usize, polynomials: usize) -> Self {
+        let kept = matrix.nrows();
+        let rows =
+            |i: usize| tie.submatrix(2 * scalar, i * kept, tie.nrows() - 2 * scalar, kept) * matrix;
+        Self { scalar, polynomials, fields: [rows(0), rows(1)] }
+    }
+}
+
+/// The unknowns of a patch as fields made of its plain functions.
+#[derive(Clone, Copy)]
+pub(crate) struct Fields<'a> {
+    /// Functions that each component has for itself, of the first plain ones: [functions, plain].
+    pub(crate) scalar: MatRef<'a, f64>,
+    /// After those of all components, fields with two: each component [fields, plain].
+    pub(crate) vector: Option<[MatRef<'a, f64>; 2]>,
+}
+
+impl Fields<'_> {
+    /// Number of unknowns of a field of so many components.
+    pub(crate) fn len(&self, components: usize) -> usize {
+        components * self.scalar.nrows() + self.vector.map_or(0, |[x, _]| x.nrows())
+    }
 }
 
 impl LocalBasis {
@@ -42,7 +81,7 @@ impl LocalBasis {
         let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
         let (dropped, least) = (transform.dropped + lost, transform.least);
         let (Some(tied), Some(rows)) = (fields(space, patch), &rows) else {
-            return Ok(Self { matrix: transform.matrix, tie: None, dropped, least });
+            return Ok(Self { matrix: transform.matrix, tie: None, tied: None, dropped, least });
         };
         let scalar = space.n_polynomials(patch)..rows.nrows() - n_series;
         let fields: Vec<VectorField> =
@@ -50,7 +89,20 @@ impl LocalBasis {
         let tie = tie(gram.weighted.as_ref(), &transform, &fields)?;
         let wanted = fields.len() + 2 * (space.n_polynomials(patch) + lost);
         let dropped = wanted - tie.nrows();
-        Ok(Self { matrix: transform.matrix, tie: Some(tie), dropped, least })
+        let Transform { matrix, polynomials, .. } = transform;
+        let tied = Tied::new(&tie, &matrix, polynomials, space.n_polynomials(patch));
+        Ok(Self { matrix, tie: Some(tie), tied: Some(tied), dropped, least })
+    }
+
+    /// What the unknowns are, or all functions in each component where `tied` is false.
+    pub(super) fn fields(&self, tied: bool) -> Fields<'_> {
+        match self.tied.as_ref().filter(|_| tied) {
+            None => Fields { scalar: self.matrix.as_ref(), vector: None },
+            Some(Tied { scalar, polynomials, fields }) => Fields {
+                scalar: self.matrix.submatrix(0, 0, *scalar, *polynomials),
+                vector: Some(fields.each_ref().map(|part| part.as_ref())),
+            },
+        }
     }
 
     /// True if the functions are the same to the last bit.
@@ -97,6 +149,7 @@ impl LocalBasis {
             *tie = tie::renewed(tie, gram, root.as_ref())?;
         }
         self.matrix = root * &self.matrix;
+        self.tied = self.tie.as_ref().map(|tie| Tied::new(tie, &self.matrix, 0, 0));
         Ok(())
     }
 

@@ -15,16 +15,19 @@ mod williams;
 
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::{Space, Unchanged};
-use crate::watched::{Halt, Stage, in_batches};
+use crate::watched::{Halt, Stage, each, in_batches};
 use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
+pub(crate) use local::Fields;
 use local::LocalBasis;
 use ppum::dataset::monomials;
 use ppum::vec2::Vec2;
 pub(crate) use shape::{ShapeEvaluator, Shapes};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a cell's system.
 pub(crate) struct Penalty {
@@ -37,13 +40,15 @@ pub(crate) struct Penalty {
 /// The stable basis of every patch.
 #[derive(Debug)]
 pub(crate) struct StableBasis {
-    patches: Vec<LocalBasis>,
+    patches: Vec<Arc<LocalBasis>>,
+    /// Of each patch that has the functions of all of its kind, that kind.
+    kinds: Vec<Option<usize>>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
     /// Of each patch, the first functions of the jumps around corners and junctions of cracks of which nearly nothing lies
     /// where it is alone.
     pub(crate) lonely: Vec<Vec<usize>>,
-    grams: Vec<Gram>,
+    grams: Vec<Arc<Gram>>,
 }
 
 /// What was made for an earlier space, and what is as it was.
@@ -62,21 +67,58 @@ impl StableBasis {
     ) -> Result<Self, Halt> {
         let grams = grams(space, earlier, stage)?;
         let reductions = reductions(space, &grams, stage)?;
-        let none = Vec::new();
+        let (alike, none) = (space.alike(), Vec::new());
+        let mut of_kinds: Vec<Option<Arc<LocalBasis>>> = vec![None; alike.patch_kinds().len()];
+        let mut first = vec![usize::MAX; of_kinds.len()];
+        let kinds: Vec<_> = (0..grams.len()).map(|i| alike.patch(i)).collect();
+        (0..).zip(&kinds).for_each(|(i, kind)| {
+            kind.iter().for_each(|&kind| first[kind] = first[kind].min(i));
+        });
         let mut patches = Vec::with_capacity(grams.len());
         in_batches(
             stage,
             grams.len(),
             || (),
             |(), i| {
+                if kinds[i].is_some_and(|kind| first[kind] != i) {
+                    return Ok(None);
+                }
                 LocalBasis::new(space, i, &grams[i], reductions.get(&i).unwrap_or(&none))
+                    .map(|basis| Some(Arc::new(basis)))
                     .map_err(|_| Halt::at(space.partition().support(i)))
             },
-            |_, basis| patches.push(basis),
+            |i, basis| {
+                let known = kinds[i].map(|kind| &mut of_kinds[kind]);
+                patches.push(match (basis, known) {
+                    (Some(new), None) => new,
+                    (Some(new), Some(known)) => Arc::clone(known.insert(new)),
+                    (None, known) => Arc::clone(
+                        known.and_then(|known| known.as_ref()).expect("the first of a kind"),
+                    ),
+                });
+            },
         )?;
-        let sizes = patches.iter().map(LocalBasis::len).collect();
         let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
-        Ok(Self { patches, sizes, lonely, grams })
+        Ok(Self { sizes: sizes(&patches), patches, kinds, lonely, grams })
+    }
+
+    /// The basis of some patches of kinds alone, as of a space that has no others.
+    pub(crate) fn of_patches(&self, patches: &[u32]) -> Self {
+        let patches: Vec<_> =
+            patches.iter().map(|&p| Arc::clone(&self.patches[p as usize])).collect();
+        let n = patches.len();
+        let (kinds, lonely) = (vec![None; n], vec![Vec::new(); n]);
+        Self { sizes: sizes(&patches), patches, kinds, lonely, grams: Vec::new() }
+    }
+
+    /// The kind of a patch, if it has the functions that all of its kind have.
+    pub(crate) fn kind(&self, patch: u32) -> Option<usize> {
+        self.kinds[patch as usize]
+    }
+
+    /// What the unknowns of a patch are: vector fields, or all functions in each component where `tied` is false.
+    pub(crate) fn fields(&self, patch: u32, tied: bool) -> Fields<'_> {
+        self.patches[patch as usize].fields(tied)
     }
 
     /// True if a patch has the very functions that a patch of another basis has.
@@ -92,7 +134,8 @@ impl StableBasis {
     /// Functions that are not finite, with their place; cancelled.
     pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
-            self.patches[patch as usize]
+            self.kinds[patch as usize] = None;
+            Arc::make_mut(&mut self.patches[patch as usize])
                 .damp(gram.as_ref())
                 .map_err(|_| Halt::at(space.partition().support(patch as usize)))?;
         }
@@ -139,7 +182,7 @@ impl StableBasis {
     pub(crate) fn bytes(&self) -> usize {
         let values = |m: &Mat<f64>| m.nrows() * m.ncols();
         let of = |patch: &LocalBasis| values(&patch.matrix) + patch.tie.as_ref().map_or(0, values);
-        self.patches.iter().map(of).sum::<usize>() * size_of::<f64>()
+        self.patches.iter().map(|patch| of(patch)).sum::<usize>() * size_of::<f64>()
     }
 
     /// The transformation T of a patch \[kept, functions\].
@@ -189,6 +232,10 @@ impl StableBasis {
     }
 }
 
+fn sizes(patches: &[Arc<LocalBasis>]) -> Vec<usize> {
+    patches.iter().map(|patch| patch.len()).collect()
+}
+
 /// c (f − σ) = c f − σ c: takes the constant parts of a patch's functions to its polynomials. Jumps
 /// have the degree of the polynomials, which come first.
 fn undo_shifts(space: &Space<'_>, patch: usize, coefficients: &mut [f64]) {
@@ -218,15 +265,14 @@ impl<'s> BasisEvaluator<'s> {
         Self { basis, evaluator: ShapeEvaluator::new(space), plain: Shapes::default() }
     }
 
-    /// The basis functions of `patches`, which must be all that cover the points.
-    pub(crate) fn evaluate(
-        &mut self,
-        anchor: Vec2,
-        offsets: &[Vec2],
-        patches: &[u32],
-        out: &mut Shapes,
-    ) {
-        self.evaluator.evaluate(anchor, offsets, patches, &mut self.plain);
+    /// The plain functions at the points of a rule.
+    pub(crate) fn see(&mut self, rule: &Rule) -> &Shapes {
+        self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut self.plain);
+        &self.plain
+    }
+
+    /// The basis functions at the points that were looked at last, of a rule with these patches.
+    pub(crate) fn apply(&self, patches: &[u32], out: &mut Shapes) {
         self.basis.apply(patches, &self.plain, out);
     }
 
@@ -263,22 +309,34 @@ impl Gram {
         self.alone.iter_mut().zip(&part.alone).for_each(|(sum, part)| *sum += part);
     }
 
-    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ = 1.
+    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ = 1. Of the weighted matrix
+    /// only the lower half is added to.
     fn add(&mut self, shapes: &Shapes, range: Range<usize>, weights: &[f64], half: Vec2) {
         let h2 = 1.0 / (half.x * half.y);
         for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, h2)] {
             let rows = shapes.rows(array, range.clone());
-            let sum = self.weighted.as_mut();
-            matmul(sum, Accum::Add, rows, rows.transpose(), factor, Par::Seq);
+            let (sum, lower) = (self.weighted.as_mut(), BlockStructure::TriangularLower);
+            let all = BlockStructure::Rectangular;
+            let columns = rows.transpose();
+            triangular(sum, lower, Accum::Add, rows, all, columns, all, factor, Par::Seq);
         }
+        let row = |k: usize| &shapes.value[k * shapes.points..][..shapes.points];
+        let phi = row(range.start).iter().zip(weights);
+        let is_seen = |phi: f64| if phi > LEAST { 1.0 / phi } else { 0.0 };
+        let scales: Vec<_> =
+            phi.map(|(&phi, weight)| is_seen(phi) * (h2 * weight).sqrt()).collect();
         let is_alone = f64::from(u8::from(range.len() == shapes.functions));
-        let rows = shapes.rows(&shapes.value, range);
-        for (q, weight) in weights.iter().enumerate().filter(|&(q, _)| rows[(0, q)] > LEAST) {
-            for (k, (sum, alone)) in self.plain.iter_mut().zip(&mut self.alone).enumerate() {
-                let square = h2 * weight * (rows[(k, q)] / rows[(0, q)]).powi(2);
-                *sum += square;
-                *alone += is_alone * square;
-            }
+        for ((k, plain), alone) in range.zip(&mut self.plain).zip(&mut self.alone) {
+            let square: f64 = row(k).iter().zip(&scales).map(|(v, s)| (v * s) * (v * s)).sum();
+            *plain += square;
+            *alone += is_alone * square;
+        }
+    }
+
+    /// Makes the weighted matrix whole.
+    fn complete(&mut self) {
+        for k in 0..self.weighted.nrows() {
+            (0..k).for_each(|l| self.weighted[(l, k)] = self.weighted[(k, l)]);
         }
     }
 }
@@ -291,40 +349,78 @@ fn grams(
     space: &Space<'_>,
     earlier: Earlier<'_, StableBasis>,
     stage: &Stage<'_>,
-) -> Result<Vec<Gram>, Halt> {
+) -> Result<Vec<Arc<Gram>>, Halt> {
     let is_known = |coverers: &[u32]| earlier.is_some_and(|(unchanged, _)| unchanged.all(coverers));
-    let quadrature = space.quadrature(0);
+    let (quadrature, alike) = (space.quadrature(0), space.alike());
+    let of_cells = each(stage, alike.kinds().len(), |kind| {
+        let (kind, alone) = (&alike.kinds()[kind], alike.kinds()[kind].space(space));
+        let mut seen = (ShapeEvaluator::new(&alone), Shapes::default());
+        Ok(parts(&alone, &alone.coverers[0], kind.rules(), &mut seen))
+    })?;
+    let of_kinds: Vec<_> =
+        alike.patch_kinds().iter().map(|cells| Arc::new(sum(cells, &of_cells))).collect();
     let mut grams: Vec<_> = space.sizes.iter().map(|&n| Gram::zero(n)).collect();
     in_batches(
         stage,
         space.partition().len(),
         || (ShapeEvaluator::new(space), Shapes::default()),
-        |(evaluator, shapes), cell| {
+        |seen, cell| {
             let coverers = &space.coverers[cell];
-            if is_known(coverers) {
-                return Ok(Vec::new());
-            }
-            let mut parts: Vec<_> =
-                coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
-            for rule in space.rules(&quadrature, cell).iter() {
-                evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-                shapes.scale(&rule.weights);
-                add_grams(space, rule, coverers, shapes, &mut parts);
-            }
-            Ok(parts)
+            let is_left_out = is_known(coverers) || alike.cell(cell).is_some();
+            let rules = || space.rules(&quadrature, cell);
+            Ok(if is_left_out { Vec::new() } else { parts(space, coverers, &rules(), seen) })
         },
         |cell, parts| {
-            for (&patch, part) in space.coverers[cell].iter().zip(&parts) {
+            let own = space.coverers[cell].iter().zip(&parts);
+            let member = alike.cell(cell).filter(|_| !is_known(&space.coverers[cell]));
+            let of_kind = member.map(|member| (&member.patches, &of_cells[member.kind as usize]));
+            let of_kind =
+                of_kind.into_iter().flat_map(|(patches, parts)| patches.iter().zip(parts));
+            for (&patch, part) in
+                own.chain(of_kind).filter(|(p, _)| alike.patch(**p as usize).is_none())
+            {
                 grams[patch as usize].add_part(part);
             }
         },
     )?;
-    if let Some((unchanged, earlier)) = earlier {
-        for (patch, gram) in grams.iter_mut().enumerate() {
-            unchanged.patch(patch).into_iter().for_each(|k| gram.clone_from(&earlier.grams[k]));
+    let finished = |(patch, mut gram): (usize, Gram)| {
+        let known =
+            earlier.and_then(|(unchanged, basis)| Some(&basis.grams[unchanged.patch(patch)?]));
+        match (known, alike.patch(patch)) {
+            (Some(known), _) => Arc::clone(known),
+            (None, Some(kind)) => Arc::clone(&of_kinds[kind]),
+            (None, None) => {
+                gram.complete();
+                Arc::new(gram)
+            }
         }
+    };
+    Ok(grams.into_iter().enumerate().map(finished).collect())
+}
+
+/// The Gram matrix of a patch with these cells.
+fn sum(cells: &[(u32, u32)], of_cells: &[Vec<Gram>]) -> Gram {
+    let part = |&(kind, seat): &(u32, u32)| &of_cells[kind as usize][seat as usize];
+    let mut gram = Gram::zero(part(&cells[0]).plain.len());
+    cells.iter().for_each(|cell| gram.add_part(part(cell)));
+    gram.complete();
+    gram
+}
+
+/// What a cell adds to the Gram matrices of its patches.
+fn parts<'s>(
+    space: &'s Space<'s>,
+    coverers: &[u32],
+    rules: &[Rule],
+    (evaluator, shapes): &mut (ShapeEvaluator<'s>, Shapes),
+) -> Vec<Gram> {
+    let mut parts: Vec<_> = coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
+    for rule in rules {
+        evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
+        shapes.scale(&rule.weights);
+        add_grams(space, rule, coverers, shapes, &mut parts);
     }
-    Ok(grams)
+    parts
 }
 
 /// Adds the points of shapes that carry the roots of the weights.

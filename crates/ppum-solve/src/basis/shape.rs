@@ -4,12 +4,14 @@
 
 use crate::quadrature::{EdgeRule, Face};
 use crate::space::Space;
-use faer::MatRef;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
 use ppum::crack::Side;
-use ppum::dataset::MAX_DEGREE;
+use ppum::dataset::{MAX_DEGREE, monomials as monomials_of};
+use ppum::formula::Scratch;
 use ppum::function::{GROUP, LocalFunctions, Slot};
 use ppum::jet::Jet;
-use ppum::polynomial::exponents;
+use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::Vec2;
 use std::ops::Range;
 
@@ -80,26 +82,42 @@ impl Shapes {
         }
     }
 
-    /// Adds G : ∇(N e_i) at point `q` to a load over the functions of a cell, of which `numbers` are those of the rows;
-    /// component i of function a is entry 2 a + i.
-    pub(crate) fn add_slopes(
-        &self,
-        q: usize,
-        numbers: &[usize],
-        kernel: &[Vec2; 2],
-        load: &mut [f64],
-    ) {
-        for (k, &number) in numbers.iter().enumerate() {
-            let at = k * self.points + q;
-            for (i, g) in kernel.iter().enumerate() {
-                load[number * 2 + i] += g.x * self.dx[at] + g.y * self.dy[at];
-            }
-        }
+    /// Σ G·∇N over the points, for vectors G with a column of points each, of their x and of their y: \[functions, vectors\].
+    pub(crate) fn slopes_along(&self, [x, y]: [&Mat<f64>; 2]) -> Mat<f64> {
+        let all = 0..self.functions;
+        let mut sum = Mat::zeros(self.functions, x.ncols());
+        let (dx, dy) = (self.rows(&self.dx, all.clone()), self.rows(&self.dy, all));
+        matmul(sum.as_mut(), Accum::Replace, dx, x, 1.0, Par::Seq);
+        matmul(sum.as_mut(), Accum::Add, dy, y, 1.0, Par::Seq);
+        sum
     }
 
-    fn set(&mut self, function: usize, point: usize, jet: Jet<f64>) {
-        let at = function * self.points + point;
-        (self.value[at], self.dx[at], self.dy[at]) = (jet.v, jet.x, jet.y);
+    /// Writes a factor times all monomials to functions from `function` on, at as many points from `point` on as there are lanes.
+    #[inline(always)]
+    fn set_products<R: Real<Scalar = f64>>(
+        &mut self,
+        function: usize,
+        point: usize,
+        f: Jet<R>,
+        m: &Monomials<R>,
+    ) {
+        let lanes = R::LANES.min(self.points - point);
+        let (mut at, mut total) = (function * self.points + point, 0);
+        while total <= m.degree {
+            let mut b = 0;
+            while b <= total {
+                let a = total - b;
+                let value = m.x[a] * m.y[b];
+                let dx = f.x.mul_add(value, f.v * (m.dx[a] * m.y[b]));
+                let dy = f.y.mul_add(value, f.v * (m.x[a] * m.dy[b]));
+                (f.v * value).store_some(&mut self.value[at..at + lanes]);
+                dx.store_some(&mut self.dx[at..at + lanes]);
+                dy.store_some(&mut self.dy[at..at + lanes]);
+                at += self.points;
+                b += 1;
+            }
+            total += 1;
+        }
     }
 }
 
@@ -108,6 +126,7 @@ impl Shapes {
 pub(crate) struct ShapeEvaluator<'s> {
     space: &'s Space<'s>,
     seen: Option<(Seat, LocalFunctions<'s>)>,
+    scratch: Scratch<f64>,
 }
 
 /// The seat that functions are seen from: the anchor, and the face that points lie on.
@@ -117,7 +136,7 @@ impl<'s> ShapeEvaluator<'s> {
     /// An evaluator for the functions of a space.
     #[must_use]
     pub(crate) fn new(space: &'s Space<'s>) -> Self {
-        Self { space, seen: None }
+        Self { space, seen: None, scratch: Scratch::default() }
     }
 
     /// The shape functions of `patches`, which must be all that cover the points.
@@ -142,35 +161,23 @@ impl<'s> ShapeEvaluator<'s> {
             self.seen = Some((seat, functions(space, seat)));
         }
         let Some((_, functions)) = &self.seen else { return };
-        let side = face.map_or(Side::Above, |face| face.side);
         let n_functions = patches.iter().map(|&p| space.sizes[p as usize]).sum();
         out.resize(n_functions, offsets.len());
         let groups = groups_of(space, patches);
-        let mut at = Point {
+        f64::dispatch(Filling {
             space,
+            functions,
             anchor,
-            offset: Vec2::ZERO,
-            jets: vec![[ZERO; GROUP]; groups.len()],
-            places: places_in(space, patches, &groups),
-        };
-        let mut weights = Vec::with_capacity(patches.len());
-        for (point, &offset) in offsets.iter().enumerate() {
-            at.offset = offset;
-            for (&group, jets) in groups.iter().zip(&mut at.jets) {
-                functions.evaluate::<f64, 1>(group, [offset.x, offset.y], side, jets);
-            }
-            at.partition(patches, &mut weights);
-            let (mut function, mut places) = (0, at.places.as_slice());
-            for (&patch, phi) in patches.iter().zip(&weights) {
-                let (own, rest) = places.split_at(space.data().blocks(patch as usize).len());
-                function = at.shapes((patch as usize, own), *phi, point, function, out);
-                places = rest;
-            }
-        }
+            side: face.map_or(Side::Above, |face| face.side),
+            offsets,
+            patches,
+            places: &places_in(space, patches, &groups),
+            groups: &groups,
+            scratch: &mut self.scratch,
+            out,
+        });
     }
 }
-
-const ZERO: Jet<f64> = Jet { v: 0.0, x: 0.0, y: 0.0, xx: 0.0, xy: 0.0, yy: 0.0 };
 
 fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'s> {
     let cracks = &space.step().cracks;
@@ -209,72 +216,141 @@ fn places_in(space: &Space<'_>, patches: &[u32], groups: &[usize]) -> Vec<Place>
     blocks.map(place).collect()
 }
 
-/// One quadrature point.
-struct Point<'s> {
-    space: &'s Space<'s>,
+/// Work on all points of a seat, a vector of points after the other.
+struct Filling<'a, 's> {
+    space: &'a Space<'s>,
+    functions: &'a LocalFunctions<'s>,
     anchor: Vec2,
-    offset: Vec2,
+    side: Side,
+    offsets: &'a [Vec2],
+    patches: &'a [u32],
     /// The groups of functions, and where each block's is among them.
-    jets: Vec<[Jet<f64>; GROUP]>,
-    places: Vec<Place>,
+    groups: &'a [usize],
+    places: &'a [Place],
+    scratch: &'a mut Scratch<f64>,
+    out: &'a mut Shapes,
 }
 
-impl Point<'_> {
-    fn local(&self, origin: Vec2, inverse: Vec2) -> [f64; 2] {
-        let d = (self.anchor - origin) + self.offset;
-        [d.x * inverse.x, d.y * inverse.y]
+impl Job<f64> for Filling<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(mut self, zero: R) {
+        let points = in_vectors(self.offsets, zero);
+        let jets = self.jets(&points, zero);
+        let partition = self.partition(&points, zero);
+        let (mut at, mut block, mut function) = (0, 0, 0);
+        while at < self.patches.len() {
+            let phi = &partition[at * points.len()..(at + 1) * points.len()];
+            [block, function] = self.shapes(at, [block, function], &points, phi, &jets);
+            at += 1;
+        }
+    }
+}
+
+/// Points in vectors; the last point stands in for those that are missing in the last vector.
+#[inline(always)]
+fn in_vectors<R: Real<Scalar = f64>>(points: &[Vec2], zero: R) -> Vec<[R; 2]> {
+    let mut vectors = Vec::with_capacity(points.len().div_ceil(R::LANES));
+    let mut first = 0;
+    while first < points.len() {
+        let at = |lane: usize| points[(first + lane).min(points.len() - 1)];
+        vectors.push([zero.with_lanes(|lane| at(lane).x), zero.with_lanes(|lane| at(lane).y)]);
+        first += R::LANES;
+    }
+    vectors
+}
+
+impl Filling<'_, '_> {
+    /// The functions of all groups: those of the first group at all points, then those of the next.
+    #[inline(always)]
+    fn jets<R: Real<Scalar = f64>>(&mut self, points: &[[R; 2]], zero: R) -> Vec<[Jet<R>; GROUP]> {
+        let n = points.len();
+        let mut jets = vec![[Jet::constant(zero); GROUP]; self.groups.len() * n];
+        let mut k = 0;
+        while k < self.groups.len() {
+            let out = &mut jets[k * n..(k + 1) * n];
+            self.functions.fill::<R, 1>(self.groups[k], points, self.side, self.scratch, out);
+            k += 1;
+        }
+        jets
     }
 
-    /// The partition functions φ of the patches; exactly 1 where a patch is alone.
-    fn partition(&self, patches: &[u32], out: &mut Vec<Jet<f64>>) {
-        out.clear();
-        if patches.len() == 1 {
-            out.push(Jet { v: 1.0, ..ZERO });
-            return;
+    /// The partition functions φ of the patches, in the same order; exactly 1 where a patch is alone.
+    #[inline(always)]
+    fn partition<R: Real<Scalar = f64>>(&self, points: &[[R; 2]], zero: R) -> Vec<Jet<R>> {
+        let (n, one) = (points.len(), zero.lit(1.0));
+        let mut all = vec![Jet::constant(one); self.patches.len() * n];
+        if self.patches.len() == 1 {
+            return all;
         }
         let partition = self.space.partition();
-        let mut sum = ZERO;
-        for &patch in patches {
-            let inverse = reciprocal(partition.half[patch as usize]);
-            let xi = self.local(partition.center[patch as usize], inverse);
-            let w = partition.weight.tensor::<f64, 1>(xi, [inverse.x, inverse.y]);
-            sum = sum.plus::<1>(w);
-            out.push(w);
+        let mut sums = vec![Jet::constant(zero); n];
+        let mut at = 0;
+        while at < self.patches.len() {
+            let patch = self.patches[at] as usize;
+            let inverse = reciprocal(partition.half[patch]);
+            let mut k = 0;
+            while k < n {
+                let xi = self.local(points[k], partition.center[patch], inverse);
+                let w = partition.weight.tensor::<R, 1>(xi, [inverse.x, inverse.y]);
+                sums[k] = sums[k].plus::<1>(w);
+                all[at * n + k] = w;
+                k += 1;
+            }
+            at += 1;
         }
-        for w in out {
-            *w = w.over::<1>(sum);
+        let mut k = 0;
+        while k < all.len() {
+            all[k] = all[k].over::<1>(sums[k % n]);
+            k += 1;
         }
+        all
     }
 
-    /// Writes the functions of one patch from index `function` on; returns the index after them.
-    fn shapes(
-        &self,
-        (patch, places): (usize, &[Place]),
-        phi: Jet<f64>,
-        point: usize,
-        function: usize,
-        out: &mut Shapes,
-    ) -> usize {
-        let data = self.space.data();
-        let inverse = reciprocal(self.space.partition().scale[patch]);
-        let monomials =
-            Monomials::new(self.local(self.space.partition().origin[patch], inverse), inverse);
-        let mut next = function;
-        for (block, place) in data.blocks(patch).zip(places) {
-            let factor = match *place {
-                None => phi,
-                Some([group, entry]) => {
-                    let mut function = self.jets[group][entry];
-                    function.v -= self.space.shifts[block];
-                    phi.times::<1>(function)
-                }
-            };
-            for (a, b) in exponents(data.block_degree[block] as usize) {
-                out.set(next, point, factor.times::<1>(monomials.jet(a as usize, b as usize)));
-                next += 1;
+    #[inline(always)]
+    fn local<R: Real<Scalar = f64>>(&self, point: [R; 2], origin: Vec2, inverse: Vec2) -> [R; 2] {
+        let d = self.anchor - origin;
+        let [x, y] = point;
+        [(x.lit(d.x) + x) * x.lit(inverse.x), (y.lit(d.y) + y) * y.lit(inverse.y)]
+    }
+
+    /// Writes the functions of a patch, from a block and a function on; returns those after them.
+    #[inline(always)]
+    fn shapes<R: Real<Scalar = f64>>(
+        &mut self,
+        at: usize,
+        [block, function]: [usize; 2],
+        points: &[[R; 2]],
+        phi: &[Jet<R>],
+        jets: &[[Jet<R>; GROUP]],
+    ) -> [usize; 2] {
+        let (patch, n) = (self.patches[at] as usize, points.len());
+        let (data, partition) = (self.space.data(), self.space.partition());
+        let (blocks, inverse) = (data.blocks(patch), reciprocal(partition.scale[patch]));
+        let (mut next, mut b) = (function, blocks.start);
+        while b < blocks.end {
+            let degree = data.block_degree[b] as usize;
+            let place = self.places[block + b - blocks.start];
+            let mut k = 0;
+            while k < n {
+                let factor = match place {
+                    None => phi[k],
+                    Some([group, entry]) => {
+                        let mut function = jets[group * n + k][entry];
+                        function.v = function.v - phi[k].v.lit(self.space.shifts[b]);
+                        phi[k].times::<1>(function)
+                    }
+                };
+                let xi = self.local(points[k], partition.origin[patch], inverse);
+                let monomials = Monomials::new(xi, inverse, degree);
+                self.out.set_products(next, k * R::LANES, factor, &monomials);
+                k += 1;
             }
+            next += monomials_of(degree);
+            b += 1;
         }
-        next
+        [block + blocks.len(), next]
     }
 }
 
@@ -282,26 +358,103 @@ fn reciprocal(v: Vec2) -> Vec2 {
     ppum::vec2::vec2(1.0 / v.x, 1.0 / v.y)
 }
 
-/// Powers of ξ and η at a point.
-struct Monomials {
-    x: [f64; MAX_DEGREE + 1],
-    y: [f64; MAX_DEGREE + 1],
-    inverse: Vec2,
+/// Powers of ξ and η up to a degree, and their derivatives in the world.
+struct Monomials<R> {
+    degree: usize,
+    x: [R; MAX_DEGREE + 1],
+    y: [R; MAX_DEGREE + 1],
+    dx: [R; MAX_DEGREE + 1],
+    dy: [R; MAX_DEGREE + 1],
 }
 
-impl Monomials {
-    fn new([xi, eta]: [f64; 2], inverse: Vec2) -> Self {
-        let (mut x, mut y) = ([1.0; MAX_DEGREE + 1], [1.0; MAX_DEGREE + 1]);
-        for k in 1..=MAX_DEGREE {
+impl<R: Real<Scalar = f64>> Monomials<R> {
+    #[inline(always)]
+    fn new([xi, eta]: [R; 2], inverse: Vec2, degree: usize) -> Self {
+        let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+        let (mut x, mut y) = ([one; MAX_DEGREE + 1], [one; MAX_DEGREE + 1]);
+        let (mut dx, mut dy) = ([zero; MAX_DEGREE + 1], [zero; MAX_DEGREE + 1]);
+        let mut k = 1;
+        while k <= degree {
+            dx[k] = x[k - 1] * xi.lit(k as f64 * inverse.x);
+            dy[k] = y[k - 1] * xi.lit(k as f64 * inverse.y);
             (x[k], y[k]) = (x[k - 1] * xi, y[k - 1] * eta);
+            k += 1;
         }
-        Self { x, y, inverse }
+        Self { degree, x, y, dx, dy }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::field::Field;
+    use ppum_testkit::fields::{Case, coverings, functions, junctions};
+    use ppum_testkit::random::Random;
+
+    /// Points near each other in a dataset's domain, with the patches that cover any of them.
+    fn points(random: &mut Random, space: &Space<'_>, n: usize) -> (Vec2, Vec<Vec2>, Vec<u32>) {
+        let partition = space.partition();
+        let cell = random.below(partition.len());
+        let rect = partition.cell[cell];
+        let offset = |p: Vec2| p - rect.center();
+        let offsets = (0..n).map(|_| offset(random.point(&rect))).collect();
+        (rect.center(), offsets, space.coverers[cell].clone())
     }
 
-    /// ξ^a η^b with its gradient in the world.
-    fn jet(&self, a: usize, b: usize) -> Jet<f64> {
-        let dx = if a == 0 { 0.0 } else { a as f64 * self.x[a - 1] * self.inverse.x };
-        let dy = if b == 0 { 0.0 } else { b as f64 * self.y[b - 1] * self.inverse.y };
-        Jet { v: self.x[a] * self.y[b], x: dx * self.y[b], y: self.x[a] * dy, ..ZERO }
+    /// Combined with coefficients, all functions at all points are what the field is there, point by point: any number of points,
+    /// weights and orders, jumps, tips and formulas.
+    #[test]
+    fn shapes_are_those_of_the_field() {
+        let mut random = Random(5);
+        let cases = coverings().into_iter().chain(functions()).chain(junctions());
+        for Case { name, dataset, .. } in cases {
+            let step = &dataset.steps[0];
+            let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables)
+                .expect("the corpus compiles");
+            let field = Field::new(&dataset, 0).expect("the corpus is in order");
+            let (mut evaluator, mut shapes) = (ShapeEvaluator::new(&space), Shapes::default());
+            for n in [1, 7, 8, 21] {
+                let (anchor, offsets, patches) = points(&mut random, &space, n);
+                evaluator.evaluate(anchor, &offsets, &patches, &mut shapes);
+                let local = field.at(anchor);
+                for (q, offset) in offsets.iter().enumerate() {
+                    let mut expected = vec![ZERO; field.components()];
+                    let at = [offset.x, offset.y];
+                    local.over_patches::<f64, 1>(at, Side::Above, &patches, &mut expected);
+                    for (component, expected) in expected.iter().enumerate() {
+                        let (found, size) = combined(&space, &shapes, &patches, component, q);
+                        let expected = [expected.v, expected.x, expected.y];
+                        for k in 0..3 {
+                            let apart = (found[k] - expected[k]).abs();
+                            assert!(apart <= 1e-12 * size[k], "{name}: {found:?} {expected:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    const ZERO: Jet<f64> = Jet { v: 0.0, x: 0.0, y: 0.0, xx: 0.0, xy: 0.0, yy: 0.0 };
+
+    /// A component and its slopes at a point, and the sums of the sizes of all terms.
+    fn combined(
+        space: &Space<'_>,
+        shapes: &Shapes,
+        patches: &[u32],
+        component: usize,
+        q: usize,
+    ) -> ([f64; 3], [f64; 3]) {
+        let (mut sum, mut size, mut at) = ([0.0; 3], [0.0; 3], q);
+        for &patch in patches {
+            let plain = space.data().coefficients_of(patch as usize).nth(component);
+            for c in space.shifted(patch as usize, plain.expect("a component")) {
+                for (k, array) in [&shapes.value, &shapes.dx, &shapes.dy].into_iter().enumerate() {
+                    sum[k] += c * array[at];
+                    size[k] += (c * array[at]).abs();
+                }
+                at += shapes.points;
+            }
+        }
+        (sum, size)
     }
 }

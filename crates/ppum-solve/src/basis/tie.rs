@@ -8,8 +8,9 @@
 //! A Aᵀ = U Λ Uᵀ,   keep λ > ε,   C = Λ^−½ Uᵀ A
 //! ```
 //!
-//! The rows of C are orthonormal. So the system is assembled in N with all components free, and what goes into the matrix is
-//! C K Cᵀ: rounding errors are not amplified.
+//! The rows of C are orthonormal. The unknowns are those of C N, fields that are formed at the quadrature points, before anything
+//! is integrated. Where borders are held the system of a cell is assembled in N with all components free, and what goes into the
+//! matrix is C K Cᵀ: rounding errors are not amplified.
 
 use super::transform::{CUT_OFF, Transform};
 use crate::linear::{EigenError, SymmetricEigen};

@@ -235,15 +235,23 @@ impl<'a> Interaction<'a> {
     }
 
     /// P_j x_j, which times q′/r is P_j q_,j, and P_j,j.
-    pub(super) fn integrands(&self, place: &Place) -> Integrands {
+    fn integrands(&self, place: &Place) -> Integrands {
+        self.integrands_with(place, &self.auxiliary(&place.point))
+    }
+
+    /// The same with the auxiliary fields there.
+    pub(super) fn integrands_with(
+        &self,
+        place: &Place,
+        auxiliary: &[Auxiliary; MODES],
+    ) -> Integrands {
         let Place { point, u, .. } = place;
         let stresses = self.stresses(place);
         let through = self.through(&stresses, u, vec2(point.x, point.y));
-        let auxiliary = self.auxiliary(point);
         let flows =
-            auxiliary.map(|a| through[0].dot(a.gradient[0]) + through[1].dot(a.gradient[1]));
+            auxiliary.each_ref().map(|a| through[0].dot(a.gradient[0]) + through[1].dot(a.gradient[1]));
         let sources = if self.has_sources() {
-            auxiliary.map(|a| divergence(&stresses, place.force, &a))
+            auxiliary.each_ref().map(|a| divergence(&stresses, place.force, a))
         } else {
             [0.0; MODES]
         };

@@ -7,7 +7,8 @@
 //! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. The body force and the loads on
 //! faces add numbers that no error of the field changes. What faces behind kinks add is left out: it is small beside the rest.
 
-use super::integral::{Interaction, Place, cut_off, in_frame, square};
+use super::auxiliary::Auxiliary;
+use super::integral::{Interaction, MODES, Place, cut_off, in_frame, square};
 use super::{Loads, Outcome, RADII};
 use crate::geometry::Placed;
 use crate::quadrature::Rule;
@@ -64,6 +65,7 @@ impl Sensitivity<'_> {
         if square(&point) >= self.0.largest() * self.0.largest() {
             return [[Vec2::ZERO; 2]; FACTORS];
         }
+        let auxiliary = self.0.auxiliary(&point);
         let mut kernels = [[Vec2::ZERO; 2]; FACTORS];
         for i in 0..2 {
             for along_x in [true, false] {
@@ -71,7 +73,7 @@ impl Sensitivity<'_> {
                 (u[i].x, u[i].y) = if along_x { (1.0, 0.0) } else { (0.0, 1.0) };
                 let u = in_frame(&u, tip.axis);
                 let place = Place { point, world: anchor + offset, u, force: Vec2::ZERO };
-                for (kernel, value) in kernels.iter_mut().zip(self.0.densities(&place)) {
+                for (kernel, value) in kernels.iter_mut().zip(self.0.densities(&place, &auxiliary)) {
                     let entry = if along_x { &mut kernel[i].x } else { &mut kernel[i].y };
                     *entry = weight * value;
                 }
@@ -83,8 +85,8 @@ impl Sensitivity<'_> {
 
 impl Interaction<'_> {
     /// E′/2 times the integrands of both modes over the largest disc.
-    fn densities(&self, place: &Place) -> [f64; FACTORS] {
-        let integrands = self.integrands(place);
+    fn densities(&self, place: &Place, auxiliary: &[Auxiliary; MODES]) -> [f64; FACTORS] {
+        let integrands = self.integrands_with(place, auxiliary);
         let (q, slope) = cut_off(square(&place.point), self.largest());
         let half = 0.5 * self.modulus();
         [0, 1].map(|mode| half * (slope * integrands.flows[mode] + q * integrands.sources[mode]))

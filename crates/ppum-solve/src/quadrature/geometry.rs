@@ -86,6 +86,15 @@ impl<'a> Geometry<'a> {
     }
 }
 
+impl Geometry<'_> {
+    /// True if no function of these patches is singular, has a kink or is probed.
+    pub(super) fn is_smooth(&self, patches: &[u32]) -> bool {
+        let lists = [self.patch_singular, self.patch_kinks, self.patch_probes];
+        let has = |list: &&[Vec<u32>], p: u32| list.get(p as usize).is_some_and(|l| !l.is_empty());
+        !patches.iter().any(|&p| lists.iter().any(|list| has(list, p)))
+    }
+}
+
 /// The distinct entries of `common` and of the lists of some patches, ascending.
 fn union(lists: &[Vec<u32>], common: &[u32], patches: &[u32]) -> Vec<u32> {
     let of_patches = patches.iter().filter_map(|&p| lists.get(p as usize)).flatten();

@@ -187,6 +187,17 @@ impl<'a> Quadrature<'a> {
         self.rules(cell, coverers, self.orders, None)
     }
 
+    /// True if nothing cuts a cell but borders of patches, and all that multiplies their weights is smooth there.
+    #[must_use]
+    pub(crate) fn is_whole(&self, cell: &Rect, coverers: &[u32]) -> bool {
+        let Geometry { common_kinks, common_probes, .. } = self.geometry;
+        common_kinks.is_empty()
+            && common_probes.is_empty()
+            && self.geometry.is_smooth(coverers)
+            && self.cuts_near(cell).next().is_none()
+            && !self.boxes.iter().any(|hole| hole.overlaps(cell))
+    }
+
     /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for where the weight function
     /// needs them.
     ///

@@ -1,6 +1,7 @@
 //! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
 //! to walk over it.
 
+mod alike;
 mod discretise;
 mod enrichment;
 mod inspect;
@@ -12,6 +13,8 @@ use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
 pub use crate::refine::RefineError;
 use crate::smoothness::Smoothness;
+use alike::Alike;
+pub(crate) use alike::Member;
 pub(crate) use discretise::discretise_on;
 pub use discretise::{SpaceError, discretise};
 pub(crate) use enrichment::KINK;
@@ -63,6 +66,8 @@ pub struct Space<'d> {
     orders: Orders,
     /// Of each cell where formulas are probed, its rules once they are made.
     probed: Vec<OnceLock<Vec<Rule>>>,
+    /// The cells that are alike, once somebody asks.
+    alike: OnceLock<Alike>,
 }
 
 impl<'d> Space<'d> {
@@ -118,6 +123,7 @@ impl<'d> Space<'d> {
             orders: orders(partition, smoothness.degree()),
             probed: vec![OnceLock::new(); partition.len()],
             smoothness,
+            alike: OnceLock::new(),
             step,
         })
     }
@@ -149,8 +155,11 @@ impl<'d> Space<'d> {
     }
 
     /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to seconds, and
-    /// are made once.
+    /// are made once; on cells that are alike they are moved.
     pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
+        if let Some(rules) = self.alike().rules(self, cell) {
+            return Cow::Owned(rules);
+        }
         let coverers = &self.coverers[cell];
         let rules = || quadrature.cell(&self.partition().cell[cell], coverers);
         if self.smoothness.has_probes(coverers) {
