@@ -168,10 +168,11 @@ impl Gauge {
         matrix: &BlockMatrix,
     ) -> Result<Vec<Vec<f64>>, LinearError> {
         let loads = self.loads(matrix);
-        let rough = solve_all(solver, &loads)?;
+        let rough = solver.solve_roughly(&loads)?;
         // Loads of modes that have one mean each: those of one patch look much alike, and the
         // rounding of their differences would be seen in strains.
-        solve_all(solver, &combined(&loads, &self.means(&rough).partial_piv_lu().inverse()))
+        let loads = combined(&loads, &self.means(&rough).partial_piv_lu().inverse());
+        Ok(solver.solve_all(&loads)?.into_iter().map(|solution| solution.unknowns).collect())
     }
 
     /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
@@ -213,10 +214,6 @@ impl Gauge {
         let all = (0..matrix.n_blocks()).map(|patch| (patch, volume(patch)));
         all.fold((0, 0.0), |best, new| if new.1 > best.1 { new } else { best }).0
     }
-}
-
-fn solve_all(solver: &dyn LinearSolver, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
-    loads.iter().map(|load| Ok(solver.solve(load)?.unknowns)).collect()
 }
 
 /// Combinations of vectors, with the factors of each in a column.

@@ -5,20 +5,19 @@ use super::integral::MODES;
 use ppum::crack::TipPoint;
 use ppum::dataset::Material;
 use ppum::function::westergaard;
-use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::real::Real;
 use std::f64::consts::{PI, TAU};
 
 /// Of each component its gradient, in the tip's frame.
-pub(super) type Gradients = [Vec2; 2];
+pub(super) type Gradients<R = f64> = [[R; 2]; 2];
 
 /// The field of one mode as the interaction integral takes it, at a point in the tip's frame.
 #[derive(Clone, Copy)]
-pub(super) struct Auxiliary {
+pub(super) struct Auxiliary<R = f64> {
     /// ∇uᵃ_i
-    pub(super) gradient: Gradients,
+    pub(super) gradient: Gradients<R>,
     /// ∇uᵃ_i,1, like r^(−3/2) at the tip, or r^(−2) of the force. Zero unless it was asked for.
-    pub(super) along: Gradients,
+    pub(super) along: Gradients<R>,
 }
 
 /// The body of the tip's material that the fields are in.
@@ -41,31 +40,33 @@ impl Body {
 
     /// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`: 1 for the gradient alone,
     /// 2 for its derivative along the crack.
-    #[inline]
-    pub(super) fn fields<const D: usize>(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
-        let [f1, f2, f3, f4] = westergaard::<f64, D>(point);
-        let first = |f: &Jet<f64>| vec2(f.x, f.y);
-        let [one, two] = self.modes(first(&f1), first(&f2), first(&f3), first(&f4));
-        let [mut along_one, mut along_two] = [[Vec2::ZERO; 2]; 2];
+    #[inline(always)]
+    pub(super) fn fields<R: Real, const D: usize>(
+        &self,
+        point: &TipPoint<R>,
+    ) -> [Auxiliary<R>; MODES] {
+        let [f1, f2, f3, f4] = westergaard::<R, D>(point);
+        let [one, two] = self.modes([f1.x, f1.y], [f2.x, f2.y], [f3.x, f3.y], [f4.x, f4.y]);
+        let mut along = [[[point.x.lit(0.0); 2]; 2]; 2];
         if D >= 2 {
-            let second = |f: &Jet<f64>| vec2(f.xx, f.xy);
-            [along_one, along_two] = self.modes(second(&f1), second(&f2), second(&f3), second(&f4));
+            along = self.modes([f1.xx, f1.xy], [f2.xx, f2.xy], [f3.xx, f3.xy], [f4.xx, f4.xy]);
         }
         [
-            Auxiliary { gradient: one, along: along_one },
-            Auxiliary { gradient: two, along: along_two },
-            self.point_force::<D>(point),
+            Auxiliary { gradient: one, along: along[0] },
+            Auxiliary { gradient: two, along: along[1] },
+            self.point_force::<R, D>(point),
         ]
     }
 
     /// Both modes from a derivative of the Westergaard functions F₁…F₄: with κ of Kolosov, 2μ√(2π) u is
     /// ((κ−1)F₁ + F₃, (κ+1)F₂ − F₄) and ((κ+1)F₂ + F₄, −(κ−1)F₁ + F₃).
-    #[inline]
-    fn modes(&self, f1: Vec2, f2: Vec2, f3: Vec2, f4: Vec2) -> [Gradients; 2] {
+    #[inline(always)]
+    fn modes<R: Real>(&self, f1: [R; 2], f2: [R; 2], f3: [R; 2], f4: [R; 2]) -> [Gradients<R>; 2] {
         let scale = self.scale[0];
-        let (f1, f2) = (f1 * (scale * (self.kappa - 1.0)), f2 * (scale * (self.kappa + 1.0)));
-        let (f3, f4) = (f3 * scale, f4 * scale);
-        [[f1 + f3, f2 - f4], [f2 + f4, f3 - f1]]
+        let (a, b) = (scale * (self.kappa - 1.0), scale * (self.kappa + 1.0));
+        let (f1, f2) = (times(f1, a), times(f2, b));
+        let (f3, f4) = (times(f3, scale), times(f4, scale));
+        [[plus(f1, f3), minus(f2, f4)], [plus(f2, f4), minus(f3, f1)]]
     }
 
     /// The field of the force 1 along the axis at the tip of a crack, or in the plane without one: a pull in the direction of r,
@@ -76,49 +77,73 @@ impl Body {
     /// ```
     ///
     /// (Kfouri 1986). It loads no ray from the tip, so no face along the axis, and its gradient is that of one angle everywhere.
-    #[inline]
-    fn point_force<const D: usize>(&self, point: &TipPoint<f64>) -> Auxiliary {
-        let (kappa, scale) = (self.kappa, self.scale[1]);
-        let square = point.x * point.x + point.y * point.y;
-        let inverse = 1.0 / square;
+    #[inline(always)]
+    fn point_force<R: Real, const D: usize>(&self, point: &TipPoint<R>) -> Auxiliary<R> {
+        let (kappa, scale, one) = (self.kappa, self.scale[1], point.x.lit(1.0));
+        let inverse = one / (point.x * point.x + point.y * point.y);
+        let (x, y) = (point.x * inverse, point.y * inverse);
         // cos² θ, sin² θ, sin θ cos θ
-        let (cc, ss) = (point.x * point.x * inverse, point.y * point.y * inverse);
-        let sc = point.x * point.y * inverse;
-        let (a, b, c) = ((kappa + 1.0) * scale, 2.0 * scale, (kappa - 1.0) * scale);
+        let (cc, ss, sc) = (point.x * x, point.y * y, point.x * y);
+        let (two, four) = (one.lit(2.0), one.lit(4.0));
+        let (a, b) = (one.lit((kappa + 1.0) * scale), one.lit(2.0 * scale));
+        let c = one.lit((kappa - 1.0) * scale);
         let gradient = [
-            vec2(-a * point.x + 2.0 * b * ss * point.x, -a * point.y - 2.0 * b * cc * point.y)
-                * inverse,
-            vec2(c + b * (ss - cc), 0.0) * (point.y * inverse)
-                + vec2(0.0, b * (cc - ss) - c) * (point.x * inverse),
+            [(two * b * ss - a) * x, -((a + two * b * cc) * y)],
+            [(c + b * (ss - cc)) * y, (b * (cc - ss) - c) * x],
         ];
-        if D < 2 {
-            return Auxiliary { gradient, along: [Vec2::ZERO; 2] };
+        let mut along = [[one.lit(0.0); 2]; 2];
+        if D >= 2 {
+            along = [
+                [
+                    a * (cc - ss) + two * b * (ss - four * sc * sc),
+                    two * sc * (a + two * b * (cc - ss)),
+                ],
+                [
+                    -(two * sc * (c + b + two * b * (ss - cc))),
+                    c * (cc - ss) + b * (one.lit(3.0) * ss - cc - four * ss * (ss - cc)),
+                ],
+            ]
+            .map(|row| [row[0] * inverse, row[1] * inverse]);
         }
-        let along = [
-            vec2(
-                a * (cc - ss) + 2.0 * b * (ss - 4.0 * sc * sc),
-                2.0 * sc * (a + 2.0 * b * (cc - ss)),
-            ),
-            vec2(
-                -2.0 * sc * (c + b + 2.0 * b * (ss - cc)),
-                c * (cc - ss) + b * (3.0 * ss - cc - 4.0 * ss * (ss - cc)),
-            ),
-        ];
-        Auxiliary { gradient, along: along.map(|g| g * inverse) }
+        Auxiliary { gradient, along }
     }
 }
 
+#[inline(always)]
+fn times<R: Real>(a: [R; 2], factor: f64) -> [R; 2] {
+    let factor = a[0].lit(factor);
+    [a[0] * factor, a[1] * factor]
+}
+
+#[inline(always)]
+fn plus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+#[inline(always)]
+fn minus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
 /// σ = λ tr(ε) I + 2μ ε of a gradient.
-#[inline]
-pub(super) fn stress([lambda, mu]: [f64; 2], u: &Gradients) -> [[f64; 2]; 2] {
-    let (trace, shear) = (lambda * (u[0].x + u[1].y), mu * (u[0].y + u[1].x));
-    [[trace + 2.0 * mu * u[0].x, shear], [shear, trace + 2.0 * mu * u[1].y]]
+#[inline(always)]
+pub(super) fn stress<R: Real>([lambda, mu]: [R; 2], u: &Gradients<R>) -> Gradients<R> {
+    let two_mu = mu + mu;
+    let (trace, shear) = (lambda * (u[0][0] + u[1][1]), mu * (u[0][1] + u[1][0]));
+    [[trace + two_mu * u[0][0], shear], [shear, trace + two_mu * u[1][1]]]
+}
+
+/// σ_ij g_i,j of a symmetric stress.
+#[inline(always)]
+pub(super) fn work<R: Real>(s: &Gradients<R>, g: &Gradients<R>) -> R {
+    s[0][0] * g[0][0] + s[0][1] * (g[0][1] + g[1][0]) + s[1][1] * g[1][1]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use ppum::dataset::StressState;
+    use ppum::vec2::{Vec2, vec2};
 
     fn point(x: f64, y: f64) -> TipPoint<f64> {
         TipPoint { x, y, sign: if y >= 0.0 { 1.0 } else { -1.0 }, branch: 1.0 }
@@ -138,20 +163,21 @@ mod tests {
             };
             for (x, y) in [(0.3, 0.4), (-0.7, 0.2), (-0.5, -0.6), (0.2, -0.9), (0.6, 0.0)] {
                 let h = 1e-5;
-                let at =
-                    |dx: f64, dy: f64| Body::new(&material).fields::<2>(&point(x + dx, y + dy));
+                let at = |dx: f64, dy: f64| {
+                    Body::new(&material).fields::<f64, 2>(&point(x + dx, y + dy))
+                };
                 let own = at(0.0, 0.0);
                 let [e, w, n, s] = [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]];
                 let close = |a: Vec2, b: Vec2| assert!((a - b).length() < 1e-7, "{a:?} {b:?}");
                 for i in 0..2 {
                     let u = |[dx, dy]: [f64; 2]| displacement(x + dx, y + dy)[i];
-                    close(own[2].gradient[i], vec2(u(e) - u(w), u(n) - u(s)) / (2.0 * h));
+                    close(own[2].gradient[i].into(), vec2(u(e) - u(w), u(n) - u(s)) / (2.0 * h));
                 }
                 for (mode, field) in own.iter().enumerate() {
                     for i in 0..2 {
-                        let along = |[dx, dy]: [f64; 2]| at(dx, dy)[mode].gradient[i].x;
+                        let along = |[dx, dy]: [f64; 2]| at(dx, dy)[mode].gradient[i][0];
                         let difference = vec2(along(e) - along(w), along(n) - along(s)) / (2.0 * h);
-                        close(field.along[i], difference);
+                        close(field.along[i].into(), difference);
                     }
                 }
             }

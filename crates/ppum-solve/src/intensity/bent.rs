@@ -1,8 +1,8 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::{Gradients, stress};
+use super::auxiliary::{Gradients, stress, work};
 use super::course::Part;
-use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned, work};
+use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned};
 use crate::quadrature::{EdgeRule, Quadrature};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
@@ -67,7 +67,7 @@ impl Interaction<'_> {
     /// traction's part.
     fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
         let (stress, along) = (stress(self.body.lame, aux), -normal.left());
-        (0..2).map(|i| stress[i][1] * u[i].dot(along)).sum()
+        (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()
     }
 
     /// The traction on a face in the tip's frame.
@@ -78,7 +78,7 @@ impl Interaction<'_> {
 
     /// E_j n_j = W n_1 − t_i u_i,1
     fn energy_crossing(&self, u: &Gradients, normal: Vec2, world: Vec2, traction: Vec2) -> f64 {
-        let energy = 0.5 * work(&self.stress(world, u), u);
-        energy * normal.x - traction.dot(vec2(u[0].x, u[1].x))
+        let energy = 0.5 * work(&stress(self.lame(world), u), u);
+        energy * normal.x - traction.dot(vec2(u[0][0], u[1][0]))
     }
 }

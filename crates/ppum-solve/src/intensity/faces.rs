@@ -137,8 +137,8 @@ impl Faces<'_> {
             let traction =
                 (self.load)(self.course.tip().crack, side, self.course.center() + offset);
             let t = turned(tip.axis, traction);
-            let auxiliary = self.body.fields::<1>(&point);
-            let work = auxiliary.map(|a| t.x * a.gradient[0].x + t.y * a.gradient[1].x);
+            let auxiliary = self.body.fields::<f64, 1>(&point);
+            let work = auxiliary.map(|a| t.x * a.gradient[0][0] + t.y * a.gradient[1][0]);
             let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
             std::array::from_fn(|k| work.map(|w| -q(k) * w))
         };

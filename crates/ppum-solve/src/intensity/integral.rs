@@ -1,8 +1,9 @@
 //! The interaction integral over the cells of a space.
 
 use super::Loads;
-use super::auxiliary::{Auxiliary, Body, Gradients, stress};
+use super::auxiliary::{Auxiliary, Body, Gradients};
 use super::bent::Bend;
+use super::block::{Block, Local};
 use super::course::Course;
 use super::faces::{Faces, pressed};
 use super::slope::Slope;
@@ -16,12 +17,13 @@ use ppum::dataset::{Material, Ring, TipIntensity};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::real::Real;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
-/// Exponent of the cut-off q = (1 − r²/R²)^m. It is smooth enough for plain Gauss rules across r = R:
+/// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough for plain Gauss rules across r = R:
 /// with m = 4 their error is seen at 1e-7, with more at 1e-10.
-const CUT_OFF_POWER: i32 = 6;
+const CUT_OFF_POWER: u8 = 6;
 
 /// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
 const ORDER: usize = 12;
@@ -83,7 +85,7 @@ pub(super) struct Interaction<'a> {
     pub(super) course: Course,
     pub(super) center: Vec2,
     /// The direction of growth.
-    axis: Vec2,
+    pub(super) axis: Vec2,
     /// Radii of the discs, ascending.
     pub(super) radii: [f64; RINGS],
     pub(super) loads: Loads<'a>,
@@ -189,73 +191,15 @@ impl<'a> Interaction<'a> {
     /// The part of a rule's points inside the largest disc. `seen` is the field as it was last looked at: most rules around a
     /// tip have the tip as their anchor.
     fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
-        let tip = self.course.at(rule.anchor);
-        let point = |offset: Vec2| tip.point([offset.x, offset.y], Side::Above);
+        let near = rule.anchor - self.center;
         let all = rule.offsets.iter().zip(&rule.weights);
-        let near = all.filter(|(o, _)| square(&point(**o)) < self.largest() * self.largest());
-        let (offsets, weights): (Vec<Vec2>, Vec<f64>) = near.unzip();
+        let inside = all.filter(|(o, _)| (near + **o).length() < self.largest());
+        let (offsets, weights): (Vec<Vec2>, Vec<f64>) = inside.unzip();
         let mut jets = vec![Jet::constant(0.0); 2 * offsets.len()];
         let known = seen.take().filter(|local| local.anchor == rule.anchor);
         let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
         local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
-        let mut integrals = Integrals::default();
-        for ((&offset, &weight), u) in offsets.iter().zip(&weights).zip(jets.chunks_exact(2)) {
-            let place = Place {
-                point: point(offset),
-                world: rule.anchor + offset,
-                u: in_frame(u, tip.axis),
-                force: self.force(rule.anchor + offset, tip.axis),
-            };
-            self.add(&place, weight, &mut integrals);
-        }
-        integrals
-    }
-
-    /// The body force in the tip's frame.
-    fn force(&self, at: Vec2, axis: Vec2) -> Vec2 {
-        self.loads.force.map_or(Vec2::ZERO, |force| turned(axis, force(at)))
-    }
-
-    /// Adds the integrands at a point.
-    ///
-    /// With q,_j = q′/r x_j the parts without q are the same for all discs.
-    fn add(&self, place: &Place, weight: f64, sums: &mut Integrals) {
-        let Place { point, u, .. } = place;
-        let Integrands { stresses, flows, sources } = self.integrands(place);
-        for (modes, radius) in sums.modes.iter_mut().zip(self.radii) {
-            let (q, slope) = cut_off(square(point), radius);
-            for (sum, (flow, source)) in modes.iter_mut().zip(flows.iter().zip(sources)) {
-                *sum += weight * (slope * flow + q * source);
-            }
-        }
-        let (q, slope) = cut_off(square(point), self.largest());
-        let energy = energy_flow(&stresses.own, u).dot(vec2(point.x, point.y));
-        sums.j -= weight * (slope * energy + q * self.energy_source(place));
-        sums.energy += weight * work(&stresses.own, u);
-    }
-
-    /// P_j x_j, which times q′/r is P_j q_,j, and P_j,j.
-    fn integrands(&self, place: &Place) -> Integrands {
-        self.integrands_with(place, &self.auxiliary(&place.point))
-    }
-
-    /// The same with the auxiliary fields there.
-    pub(super) fn integrands_with(
-        &self,
-        place: &Place,
-        auxiliary: &[Auxiliary; MODES],
-    ) -> Integrands {
-        let Place { point, u, .. } = place;
-        let stresses = self.stresses(place);
-        let through = self.through(&stresses, u, vec2(point.x, point.y));
-        let flows =
-            auxiliary.each_ref().map(|a| through[0].dot(a.gradient[0]) + through[1].dot(a.gradient[1]));
-        let sources = if self.has_sources() {
-            auxiliary.each_ref().map(|a| divergence(&stresses, place.force, a))
-        } else {
-            [0.0; MODES]
-        };
-        Integrands { stresses, flows, sources }
+        Block::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
     }
 
     /// E′ at the tip.
@@ -264,42 +208,29 @@ impl<'a> Interaction<'a> {
     }
 
     /// False where all flows have no divergence.
-    fn has_sources(&self) -> bool {
+    pub(super) fn has_sources(&self) -> bool {
         self.loads.force.is_some() || !self.law.is_uniform()
     }
 
+    /// What is particular to a point, where the field has a gradient that is given in the tip's frame.
+    pub(super) fn local(&self, world: Vec2) -> Local {
+        let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
+        Local { lame: self.lame(world), force: force.into() }
+    }
+
     /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½ ε:C,_1:ε + b_i u_i,1.
-    fn energy_source(&self, place: &Place) -> f64 {
-        let graded =
-            self.slope.as_ref().map_or(0.0, |s| s.energy(place.world, self.axis, &place.u));
-        graded + place.force.x * place.u[0].x + place.force.y * place.u[1].x
+    pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
+        let graded = self.slope.as_ref().map_or(0.0, |s| s.energy(world, self.axis, u));
+        graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]
     }
 
-    /// σ of a gradient at a point.
-    pub(super) fn stress(&self, world: Vec2, u: &Gradients) -> [[f64; 2]; 2] {
-        let uniform = self.law.is_uniform();
-        stress(if uniform { self.body.lame } else { self.law.coefficients(world) }, u)
-    }
-
-    fn stresses(&self, place: &Place) -> Stresses {
-        let at_tip = stress(self.body.lame, &place.u);
-        Stresses { own: self.stress(place.world, &place.u), at_tip }
+    /// λ and μ of the material at a point.
+    pub(super) fn lame(&self, world: Vec2) -> [f64; 2] {
+        if self.law.is_uniform() { self.body.lame } else { self.law.coefficients(world) }
     }
 
     pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
-        if self.has_sources() { self.body.fields::<2>(point) } else { self.body.fields::<1>(point) }
-    }
-
-    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 −
-    /// σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would have, on εᵃ.
-    fn through(&self, stresses: &Stresses, u: &Gradients, x: Vec2) -> Gradients {
-        let Stresses { own, at_tip } = stresses;
-        let dual = stress(self.body.lame, &[x * u[0].x, x * u[1].x]);
-        let row = |i: usize| {
-            let along = own[i][0] * x.x + own[i][1] * x.y + dual[i][0] - x.x * at_tip[i][0];
-            vec2(along, dual[i][1] - x.x * at_tip[i][1])
-        };
-        [row(0), row(1)]
+        self.body.fields::<f64, 1>(point)
     }
 
     /// The part that does not come from the cells: the loads on the faces.
@@ -326,49 +257,6 @@ impl<'a> Interaction<'a> {
             doubt: integrals.doubt,
         }
     }
-}
-
-/// A point, and the field there in the tip's frame.
-pub(super) struct Place {
-    pub(super) point: TipPoint<f64>,
-    pub(super) world: Vec2,
-    pub(super) u: Gradients,
-    pub(super) force: Vec2,
-}
-
-/// The integrands of all modes at a point.
-pub(super) struct Integrands {
-    stresses: Stresses,
-    pub(super) flows: [f64; MODES],
-    pub(super) sources: [f64; MODES],
-}
-
-/// Stresses of one strain.
-struct Stresses {
-    /// σ
-    own: [[f64; 2]; 2],
-    /// In a body of the tip's material.
-    at_tip: [[f64; 2]; 2],
-}
-
-/// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without it:
-/// what σ exceeds the stress of the tip's material by, on εᵃ,_1.
-fn divergence(stresses: &Stresses, force: Vec2, aux: &Auxiliary) -> f64 {
-    let Stresses { own, at_tip } = stresses;
-    let row = |i: usize| [own[i][0] - at_tip[i][0], own[i][1] - at_tip[i][1]];
-    let excess = [row(0), row(1)];
-    work(&excess, &aux.along) - (force.x * aux.gradient[0].x + force.y * aux.gradient[1].x)
-}
-
-/// E_j = W δ_1j − σ_ij u_i,1, a vector over j, with W = ½ σ_ij u_i,j: the flow of energy whose integral round a tip is J.
-fn energy_flow(stress: &[[f64; 2]; 2], u: &Gradients) -> Vec2 {
-    let flow = |j: usize| stress[0][j] * u[0].x + stress[1][j] * u[1].x;
-    vec2(0.5 * work(stress, u) - flow(0), -flow(1))
-}
-
-/// σ_ij g_i,j of a symmetric stress.
-pub(super) fn work(s: &[[f64; 2]; 2], g: &Gradients) -> f64 {
-    s[0][0] * g[0].x + s[0][1] * (g[0].y + g[1].x) + s[1][1] * g[1].y
 }
 
 /// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes some hundred; what
@@ -450,16 +338,19 @@ impl Integrals {
 }
 
 /// r² of a point in the tip's frame.
-pub(super) fn square(point: &TipPoint<f64>) -> f64 {
+#[inline(always)]
+pub(super) fn square<R: Real>(point: &TipPoint<R>) -> R {
     point.x * point.x + point.y * point.y
 }
 
 /// q and q′(r)/r for r² = `square`; zero outside the disc.
-pub(super) fn cut_off(square: f64, radius: f64) -> (f64, f64) {
-    let base = (1.0 - square / (radius * radius)).max(0.0);
-    let slope = -2.0 * f64::from(CUT_OFF_POWER) / (radius * radius);
-    let power = base.powi(CUT_OFF_POWER - 1);
-    (base * power, slope * power)
+#[inline(always)]
+pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
+    let inverse = (radius * radius).recip();
+    let base = (square.lit(1.0) - square * square.lit(inverse)).max(square.lit(0.0));
+    let fourth = base * base * (base * base);
+    let power = fourth * base;
+    (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
 }
 
 /// A vector in a frame with the given x axis.
@@ -471,5 +362,5 @@ pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 /// The displacement gradient in a frame with the given x axis.
 pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
     let (gx, gy) = (turned(axis, [u[0].x, u[0].y]), turned(axis, [u[1].x, u[1].y]));
-    [gx * axis.x + gy * axis.y, gy * axis.x - gx * axis.y]
+    [(gx * axis.x + gy * axis.y).into(), (gy * axis.x - gx * axis.y).into()]
 }

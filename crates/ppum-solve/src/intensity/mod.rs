@@ -48,6 +48,7 @@
 
 mod auxiliary;
 mod bent;
+mod block;
 mod course;
 mod faces;
 mod integral;

@@ -36,8 +36,8 @@ impl<'a> Slope<'a> {
             return 0.0;
         }
         let [lambda, mu] = self.moduli(at, young, poisson);
-        let (trace, shear) = (u[0].x + u[1].y, 0.5 * (u[0].y + u[1].x));
-        let square = u[0].x * u[0].x + u[1].y * u[1].y + 2.0 * shear * shear;
+        let (trace, shear) = (u[0][0] + u[1][1], 0.5 * (u[0][1] + u[1][0]));
+        let square = u[0][0] * u[0][0] + u[1][1] * u[1][1] + 2.0 * shear * shear;
         0.5 * lambda * trace * trace + mu * square
     }
 
@@ -79,11 +79,11 @@ mod tests {
             let body = Elasticity { young, poisson, state };
             let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
             let slope = Slope::new(&body, at, 0.1).expect("no jump");
-            let u = [vec2(0.3, -0.2), vec2(0.5, 0.7)];
+            let u = [[0.3, -0.2], [0.5, 0.7]];
             let energy = |p: Vec2| {
                 let material = body.at(p);
-                let (trace, shear) = (u[0].x + u[1].y, 0.5 * (u[0].y + u[1].x));
-                let square = u[0].x.powi(2) + u[1].y.powi(2) + 2.0 * shear * shear;
+                let (trace, shear) = (u[0][0] + u[1][1], 0.5 * (u[0][1] + u[1][0]));
+                let square = f64::powi(u[0][0], 2) + f64::powi(u[1][1], 2) + 2.0 * shear * shear;
                 0.5 * material.lambda() * trace * trace + material.mu() * square
             };
             let h = 1e-5;

@@ -8,7 +8,6 @@
 //! 2 × 2 scalar blocks, each contiguous in function indices, on each of which the stable
 //! transformation acts alike. Unknowns of the whole system run through the patches in order.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{MatMut, MatRef};
 
 /// The pairs of coupled patches i ≤ j, row by row (CSR).
@@ -56,7 +55,7 @@ impl BlockPattern {
     }
 
     /// Row and column of every block, in the order of storage.
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.len()).flat_map(|i| self.row(i).iter().map(move |&j| (i, j as usize)))
     }
 }
@@ -91,6 +90,11 @@ impl BlockMatrix {
     #[must_use]
     pub(crate) fn n_unknowns(&self) -> usize {
         self.offsets[self.pattern.len()]
+    }
+
+    /// The blocks that are stored.
+    pub(super) fn pattern(&self) -> &BlockPattern {
+        &self.pattern
     }
 
     /// Number of patches.
@@ -203,26 +207,6 @@ impl BlockMatrix {
         y
     }
 
-    /// The lower triangle as compressed columns, for the factorisation.
-    pub(crate) fn lower_triangle(&self) -> SparseColMat<usize, f64> {
-        let n = self.n_unknowns();
-        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for i in 0..self.pattern.len() {
-            for a in 0..self.unknowns(i).len() {
-                // Column a of patch i of the lower triangle is row a of the upper one.
-                for k in self.pattern.starts[i]..self.pattern.starts[i + 1] {
-                    let unknowns = self.unknowns(self.pattern.columns[k] as usize);
-                    let skip = if k == self.pattern.starts[i] { a } else { 0 };
-                    let first = self.block_starts[k] + a * unknowns.len();
-                    values.extend_from_slice(&self.values[first + skip..first + unknowns.len()]);
-                    rows.extend(unknowns.skip(skip));
-                }
-                starts.push(rows.len());
-            }
-        }
-        SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
-    }
-
     fn stored_block(&self, k: usize, i: usize, j: usize) -> MatRef<'_, f64> {
         let values = &self.values[self.block_starts[k]..self.block_starts[k + 1]];
         MatRef::from_row_major_slice(values, self.unknowns(i).len(), self.unknowns(j).len())
@@ -283,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn product_and_conversion_agree_with_the_full_matrix() {
+    fn the_product_agrees_with_the_full_matrix() {
         let (blocks, full) = random_matrix(&[3, 2, 0, 4]);
         assert_eq!(in_full(&blocks), full);
         let mut random = Random(5);
@@ -292,9 +276,6 @@ mod tests {
         for (i, y) in blocks.multiply(&x).into_iter().enumerate() {
             assert!((y - expected[(i, 0)]).abs() < 1e-14);
         }
-        let lower = blocks.lower_triangle().to_dense();
-        let expected = Mat::from_fn(9, 9, |i, j| if i >= j { full[(i, j)] } else { 0.0 });
-        assert_eq!(lower, expected);
     }
 
     #[test]

@@ -239,8 +239,9 @@ impl LinearSolver for Multilevel<'_> {
         self.solve_to(self.tolerance, load)
     }
 
-    fn solve_roughly(&self, load: &[f64]) -> Result<LinearSolution, LinearError> {
-        self.solve_to(self.tolerance.max(ROUGH), load)
+    fn solve_roughly(&self, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
+        let roughly = |load: &Vec<f64>| self.solve_to(self.tolerance.max(ROUGH), load);
+        loads.iter().map(|load| Ok(roughly(load)?.unknowns)).collect()
     }
 
     /// As exact as [`LinearSolver::solve`] where that succeeds; else one cycle.

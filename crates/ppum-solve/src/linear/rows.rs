@@ -6,6 +6,7 @@
 //! so that results have the same bits on any number of threads.
 
 use super::block_matrix::BlockMatrix;
+use super::neighbours::Neighbours;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -13,20 +14,11 @@ use std::ops::Range;
 /// threads to have some on small levels.
 const GRAIN: usize = 64;
 
-/// A block of a row.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    column: u32,
-    /// Its place among the stored blocks; left of the diagonal it is the transposed one.
-    stored: u32,
-}
-
 /// A symmetric matrix by rows.
 #[derive(Debug)]
 pub(crate) struct Rows<'a> {
     pub(crate) matrix: Cow<'a, BlockMatrix>,
-    starts: Vec<usize>,
-    entries: Vec<Entry>,
+    neighbours: Neighbours,
     /// Blocks by colours, ascending in each.
     order: Vec<u32>,
     /// Of each block, its colour.
@@ -54,8 +46,8 @@ pub(super) enum Part {
 
 impl<'a> Rows<'a> {
     pub(crate) fn new(matrix: Cow<'a, BlockMatrix>) -> Self {
-        let (starts, entries) = entries(&matrix);
-        let colours = colours(&starts, &entries);
+        let neighbours = Neighbours::new(matrix.pattern());
+        let colours = colours(&neighbours);
         let n_colours = colours.iter().max().map_or(0, |most| *most as usize + 1);
         let mut order: Vec<u32> = (0..colours.len() as u32).collect();
         order.sort_by_key(|&block| colours[block as usize]);
@@ -68,7 +60,7 @@ impl<'a> Rows<'a> {
             own[block as usize] = start;
             offsets.push(start + matrix.unknowns(block as usize).len());
         }
-        Self { matrix, starts, entries, order, colours, colour_starts, offsets, own }
+        Self { matrix, neighbours, order, colours, colour_starts, offsets, own }
     }
 
     pub(crate) fn n_unknowns(&self) -> usize {
@@ -85,7 +77,7 @@ impl<'a> Rows<'a> {
 
     /// Bytes of the matrix and of its rows.
     pub(super) fn bytes(&self) -> usize {
-        let lists = size_of_val(self.entries.as_slice()) + 5 * size_of_val(self.own.as_slice());
+        let lists = self.neighbours.bytes() + 4 * size_of_val(self.own.as_slice());
         self.matrix.bytes() + lists
     }
 
@@ -138,7 +130,7 @@ impl<'a> Rows<'a> {
         out: &mut [f64],
     ) {
         let colour = self.colours[i];
-        for entry in &self.entries[self.starts[i]..self.starts[i + 1]] {
+        for entry in self.neighbours.of(i) {
             let j = entry.column as usize;
             let wanted = match part {
                 Part::All => true,
@@ -160,8 +152,7 @@ impl<'a> Rows<'a> {
 
     /// The blocks that a block is coupled to, itself among them.
     pub(super) fn neighbours(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
-        let entries = &self.entries[self.starts[i]..self.starts[i + 1]];
-        entries.iter().map(|entry| entry.column as usize)
+        self.neighbours.of(i).iter().map(|entry| entry.column as usize)
     }
 
     /// r_i ← (f − K x)_i
@@ -263,43 +254,13 @@ pub(super) fn add_transposed(block: &[f64], x: &[f64], factor: f64, out: &mut [f
     }
 }
 
-/// The blocks of all rows, those left of the diagonal first.
-fn entries(matrix: &BlockMatrix) -> (Vec<usize>, Vec<Entry>) {
-    let n = matrix.n_blocks();
-    let mut starts = vec![0; n + 1];
-    for (i, j, _) in matrix.stored_places() {
-        starts[i + 1] += 1;
-        starts[j + 1] += usize::from(i != j);
-    }
-    for i in 0..n {
-        starts[i + 1] += starts[i];
-    }
-    let mut next = starts.clone();
-    let mut entries = vec![Entry { column: 0, stored: 0 }; starts[n]];
-    let mut put = |row: usize, column: usize, stored: usize| {
-        entries[next[row]] = Entry { column: column as u32, stored: stored as u32 };
-        next[row] += 1;
-    };
-    // rows ascend, so what is left of a diagonal comes before what is right of it
-    for (i, j, stored) in matrix.stored_places() {
-        if i != j {
-            put(j, i, stored);
-        }
-    }
-    for (i, j, stored) in matrix.stored_places() {
-        put(i, j, stored);
-    }
-    (starts, entries)
-}
-
 /// The smallest colour that no earlier neighbour has, block by block.
-fn colours(starts: &[usize], entries: &[Entry]) -> Vec<u32> {
-    let n = starts.len() - 1;
+fn colours(neighbours: &Neighbours) -> Vec<u32> {
+    let n = neighbours.len();
     let mut colours = vec![0; n];
     let mut taken = Vec::new();
     for i in 0..n {
-        let earlier =
-            entries[starts[i]..starts[i + 1]].iter().take_while(|e| (e.column as usize) < i);
+        let earlier = neighbours.of(i).iter().take_while(|e| (e.column as usize) < i);
         taken.clear();
         taken.extend(earlier.map(|e| colours[e.column as usize]));
         taken.sort_unstable();

@@ -13,13 +13,19 @@ pub(crate) trait LinearSolver {
     /// If `load` has not one entry for each unknown.
     fn solve(&self, load: &[f64]) -> Result<LinearSolution, LinearError>;
 
-    /// The same where the solution only weighs errors, which are known to a few digits at best.
+    /// The same for several right-hand sides.
     ///
     /// # Errors
     /// Those of [`LinearSolver::solve`].
-    fn solve_roughly(&self, load: &[f64]) -> Result<LinearSolution, LinearError> {
-        self.solve(load)
+    fn solve_all(&self, loads: &[Vec<f64>]) -> Result<Vec<LinearSolution>, LinearError> {
+        loads.iter().map(|load| self.solve(load)).collect()
     }
+
+    /// Solutions of which a few digits are enough.
+    ///
+    /// # Errors
+    /// A right-hand side that is not finite, or that no u fits.
+    fn solve_roughly(&self, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError>;
 
     /// x ← K⁻¹ x, as it comes: without a look at the residual.
     fn apply_inverse(&self, x: &mut [f64]);

@@ -17,13 +17,14 @@ use ppum::vec2::Rect;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Bytes of a value of the system: in blocks, and by columns with its row.
-const SYSTEM_BYTES: f64 = 24.0;
+/// Bytes of a value of the system, which is held once.
+const SYSTEM_BYTES: f64 = 8.0;
 
 /// Bytes of a value of the factor.
 const FACTOR_BYTES: f64 = 8.0;
 
-/// Memory beside the values of system and factor, as a part of them: stable basis, row numbers, work space.
+/// Memory beside the values of system and factor, as a part of them: stable basis, triangles that are held in full, what fronts
+/// leave for their parents.
 const BESIDE: f64 = 0.4;
 
 /// Memory of any solution: the program, the work on cells.
@@ -58,9 +59,10 @@ const TOO_MANY_TO_COUNT: usize = 600_000;
 /// Patches that a patch of a uniform cover overlaps with, itself and of each pair only one counted.
 const NEIGHBOURS: f64 = 5.0;
 
-/// Seconds of an operation of the factorisation, and of a product of functions at a quadrature point, on one core
-/// of a machine of 2023.
-const FACTOR_SECONDS: f64 = 8.0e-11;
+/// Seconds of an operation of the factorisation, of a value of the factor in all solutions with it, and of a product of
+/// functions at a quadrature point, on one core of a machine of 2023 (`docs/decisions/0027-factorisation.md`).
+const FACTOR_SECONDS: f64 = 4.0e-11;
+const SWEEP_SECONDS: f64 = 1.2e-8;
 const ASSEMBLY_SECONDS: f64 = 1.1e-9;
 
 /// Seconds that a cell takes in any case.
@@ -173,6 +175,7 @@ impl Estimate {
         let cores = rayon::current_num_threads() as f64;
         let values = SYSTEM_BYTES * nonzeros + FACTOR_BYTES * factor;
         let cells = CELL_SECONDS * patches + ASSEMBLY_SECONDS * work.assembly;
+        let of_factor = FACTOR_SECONDS * work.factor + SWEEP_SECONDS * factor;
         Self {
             patches,
             unknowns: sizes.iter().map(|&size| size as f64).sum(),
@@ -181,7 +184,7 @@ impl Estimate {
             falls_back: false,
             factor,
             memory: values * (1.0 + BESIDE) + PATCH_BYTES * patches + FIXED_BYTES,
-            seconds: (cells + TIP_SECONDS * work.tips) / cores + FACTOR_SECONDS * work.factor,
+            seconds: (cells + TIP_SECONDS * work.tips + of_factor) / cores,
         }
     }
 }

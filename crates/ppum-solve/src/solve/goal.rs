@@ -29,7 +29,7 @@ pub(super) struct DualSolutions {
     /// The places of the tips.
     tips: Vec<Vec2>,
     /// Plain coefficients.
-    coefficients: [Vec<f64>; FACTORS],
+    coefficients: Vec<Vec<f64>>,
 }
 
 impl Solving<'_> {
@@ -40,12 +40,13 @@ impl Solving<'_> {
         (basis, loads): (&StableBasis, &[Vec<f64>]),
         solver: &dyn LinearSolver,
     ) -> Result<Option<DualSolutions>, SolveError> {
-        let [opening, sliding] = loads else { return Ok(None) };
-        let plain = |load: &Vec<f64>| -> Result<Vec<f64>, SolveError> {
-            let solution = solver.solve_roughly(load).map_err(|error| self.located(error))?;
-            Ok(basis.plain(self.space, &solution.unknowns, self.problem.components()))
-        };
-        let coefficients = [plain(opening)?, plain(sliding)?];
+        if loads.is_empty() {
+            return Ok(None);
+        }
+        let found = solver.solve_roughly(loads).map_err(|error| self.located(error))?;
+        let components = self.problem.components();
+        let plain = |unknowns: &Vec<f64>| basis.plain(self.space, unknowns, components);
+        let coefficients = found.iter().map(plain).collect();
         let tips = tips.iter().map(Sensitivity::tip).collect();
         Ok(Some(DualSolutions { tips, coefficients }))
     }

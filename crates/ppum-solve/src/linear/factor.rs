@@ -1,0 +1,269 @@
+//! The factor L L^T of a symmetric block matrix, front by front.
+//!
+//! A front holds the columns of its pivots with what earlier fronts have left there, eliminates them as a dense matrix, and hands
+//! on what that leaves to its parent (the multifrontal method of Duff & Reid 1983). Threads take subtrees, and strips of large
+//! fronts. What belongs to a strip is computed in one order, so that results have the same bits on any number of threads.
+
+use super::block_matrix::BlockMatrix;
+use super::elimination::Elimination;
+use super::front::{Front, Run, divided};
+use super::neighbours::Neighbours;
+use super::strip::{Stop, Strip, Vanishing};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Columns of a strip: wide enough for fast products, narrow enough that all threads have some.
+const WIDTH: usize = 128;
+
+/// Operations from which on threads share a front.
+const SHARED: usize = 1 << 22;
+
+/// The factor of a matrix.
+#[derive(Debug)]
+pub(super) struct Factor {
+    pub(super) elimination: Elimination,
+    /// Of each front the columns of its pivots.
+    pub(super) strips: Vec<Vec<Strip>>,
+}
+
+/// A matrix that is to be factorised, and how.
+struct Source<'m> {
+    matrix: &'m BlockMatrix,
+    neighbours: Neighbours,
+    /// D
+    scale: &'m [f64],
+    elimination: &'m Elimination,
+    vanishing: Vanishing,
+}
+
+/// What a child has left, and where that is in its parent.
+type Left<'e> = (&'e [Run], Vec<Strip>);
+
+/// What a front has left: the columns of its pivots, and until its parent takes it what is below them.
+#[derive(Debug, Default)]
+struct Done {
+    pivots: Vec<Strip>,
+    below: Vec<Strip>,
+}
+
+impl Factor {
+    /// The factor of D K D; unknowns of pivots that vanish are left out.
+    pub(super) fn new(
+        matrix: &BlockMatrix,
+        scale: &[f64],
+        elimination: Elimination,
+    ) -> Result<Self, Stop> {
+        let neighbours = Neighbours::new(matrix.pattern());
+        let vanishing = Vanishing::Refused;
+        let source = Source { matrix, neighbours, scale, elimination: &elimination, vanishing };
+        let strips = match source.factor() {
+            Err(Stop::Pivot) => Source { vanishing: Vanishing::LeftOut, ..source }.factor()?,
+            other => other?,
+        };
+        Ok(Self { elimination, strips })
+    }
+
+    /// Bytes of the values.
+    pub(super) fn bytes(&self) -> usize {
+        self.strips.iter().flatten().map(Strip::bytes).sum()
+    }
+
+    /// The unknowns of a matrix in the order of elimination.
+    pub(super) fn order(&self, matrix: &BlockMatrix) -> Vec<usize> {
+        self.elimination.order.iter().flat_map(|&block| matrix.unknowns(block as usize)).collect()
+    }
+
+    /// The pivots L_kk in that order.
+    pub(super) fn pivots(&self) -> impl Iterator<Item = f64> {
+        self.strips.iter().flatten().flat_map(Strip::diagonal)
+    }
+}
+
+impl Source<'_> {
+    fn factor(&self) -> Result<Vec<Vec<Strip>>, Stop> {
+        let Elimination { fronts, subtrees, .. } = self.elimination;
+        let mut done: Vec<Done> = Vec::new();
+        done.resize_with(fronts.len(), Done::default);
+        let parts = divided(&mut done, subtrees);
+        let of_subtree = |(range, part): (&Range<usize>, &mut [Done])| {
+            range.clone().try_for_each(|front| self.eliminate(front, part, range.start))
+        };
+        subtrees.par_iter().zip(parts).with_max_len(1).try_for_each(of_subtree)?;
+        self.elimination.top().try_for_each(|front| self.eliminate(front, &mut done, 0))?;
+        Ok(done.into_iter().map(|front| front.pivots).collect())
+    }
+
+    /// Eliminates a front. Those of its subtree are done, the first of them with the number `first`.
+    fn eliminate(&self, number: usize, done: &mut [Done], first: usize) -> Result<(), Stop> {
+        let front = &self.elimination.fronts[number];
+        let of_child = |&child: &usize| {
+            let runs = self.elimination.fronts[child].runs.as_slice();
+            (runs, std::mem::take(&mut done[child - first].below))
+        };
+        let left: Vec<_> = front.children.iter().map(of_child).collect();
+        let shared = front.rows() * front.rows() * front.n_pivots() > SHARED;
+        let mut strips = self.gathered(front, &left, shared)?;
+        drop(left);
+        let n_strips = strips.partition_point(|strip| strip.first < front.n_pivots());
+        for k in 0..n_strips {
+            let (before, after) = strips.split_at_mut(k + 1);
+            let own = &mut before[k];
+            own.eliminate(self.vanishing, shared)?;
+            let subtract = |strip: &mut Strip| strip.subtract(own);
+            if shared {
+                after.par_iter_mut().with_max_len(1).for_each(subtract);
+            } else {
+                after.iter_mut().for_each(subtract);
+            }
+        }
+        let mut below = strips.split_off(n_strips);
+        below.iter_mut().for_each(|strip| strip.first -= front.n_pivots());
+        done[number - first] = Done { pivots: strips, below };
+        Ok(())
+    }
+
+    /// The strips of a front: entries of the matrix, and what the children have left.
+    fn gathered(&self, front: &Front, left: &[Left<'_>], shared: bool) -> Result<Vec<Strip>, Stop> {
+        let strip = |blocks: &Range<usize>| -> Result<Strip, Stop> {
+            let [from, to] = [blocks.start, blocks.end].map(|block| front.starts[block]);
+            let mut strip = Strip::new(from, to - from, front.rows())?;
+            if from < front.n_pivots() {
+                self.add_entries(front, blocks.clone(), &mut strip);
+            }
+            left.iter().for_each(|(runs, strips)| add(&mut strip, runs, strips));
+            Ok(strip)
+        };
+        let strips = front.strips(WIDTH);
+        if shared {
+            strips.par_iter().with_max_len(1).map(strip).collect()
+        } else {
+            strips.iter().map(strip).collect()
+        }
+    }
+
+    /// Adds the matrix's own entries in the columns of some pivots.
+    fn add_entries(&self, front: &Front, blocks: Range<usize>, strip: &mut Strip) {
+        let Elimination { order, places, .. } = self.elimination;
+        for local in blocks {
+            let place = front.pivots.start + local;
+            let i = order[place] as usize;
+            let columns = self.matrix.unknowns(i);
+            for entry in self.neighbours.of(i) {
+                let j = entry.column as usize;
+                let other = places[j] as usize;
+                if other < place {
+                    continue;
+                }
+                let rows = self.matrix.unknowns(j);
+                let values = self.matrix.stored(entry.stored as usize);
+                let (down, right) = if i <= j { (1, rows.len()) } else { (columns.len(), 1) };
+                let row = front.starts[front.local(other)];
+                for (a, u) in columns.clone().enumerate() {
+                    let out = strip.column_mut(front.starts[local] + a, row);
+                    for (b, (v, out)) in rows.clone().zip(out).enumerate() {
+                        *out = values[a * right + b * down] * (self.scale[u] * self.scale[v]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Adds what a child has left to a strip of its parent.
+fn add(strip: &mut Strip, runs: &[Run], left: &[Strip]) {
+    let columns = strip.first..strip.end();
+    for part in left {
+        let mut number = runs.partition_point(|run| run.end() <= part.first);
+        for column in part.first..part.end() {
+            number += usize::from(runs[number].end() <= column);
+            let to = runs[number].to + column - runs[number].from;
+            if !columns.contains(&to) {
+                continue;
+            }
+            for run in &runs[number..] {
+                let from = run.from.max(column);
+                let source = &part.column(column, from)[..run.end() - from];
+                let out = strip.column_mut(to, run.to + from - run.from);
+                out.iter_mut().zip(source).for_each(|(out, x)| *out += x);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::linear::test_matrices::grid_matrix;
+    use crate::linear::{BlockMatrix, BlockPattern, Cholesky, LinearSolver};
+    use faer::Mat;
+    use faer::linalg::solvers::Solve;
+    use ppum_testkit::random::Random;
+
+    /// Blocks of 90 unknowns, all coupled: one front in several strips, which threads share.
+    fn dense(blocks: usize, random: &mut Random) -> BlockMatrix {
+        let starts = (0..=blocks).scan(0, |sum, i| {
+            let start = *sum;
+            *sum += blocks - i;
+            Some(start)
+        });
+        let columns = (0..blocks as u32).flat_map(|i| i..blocks as u32).collect();
+        let pattern = BlockPattern::new(starts.collect(), columns);
+        let mut matrix = BlockMatrix::new(&vec![90; blocks], pattern);
+        for i in 0..blocks {
+            for j in i..blocks {
+                let mut block = Mat::from_fn(90, 90, |_, _| random.between(-1.0, 1.0));
+                if i == j {
+                    let shift = Mat::<f64>::identity(90, 90) * faer::Scale(600.0);
+                    block = &block + block.transpose() + shift;
+                }
+                matrix.add_block(i, j, block.as_ref());
+            }
+        }
+        matrix
+    }
+
+    fn in_full(matrix: &BlockMatrix) -> Mat<f64> {
+        let n = matrix.n_unknowns();
+        let mut full = Mat::zeros(n, n);
+        let mut unit = vec![0.0; n];
+        for k in 0..n {
+            unit[k] = 1.0;
+            full.col_mut(k).iter_mut().zip(matrix.multiply(&unit)).for_each(|(a, b)| *a = b);
+            unit[k] = 0.0;
+        }
+        full
+    }
+
+    /// The dense factorisation is the reference, for several right-hand sides at once.
+    #[test]
+    fn solutions_are_those_of_the_full_matrix() {
+        let mut random = Random(21);
+        for matrix in [grid_matrix(9, 31, &mut random), dense(5, &mut random)] {
+            let n = matrix.n_unknowns();
+            let mut load = || (0..n).map(|_| random.between(-1.0, 1.0)).collect::<Vec<f64>>();
+            let loads = [load(), load(), load()];
+            let full = in_full(&matrix);
+            let exact = full.partial_piv_lu().solve(Mat::from_fn(n, 3, |u, k| loads[k][u]));
+            let found = Cholesky::new(&matrix).unwrap().solve_roughly(&loads).unwrap();
+            let largest = exact.norm_max();
+            for (k, found) in found.iter().enumerate() {
+                for (u, x) in found.iter().enumerate() {
+                    assert!((x - exact[(u, k)]).abs() < 1e-13 * largest);
+                }
+            }
+        }
+    }
+
+    /// Strips of a front that threads share have the same bits on any number of them.
+    #[test]
+    fn shared_fronts_do_not_depend_on_the_number_of_threads() {
+        let matrix = dense(6, &mut Random(4));
+        let load: Vec<f64> = (0..matrix.n_unknowns()).map(|u| (u as f64).cos()).collect();
+        let solve_with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Cholesky::new(&matrix).unwrap().solve(&load).unwrap().unknowns)
+        };
+        let alone = solve_with(1);
+        assert_eq!(alone, solve_with(2));
+        assert_eq!(alone, solve_with(3));
+    }
+}
