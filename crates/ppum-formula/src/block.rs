@@ -1,9 +1,8 @@
 //! Blocks: evaluation of [`FormulaJets`] at many points at once, on lanes.
 
 use crate::jets::FormulaJets;
-use crate::lanes::Tape;
-use crate::lanes::VECTORS;
-use crate::lanes::real::Scalar;
+use crate::lanes::{Tape, VECTORS, interpret};
+use crate::real::Scalar;
 
 /// Memory for [`Block`]s, best kept from block to block.
 #[derive(Clone, Debug, Default)]
@@ -76,7 +75,7 @@ impl<T: Scalar> Block<'_, T> {
 
     /// Computes the outputs from the inputs, with the widest vectors of this processor.
     pub fn run(&mut self) {
-        T::interpret(self.tape, self.registers);
+        interpret(self.tape, T::numbers(self.registers));
     }
 
     /// The output of an index below [`FormulaJets::n_outputs`], at each point.

@@ -91,6 +91,7 @@
 
 mod block;
 mod derivative;
+pub mod elementary;
 mod error;
 mod formula;
 mod graph;
@@ -104,6 +105,7 @@ mod operation;
 mod print;
 pub mod printable;
 mod program;
+pub mod real;
 mod reciprocal;
 pub mod spelling;
 mod substitute;
@@ -118,7 +120,6 @@ pub use error::{FormulaError, Mistake};
 pub use formula::{Formula, one_line};
 pub use jets::FormulaJets;
 pub use kinks::Kink;
-pub use lanes::real;
 pub use language::scope::{Scope, ScopeError, VARIABLES};
 pub use library::function_names;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_NODES};

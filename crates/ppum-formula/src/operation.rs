@@ -1,5 +1,8 @@
 //! The operations of formulas on numbers: the meaning that every back end has to reproduce.
 
+use crate::elementary;
+use crate::real::DoubleFunction as _;
+
 /// Functions of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Unary {
@@ -31,19 +34,19 @@ impl Unary {
         match self {
             Self::Neg => -a,
             Self::Sqrt => a.sqrt(),
-            Self::Cbrt => a.cbrt(),
-            Self::Exp => a.exp(),
-            Self::Log => a.ln(),
-            Self::Log10 => a.log10(),
-            Self::Sin => a.sin(),
-            Self::Cos => a.cos(),
-            Self::Tan => a.tan(),
-            Self::Asin => a.asin(),
-            Self::Acos => a.acos(),
-            Self::Atan => a.atan(),
-            Self::Sinh => a.sinh(),
-            Self::Cosh => a.cosh(),
-            Self::Tanh => a.tanh(),
+            Self::Cbrt => elementary::Cbrt.apply([a]),
+            Self::Exp => elementary::Exp.apply([a]),
+            Self::Log => elementary::Log.apply([a]),
+            Self::Log10 => elementary::Log10.apply([a]),
+            Self::Sin => elementary::Sin.apply([a]),
+            Self::Cos => elementary::Cos.apply([a]),
+            Self::Tan => elementary::Tan.apply([a]),
+            Self::Asin => elementary::Asin.apply([a]),
+            Self::Acos => elementary::Acos.apply([a]),
+            Self::Atan => elementary::Atan.apply([a]),
+            Self::Sinh => elementary::Sinh.apply([a]),
+            Self::Cosh => elementary::Cosh.apply([a]),
+            Self::Tanh => elementary::Tanh.apply([a]),
             Self::Abs => a.abs(),
             Self::Sign => sign(a),
             Self::Floor => a.floor(),
@@ -86,12 +89,12 @@ impl Binary {
             Self::Sub => a - b,
             Self::Mul => a * b,
             Self::Div => a / b,
-            Self::Pow => a.powf(b),
-            Self::Atan2 => a.atan2(b),
+            Self::Pow => elementary::Pow.apply([a, b]),
+            Self::Atan2 => elementary::Atan2.apply([a, b]),
             Self::Min if a < b || a.is_nan() => a,
             Self::Max if a > b || a.is_nan() => a,
             Self::Min | Self::Max => b,
-            Self::Hypot => a.hypot(b),
+            Self::Hypot => elementary::Hypot.apply([a, b]),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Tables: handbook or measured data as smooth functions.
 
+use crate::real::{Double, Lanes};
+
 /// A function of one or two numbers given by its values at knots, as formulas use it in
 /// `table(name, x)` and `table(name, x, y)`.
 ///
@@ -125,7 +127,7 @@ pub enum TableError {
 }
 
 /// Coefficients of a cubic polynomial, constant first.
-type Cubic = [f64; 4];
+type Cubic<R = f64> = [R; 4];
 
 impl Table {
     /// A function of one number: `values[i]` at `x[i]`. The name is checked by
@@ -214,54 +216,106 @@ impl Table {
     /// one argument. The third derivatives are piecewise constant in their direction, higher ones 0.
     #[must_use]
     pub fn derivative(&self, orders: [u8; 2], x: f64, y: f64) -> f64 {
+        self.derivatives(orders, x, y)
+    }
+
+    /// [`Table::derivative`] at a vector of points.
+    #[inline(always)]
+    pub(crate) fn derivatives<R: Double>(&self, [m, n]: [u8; 2], x: R, y: R) -> R {
+        let zero = x.lit(0.0);
+        if m > 3 || n > 3 || n > 0 && self.y.is_empty() {
+            return zero;
+        }
         let column = Place::new(&self.x, x);
         if self.y.is_empty() {
-            if orders[1] > 0 || column.is_flat(orders[0]) {
-                return 0.0;
-            }
-            return polynomial(&self.coefficients[4 * column.cell..], orders[0], column.distance);
+            let cubic = self.cubic(column.cells.map(|cell| 4.0 * cell), x);
+            return column.unless_flat(m, polynomial(cubic, m, column.distance));
         }
         let row = Place::new(&self.y, y);
-        if column.is_flat(orders[0]) || row.is_flat(orders[1]) {
-            return 0.0;
+        let columns = (self.x.len() - 1) as f64;
+        let (mut in_y, mut k) = ([zero; 4], 0);
+        while k < 4 {
+            let at = |lane: usize| row.cells[lane] * columns + column.cells[lane];
+            let starts = std::array::from_fn(|lane| 16.0 * at(lane) + 4.0 * k as f64);
+            in_y[k] = polynomial(self.cubic(starts, x), m, column.distance);
+            k += 1;
         }
-        let cell = row.cell * (self.x.len() - 1) + column.cell;
-        let powers = &self.coefficients[16 * cell..];
-        let in_y: Cubic =
-            std::array::from_fn(|k| polynomial(&powers[4 * k..], orders[0], column.distance));
-        polynomial(&in_y, orders[1], row.distance)
+        row.unless_flat(n, column.unless_flat(m, polynomial(in_y, n, row.distance)))
+    }
+
+    /// Four coefficients from a start in each lane.
+    #[inline(always)]
+    fn cubic<R: Double>(&self, starts: Lanes, like: R) -> [R; 4] {
+        let (mut cubic, mut power) = ([like; 4], 0);
+        while power < 4 {
+            cubic[power] = like.with_lanes(|lane| self.coefficients[starts[lane] as usize + power]);
+            power += 1;
+        }
+        cubic
     }
 }
 
-/// The place of an argument among the knots.
-struct Place {
-    cell: usize,
+/// The places of arguments among the knots.
+struct Place<R: Double> {
+    /// Whole numbers.
+    cells: Lanes,
     /// From the cell's first knot; of the nearest end of the range if the argument is outside.
-    distance: f64,
-    outside: bool,
+    distance: R,
+    /// 1 inside, 0 outside.
+    inside: R,
 }
 
-impl Place {
-    fn new(knots: &[f64], x: f64) -> Self {
-        let (first, last) = (knots[0], knots[knots.len() - 1]);
-        let inside = x.clamp(first, last);
-        let cell = knots[1..knots.len() - 1].partition_point(|&knot| knot <= inside);
-        Self { cell, distance: inside - knots[cell], outside: x < first || x > last }
+/// Most knots that are all looked at, on vectors; among more each lane searches for itself.
+const FEW: usize = 24;
+
+impl<R: Double> Place<R> {
+    #[inline(always)]
+    fn new(knots: &[f64], x: R) -> Self {
+        let (first, last) = (x.lit(knots[0]), x.lit(knots[knots.len() - 1]));
+        let (zero, one) = (x.lit(0.0), x.lit(1.0));
+        let near = last.min(first.max(x));
+        let cells = cells(&knots[1..knots.len() - 1], near);
+        let distance = near - x.with_lanes(|lane| knots[cells[lane] as usize]);
+        let inside = R::select(first.gt(x), zero, R::select(x.gt(last), zero, one));
+        Self { cells, distance, inside }
     }
 
-    /// True if a derivative of this order is 0, whatever the polynomial.
-    fn is_flat(&self, order: u8) -> bool {
-        order > 3 || order > 0 && self.outside
+    /// The derivative of an order if it is not 0, whatever the polynomial.
+    #[inline(always)]
+    fn unless_flat(&self, order: u8, value: R) -> R {
+        let zero = value.lit(0.0);
+        if order == 0 { value } else { R::select(self.inside.gt(zero), value, zero) }
     }
 }
 
-/// The derivative of an order up to 3 of the polynomial with the first four coefficients, at `t`.
-fn polynomial(c: &[f64], order: u8, t: f64) -> f64 {
+/// How many of the inner knots are not above each argument.
+#[inline(always)]
+fn cells<R: Double>(knots: &[f64], x: R) -> Lanes {
+    let (zero, one) = (x.lit(0.0), x.lit(1.0));
+    if R::LANES == 1 || knots.len() > FEW {
+        let mut cells = x.lanes();
+        for x in &mut cells[..R::LANES] {
+            *x = knots.partition_point(|knot| knot <= x) as f64;
+        }
+        return cells;
+    }
+    let (mut count, mut k) = (zero, 0);
+    while k < knots.len() {
+        count = count + R::select(x.ge(x.lit(knots[k])), one, zero);
+        k += 1;
+    }
+    count.lanes()
+}
+
+/// The derivative of an order up to 3 of the polynomial with some coefficients, constant first, at `t`.
+#[inline(always)]
+fn polynomial<R: Double>(c: Cubic<R>, order: u8, t: R) -> R {
+    let (two, three, six) = (t.lit(2.0), t.lit(3.0), t.lit(6.0));
     match order {
         0 => ((c[3] * t + c[2]) * t + c[1]) * t + c[0],
-        1 => (3.0 * c[3] * t + 2.0 * c[2]) * t + c[1],
-        2 => 6.0 * c[3] * t + 2.0 * c[2],
-        _ => 6.0 * c[3],
+        1 => (three * c[3] * t + two * c[2]) * t + c[1],
+        2 => six * c[3] * t + two * c[2],
+        _ => six * c[3],
     }
 }
 
@@ -459,7 +513,8 @@ mod tests {
         let values = [1.0, -2.0, 0.5, 0.25, 3.0, -1.0];
         let table = Table::curve("t", KNOTS.to_vec(), values.to_vec()).expect("valid");
         let piece = |cell: usize, order: u8, x: f64| {
-            polynomial(&table.coefficients()[4 * cell..], order, x - KNOTS[cell])
+            let cubic = std::array::from_fn(|k| table.coefficients()[4 * cell + k]);
+            polynomial(cubic, order, x - KNOTS[cell])
         };
         for i in 0..5 {
             assert_eq!(table.value(KNOTS[i], 0.0), values[i]);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::jet::Jet;
 use crate::library;
 use ppum_formula::real::Real;
-use ppum_formula::{DerivativeError, Formula, FormulaError, FormulaJets, Scope};
+use ppum_formula::{Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, Scratch};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
 /// does not see it. The B-splines have w(0) = 1.
@@ -93,8 +93,7 @@ impl WeightFunction {
     pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
         let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
         let t = xi.abs();
-        let s = R::sign(xi.ge(zero), one);
-        let [w, slope, curvature] = match self {
+        let jet = match self {
             Self::Linear => [one - t, -one, zero],
             Self::Quadratic => quadratic(xi, t),
             Self::Cubic => cubic(t),
@@ -103,7 +102,20 @@ impl WeightFunction {
                 [inside(xi, w), slope, curvature]
             }
         };
-        [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
+        even(xi, jet)
+    }
+
+    /// w and dw/dξ at many places, those of [`spline`](Self::spline): formulas are evaluated in blocks.
+    #[must_use]
+    pub fn at_many(&self, xis: &[f64]) -> Vec<[f64; 2]> {
+        let first = |[w, slope, _]: [f64; 3]| [w, slope];
+        match self {
+            Self::Formula(formula) => {
+                let jets = xis.iter().zip(formula.evaluate_many(xis));
+                jets.map(|(&xi, [w, d, dd])| first(even(xi, [inside(xi, w), d, dd]))).collect()
+            }
+            _ => xis.iter().map(|&xi| first(self.spline(xi))).collect(),
+        }
     }
 
     /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
@@ -258,13 +270,39 @@ impl WeightFormula {
     fn evaluate<R: Real>(&self, t: R) -> [R; 3] {
         let mut scratch = Vec::new();
         t.map_to(|t| {
-            // Beyond the support the formula need not have a value, at its end perhaps a limit.
             let t = t.min(1.0);
             let mut jet = [0.0; 3];
             self.jets.evaluate(&[t], &mut scratch, &mut jet);
-            jet.map(|value| if t < 1.0 || value.is_finite() { value } else { 0.0 })
+            limited(t, jet)
         })
     }
+
+    /// The same at t = |ξ| for many ξ, in blocks.
+    fn evaluate_many(&self, xis: &[f64]) -> Vec<[f64; 3]> {
+        let (mut scratch, mut jets) = (Scratch::default(), Vec::with_capacity(xis.len()));
+        let mut block = self.jets.block(&mut scratch);
+        for xis in xis.chunks(Block::<f64>::POINTS) {
+            let ts = || xis.iter().map(|xi| xi.abs().min(1.0));
+            block.input(0).iter_mut().zip(ts()).for_each(|(input, t)| *input = t);
+            block.run();
+            let rows = [0, 1, 2].map(|order| block.output(order));
+            jets.extend(ts().enumerate().map(|(k, t)| limited(t, rows.map(|row| row[k]))));
+        }
+        jets
+    }
+}
+
+/// Values and derivatives at t ≤ 1: a formula need not have any at the end of the support, but perhaps a limit.
+fn limited(t: f64, jet: [f64; 3]) -> [f64; 3] {
+    jet.map(|value| if t < 1.0 || value.is_finite() { value } else { 0.0 })
+}
+
+/// w, dw/dξ, d²w/dξ² from those by t = |ξ|, zero outside \[−1, 1).
+#[inline(always)]
+fn even<R: Real>(xi: R, [w, slope, curvature]: [R; 3]) -> [R; 3] {
+    let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+    let s = R::sign(xi.ge(zero), one);
+    [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
 }
 
 /// `v` for ξ in \[−1, 1), else zero.
@@ -380,6 +418,20 @@ mod tests {
         assert_eq!(bump.spline(0.0), [1.0, 0.0, -2.0]);
         for xi in [-1.0, 1.0, -7.0, 2.0] {
             assert_eq!(bump.spline(xi), [0.0; 3], "{xi}");
+        }
+    }
+
+    /// Blocks of places give what single places do, whatever their number.
+    #[test]
+    fn many_places_at_once() {
+        let scope = Scope::new(&["t"]).expect("a name");
+        let bump = WeightFunction::formula("exp(1 - 1/((1 - t)*(1 + t)))", &scope);
+        for weight in WeightFunction::ALL.into_iter().chain([bump.expect("a weight")]) {
+            for n in [0, 1, 63, 64, 65, 300] {
+                let xis: Vec<f64> = (0..n).map(|k| f64::from(k) * 0.011 - 1.5).collect();
+                let each = xis.iter().map(|&xi| weight.spline(xi)).map(|[w, slope, _]| [w, slope]);
+                assert_eq!(weight.at_many(&xis), each.collect::<Vec<_>>(), "{weight:?}");
+            }
         }
     }
 

@@ -3,34 +3,24 @@
 //! A step works on all eight vectors of a block before the next step begins, and without a loop: so
 //! the processor foresees the jumps from step to step, finding out what a step does costs little,
 //! and all registers of a formula stay in the cache next to it. Arithmetic, roots, comparisons and
-//! selections are done on lanes; functions of the mathematical library number by number, in double
-//! precision. Nothing is fused: in double precision each result is that of the scalar back end to the
-//! last bit.
+//! selections are done on lanes, and so are [elementary functions](crate::elementary) and tables, in double
+//! precision. Nothing is fused: in double precision each result is that of the scalar back end
+//! to the last bit.
 
-use super::real::{Job, Real, Scalar};
 use super::tape::{Step, Tape};
-use crate::operation::{Binary, Unary};
+use crate::elementary;
+use crate::real::{Double, DoubleFunction, Job, Numbers, Real, Scalar};
+use crate::table::Table;
 
 /// Vectors of a block: enough that a step's work outweighs its start.
 pub(crate) const VECTORS: usize = 8;
 
-/// Number types that tapes run on. The function is not generic, so that the interpreter is compiled
-/// here and not in every crate that uses it.
-pub trait Interpret: Sized {
-    /// Runs a tape; `registers` are its registers one after the other.
-    #[doc(hidden)]
-    fn interpret(tape: &Tape, registers: &mut [Self]);
-}
-
-impl Interpret for f64 {
-    fn interpret(tape: &Tape, registers: &mut [f64]) {
-        f64::dispatch(Run { tape, registers });
-    }
-}
-
-impl Interpret for f32 {
-    fn interpret(tape: &Tape, registers: &mut [f32]) {
-        f32::dispatch(Run { tape, registers });
+/// Runs a tape; `registers` are its registers one after the other. It is not generic, so that the interpreter is
+/// compiled here and not in every crate that uses it.
+pub(crate) fn interpret(tape: &Tape, registers: Numbers<'_>) {
+    match registers {
+        Numbers::Double(registers) => f64::dispatch(Run { tape, registers }),
+        Numbers::Single(registers) => f32::dispatch(Run { tape, registers }),
     }
 }
 
@@ -124,9 +114,6 @@ macro_rules! actions {
             Power(i32),
             /// A constant at all points.
             Fill,
-            /// A function of the mathematical library.
-            Library1(Unary),
-            Library2(Binary),
             /// A derivative of a table.
             Table { table: u32, orders: [u8; 2] },
         }
@@ -138,8 +125,9 @@ macro_rules! actions {
                     $(Action::$name => self.$run(function!([$($a),+] $value), step),)+
                     Action::Power(n) => self.one(Power(n), step),
                     Action::Fill => self.each1(function!([a] a), self.same(step, 0), step),
-                    Action::Library1(_) | Action::Library2(_) | Action::Table { .. } => {
-                        library::<R::Scalar, R::Array>(self.tape, step, self.registers);
+                    Action::Table { table, orders } => {
+                        let tape = self.tape;
+                        self.long(LookUp { table: &tape.tables[table as usize], orders }, step);
                     }
                 }
             }
@@ -174,6 +162,22 @@ actions! {
     Select = three [c, a, b] R::select(c.gt(c.lit(0.0)), a, b);
     MulAddMul = four [a, b, c, d] a * b + c * d;
     MulSubMul = four [a, b, c, d] a * b - c * d;
+    Cbrt = long [a] R::in_double([a], elementary::Cbrt);
+    Exp = long [a] R::in_double([a], elementary::Exp);
+    Log = long [a] R::in_double([a], elementary::Log);
+    Log10 = long [a] R::in_double([a], elementary::Log10);
+    Sin = long [a] R::in_double([a], elementary::Sin);
+    Cos = long [a] R::in_double([a], elementary::Cos);
+    Tan = long [a] R::in_double([a], elementary::Tan);
+    Asin = long [a] R::in_double([a], elementary::Asin);
+    Acos = long [a] R::in_double([a], elementary::Acos);
+    Atan = long [a] R::in_double([a], elementary::Atan);
+    Sinh = long [a] R::in_double([a], elementary::Sinh);
+    Cosh = long [a] R::in_double([a], elementary::Cosh);
+    Tanh = long [a] R::in_double([a], elementary::Tanh);
+    Pow = long [a, b] R::in_double([a, b], elementary::Pow);
+    Atan2 = long [a, b] R::in_double([a, b], elementary::Atan2);
+    Hypot = long [a, b] R::in_double([a, b], elementary::Hypot);
 }
 
 /// −1, 0 or +1; NaN of NaN.
@@ -200,6 +204,27 @@ impl Function<1> for Power {
             rest >>= 1;
         }
         if self.0 < 0 { one / product } else { product }
+    }
+}
+
+/// A derivative of a table.
+#[derive(Clone, Copy)]
+struct LookUp<'t> {
+    table: &'t Table,
+    orders: [u8; 2],
+}
+
+impl Function<2> for LookUp<'_> {
+    #[inline(always)]
+    fn apply<R: Real>(self, operands: [R; 2]) -> R {
+        R::in_double(operands, self)
+    }
+}
+
+impl DoubleFunction<2> for LookUp<'_> {
+    #[inline(always)]
+    fn apply<R: Double>(self, [x, y]: [R; 2]) -> R {
+        self.table.derivatives(self.orders, x, y)
     }
 }
 
@@ -253,6 +278,25 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
+    /// A function of many operations, any of its operands a constant: a loop, not eight times its text.
+    #[inline(always)]
+    fn long<const N: usize>(&mut self, f: impl Function<N>, step: &Step) {
+        let mut k = 0;
+        while k < VECTORS {
+            let (mut operands, mut i) = ([self.zero; N], 0);
+            while i < N {
+                operands[i] = if step.constants >> i & 1 == 1 {
+                    self.same(step, i).0
+                } else {
+                    self.each(step, i).at(self.registers, k)
+                };
+                i += 1;
+            }
+            self.store(f.apply(operands), step, k);
+            k += 1;
+        }
+    }
+
     #[inline(always)]
     fn each1(&mut self, f: impl Function<1>, a: impl Operand<R>, step: &Step) {
         let mut k = 0;
@@ -292,41 +336,5 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     fn store(&mut self, value: R, step: &Step, k: usize) {
         value.store_array(&mut self.registers[step.to as usize][k]);
-    }
-}
-
-/// A step that is not done on lanes.
-#[inline(never)]
-fn library<T: Scalar, A: AsRef<[T]> + AsMut<[T]>>(
-    tape: &Tape,
-    step: &Step,
-    registers: &mut [[A; VECTORS]],
-) {
-    let mut k = 0;
-    while k < VECTORS {
-        let mut lane = 0;
-        while lane < T::VECTOR {
-            let at = |operand: usize| {
-                let place = step.operands[operand] as usize;
-                if step.constants >> operand & 1 == 1 {
-                    T::from_f64(tape.constants[place])
-                } else {
-                    registers[place][k].as_ref()[lane]
-                }
-            };
-            let value = library_value(tape, step.action, at(0).to_f64(), at(1).to_f64());
-            registers[step.to as usize][k].as_mut()[lane] = T::from_f64(value);
-            lane += 1;
-        }
-        k += 1;
-    }
-}
-
-fn library_value(tape: &Tape, action: Action, a: f64, b: f64) -> f64 {
-    match action {
-        Action::Library1(op) => op.apply(a),
-        Action::Library2(op) => op.apply(a, b),
-        Action::Table { table, orders } => tape.tables[table as usize].derivative(orders, a, b),
-        _ => unreachable!("done on lanes"),
     }
 }

@@ -14,7 +14,7 @@ use crate::table::Table;
 
 /// A program for blocks of points.
 #[derive(Clone, Debug)]
-pub struct Tape {
+pub(crate) struct Tape {
     pub(crate) steps: Vec<Step>,
     pub(crate) constants: Vec<f64>,
     pub(crate) tables: Arc<[Arc<Table>]>,
@@ -189,7 +189,19 @@ fn unary(op: Unary) -> Action {
         Unary::Abs => Action::Abs,
         Unary::Sign => Action::Sign,
         Unary::Floor => Action::Floor,
-        _ => Action::Library1(op),
+        Unary::Cbrt => Action::Cbrt,
+        Unary::Exp => Action::Exp,
+        Unary::Log => Action::Log,
+        Unary::Log10 => Action::Log10,
+        Unary::Sin => Action::Sin,
+        Unary::Cos => Action::Cos,
+        Unary::Tan => Action::Tan,
+        Unary::Asin => Action::Asin,
+        Unary::Acos => Action::Acos,
+        Unary::Atan => Action::Atan,
+        Unary::Sinh => Action::Sinh,
+        Unary::Cosh => Action::Cosh,
+        Unary::Tanh => Action::Tanh,
     }
 }
 
@@ -201,7 +213,9 @@ fn binary(op: Binary) -> Action {
         Binary::Div => Action::Div,
         Binary::Min => Action::Min,
         Binary::Max => Action::Max,
-        Binary::Pow | Binary::Atan2 | Binary::Hypot => Action::Library2(op),
+        Binary::Pow => Action::Pow,
+        Binary::Atan2 => Action::Atan2,
+        Binary::Hypot => Action::Hypot,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::random::{point, sample, scope};
 use super::{Formula, FormulaJets, Scope, WESTERGAARD, polar, same};
 use crate::graph::Op;
-use crate::lanes::real::Scalar;
+use crate::real::Scalar;
 use crate::{Block, Scratch, Table};
 use ppum_testkit::random::Random;
 

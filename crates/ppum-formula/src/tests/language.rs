@@ -93,6 +93,15 @@ fn constants_and_parameters() {
     assert_eq!(f.evaluate(&[2.0, 0.0]), 5.0);
 }
 
+/// Functions that are no operations of the processor are right to two units in the last place, and those of the
+/// platform, which they are compared with here, to one. How far off they are tells `elementary/tests.rs`.
+fn agree(found: f64, expected: f64, is_exact: bool) -> bool {
+    let unit = if is_exact { 0.0 } else { 3.0 * f64::EPSILON };
+    let is_special = !expected.is_finite() || expected == 0.0;
+    let equal = found == expected || found.is_nan() && expected.is_nan();
+    equal || !is_special && (found - expected).abs() <= unit * expected.abs()
+}
+
 #[test]
 fn functions_of_one_number() {
     let cases: [(&str, Unary); 17] = [
@@ -118,7 +127,8 @@ fn functions_of_one_number() {
         let f = parse(&format!("{name}(x)"));
         for x in [-1e300, -2.5, -1.0, -0.3, 0.0, 1e-300, 0.3, 1.0, 2.5, 1e300, f64::INFINITY] {
             let (found, expected) = (f.evaluate(&[x, 0.0]), function(x));
-            assert!(found == expected || found.is_nan() && expected.is_nan(), "{name}({x})");
+            let is_exact = ["sqrt", "abs", "floor", "sign"].contains(&name);
+            assert!(agree(found, expected, is_exact), "{name}({x}): {found:e}, not {expected:e}");
         }
         assert!(f.evaluate(&[f64::NAN, 0.0]).is_nan(), "{name} of NaN");
     }
@@ -139,7 +149,11 @@ fn functions_of_several_numbers() {
     for (text, function) in cases {
         for (x, y) in [(1.5, 2.0), (2.0, 1.5), (-1.5, 0.5), (-3.0, -2.0), (0.0, 1.0), (4.0, -0.5)] {
             let (found, expected) = (value(text, x, y), function(x, y));
-            assert!(found == expected || found.is_nan() && expected.is_nan(), "{text} at {x}, {y}");
+            let is_exact = ["min", "max", "clamp", "if"].iter().any(|name| text.starts_with(name));
+            assert!(
+                agree(found, expected, is_exact),
+                "{text} at {x}, {y}: {found:e}, not {expected:e}"
+            );
         }
     }
 }

@@ -5,12 +5,14 @@ use std::path::Path;
 use ppum_testkit::rooms::{Floors, check, check_page};
 
 const FLOORS: Floors<'_> = &[
-    &[("limits", &[]), ("operation", &[]), ("printable", &[]), ("spelling", &[]), ("table", &[])],
+    &[("limits", &[]), ("printable", &[]), ("real", &[]), ("spelling", &[])],
     &[
+        ("elementary", &["real"]),
         ("error", &["limits", "printable", "spelling"]),
-        ("graph", &["operation", "table"]),
-        ("library", &["operation"]),
+        ("table", &["real"]),
     ],
+    &[("operation", &["elementary", "real"])],
+    &[("graph", &["operation", "table"]), ("library", &["operation"])],
     &[
         ("language", &["error", "graph", "library", "limits", "operation", "table"]),
         ("program", &["graph", "table"]),
@@ -18,7 +20,7 @@ const FLOORS: Floors<'_> = &[
     ],
     &[
         ("derivative", &["graph", "language", "limits", "operation"]),
-        ("lanes", &["graph", "operation", "program", "table"]),
+        ("lanes", &["elementary", "graph", "operation", "program", "real", "table"]),
         ("print", &["graph", "language", "library", "operation", "program"]),
         ("wgsl", &["graph", "language", "operation", "program", "table"]),
     ],
@@ -40,7 +42,7 @@ const FLOORS: Floors<'_> = &[
         ("kinks", &["formula", "graph", "operation", "print", "program"]),
         ("substitute", &["derivative", "formula", "graph", "limits", "program"]),
     ],
-    &[("block", &["jets", "lanes"])],
+    &[("block", &["jets", "lanes", "real"])],
 ];
 
 #[test]

@@ -1,7 +1,8 @@
 //! From the field's components at a column of vectors to the values of a quantity.
 
+use ppum::equation::Moduli;
 use ppum::jet::Jet;
-use ppum::quantity::{Quantity, Sample, Source};
+use ppum::quantity::{Quantity, QuantityBlock, Sample, Source};
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, known};
@@ -69,18 +70,22 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let width = self.scene.view.pixels[0] as usize;
         let [column, first_row] = self.corner();
         let column = column + vector * R::LANES;
-        for (row, line) in out.chunks_exact_mut(width).enumerate() {
-            let cell = &scratch.sums[start + row * stride..][..stride];
+        let Scratch { sums, shift, formulas, .. } = scratch;
+        let mut pending = match quantity {
+            Quantity::Formula(formula) => Some(Pending::new(formula.block(formulas), &moduli)),
+            _ => None,
+        };
+        let rows = out.len() / width;
+        for row in 0..rows {
+            let cell = &sums[start + row * stride..][..stride];
             if source == Source::Exact {
                 exact.resize(components, zero);
                 let pixel = [column, first_row + row];
-                self.scene.load_exact(pixel, &scratch.shift, &mut exact, zero);
+                self.scene.load_exact(pixel, shift, &mut exact, zero);
             }
             load::<R, D>(cell, jets, zero);
-            if matches!(source, Source::Values | Source::Partition)
-                || matches!(quantity, Quantity::Formula(_))
-            {
-                for (jet, &shift) in jets.iter_mut().zip(&scratch.shift) {
+            if matches!(source, Source::Values | Source::Partition) || pending.is_some() {
+                for (jet, &shift) in jets.iter_mut().zip(&*shift) {
                     jet.v = jet.v + zero.lit(shift);
                 }
             }
@@ -90,11 +95,67 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 _ => {
                     let offset = self.offset(vector, row, zero);
                     let moduli = if UNIFORM { moduli } else { equation.moduli(anchor, offset) };
-                    quantity.of_field(&Sample { anchor, offset, moduli, jets, exact: &exact })
+                    let sample = Sample { anchor, offset, moduli, jets, exact: &exact };
+                    if let Some(pending) = &mut pending {
+                        pending.add(&sample, UNIFORM);
+                        if pending.is_full::<R>() || row + 1 == rows {
+                            let lines = &mut out[(row + 1 - pending.count) * width..];
+                            pending.write(lines, (width, column), zero);
+                        }
+                        continue;
+                    }
+                    quantity.of_field(&sample)
                 }
             };
-            value.store_some(&mut line[column..]);
+            value.store_some(&mut out[row * width..][..width][column..]);
         }
+    }
+}
+
+/// Rows of a column of vectors whose values a formula will give, a block at a time.
+struct Pending<'a, T> {
+    block: QuantityBlock<'a, T>,
+    count: usize,
+}
+
+impl<'a, T: Scalar> Pending<'a, T> {
+    /// None yet; the equation's constants may be the same everywhere.
+    #[inline(always)]
+    fn new<R: Real<Scalar = T>>(mut block: QuantityBlock<'a, T>, moduli: &Moduli<R>) -> Self {
+        for vector in 0..QuantityBlock::<T>::vectors::<R>() {
+            block.set_moduli(vector, moduli);
+        }
+        Self { block, count: 0 }
+    }
+
+    /// Takes the field at the next row.
+    #[inline(always)]
+    fn add<R: Real<Scalar = T>>(&mut self, at: &Sample<'_, R>, is_uniform: bool) {
+        self.block.set(self.count, at);
+        if !is_uniform {
+            self.block.set_moduli(self.count, &at.moduli);
+        }
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    fn is_full<R: Real<Scalar = T>>(&self) -> bool {
+        self.count == QuantityBlock::<T>::vectors::<R>()
+    }
+
+    /// Writes the rows to the first lines, from a column on.
+    #[inline(always)]
+    fn write<R: Real<Scalar = T>>(
+        &mut self,
+        lines: &mut [T],
+        (width, column): (usize, usize),
+        like: R,
+    ) {
+        self.block.run();
+        for (row, line) in lines.chunks_exact_mut(width).enumerate().take(self.count) {
+            self.block.value(row, like).store_some(&mut line[column..]);
+        }
+        self.count = 0;
     }
 }
 

@@ -31,6 +31,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod tile;
+mod weights;
 
 use std::ops::Range;
 
@@ -52,6 +53,7 @@ use collapse::ROWS;
 use plan::{COLUMNS, Plan, strips};
 use strips::Savings;
 use tile::{Band, Scratch};
+use weights::Weights;
 
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
 /// pool that calls.
@@ -154,6 +156,8 @@ struct Scene<'f, T> {
     view: View,
     quantity: &'f Quantity,
     weight: &'f WeightFunction,
+    /// Its factors, if it is a formula.
+    weights: Weights<T>,
     functions: LocalFunctions<'f>,
     plan: Plan<'f>,
     /// Offsets of the columns from the view's centre, up to full tiles.
@@ -166,13 +170,15 @@ struct Scene<'f, T> {
 
 impl<'f, T: Sample> Scene<'f, T> {
     fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
-        let plan = Plan::new(field, view, quantity, ROWS);
+        let mut plan = Plan::new(field, view, quantity, ROWS);
+        let weight = &field.step.partition.weight;
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
         let rows = view.pixels[1].next_multiple_of(ROWS as u32);
         Self {
             view: *view,
             quantity,
-            weight: &field.step.partition.weight,
+            weight,
+            weights: Weights::new(weight, view, &mut plan.patches),
             functions: field.functions.at(&field.step.cracks, view.center),
             plan,
             xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),

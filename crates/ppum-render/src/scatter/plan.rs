@@ -20,6 +20,8 @@ pub(super) const COLUMNS: usize = 64;
 pub(super) struct Affine {
     pub(super) scale: f64,
     pub(super) shift: f64,
+    /// Of a support, where its factors of the weight are, see [`Weights`](super::weights::Weights).
+    pub(super) table: Option<u32>,
 }
 
 /// A function × polynomial.
@@ -193,7 +195,7 @@ fn patch(field: &Field, index: usize, view: &View, pixels: &Pixels, blocks: Rang
 fn affine(origin: Vec2, scale: Vec2) -> [Affine; 2] {
     let one = |origin: f64, scale: f64| {
         let scale = 1.0 / scale;
-        Affine { scale, shift: -origin * scale }
+        Affine { scale, shift: -origin * scale, table: None }
     };
     [one(origin.x, scale.x), one(origin.y, scale.y)]
 }

@@ -252,7 +252,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let mut lane = part.rows.start / R::LANES * R::LANES;
         while lane < part.rows.end {
             let y = zero.load(&self.scene.ys[self.corner()[1] + lane..]);
-            let factor = self.factor(y, patch.support[1]);
+            let factor = self.factor(y, patch.support[1], self.corner()[1] + lane);
             put::<R, ADD>(factor.value, &mut tables[lane..]);
             if D >= 1 {
                 put::<R, ADD>(factor.slope, &mut tables[ROWS + lane..]);
@@ -274,14 +274,22 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// One factor of the weight with its derivative in the world.
+    /// One factor of the weight with its derivative in the world, at a vector of pixels with their offsets.
     #[inline(always)]
-    pub(super) fn factor<R: Real<Scalar = T>>(&self, offset: R, support: Affine) -> Factor<R> {
+    pub(super) fn factor<R: Real<Scalar = T>>(
+        &self,
+        offset: R,
+        support: Affine,
+        pixel: usize,
+    ) -> Factor<R> {
         let xi = place_of(offset, support);
         if *self.scene.quantity == Quantity::Overlap {
             let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
             let inside = R::select(xi.ge(-one), R::select(one.gt(xi), one, zero), zero);
             return Factor { value: inside, slope: zero };
+        }
+        if let Some(factor) = self.scene.weights.factor(support, pixel, offset) {
+            return factor;
         }
         let [value, slope, _] = self.scene.weight.spline(xi);
         Factor { value, slope: slope * xi.lit(support.scale) }

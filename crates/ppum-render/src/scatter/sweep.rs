@@ -46,14 +46,15 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         if across.len() < len * strips.all.len() {
             across.resize(len * strips.all.len(), T::default());
         }
-        let x = zero.load(&self.scene.xs[self.corner()[0] + vector * R::LANES..]);
+        let pixel = self.corner()[0] + vector * R::LANES;
+        let x = zero.load(&self.scene.xs[pixel..]);
         for (index, strip) in strips.all.iter().enumerate() {
             if !strip.part.vectors.contains(&vector) {
                 continue;
             }
             let at = len * entries.len();
             let across = &mut across[at..][..len];
-            let a = self.factor(x, strip.support);
+            let a = self.factor(x, strip.support, pixel);
             a.value.store(across);
             a.slope.store(&mut across[R::LANES..]);
             place_of(x, strip.frame).store(&mut across[2 * R::LANES..]);

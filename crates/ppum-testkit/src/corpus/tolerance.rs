@@ -21,11 +21,11 @@ pub struct Tolerance {
     pub rounds_inputs: bool,
 }
 
-/// One point in double precision by the operations of std.
+/// One point in double precision.
 ///
 /// c = 2: the bound is that of the chain rule of second order, while programs are differentiated twice, so
-/// that some terms stand twice. f = 2: functions of the platform's library are wrong by less than one
-/// unit in the last place, which is two roundoffs.
+/// that some terms stand twice. f = 2: elementary functions are wrong by less than one unit in
+/// the last place, which is two roundoffs; √(x² + y²), by up to 1.16, has the rounding of the result besides.
 pub const SCALAR: Tolerance =
     Tolerance { unit: f64::EPSILON / 2.0, arithmetic: 2.0, functions: 2.0, rounds_inputs: false };
 

@@ -5,6 +5,7 @@
 //! by counting how often a ray crosses them, components by walking down their trees. Slow: every patch is looked at.
 
 mod double;
+pub mod elementary;
 
 pub use double::Double;
 use ppum::crack::{Crack, End, TipId};

@@ -10,6 +10,7 @@
 use super::{Crack, End, Side};
 use crate::compensated::cross;
 use crate::vec2::Vec2;
+use ppum_formula::elementary::Atan;
 use ppum_formula::real::Real;
 
 /// Two squared distances closer than this, relatively, count as equal: they belong to the vertex two
@@ -272,11 +273,11 @@ impl<R: Real> TipPoint<R> {
     }
 
     /// θ on the branch that jumps on the crack itself, from its [half angle](TipPoint::half_angle):
-    /// 4 arctan(tan(θ/4)). Slow: lanes have no arc tangent.
+    /// 4 arctan(tan(θ/4)).
     #[inline(always)]
     pub fn theta([cos_half, sin_half]: [R; 2]) -> R {
         let one = cos_half.lit(1.0);
-        (sin_half / (one + cos_half)).map(f64::atan) * one.lit(4.0)
+        R::in_double([sin_half / (one + cos_half)], Atan) * one.lit(4.0)
     }
 }
 

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use crate::dataset::NamedQuantity;
-use crate::equation::Equation;
+use crate::equation::{Equation, Moduli};
 use crate::field::Field;
 use crate::library::{Definition, ELASTICITY, POISSON};
-use ppum_formula::real::Real;
+use ppum_formula::real::{Real, Scalar};
 use ppum_formula::{
-    DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Table, one_line,
+    Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Scratch, Table,
+    one_line,
 };
 
 use super::{Sample, Source};
@@ -51,8 +52,12 @@ pub struct QuantityFormula {
     unit: String,
     formula: Formula,
     jets: FormulaJets,
+    /// The formula, and what is no number where the field has no gradient, for blocks of points.
+    tested: FormulaJets,
     /// Of the scope's inputs, those the formula needs.
     inputs: Vec<(usize, Input)>,
+    /// Those that the test needs besides.
+    only_tested: Vec<(usize, Input)>,
     n_inputs: usize,
 }
 
@@ -183,14 +188,24 @@ impl QuantityFormula {
             .map(|((name, _), formula)| (name.as_str(), formula))
             .collect();
         let formula = Formula::parse(text, &scope)?.substitute(&definitions)?;
-        let used = |(index, (name, input)): (usize, &(String, Input))| {
-            formula.uses(name).then_some((index, *input))
+        let used = |formula: &Formula| -> Vec<(usize, Input)> {
+            let all = inputs.iter().enumerate();
+            all.filter(|(_, (name, _))| formula.uses(name)).map(|(i, (_, of))| (i, *of)).collect()
         };
+        let needed = used(&formula);
+        let has_slopes = needed.iter().any(|(_, input)| input.is_slope());
+        let slopes = inputs.iter().filter(|(_, input)| has_slopes && input.is_slope());
+        let zeros: Vec<_> = slopes.map(|(name, _)| format!("0*{name}")).collect();
+        let test = if has_slopes { zeros.join(" + ") } else { "0".to_owned() };
+        let test = Formula::parse(&test, &scope)?;
+        let only_tested = used(&test).into_iter().filter(|input| !needed.contains(input)).collect();
         Ok(Self {
             name: None,
             unit: String::new(),
             jets: FormulaJets::new(&[&formula], 0)?,
-            inputs: inputs.iter().enumerate().filter_map(used).collect(),
+            tested: FormulaJets::new(&[&formula, &test], 0)?,
+            inputs: needed,
+            only_tested,
             n_inputs: names.len(),
             formula,
         })
@@ -227,9 +242,8 @@ impl QuantityFormula {
     }
 
     pub(super) fn source(&self) -> Source {
-        let slopes =
-            |(_, input): &(usize, Input)| matches!(input, Input::SlopeX(_) | Input::SlopeY(_));
-        if self.inputs.iter().any(slopes) { Source::Gradient } else { Source::Values }
+        let has_slopes = self.inputs.iter().any(|(_, input)| input.is_slope());
+        if has_slopes { Source::Gradient } else { Source::Values }
     }
 
     /// The value; +∞ where the field has no gradient but the formula needs it.
@@ -247,6 +261,61 @@ impl QuantityFormula {
         });
         if self.source() == Source::Gradient { at.apart(value) } else { value }
     }
+
+    /// A block of points at which the quantity is to be evaluated.
+    pub fn block<'a, T: Scalar>(&'a self, scratch: &'a mut Scratch<T>) -> QuantityBlock<'a, T> {
+        QuantityBlock { formula: self, block: self.tested.block(scratch) }
+    }
+}
+
+/// Points at which a quantity by formula is evaluated together, as many vectors as a [`Block`] has: so that what a
+/// step of the formula costs is shared. Give it the field vector by vector, run it, and take the values.
+#[derive(Debug)]
+pub struct QuantityBlock<'a, T> {
+    formula: &'a QuantityFormula,
+    block: Block<'a, T>,
+}
+
+impl<T: Scalar> QuantityBlock<'_, T> {
+    /// Number of vectors.
+    #[must_use]
+    pub const fn vectors<R: Real<Scalar = T>>() -> usize {
+        Block::<T>::POINTS / R::LANES
+    }
+
+    /// The field at a vector of points, but for the constants of the equation.
+    #[inline(always)]
+    pub fn set<R: Real<Scalar = T>>(&mut self, vector: usize, at: &Sample<'_, R>) {
+        let formula = self.formula;
+        for &(index, input) in formula.inputs.iter().chain(&formula.only_tested) {
+            if !input.is_modulus() {
+                input.value(at).store(&mut self.block.input(index)[vector * R::LANES..]);
+            }
+        }
+    }
+
+    /// The constants of the equation at a vector of points. They stay until they are set anew.
+    #[inline(always)]
+    pub fn set_moduli<R: Real<Scalar = T>>(&mut self, vector: usize, moduli: &Moduli<R>) {
+        for &(index, input) in &self.formula.inputs {
+            if let Some(value) = input.modulus(moduli) {
+                value.store(&mut self.block.input(index)[vector * R::LANES..]);
+            }
+        }
+    }
+
+    /// Evaluates the quantity.
+    pub fn run(&mut self) {
+        self.block.run();
+    }
+
+    /// The values at a vector of points, those of [`Quantity::of_field`](super::Quantity::of_field).
+    #[inline(always)]
+    #[must_use]
+    pub fn value<R: Real<Scalar = T>>(&self, vector: usize, like: R) -> R {
+        let [value, test] = [0, 1].map(|k| like.load(&self.block.output(k)[vector * R::LANES..]));
+        R::select(test.ge(test), value, like.lit(f64::INFINITY))
+    }
 }
 
 /// Formulas are equal when their texts and names are.
@@ -257,6 +326,30 @@ impl PartialEq for QuantityFormula {
 }
 
 impl Input {
+    fn is_slope(self) -> bool {
+        matches!(self, Self::SlopeX(_) | Self::SlopeY(_))
+    }
+
+    #[inline(always)]
+    fn is_modulus(self) -> bool {
+        use Input as I;
+        matches!(self, I::Young | I::Poisson | I::Mu | I::Lambda | I::OutOfPlane | I::Conductivity)
+    }
+
+    /// `None` if it is no constant of an equation.
+    #[inline(always)]
+    fn modulus<R: Copy>(self, moduli: &Moduli<R>) -> Option<R> {
+        match self {
+            Self::Young => Some(moduli.young),
+            Self::Poisson => Some(moduli.poisson),
+            Self::Mu => Some(moduli.mu),
+            Self::Lambda => Some(moduli.lambda),
+            Self::OutOfPlane => Some(moduli.out_of_plane),
+            Self::Conductivity => Some(moduli.conductivity),
+            Self::X | Self::Y | Self::Value(_) | Self::SlopeX(_) | Self::SlopeY(_) => None,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn value<R: Real>(self, at: &Sample<'_, R>) -> R {
         match self {
@@ -271,6 +364,99 @@ impl Input {
             Self::Value(c) => at.jets[c].v,
             Self::SlopeX(c) => at.jets[c].x,
             Self::SlopeY(c) => at.jets[c].y,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equation::{Material, StressState};
+    use crate::jet::Jet;
+    use crate::quantity::Quantity;
+    use crate::vec2::{Vec2, vec2};
+    use ppum_formula::real::Job;
+    use ppum_testkit::random::Random;
+
+    const ANCHOR: Vec2 = vec2(0.3, -2.0);
+
+    fn moduli<R: Real>(like: R) -> Moduli<R> {
+        Moduli::new(like.lit(1.7), like.lit(0.3), StressState::PlaneStrain)
+    }
+
+    /// Fields at many points: u_x, ∂u_x/∂x, ∂u_x/∂y, u_y, …; some have no gradient.
+    fn fields() -> Vec<[f64; 6]> {
+        let mut random = Random(0x7d2c_9a11_0b5e_4f63);
+        let mut field = |k: usize| -> [f64; 6] {
+            let mut field = std::array::from_fn(|_| random.between(-1.0, 1.0));
+            match k % 17 {
+                3 => field[2] = f64::INFINITY,
+                5 => field[4] = f64::NAN,
+                _ => {}
+            }
+            field
+        };
+        (0..64).map(&mut field).collect()
+    }
+
+    fn jets<R: Real>(like: R, field: impl Fn(usize) -> R) -> [Jet<R>; 2] {
+        let zero = Jet::constant(like.lit(0.0));
+        [0, 3].map(|c| Jet { v: field(c), x: field(c + 1), y: field(c + 2), ..zero })
+    }
+
+    /// The values at a block of points.
+    struct AtOnce<'a>(&'a QuantityFormula, &'a [[f64; 6]]);
+
+    impl Job<f64> for AtOnce<'_> {
+        type Output = Vec<f64>;
+
+        #[inline(always)]
+        fn run<R: Real<Scalar = f64>>(self, zero: R) -> Vec<f64> {
+            let (mut scratch, mut values) = (Scratch::default(), vec![0.0; 64]);
+            let mut block = self.0.block(&mut scratch);
+            for (vector, fields) in self.1.chunks(R::LANES).enumerate() {
+                let jets = jets(zero, |k| zero.with_lanes(|lane| fields[lane][k]));
+                let offset = [jets[0].v, jets[1].v];
+                let sample = Sample {
+                    anchor: ANCHOR,
+                    offset,
+                    moduli: moduli(zero),
+                    jets: &jets,
+                    exact: &[],
+                };
+                block.set(vector, &sample);
+                block.set_moduli(vector, &sample.moduli);
+            }
+            block.run();
+            for (vector, values) in values.chunks_mut(R::LANES).enumerate() {
+                block.value(vector, zero).store(values);
+            }
+            values
+        }
+    }
+
+    /// A block of points has the values of single points, +∞ where there is no gradient included.
+    #[test]
+    fn blocks_are_points() {
+        use ppum_formula::real::Scalar as _;
+        let material = Material { young: 1.7, poisson: 0.3, state: StressState::PlaneStrain };
+        let (equation, names) = (Equation::elasticity(material), ["ux", "uy"].map(str::to_owned));
+        let vocabulary =
+            Vocabulary { equation: &equation, components: &names, tables: &[], named: &[] };
+        for text in ["von_mises", "dux_dx*exp(y) - young", "sin(x)*ux + uy^2.5", "3"] {
+            let formula = Arc::new(QuantityFormula::new(text, &vocabulary).expect("a quantity"));
+            let quantity = Quantity::Formula(Arc::clone(&formula));
+            let values = f64::dispatch(AtOnce(&formula, &fields()));
+            for (value, field) in values.into_iter().zip(fields()) {
+                let jets = jets(0.0, |k| field[k]);
+                let offset = [jets[0].v, jets[1].v];
+                let sample =
+                    Sample { anchor: ANCHOR, offset, moduli: moduli(0.0), jets: &jets, exact: &[] };
+                let expected = quantity.of_field(&sample);
+                let same =
+                    value.to_bits() == expected.to_bits() || value.is_nan() && expected.is_nan();
+                assert!(same, "{text} of {field:?}: {value:e}, not {expected:e}");
+            }
         }
     }
 }

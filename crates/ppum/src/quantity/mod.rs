@@ -20,7 +20,7 @@ use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::text::hint;
 use crate::vec2::Vec2;
-pub use formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+pub use formula::{Input, QuantityBlock, QuantityFormula, QuantityFormulaError, Vocabulary};
 pub use gradient::{QuantityGradient, Slope};
 use ppum_formula::real::Real;
 use tensors::Strain;

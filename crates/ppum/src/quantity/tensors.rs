@@ -2,6 +2,7 @@
 
 use crate::equation::Moduli;
 use crate::jet::Jet;
+use ppum_formula::elementary::Atan;
 use ppum_formula::real::Real;
 
 /// Strain tensor and rotation.
@@ -71,8 +72,7 @@ impl<R: Real> Stress<R> {
         high.max(self.zz) - low.min(self.zz)
     }
 
-    /// ½ atan2(2σ_xy, σ_xx − σ_yy). Lanes have no arc tangent of two numbers; the half-angle form
-    /// atan(σ_xy / (radius + half difference)) needs one, and falls back to ±π/2 on its pole.
+    /// ½ atan2(2σ_xy, σ_xx − σ_yy) in the half-angle form atan(σ_xy / (radius + half difference)), π/2 on its pole.
     #[inline(always)]
     pub(super) fn direction(&self) -> R {
         let half = (self.xx - self.yy) * self.xx.lit(0.5);
@@ -84,6 +84,7 @@ impl<R: Real> Stress<R> {
             (R::select(ahead, self.xy, radius - half), R::select(ahead, radius + half, self.xy));
         // a radius that is not a number stays one: there is no direction where there is no gradient
         let tangent = R::select(radius.gt(zero), up / down, radius);
-        tangent.map(|t| if t == f64::NEG_INFINITY { t.abs() } else { t }.atan())
+        let is_pole = zero.lit(f64::NEG_INFINITY).ge(tangent);
+        R::in_double([R::select(is_pole, -tangent, tangent)], Atan)
     }
 }

@@ -9,9 +9,14 @@
 //! factor of ten or more and changes no result.
 
 use fearless_simd::{Level, Select as _, Simd, f32x16, f64x8, prelude::*};
+use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::interpret::Interpret;
+mod double;
+#[cfg(test)]
+pub(crate) mod levels;
+
+pub use double::{Double, DoubleFunction};
 
 /// Lanes of the widest vector there is: f32 on 512 bits.
 const WIDEST: usize = 16;
@@ -68,6 +73,9 @@ pub trait Real:
     fn store_array(self, array: &mut Self::Array);
     /// Writes the lanes to the start of a slice.
     fn store(self, to: &mut [Self::Scalar]);
+    /// A function found in double precision and rounded: of the numbers themselves if they are double, else
+    /// of halves of the vectors. `operands` has one at least.
+    fn in_double<const N: usize>(operands: [Self; N], function: impl DoubleFunction<N>) -> Self;
     /// The lanes widened to f64; zero beyond [`Self::LANES`].
     #[inline(always)]
     fn lanes(self) -> Lanes {
@@ -129,7 +137,7 @@ pub trait Job<T: Scalar> {
 
 /// One lane: f64 or f32.
 pub trait Scalar:
-    Real<Scalar = Self> + Interpret + Default + PartialOrd + Send + Sync + std::fmt::Debug
+    Real<Scalar = Self> + Default + PartialOrd + Send + Sync + std::fmt::Debug
 {
     /// Lanes in a vector of [`Scalar::dispatch`]; buffers are padded to a multiple of it.
     const VECTOR: usize;
@@ -137,8 +145,68 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// Widens to f64.
     fn to_f64(self) -> f64;
+    /// Numbers of a kind that is known.
+    fn numbers(of: &mut [Self]) -> Numbers<'_>;
     /// Runs the job on the widest vectors of this processor.
     fn dispatch<J: Job<Self>>(job: J) -> J::Output;
+}
+
+/// Numbers whose kind is asked at run time: for what is compiled once for both, and not again in every crate that
+/// uses it.
+#[derive(Debug)]
+pub enum Numbers<'a> {
+    /// f64
+    Double(&'a mut [f64]),
+    /// f32
+    Single(&'a mut [f32]),
+}
+
+thread_local! {
+    static IS_NARROWED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does work whose jobs on this thread run on the vectors that every processor of the architecture has, in place of the
+/// widest: for measurements of what those gain. Values may differ in the last bits where the wider ones fuse.
+pub fn narrowed<T>(work: impl FnOnce() -> T) -> T {
+    struct Before(bool);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            IS_NARROWED.set(self.0);
+        }
+    }
+    let _before = Before(IS_NARROWED.replace(true));
+    work()
+}
+
+/// The instruction set of [`Scalar::dispatch`].
+fn level() -> Level {
+    if IS_NARROWED.get() { Level::baseline() } else { Level::new() }
+}
+
+/// Name of the instruction set that [`Scalar::dispatch`] takes on this thread.
+#[must_use]
+pub fn instructions() -> &'static str {
+    let level = level();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        let widest = [
+            (level.as_avx512().is_some(), "AVX-512"),
+            (level.as_avx2().is_some(), "AVX2"),
+            (level.as_sse2().is_some(), "SSE2"),
+        ];
+        if let Some((_, name)) = widest.into_iter().find(|(has, _)| *has) {
+            return name;
+        }
+    }
+    #[cfg(target_arch = "aarch64")]
+    if level.as_neon().is_some() {
+        return "NEON";
+    }
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    if level.as_wasm_simd128().is_some() {
+        return "SIMD128";
+    }
+    if level.is_fallback() { "scalar" } else { "vectors" }
 }
 
 /// Runs a job on the widest vectors of the processor. Every instruction set is all kernels compiled once more,
@@ -146,7 +214,7 @@ pub trait Scalar:
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! vectors {
     ($job:expr, $t:ident, $vector:ident) => {{
-        let level = Level::new();
+        let level = level();
         if let Some(simd) = level.as_avx512() {
             return simd.vectorize(
                 #[inline(always)]
@@ -170,12 +238,12 @@ macro_rules! vectors {
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
 macro_rules! vectors {
     ($job:expr, $t:ident, $vector:ident) => {
-        fearless_simd::dispatch!(Level::new(), simd => $job.run($vector::splat(simd, 0.0)))
+        fearless_simd::dispatch!(level(), simd => $job.run($vector::splat(simd, 0.0)))
     };
 }
 
 macro_rules! scalar {
-    ($t:ident, $vector:ident, $lanes:literal) => {
+    ($t:ident, $vector:ident, $lanes:literal, $kind:ident, $of_vectors:ident) => {
         impl Real for $t {
             type Scalar = $t;
             type Mask = bool;
@@ -244,6 +312,10 @@ macro_rules! scalar {
                 to[0] = self;
             }
             #[inline(always)]
+            fn in_double<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
+                function.apply(of.map(f64::from)) as $t
+            }
+            #[inline(always)]
             fn map(self, f: impl Fn(f64) -> f64) -> Self {
                 f(f64::from(self)) as $t
             }
@@ -256,6 +328,9 @@ macro_rules! scalar {
             }
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+            fn numbers(of: &mut [Self]) -> Numbers<'_> {
+                Numbers::$kind(of)
             }
             fn dispatch<J: Job<Self>>(job: J) -> J::Output {
                 vectors!(job, $t, $vector)
@@ -328,12 +403,16 @@ macro_rules! scalar {
             fn store(self, to: &mut [$t]) {
                 self.store_slice(&mut to[..$lanes]);
             }
+            #[inline(always)]
+            fn in_double<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
+                double::$of_vectors(of, function)
+            }
         }
     };
 }
 
-scalar!(f64, f64x8, 8);
-scalar!(f32, f32x16, 16);
+scalar!(f64, f64x8, 8, Double, of_doubles);
+scalar!(f32, f32x16, 16, Single, of_singles);
 
 #[cfg(test)]
 mod tests {
@@ -367,5 +446,25 @@ mod tests {
         f32::dispatch(Kernel(&xs, &mut lanes));
         Kernel(&xs, &mut scalars).run(0.0f32);
         assert_eq!(lanes, scalars);
+    }
+
+    /// The narrowest vectors compute the same, for as long as they are asked for and on this thread.
+    #[test]
+    fn narrowed_for_a_while() {
+        let xs: Vec<f64> = (0..64).map(|k| f64::from(k) * 0.37 - 9.0).collect();
+        let (mut wide, mut narrow) = (vec![0.0; 64], vec![0.0; 64]);
+        let widest = instructions();
+        f64::dispatch(Kernel(&xs, &mut wide));
+        let inside = narrowed(|| {
+            f64::dispatch(Kernel(&xs, &mut narrow));
+            let other = std::thread::spawn(instructions).join().expect("no panic");
+            assert_eq!(other, widest);
+            instructions()
+        });
+        assert_eq!(wide, narrow);
+        assert_eq!(instructions(), widest);
+        assert!(widest == inside || ["SSE2", "scalar"].contains(&inside), "{widest} {inside}");
+        let panicked = std::panic::catch_unwind(|| narrowed(|| panic!("within")));
+        assert!(panicked.is_err() && instructions() == widest);
     }
 }

@@ -1,0 +1,99 @@
+//! Double precision: the bits of numbers, as elementary functions need them.
+
+use fearless_simd::{Simd, f32x16, f64x8, prelude::*, u64x8};
+
+use super::Real;
+
+/// A number in double precision, or a vector of such.
+pub trait Double: Real<Scalar = f64> {
+    /// 2ⁿ of a whole number n from −1022 to 1023; of others any number.
+    fn power_of_two(self) -> Self;
+    /// The largest n with 2ⁿ ≤ |self|, of normal numbers; of others any number.
+    fn exponent(self) -> Self;
+    /// The magnitude of `self` with the sign of another number, zeros and NaN included.
+    fn copysign(self, sign: Self) -> Self;
+    /// True if the mask holds in a lane: to leave the vectors where what they cannot do is needed, seldom.
+    fn any(mask: Self::Mask) -> bool;
+}
+
+/// A function of `N` numbers in double precision.
+pub trait DoubleFunction<const N: usize>: Copy {
+    /// Its value. Must be `#[inline(always)]`.
+    fn apply<R: Double>(self, operands: [R; N]) -> R;
+}
+
+/// Bits of 2⁵², whose last bits count ones: those of 2⁵² + n are these or n.
+const ONES: u64 = 1075 << MANTISSA;
+
+/// 2⁵² and the bias of exponents.
+const BIASED: f64 = 4_503_599_627_370_496.0 + 1023.0;
+
+/// Bits of the mantissa.
+const MANTISSA: u32 = 52;
+
+impl Double for f64 {
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        Self::from_bits((self + BIASED).to_bits() << MANTISSA)
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        Self::from_bits(Self::abs(self).to_bits() >> MANTISSA | ONES) - BIASED
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Self::copysign(self, sign)
+    }
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+}
+
+impl<S: Simd> Double for f64x8<S> {
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        let bits: u64x8<S> = (self + self.lit(BIASED)).bitcast();
+        (bits << MANTISSA).bitcast()
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        let bits: u64x8<S> = SimdBase::abs(self).bitcast();
+        let ones = u64x8::splat(self.token(), ONES);
+        let number: Self = ((bits >> MANTISSA) | ones).bitcast();
+        number - self.lit(BIASED)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        SimdFloat::copysign(self, sign)
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        mask.any_true()
+    }
+}
+
+/// [`Real::in_double`] of vectors in double precision.
+#[inline(always)]
+pub(super) fn of_doubles<S: Simd, const N: usize>(
+    operands: [f64x8<S>; N],
+    function: impl DoubleFunction<N>,
+) -> f64x8<S> {
+    function.apply(operands)
+}
+
+/// [`Real::in_double`] of vectors in single precision.
+#[inline(always)]
+pub(super) fn of_singles<S: Simd, const N: usize>(
+    operands: [f32x16<S>; N],
+    function: impl DoubleFunction<N>,
+) -> f32x16<S> {
+    let first = operands[0].widen().0;
+    let (mut low, mut high) = ([first; N], [first; N]);
+    let mut k = 0;
+    while k < N {
+        (low[k], high[k]) = operands[k].widen();
+        k += 1;
+    }
+    function.apply(low).narrow(function.apply(high))
+}
