@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{AdapterKind, Choice, Colors, Program, Renderer, Shading};
+use ppum_gpu::{AdapterKind, Choice, Colors, Program, Renderer, Shading, Values};
 use ppum_render::picture::Style;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
@@ -36,6 +36,12 @@ impl Cards {
         self.0.gpu().info().kind.name()
     }
 
+    /// Puts a field on the device, and waits.
+    pub(crate) fn upload(&mut self, field: &Field<'_>) -> anyhow::Result<()> {
+        black_box(self.0.upload(field)?);
+        Ok(self.0.wait()?)
+    }
+
     /// True if the processor computes in its place.
     pub(crate) fn is_software(&self) -> bool {
         self.0.gpu().info().kind == AdapterKind::Software
@@ -43,11 +49,11 @@ impl Cards {
 }
 
 impl<'f> Card<'f> {
-    /// Uploads a field and compiles its pictures of von Mises' stress; the range of the colours is fixed.
+    /// Uploads a field and compiles pictures of a quantity; the range of the colours is fixed.
     pub(crate) fn new(
         Cards(renderer): &mut Cards,
         field: &'f Field<'f>,
-        look: &Style,
+        (quantity, look): (&Quantity, &Style),
         may_splat: bool,
     ) -> anyhow::Result<Self> {
         let scene = renderer.upload(field)?;
@@ -56,7 +62,7 @@ impl<'f> Card<'f> {
         let nothing = Raster::<f32>::new([0, 0], Vec::new());
         let normalization = range.normalization(scale, colormap.diverging, &nothing)?;
         let shading = Shading { normalization, colormap, undefined };
-        let output = Colors { quantity: Quantity::VonMises, shading };
+        let output = Colors { quantity: quantity.clone(), shading };
         let mut compile = |method: Method| renderer.compile(&scene, output.clone(), method.into());
         let gather = compile(Method::Gather)?;
         let splat = can_splat.then(|| compile(Method::Splat)).transpose()?;
@@ -78,5 +84,20 @@ impl<'f> Card<'f> {
         black_box(renderer.draw(program, view)?);
         renderer.wait()?;
         Ok(true)
+    }
+
+    /// The values of a quantity, read back; none if it cannot draw by this method.
+    pub(crate) fn values(
+        &self,
+        Cards(renderer): &mut Cards,
+        method: Method,
+        (view, quantity): (&View, &Quantity),
+    ) -> anyhow::Result<Option<Raster<f32>>> {
+        if method == Method::Splat && self.splat.is_none() {
+            return Ok(None);
+        }
+        let output = Values(quantity.clone());
+        let mut program = renderer.compile(self.gather.scene(), output, method.into())?;
+        Ok(Some(renderer.draw(&mut program, view)?.read()?))
     }
 }

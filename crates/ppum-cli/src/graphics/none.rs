@@ -3,7 +3,9 @@
 use std::marker::PhantomData;
 
 use ppum::field::Field;
+use ppum::quantity::Quantity;
 use ppum_render::picture::Style;
+use ppum_render::raster::Raster;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
 
@@ -52,19 +54,32 @@ impl Cards {
     pub(crate) fn is_software(&self) -> bool {
         match *self {}
     }
+
+    pub(crate) fn upload(&mut self, _: &Field<'_>) -> anyhow::Result<()> {
+        match *self {}
+    }
 }
 
 impl<'f> Card<'f> {
     pub(crate) fn new(
         cards: &mut Cards,
         _: &'f Field<'f>,
-        _: &Style,
+        _: (&Quantity, &Style),
         _: bool,
     ) -> anyhow::Result<Self> {
         match *cards {}
     }
 
     pub(crate) fn draw(&mut self, cards: &mut Cards, _: Method, _: &View) -> anyhow::Result<bool> {
+        match *cards {}
+    }
+
+    pub(crate) fn values(
+        &self,
+        cards: &mut Cards,
+        _: Method,
+        _: (&View, &Quantity),
+    ) -> anyhow::Result<Option<Raster<f32>>> {
         match *cards {}
     }
 }

@@ -109,6 +109,107 @@ fn without_an_adapter_the_cpu_is_measured() {
     assert!(report["renderer"]["missing"].as_str().unwrap().contains("no graphics adapter"));
 }
 
+/// All scenes are there, each by all that draws it; frames are right, and a wrong derivative is noticed in all of them.
+#[test]
+fn the_paper_is_measured() {
+    let lab = Lab::new();
+    let page = "# Page\n<!-- begin ppum bench paper -->\n<!-- end ppum bench paper -->\nrest\n";
+    lab.write("page.md", page);
+    let words = "bench paper --quick --frames 1 --threads 2 --page page.md -o chart.svg";
+    let report = lab.json(words);
+    let paper = &report["paper"];
+    assert_eq!(keys(paper), ["files", "frames", "holds", "machine", "pixels", "rows"]);
+    assert_eq!((&paper["holds"], &paper["machine"]["threads"]), (&json!(true), &json!(2)));
+    let rows = paper["rows"].as_array().unwrap();
+    let count = |group: &str| rows.iter().filter(|row| row["group"] == group).count();
+    let groups = ["patches", "orders", "enriched", "zooms", "formulas", "colors"];
+    assert_eq!(groups.map(count), [4, 12, 3, 5, 8, 1]);
+    for row in rows {
+        check_scene(row);
+    }
+    for file in paper["files"].as_array().unwrap() {
+        let [open, first] = ["open_ms", "first_ms"].map(|key| file[key].as_f64().unwrap());
+        assert!(0.0 < open && open < first && file["bytes"].as_u64() > Some(1000), "{file}");
+    }
+    let kept = std::fs::read_to_string(lab.path("page.md")).unwrap();
+    assert!(kept.starts_with("# Page\n") && kept.ends_with("-->\nrest\n"), "{kept}");
+    for part in ["| order 8 | graded |", "| zoom 1e12 |", "| exp, log, sin, atan |", "0 missed"] {
+        assert!(kept.contains(part), "{part}: {kept}");
+    }
+    let chart = std::fs::read_to_string(lab.path("chart.svg")).unwrap();
+    assert!(chart.contains(">patches<") && chart.contains("CPU f32, 1 thread"), "{chart}");
+}
+
+/// The ways of a scene, their times, and what they were compared with.
+fn check_scene(row: &Value) {
+    let methods = row["methods"].as_array().unwrap();
+    for way in ["cpu f64", "cpu f32"] {
+        let timed = methods.iter().find(|timed| timed["method"] == way).expect("a way of the CPU");
+        assert!(timed["gain"].as_f64() > Some(0.0), "{timed}");
+        for threads in ["one", "all"] {
+            let [least, median] = ["least", "median"].map(|key| &timed[threads]["core_ms"][key]);
+            assert!(0.0 < least.as_f64().unwrap() && least.as_f64() <= median.as_f64());
+        }
+        assert_eq!(timed["agreement"].is_null(), row["group"] == "colors");
+    }
+    for agreement in methods.iter().map(|timed| &timed["agreement"]).filter(|a| !a.is_null()) {
+        assert_eq!(agreement["holds"], true, "{row}");
+        assert_eq!(agreement["control"].is_null(), row["group"] != "patches");
+        assert!(agreement["control"].is_null() || agreement["control"]["caught"] == true, "{row}");
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused() {
+    let lab = Lab::new();
+    lab.write("page.md", "# Page\n");
+    assert!(lab.fail("bench paper --page page.md").contains("<!-- begin ppum bench paper -->"));
+    assert!(lab.fail("bench guard --page none.md").contains("none.md"));
+    assert!(lab.fail("bench solver --page page.md").contains("--page"));
+    assert!(lab.fail("bench solver plate.h5").contains("bench renderer"));
+    assert!(lab.fail("bench renderer plate.h5").contains("plate.h5"));
+}
+
+/// The families are there; whether they gain enough is no matter of a test, on a busy machine and of programs like this one.
+#[test]
+fn vectors_are_measured() {
+    let output = Lab::new().command("bench guard --quick --json").output().unwrap();
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let guard = &report["guard"];
+    let rows = guard["rows"].as_array().unwrap();
+    if guard["wide"] == guard["narrow"] {
+        return assert!(rows.is_empty() && output.status.success());
+    }
+    assert_eq!(rows.iter().filter(|row| row["is_control"] == true).count(), 1);
+    for kernels in ["large cells, f64", "small cells, f32", "colours, f32", "values at points"] {
+        let is_there = |row: &Value| row["kernels"].as_str().unwrap().contains(kernels);
+        assert!(rows.iter().any(is_there), "{kernels}: {guard}");
+    }
+    for row in rows {
+        let of = |key: &str| row[key].as_f64().unwrap();
+        assert!((of("ratio") * of("wide_ms") / of("narrow_ms") - 1.0).abs() < 1e-12, "{row}");
+        let is_above = of("ratio") >= of("floor");
+        assert_eq!(row["holds"] == true, is_above != (row["is_control"] == true), "{row}");
+    }
+    assert_eq!(guard["holds"] == true, output.status.success());
+}
+
+/// One's own dataset.
+#[test]
+fn a_dataset_is_drawn() {
+    let lab = Lab::solved(include_str!("../../../../examples/edge-crack.toml"));
+    let report = lab.json("bench renderer plate.h5 --quick --frames 1");
+    let rows = report["renderer"]["rows"].as_array().unwrap();
+    let info = lab.json("info plate.h5");
+    assert_eq!(rows.len(), 1);
+    assert_eq!(
+        (&rows[0]["cover"], &rows[0]["patches"]),
+        (&json!("file"), &info["steps"][0]["patches"])
+    );
+    let text = lab.run("bench renderer plate.h5 --quick --frames 1");
+    assert!(text.contains("of the dataset's last step"), "{text}");
+}
+
 #[cfg(not(feature = "window"))]
 #[test]
 fn without_the_window_there_is_nothing_to_measure() {

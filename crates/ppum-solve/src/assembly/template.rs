@@ -117,7 +117,7 @@ mod tests {
     }
 
     const COVERS: [&str; 3] = [
-        "cells = [12, 12], order = 2",
+        "cells = [20, 20], order = 2",
         "level = 3, order = 1, refine = true",
         "cells = [9, 7], order = 3",
     ];
@@ -125,7 +125,7 @@ mod tests {
     /// What a template gives is what is integrated on the cell itself.
     #[test]
     fn templates_are_the_stiffness_of_their_cells() {
-        let mut random = Random(8);
+        let (mut random, mut all) = (Random(8), 0);
         for cells in COVERS {
             with_assembly(&plate(&mut random, "1", cells), &mut |assembly| {
                 let templates = Templates::new(assembly);
@@ -145,10 +145,12 @@ mod tests {
                     }
                     found += 1;
                 }
-                assert!(found > 0, "{cells}");
+                // a small cover that is graded may have no two cells that are alike
+                all += found;
                 assert!(worst < 1e-11, "{cells}: {worst:e}");
             });
         }
+        assert!(all > 50, "{all} cells have templates");
     }
 
     /// Most of the cells of a uniform cover have one template, whatever rounding does to its coordinates, and none does where the

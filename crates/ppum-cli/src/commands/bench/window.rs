@@ -99,7 +99,7 @@ mod measure {
     use ppum_viewer::frames::Backend;
     use ppum_viewer::timing::{FrameTime, Measured, TimingError};
 
-    use super::super::synthetic;
+    use super::super::synthetic::Recipe;
     use super::{Report, Row, Summary};
 
     /// Levels of uniform covers: 4^level patches.
@@ -112,7 +112,7 @@ mod measure {
             let levels = if quick { &LEVELS[..1] } else { &LEVELS[..] };
             let (mut rows, mut device) = (Vec::new(), String::new());
             for &level in levels {
-                let dataset = Arc::new(synthetic::dataset(level, level)?);
+                let dataset = Arc::new(Recipe::new(level, level).dataset()?);
                 let patches = dataset.steps[0].partition.len();
                 let open = || Measured::new(dataset, pixels, Backend::Auto);
                 let mut window = crate::graphics::opening(open)?;

@@ -8,10 +8,16 @@ impl Report {
     /// Writes a table; `threads` is their number on the CPU.
     pub(in super::super) fn print(&self, threads: usize, out: &mut dyn Write) -> io::Result<()> {
         let ([columns, rows], frames) = (self.pixels, self.frames);
+        let what = match self.rows.first() {
+            Some(Row { cover: "file", .. }) => "of the dataset's last step",
+            _ => {
+                "order 2, two components, four tip functions on a quarter\nof the area; displacement, \
+                 gradient, von Mises stress, colours"
+            }
+        };
         writeln!(
             out,
-            "pictures of {columns}x{rows} pixels: order 2, two components, four tip functions on a \
-             quarter\nof the area; displacement, gradient, von Mises stress, colours\n\
+            "pictures of {columns}x{rows} pixels: {what}\n\
              ms per frame, medians of {frames}: wall time / processor time of all threads; {threads} on the CPU"
         )?;
         match &self.adapter {

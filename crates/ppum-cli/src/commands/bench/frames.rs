@@ -1,0 +1,201 @@
+//! Frames of a field by all that draws them, and what they take.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+use ppum::field::Field;
+use ppum::progress::unwatched;
+use ppum::quantity::Quantity;
+use ppum::vec2::vec2;
+use ppum_render::picture::{Picture, Style};
+use ppum_render::range::Range;
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::scatter::render;
+use ppum_render::view::View;
+use serde::Serialize;
+
+use crate::graphics::{Card, Cards, Method};
+
+/// What draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    Splat,
+    Gather,
+    CpuF64,
+    CpuF32,
+}
+
+pub(super) const WAYS: [Way; 4] = [Way::Splat, Way::Gather, Way::CpuF64, Way::CpuF32];
+
+/// Most patches that are splatted: the paper's.
+const MOST_SPLATTED: usize = 16384;
+
+impl Way {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Splat => "splat",
+            Self::Gather => "gather",
+            Self::CpuF64 => "cpu f64",
+            Self::CpuF32 => "cpu f32",
+        }
+    }
+
+    pub(super) fn is_on_cpu(self) -> bool {
+        matches!(self, Self::CpuF64 | Self::CpuF32)
+    }
+
+    /// The way of a device.
+    fn method(self) -> Option<Method> {
+        match self {
+            Self::Splat => Some(Method::Splat),
+            Self::Gather => Some(Method::Gather),
+            Self::CpuF64 | Self::CpuF32 => None,
+        }
+    }
+}
+
+/// The graphics adapter.
+#[derive(Debug, Serialize)]
+pub(super) struct Adapter {
+    pub(super) name: String,
+    pub(super) kind: &'static str,
+}
+
+impl Adapter {
+    pub(super) fn of(cards: &Cards) -> Self {
+        Self { name: cards.name(), kind: cards.kind() }
+    }
+}
+
+/// Colours of von Mises' stress; that far from the crack is of size one, and grows with the root of the zoom towards a tip.
+pub(super) fn style(zoom: f64) -> Style {
+    Style { range: Range::Fixed(0.0, 4.0 * zoom.sqrt()), ..Style::default() }
+}
+
+/// A view but for a part of a cell, another one each time: offsets by the golden ratio and its like are commensurate with
+/// no cells.
+pub(super) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow::Result<View> {
+    let part = |ratio: f64| 0.003 * width * ((f64::from(frame) * ratio).fract() - 0.5);
+    let by = vec2(part(0.618_033_988_75), part(0.754_877_666_25));
+    Ok(View::new(center + by, 0.9973 * width, pixels)?)
+}
+
+/// A quantity of a field with all that draws it.
+pub(super) struct Subject<'d> {
+    pub(super) field: &'d Field<'d>,
+    pub(super) quantity: Quantity,
+    style: Style,
+    card: Option<Card<'d>>,
+}
+
+impl<'d> Subject<'d> {
+    /// On the devices too if they are given, and there by splatting if it may and patches are not too many.
+    pub(super) fn new(
+        field: &'d Field<'d>,
+        (quantity, style): (Quantity, Style),
+        cards: Option<&mut Cards>,
+        may_splat: bool,
+    ) -> anyhow::Result<Self> {
+        let may_splat = may_splat && field.step.partition.len() <= MOST_SPLATTED;
+        let on_card = |cards| Card::new(cards, field, (&quantity, &style), may_splat);
+        let card = cards.map(on_card).transpose()?;
+        Ok(Self { field, quantity, style, card })
+    }
+
+    /// Draws and colours; false if this way is not gone.
+    pub(super) fn draw(
+        &mut self,
+        way: Way,
+        view: &View,
+        cards: Option<&mut Cards>,
+    ) -> anyhow::Result<bool> {
+        match way {
+            Way::CpuF64 => self.on_cpu::<f64>(view)?,
+            Way::CpuF32 => self.on_cpu::<f32>(view)?,
+            _ => {
+                let all = way.method().zip(self.card.as_mut()).zip(cards);
+                let Some(((method, card), cards)) = all else { return Ok(false) };
+                return card.draw(cards, method, view);
+            }
+        }
+        Ok(true)
+    }
+
+    fn on_cpu<T: Sample>(&self, view: &View) -> anyhow::Result<()> {
+        let raster = render::<T>(self.field, view, &self.quantity, unwatched())?;
+        self.color(&raster, view)
+    }
+
+    /// The colours alone.
+    pub(super) fn color<T: Sample>(&self, raster: &Raster<T>, view: &View) -> anyhow::Result<()> {
+        black_box(Picture::bare(raster, view, &self.style)?);
+        Ok(())
+    }
+
+    /// The values, if this way is gone.
+    pub(super) fn values(
+        &self,
+        way: Way,
+        view: &View,
+        cards: Option<&mut Cards>,
+    ) -> anyhow::Result<Option<Vec<f64>>> {
+        let wide = |values: Vec<f32>| values.into_iter().map(f64::from).collect();
+        let (field, quantity) = (self.field, &self.quantity);
+        Ok(match way {
+            Way::CpuF64 => Some(render::<f64>(field, view, quantity, unwatched())?.values),
+            Way::CpuF32 => Some(wide(render::<f32>(field, view, quantity, unwatched())?.values)),
+            _ => {
+                let all = way.method().zip(self.card.as_ref()).zip(cards);
+                let Some(((method, card), cards)) = all else { return Ok(None) };
+                card.values(cards, method, (view, quantity))?.map(|raster| wide(raster.values))
+            }
+        })
+    }
+}
+
+/// Seconds of some frames: time that passes, and of processors.
+#[derive(Debug, Default)]
+pub(super) struct Times(Vec<[f64; 2]>);
+
+/// Milliseconds a frame.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Summary {
+    pub(super) median: f64,
+    pub(super) least: f64,
+}
+
+impl Times {
+    /// Does work, and notes what it takes if it `counts` and was done.
+    pub(super) fn take(
+        &mut self,
+        counts: bool,
+        work: impl FnOnce() -> anyhow::Result<bool>,
+    ) -> anyhow::Result<()> {
+        let (wall, core) = (Instant::now(), ProcessTime::now());
+        if work()? && counts {
+            self.0.push([wall.elapsed(), core.elapsed()].map(|time| time.as_secs_f64()));
+        }
+        Ok(())
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn wall(&self) -> Summary {
+        self.summary(0)
+    }
+
+    /// Of all threads together.
+    pub(super) fn core(&self) -> Summary {
+        self.summary(1)
+    }
+
+    fn summary(&self, which: usize) -> Summary {
+        let mut ms: Vec<_> = self.0.iter().map(|pair| 1e3 * pair[which]).collect();
+        ms.sort_by(f64::total_cmp);
+        let (lower, upper) = (ms[(ms.len() - 1) / 2], ms[ms.len() / 2]);
+        Summary { median: 0.5 * (lower + upper), least: ms[0] }
+    }
+}

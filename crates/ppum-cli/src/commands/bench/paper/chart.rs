@@ -1,0 +1,63 @@
+//! Times against the number of patches, as a picture.
+
+use std::path::Path;
+
+use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, plot};
+
+use super::super::frames::Way;
+use super::scenes::Group;
+use super::{Report, Row, Spent};
+use crate::output::Output;
+use crate::page;
+
+/// Size of the picture.
+const SIZE: [u32; 2] = [900, 600];
+
+/// Least time that passes, so that the paper's and those of devices stand beside the CPU's.
+pub(super) fn save(
+    report: &Report,
+    path: &Path,
+    is_silent: bool,
+    out: &mut Output,
+) -> anyhow::Result<()> {
+    let drawn = Plot {
+        title: "Table 1 of Üffinger et al. 2011: a frame of 1024 × 768 pixels".into(),
+        x: PlotAxis::new("patches", "").logarithmic(),
+        y: PlotAxis::new("time", "ms").logarithmic(),
+        curves: curves(report),
+    };
+    let texts = [("Software".to_owned(), concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned())];
+    let picture = plot(&drawn, SIZE);
+    if is_silent {
+        return page::put(path, &picture, None, &texts, out);
+    }
+    page::save(path, &picture, None, &texts, "milliseconds a frame against patches", out)
+}
+
+fn curves(report: &Report) -> Vec<Curve> {
+    let curve = |name: &str, cover: &str, time: &dyn Fn(&Row) -> Option<f64>| {
+        let rows = report.rows.iter().filter(|row| row.group == Group::Patches);
+        let mut points: Vec<[f64; 2]> = rows
+            .filter(|row| row.cover == cover)
+            .filter_map(|row| Some([row.patches as f64, time(row)?]))
+            .collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        Curve::new(name, points)
+    };
+    let least = |spent: Option<Spent>| spent.map(|spent| spent.wall_ms.least);
+    let one = |way| move |row: &Row| least(row.method(way)?.one);
+    let all = |way| move |row: &Row| least(row.method(way)?.all);
+    let n = report.machine.threads;
+    let dotted = [
+        curve("splat, software, all threads", "uniform", &all(Way::Splat)),
+        curve("gather, software, all threads", "uniform", &all(Way::Gather)),
+        curve("CPU f64, 1 thread", "uniform", &one(Way::CpuF64)),
+        curve("CPU f32, 1 thread", "uniform", &one(Way::CpuF32)),
+        curve("CPU f32, 1 thread, graded", "graded", &one(Way::CpuF32)),
+        curve(&format!("CPU f32, {n} threads"), "uniform", &all(Way::CpuF32)),
+    ];
+    let dotted = dotted.into_iter().map(|curve| curve.with_look(Look::Dotted));
+    let paper = curve("the paper, GeForce GTX 470", "uniform", &|row| row.paper_ms);
+    let all = dotted.chain([paper.with_look(Look::Dashed)]);
+    all.filter(|curve| !curve.points.is_empty()).collect()
+}

@@ -1,0 +1,89 @@
+//! From a file to the first picture.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::Context as _;
+use ppum::dataset::Dataset;
+use ppum_render::view::View;
+use serde::Serialize;
+
+use super::super::frames::{Subject, Way, moved, style};
+use super::super::synthetic::{DOMAIN, Recipe};
+use crate::dataset;
+use crate::graphics::Cards;
+
+/// Times each is opened, of which the fastest counts; the file is in the system's memory.
+const REPETITIONS: u32 = 3;
+
+/// What opening a dataset takes, in milliseconds.
+#[derive(Debug, Serialize)]
+pub(super) struct Opening {
+    pub(super) patches: usize,
+    pub(super) bytes: u64,
+    /// Reading and checking.
+    pub(super) open_ms: f64,
+    /// From opening to the first picture by the CPU in f32.
+    pub(super) first_ms: f64,
+    /// Putting it on a graphics device.
+    pub(super) upload_ms: Option<f64>,
+}
+
+/// A file that is there for a while.
+struct Kept(PathBuf);
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        // if it cannot be removed the system will
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+impl Opening {
+    /// Measures the datasets of a small and a large cover.
+    pub(super) fn all(
+        quick: bool,
+        pixels: [u32; 2],
+        mut cards: Option<&mut Cards>,
+    ) -> anyhow::Result<Vec<Self>> {
+        let levels: &[u8] = if quick { &[3, 4] } else { &[7, 10] };
+        let one =
+            |&level| Self::new(&Recipe::new(level, level).dataset()?, pixels, cards.as_deref_mut());
+        levels.iter().map(one).collect()
+    }
+
+    fn new(
+        dataset: &Dataset,
+        pixels: [u32; 2],
+        mut cards: Option<&mut Cards>,
+    ) -> anyhow::Result<Self> {
+        let name = format!("ppum-bench-{}.h5", std::process::id());
+        let kept = Kept(std::env::temp_dir().join(name));
+        ppum_format::write(dataset, &kept.0)?;
+        let bytes = std::fs::metadata(&kept.0).context("the file was written")?.len();
+        let patches = dataset.steps[0].partition.len();
+        let (mut open_ms, mut first_ms, mut upload_ms) = (f64::INFINITY, f64::INFINITY, None);
+        for frame in 0..REPETITIONS {
+            let start = Instant::now();
+            let since = || 1e3 * start.elapsed().as_secs_f64();
+            let read = dataset::open_step(&kept.0, None)?;
+            open_ms = since().min(open_ms);
+            let field = dataset::field(&read, None)?;
+            let quantity = dataset::quantity(&field, "von-mises")?;
+            let view = moved(View::fit(DOMAIN, pixels)?, frame)?;
+            Subject::new(&field, (quantity, style(1.0)), None, false)?.draw(
+                Way::CpuF32,
+                &view,
+                None,
+            )?;
+            first_ms = since().min(first_ms);
+            if let Some(cards) = cards.as_deref_mut() {
+                let start = Instant::now();
+                cards.upload(&field)?;
+                let ms = 1e3 * start.elapsed().as_secs_f64();
+                upload_ms = Some(upload_ms.map_or(ms, |least: f64| least.min(ms)));
+            }
+        }
+        Ok(Self { patches, bytes, open_ms, first_ms, upload_ms })
+    }
+}

@@ -1,0 +1,157 @@
+//! The scenes that are measured: the paper's, and what else drawing depends on.
+
+use ppum::library::ELASTICITY;
+use ppum::vec2::{Vec2, vec2};
+use serde::Serialize;
+
+use super::super::synthetic::{DOMAIN, Recipe, TIPS};
+
+/// What the scenes of a table have to tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Group {
+    Patches,
+    Orders,
+    Enriched,
+    Zooms,
+    Formulas,
+    Colors,
+}
+
+impl Group {
+    pub(super) const ALL: [Self; 6] =
+        [Self::Patches, Self::Orders, Self::Enriched, Self::Zooms, Self::Formulas, Self::Colors];
+
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Patches => "Table 1 of the paper, graded covers, a million patches",
+            Self::Orders => "Order of the polynomials",
+            Self::Enriched => "All patches enriched",
+            Self::Zooms => "Zooms towards a tip",
+            Self::Formulas => "Formulas in place of kernels",
+            Self::Colors => "Colours alone",
+        }
+    }
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// The stress by its kernel.
+    Stress,
+    /// The stress by its formula in the library.
+    StressByFormula,
+    /// A formula of functions that are no arithmetic.
+    Elementary,
+    /// The colours of the stress, which is there already.
+    Colors,
+}
+
+impl Subject {
+    /// The quantity, as `-q` takes it.
+    pub(super) fn quantity(self) -> &'static str {
+        match self {
+            Self::Stress | Self::Colors => "von-mises",
+            Self::StressByFormula => ELASTICITY
+                .iter()
+                .find(|(name, _)| *name == "von_mises")
+                .map_or("", |(_, text)| text),
+            Self::Elementary => "exp(ux) + log(1 + von_mises)*(1.5 + sin(9*uy)) + atan(von_mises)",
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Stress => "stress by its kernel",
+            Self::StressByFormula => "stress by its formula",
+            Self::Elementary => "exp, log, sin, atan",
+            Self::Colors => "colours of a stress",
+        }
+    }
+}
+
+/// A cover with what is drawn of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scene {
+    pub(super) group: Group,
+    pub(super) recipe: Recipe,
+    pub(super) zoom: f64,
+    pub(super) subject: Subject,
+}
+
+/// A weight that a formula gives, and that a kernel has too.
+const LINEAR: &str = "1 - t";
+
+impl Scene {
+    fn new(group: Group, recipe: Recipe) -> Self {
+        Self { group, recipe, zoom: 1.0, subject: Subject::Stress }
+    }
+
+    pub(super) fn cover(&self) -> &'static str {
+        if self.recipe.level == self.recipe.tip_level { "uniform" } else { "graded" }
+    }
+
+    /// The middle of its pictures.
+    pub(super) fn center(&self) -> Vec2 {
+        // a pixel on a tip is infinite: pictures are centred a bit beside it
+        let beside = vec2(0.011, 0.017) * (DOMAIN.size().x / self.zoom);
+        if self.zoom == 1.0 { DOMAIN.center() } else { TIPS[1] + beside }
+    }
+
+    /// What tells it from others of its group.
+    pub(super) fn words(&self) -> String {
+        let Recipe { order, enriched, weight, .. } = self.recipe;
+        match self.group {
+            Group::Patches => String::new(),
+            Group::Orders => format!("order {order}"),
+            Group::Enriched => format!("{:.0} % enriched", 100.0 * enriched),
+            Group::Zooms if self.zoom == 1.0 => "zoom 1".to_owned(),
+            Group::Zooms => format!("zoom 1e{:.0}", self.zoom.log10()),
+            Group::Formulas if weight.is_some() => "weight by its formula".to_owned(),
+            Group::Formulas | Group::Colors => self.subject.words().to_owned(),
+        }
+    }
+}
+
+/// All scenes, or a few of each kind on few patches.
+pub(super) fn scenes(quick: bool) -> Vec<Scene> {
+    let [coarse, fine, graded] = if quick {
+        [Recipe::new(2, 2), Recipe::new(4, 4), Recipe::new(2, 5)]
+    } else {
+        [Recipe::new(2, 2), Recipe::new(6, 6), Recipe::new(6, 14)]
+    };
+    let patches = covers(quick).into_iter().map(|recipe| Scene::new(Group::Patches, recipe));
+    let typical = [coarse, fine, graded];
+    let orders = typical.into_iter().flat_map(|recipe| {
+        [1, 2, 4, 8].map(|order| Scene::new(Group::Orders, Recipe { order, ..recipe }))
+    });
+    let enriched =
+        typical.map(|recipe| Scene::new(Group::Enriched, Recipe { enriched: 1.0, ..recipe }));
+    let zooms =
+        [1.0, 1e3, 1e6, 1e9, 1e12].map(|zoom| Scene { zoom, ..Scene::new(Group::Zooms, graded) });
+    let formulas = [coarse, fine].into_iter().flat_map(formulas);
+    let colors = Scene { subject: Subject::Colors, ..Scene::new(Group::Colors, coarse) };
+    let all = patches.chain(orders).chain(enriched).chain(zooms).chain(formulas);
+    all.chain([colors]).collect()
+}
+
+/// Those of the paper and beyond.
+fn covers(quick: bool) -> Vec<Recipe> {
+    let (uniform, graded): (&[u8], &[[u8; 2]]) = if quick {
+        (&[2, 3, 4], &[[2, 5]])
+    } else {
+        (&[2, 3, 4, 5, 6, 7, 10], &[[3, 10], [4, 14], [5, 14], [6, 14]])
+    };
+    let uniform = uniform.iter().map(|&level| Recipe::new(level, level));
+    uniform.chain(graded.iter().map(|&[level, tip_level]| Recipe::new(level, tip_level))).collect()
+}
+
+fn formulas(recipe: Recipe) -> [Scene; 4] {
+    let scene = Scene::new(Group::Formulas, recipe);
+    [
+        scene,
+        Scene { subject: Subject::StressByFormula, ..scene },
+        Scene { recipe: Recipe { weight: Some(LINEAR), ..recipe }, ..scene },
+        Scene { subject: Subject::Elementary, ..scene },
+    ]
+}
