@@ -47,6 +47,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
     signals::watch();
+    memory::keep_freed();
     match cli::Cli::understood(std::env::args_os()) {
         Ok(cli) => run(&cli.command),
         Err(message) => {

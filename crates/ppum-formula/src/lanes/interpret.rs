@@ -3,7 +3,7 @@
 //! A step works on all eight vectors of a block before the next step begins, and without a loop: so
 //! the processor foresees the jumps from step to step, finding out what a step does costs little,
 //! and all registers of a formula stay in the cache next to it. Arithmetic, roots, comparisons and
-//! selections are done on lanes, and so are [elementary functions](crate::elementary) and tables, in double
+//! selections are done on lanes, and so are [elementary functions](crate::elementary) and tables, these in double
 //! precision. Nothing is fused: in double precision each result is that of the scalar back end
 //! to the last bit.
 
@@ -177,7 +177,7 @@ actions! {
     Tanh = long [a] R::in_double([a], elementary::Tanh);
     Pow = long [a, b] R::in_double([a, b], elementary::Pow);
     Atan2 = long [a, b] R::in_double([a, b], elementary::Atan2);
-    Hypot = long [a, b] R::in_double([a, b], elementary::Hypot);
+    Hypot = long [a, b] hypot(a, b);
 }
 
 /// −1, 0 or +1; NaN of NaN.
@@ -186,6 +186,24 @@ fn sign<R: Real>(a: R) -> R {
     let (zero, one) = (a.lit(0.0), a.lit(1.0));
     R::select(a.gt(zero), one, R::select(zero.gt(a), -one, a))
 }
+
+/// √(a² + b²) as written where the sum is far from the bounds of single precision, as it mostly is; elsewhere in double
+/// precision, scaled. Which of the two a lane gets depends on its numbers alone.
+#[inline(always)]
+fn hypot<R: Real>(a: R, b: R) -> R {
+    let (least, greatest) = (a.lit(LEAST_SQUARE), a.lit(GREATEST_SQUARE));
+    let sum = a * a + b * b;
+    let usual = R::select(greatest.gt(sum), sum, a.lit(0.0));
+    let root = sum.sqrt();
+    if R::any(least.ge(usual)) {
+        return R::select(usual.gt(least), root, R::in_double([a, b], elementary::Hypot));
+    }
+    root
+}
+
+/// Bounds between which the sum of two squares is as exact as its summands, in single precision too.
+pub(crate) const LEAST_SQUARE: f64 = 1e-30;
+pub(crate) const GREATEST_SQUARE: f64 = 1e30;
 
 /// An integer power, by the products of [`power`](crate::operation::power).
 #[derive(Clone, Copy)]

@@ -3,5 +3,7 @@
 mod interpret;
 mod tape;
 
+#[cfg(test)]
+pub(crate) use interpret::{GREATEST_SQUARE, LEAST_SQUARE};
 pub(crate) use interpret::{VECTORS, interpret};
 pub(crate) use tape::Tape;

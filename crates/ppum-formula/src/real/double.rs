@@ -12,8 +12,6 @@ pub trait Double: Real<Scalar = f64> {
     fn exponent(self) -> Self;
     /// The magnitude of `self` with the sign of another number, zeros and NaN included.
     fn copysign(self, sign: Self) -> Self;
-    /// True if the mask holds in a lane: to leave the vectors where what they cannot do is needed, seldom.
-    fn any(mask: Self::Mask) -> bool;
 }
 
 /// A function of `N` numbers in double precision.
@@ -44,10 +42,6 @@ impl Double for f64 {
     fn copysign(self, sign: Self) -> Self {
         Self::copysign(self, sign)
     }
-    #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
-    }
 }
 
 impl<S: Simd> Double for f64x8<S> {
@@ -66,10 +60,6 @@ impl<S: Simd> Double for f64x8<S> {
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         SimdFloat::copysign(self, sign)
-    }
-    #[inline(always)]
-    fn any(mask: Self::Mask) -> bool {
-        mask.any_true()
     }
 }
 

@@ -63,6 +63,8 @@ pub trait Real:
     fn gt(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// True if the mask holds in a lane: to leave the vectors where what they cannot do is needed, seldom.
+    fn any(mask: Self::Mask) -> bool;
     /// The first [`Self::LANES`] numbers of a slice.
     fn load(self, from: &[Self::Scalar]) -> Self;
     /// Whole vectors of a slice.
@@ -292,6 +294,10 @@ macro_rules! scalar {
                 if mask { a } else { b }
             }
             #[inline(always)]
+            fn any(mask: bool) -> bool {
+                mask
+            }
+            #[inline(always)]
             fn load(self, from: &[$t]) -> Self {
                 from[0]
             }
@@ -382,6 +388,10 @@ macro_rules! scalar {
             #[inline(always)]
             fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
                 mask.select(a, b)
+            }
+            #[inline(always)]
+            fn any(mask: Self::Mask) -> bool {
+                mask.any_true()
             }
             #[inline(always)]
             fn load(self, from: &[$t]) -> Self {

@@ -3,6 +3,8 @@
 use super::random::{point, sample, scope};
 use super::{Formula, FormulaJets, Scope, WESTERGAARD, polar, same};
 use crate::graph::Op;
+use crate::lanes::{GREATEST_SQUARE, LEAST_SQUARE};
+use crate::operation::Binary;
 use crate::real::Scalar;
 use crate::{Block, Scratch, Table};
 use ppum_testkit::random::Random;
@@ -199,11 +201,20 @@ fn rounded(jets: &FormulaJets, inputs: &[f64]) -> Vec<f32> {
     for &op in program.ops() {
         let value = match op {
             Op::Power(a, n) => rounded_power(values[a.index()] as f32, n).into(),
+            Op::Binary(Binary::Hypot, a, b) => {
+                rounded_hypot(values[a.index()] as f32, values[b.index()] as f32).into()
+            }
             _ => program.execute(op, inputs, &values),
         };
         values.push(f64::from(value as f32));
     }
     program.outputs().iter().map(|output| values[output.index()] as f32).collect()
+}
+
+fn rounded_hypot(a: f32, b: f32) -> f32 {
+    let sum = a * a + b * b;
+    let is_usual = f64::from(sum) > LEAST_SQUARE && f64::from(sum) < GREATEST_SQUARE;
+    if is_usual { sum.sqrt() } else { f64::from(a).hypot(b.into()) as f32 }
 }
 
 fn rounded_power(a: f32, n: i32) -> f32 {

@@ -1,8 +1,8 @@
-//! From the field's components at a column of vectors to the values of a quantity.
+//! From the field's components at a column of vectors to the values of a quantity, row by row, or, by a formula, some rows
+//! at a time.
 
-use ppum::equation::Moduli;
 use ppum::jet::Jet;
-use ppum::quantity::{Quantity, QuantityBlock, Sample, Source};
+use ppum::quantity::{Input, Quantity, QuantityBlock, QuantityFormula, Sample, Source};
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, known};
@@ -23,6 +23,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     ) {
         let uniform = self.scene.field.equation.is_uniform();
         match (self.scene.quantity, scratch.shift.len()) {
+            (Quantity::Formula(formula), _) => {
+                self.finish_formula(formula, (vector, start), scratch, out, zero);
+            }
             (Quantity::VonMises, 2) if uniform => {
                 self.finish_as::<R, 2, true>(
                     &Quantity::VonMises,
@@ -70,11 +73,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let width = self.scene.view.pixels[0] as usize;
         let [column, first_row] = self.corner();
         let column = column + vector * R::LANES;
-        let Scratch { sums, shift, formulas, .. } = scratch;
-        let mut pending = match quantity {
-            Quantity::Formula(formula) => Some(Pending::new(formula.block(formulas), &moduli)),
-            _ => None,
-        };
+        let Scratch { sums, shift, .. } = scratch;
         let rows = out.len() / width;
         for row in 0..rows {
             let cell = &sums[start + row * stride..][..stride];
@@ -84,7 +83,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 self.scene.load_exact(pixel, shift, &mut exact, zero);
             }
             load::<R, D>(cell, jets, zero);
-            if matches!(source, Source::Values | Source::Partition) || pending.is_some() {
+            if matches!(source, Source::Values | Source::Partition) {
                 for (jet, &shift) in jets.iter_mut().zip(&*shift) {
                     jet.v = jet.v + zero.lit(shift);
                 }
@@ -96,66 +95,98 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                     let offset = self.offset(vector, row, zero);
                     let moduli = if UNIFORM { moduli } else { equation.moduli(anchor, offset) };
                     let sample = Sample { anchor, offset, moduli, jets, exact: &exact };
-                    if let Some(pending) = &mut pending {
-                        pending.add(&sample, UNIFORM);
-                        if pending.is_full::<R>() || row + 1 == rows {
-                            let lines = &mut out[(row + 1 - pending.count) * width..];
-                            pending.write(lines, (width, column), zero);
-                        }
-                        continue;
-                    }
                     quantity.of_field(&sample)
                 }
             };
             value.store_some(&mut out[row * width..][..width][column..]);
         }
     }
-}
 
-/// Rows of a column of vectors whose values a formula will give, a block at a time.
-struct Pending<'a, T> {
-    block: QuantityBlock<'a, T>,
-    count: usize,
-}
-
-impl<'a, T: Scalar> Pending<'a, T> {
-    /// None yet; the equation's constants may be the same everywhere.
+    /// [`finish`](Self::finish) for a formula, which is run at some rows at a time.
     #[inline(always)]
-    fn new<R: Real<Scalar = T>>(mut block: QuantityBlock<'a, T>, moduli: &Moduli<R>) -> Self {
-        for vector in 0..QuantityBlock::<T>::vectors::<R>() {
-            block.set_moduli(vector, moduli);
-        }
-        Self { block, count: 0 }
-    }
-
-    /// Takes the field at the next row.
-    #[inline(always)]
-    fn add<R: Real<Scalar = T>>(&mut self, at: &Sample<'_, R>, is_uniform: bool) {
-        self.block.set(self.count, at);
-        if !is_uniform {
-            self.block.set_moduli(self.count, &at.moduli);
-        }
-        self.count += 1;
-    }
-
-    #[inline(always)]
-    fn is_full<R: Real<Scalar = T>>(&self) -> bool {
-        self.count == QuantityBlock::<T>::vectors::<R>()
-    }
-
-    /// Writes the rows to the first lines, from a column on.
-    #[inline(always)]
-    fn write<R: Real<Scalar = T>>(
-        &mut self,
-        lines: &mut [T],
-        (width, column): (usize, usize),
-        like: R,
+    fn finish_formula<R: Real<Scalar = T>>(
+        &self,
+        formula: &QuantityFormula,
+        (vector, start): (usize, usize),
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
     ) {
-        self.block.run();
-        for (row, line) in lines.chunks_exact_mut(width).enumerate().take(self.count) {
-            self.block.value(row, like).store_some(&mut line[column..]);
+        let Scratch { sums, shift, formulas, .. } = scratch;
+        let mut block = formula.block(formulas);
+        let some = QuantityBlock::<T>::vectors::<R>();
+        let width = self.scene.view.pixels[0] as usize;
+        let column = self.corner()[0] + vector * R::LANES;
+        let rows = out.len() / width;
+        let mut row = 0;
+        while row < rows {
+            let count = some.min(rows - row);
+            let cells = &sums[start + row * self.stride::<R>()..];
+            self.set_moduli(&mut block, row == 0, [vector, row, count], zero);
+            for &(index, input) in block.field_inputs() {
+                let numbers = &mut block.input_mut(index)[..count * R::LANES];
+                self.fill_input(input, (cells, shift), [vector, row], numbers, zero);
+            }
+            block.run();
+            for (k, line) in out[row * width..].chunks_exact_mut(width).take(count).enumerate() {
+                block.value(k, zero).store_some(&mut line[column..]);
+            }
+            row += count;
         }
-        self.count = 0;
+    }
+
+    /// The equation's constants at some rows, once if they are the same everywhere.
+    #[inline(always)]
+    fn set_moduli<R: Real<Scalar = T>>(
+        &self,
+        block: &mut QuantityBlock<'_, T>,
+        is_first: bool,
+        [vector, row, count]: [usize; 3],
+        zero: R,
+    ) {
+        let (equation, anchor) = (self.scene.field.equation, self.scene.view.center);
+        if equation.is_uniform() && is_first {
+            let moduli = equation.moduli(anchor, [zero; 2]);
+            for k in 0..QuantityBlock::<T>::vectors::<R>() {
+                block.set_moduli(k, &moduli);
+            }
+        }
+        if !equation.is_uniform() {
+            for k in 0..count {
+                block.set_moduli(k, &equation.moduli(anchor, self.offset(vector, row + k, zero)));
+            }
+        }
+    }
+
+    /// The numbers of an input at the rows from `row` on, whose components are in the cells. Which one it is, is asked once
+    /// for all of them.
+    #[inline(always)]
+    fn fill_input<R: Real<Scalar = T>>(
+        &self,
+        input: Input,
+        (cells, shift): (&[T], &[f64]),
+        [vector, row]: [usize; 2],
+        numbers: &mut [T],
+        zero: R,
+    ) {
+        let anchor = self.scene.view.center;
+        let stride = self.stride::<R>();
+        let (axis, component, part, add) = match input {
+            Input::X => (Some(0), 0, 0, anchor.x),
+            Input::Y => (Some(1), 0, 0, anchor.y),
+            Input::Value(c) => (None, c, 0, shift[c]),
+            Input::SlopeX(c) => (None, c, 1, 0.0),
+            Input::SlopeY(c) => (None, c, 2, 0.0),
+            _ => return,
+        };
+        let at = (1 + component) * size::<R, D>() + part * R::LANES;
+        for (k, numbers) in numbers.chunks_exact_mut(R::LANES).enumerate() {
+            let number = match axis {
+                Some(axis) => self.offset(vector, row + k, zero)[axis],
+                None => zero.load(&cells[k * stride + at..]),
+            };
+            (number + zero.lit(add)).store(numbers);
+        }
     }
 }
 

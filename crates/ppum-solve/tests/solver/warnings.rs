@@ -81,7 +81,10 @@ fn lost_digits() {
     };
     assert_eq!(residual("1e2"), None);
     let found = residual("1e9").expect("a warning of the residual");
-    assert!(found.value > 10.0 * found.limit && found.message.contains("nearly touch"), "{found:?}");
+    assert!(
+        found.value > 10.0 * found.limit && found.message.contains("nearly touch"),
+        "{found:?}"
+    );
 }
 
 #[test]

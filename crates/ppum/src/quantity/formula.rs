@@ -56,8 +56,8 @@ pub struct QuantityFormula {
     tested: FormulaJets,
     /// Of the scope's inputs, those the formula needs.
     inputs: Vec<(usize, Input)>,
-    /// Those that the test needs besides.
-    only_tested: Vec<(usize, Input)>,
+    /// Those of them that the field gives, with those that the test needs besides.
+    of_field: Vec<(usize, Input)>,
     n_inputs: usize,
 }
 
@@ -198,14 +198,16 @@ impl QuantityFormula {
         let zeros: Vec<_> = slopes.map(|(name, _)| format!("0*{name}")).collect();
         let test = if has_slopes { zeros.join(" + ") } else { "0".to_owned() };
         let test = Formula::parse(&test, &scope)?;
-        let only_tested = used(&test).into_iter().filter(|input| !needed.contains(input)).collect();
+        let only_tested = used(&test).into_iter().filter(|input| !needed.contains(input));
+        let of_field = needed.iter().copied().filter(|(_, input)| !input.is_modulus());
+        let of_field = of_field.chain(only_tested).collect();
         Ok(Self {
             name: None,
             unit: String::new(),
             jets: FormulaJets::new(&[&formula], 0)?,
             tested: FormulaJets::new(&[&formula, &test], 0)?,
             inputs: needed,
-            only_tested,
+            of_field,
             n_inputs: names.len(),
             formula,
         })
@@ -269,29 +271,29 @@ impl QuantityFormula {
 }
 
 /// Points at which a quantity by formula is evaluated together, as many vectors as a [`Block`] has: so that what a
-/// step of the formula costs is shared. Give it the field vector by vector, run it, and take the values.
+/// step of the formula costs is shared. Give it the field input by input, run it, and take the values.
 #[derive(Debug)]
 pub struct QuantityBlock<'a, T> {
     formula: &'a QuantityFormula,
     block: Block<'a, T>,
 }
 
-impl<T: Scalar> QuantityBlock<'_, T> {
+impl<'a, T: Scalar> QuantityBlock<'a, T> {
     /// Number of vectors.
     #[must_use]
     pub const fn vectors<R: Real<Scalar = T>>() -> usize {
         Block::<T>::POINTS / R::LANES
     }
 
-    /// The field at a vector of points, but for the constants of the equation.
-    #[inline(always)]
-    pub fn set<R: Real<Scalar = T>>(&mut self, vector: usize, at: &Sample<'_, R>) {
-        let formula = self.formula;
-        for &(index, input) in formula.inputs.iter().chain(&formula.only_tested) {
-            if !input.is_modulus() {
-                input.value(at).store(&mut self.block.input(index)[vector * R::LANES..]);
-            }
-        }
+    /// The inputs that are to be filled with the field's numbers: all but the constants of the equation.
+    #[must_use]
+    pub fn field_inputs(&self) -> &'a [(usize, Input)] {
+        &self.formula.of_field
+    }
+
+    /// The numbers of an input at all points, vector by vector. They stay until they are filled anew.
+    pub fn input_mut(&mut self, index: usize) -> &mut [T] {
+        self.block.input(index)
     }
 
     /// The constants of the equation at a vector of points. They stay until they are set anew.
@@ -313,7 +315,8 @@ impl<T: Scalar> QuantityBlock<'_, T> {
     #[inline(always)]
     #[must_use]
     pub fn value<R: Real<Scalar = T>>(&self, vector: usize, like: R) -> R {
-        let [value, test] = [0, 1].map(|k| like.load(&self.block.output(k)[vector * R::LANES..]));
+        let value = like.load(&self.block.output(0)[vector * R::LANES..]);
+        let test = like.load(&self.block.output(1)[vector * R::LANES..]);
         R::select(test.ge(test), value, like.lit(f64::INFINITY))
     }
 }
@@ -424,7 +427,9 @@ mod tests {
                     jets: &jets,
                     exact: &[],
                 };
-                block.set(vector, &sample);
+                for &(index, input) in block.field_inputs() {
+                    input.value(&sample).store(&mut block.input_mut(index)[vector * R::LANES..]);
+                }
                 block.set_moduli(vector, &sample.moduli);
             }
             block.run();
