@@ -3,6 +3,8 @@
 //! A [`Place`] is a point with the side of a crack that is meant. [`line()`], [`grid`], [`points`] and
 //! [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two sides and
 //! two places. Who has threads takes the [`batches`] one by one, in any order: values do not depend on it.
+//! [`Seats`] and [`evaluate_each`] are for lists of points that come from anywhere: there a value depends on its
+//! place alone.
 //!
 //! ```
 //! # use ppum::dataset::Dataset;
@@ -25,6 +27,8 @@
 //! ```
 
 mod crossings;
+mod each;
+mod seats;
 
 use std::f64::consts::PI;
 
@@ -36,6 +40,8 @@ use crate::quantity::Quantity;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
 pub use crossings::{Curve, Passage, passages, passages_from};
+pub use each::{Wanted, evaluate_each};
+pub use seats::Seats;
 
 /// A point with the side of a crack that is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]

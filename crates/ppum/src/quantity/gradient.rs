@@ -148,6 +148,20 @@ impl QuantityGradient {
         rows.map(one).collect()
     }
 
+    /// Value and gradient where the field is known to its second derivatives; NaN outside the domain.
+    pub(crate) fn known(
+        &self,
+        local: &mut LocalField<'_>,
+        offset: Vec2,
+        jets: &[Jet<f64>],
+    ) -> Slope {
+        match self.rule {
+            Rule::Partition => self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::of),
+            _ if local.contains(offset) => self.of_jets(local, offset, jets),
+            _ => Slope::NOWHERE,
+        }
+    }
+
     /// Where the field is known, at a point of the domain.
     fn of_jets(&self, local: &LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> Slope {
         let value = self.quantity.of_values(local, offset, jets);

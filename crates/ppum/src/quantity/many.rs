@@ -33,7 +33,12 @@ impl Quantity {
     }
 
     /// The quantity where the field is known; NaN outside the domain.
-    fn of_jets(&self, local: &mut LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> f64 {
+    pub(crate) fn of_jets(
+        &self,
+        local: &mut LocalField<'_>,
+        offset: Vec2,
+        jets: &[Jet<f64>],
+    ) -> f64 {
         if self.source() == Source::Partition {
             return self.of_partition(local, offset).unwrap_or(f64::NAN);
         }

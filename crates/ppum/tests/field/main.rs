@@ -5,6 +5,7 @@ mod borders;
 mod decompose;
 mod deep_zoom;
 mod derivatives;
+mod each;
 mod errors;
 mod formulas;
 mod gradients;

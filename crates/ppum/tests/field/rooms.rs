@@ -53,7 +53,13 @@ const FLOORS: Floors<'_> = &[
                 "weight",
             ],
         ),
-        ("sample", &["crack", "domain", "field", "progress", "quantity", "sides", "vec2"]),
+        (
+            "sample",
+            &[
+                "box_tree", "crack", "domain", "field", "jet", "progress", "quantity", "sides",
+                "vec2",
+            ],
+        ),
     ],
 ];
 

@@ -1,0 +1,219 @@
+//! Values that depend on their places alone, not on what else is asked for.
+//!
+//! Lanes share the patches of all their points, and where one patch alone covers a point its weight cancels: whether it is
+//! left out, or multiplied and divided, may change the last digit. So points that one patch covers are
+//! evaluated by it, and the others apart from them, where a patch that does not cover a point adds zero.
+
+use super::Place;
+use crate::crack::{SegmentId, Side};
+use crate::field::{Field, LocalField};
+use crate::jet::Jet;
+use crate::quantity::{Quantity, QuantityGradient, Source};
+use crate::vec2::Vec2;
+
+/// What is wanted at each place.
+#[derive(Clone, Copy, Debug)]
+pub enum Wanted<'q> {
+    /// The values of quantities: one number for each.
+    Values(&'q [Quantity]),
+    /// Values and gradients: q, ∂q/∂x, ∂q/∂y for each.
+    Slopes(&'q [QuantityGradient]),
+}
+
+impl Wanted<'_> {
+    /// Numbers at a place.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Values(quantities) => quantities.len(),
+            Self::Slopes(slopes) => 3 * slopes.len(),
+        }
+    }
+
+    fn jets(
+        &self,
+        local: &LocalField<'_>,
+        at: (&[Vec2], &Place),
+        patches: &[u32],
+        out: &mut [Jet<f64>],
+    ) {
+        let (offsets, side) = (at.0, at.1.side);
+        match self {
+            Self::Slopes(_) => local.evaluate_over::<2>(offsets, side, patches, out),
+            Self::Values(quantities)
+                if quantities.iter().any(|quantity| quantity.source() == Source::Gradient) =>
+            {
+                local.evaluate_over::<1>(offsets, side, patches, out);
+            }
+            Self::Values(_) => local.evaluate_over::<0>(offsets, side, patches, out),
+        }
+    }
+
+    /// The numbers at a point where the field is known.
+    fn row(&self, local: &mut LocalField<'_>, offset: Vec2, jets: &[Jet<f64>], row: &mut [f64]) {
+        match self {
+            Self::Values(quantities) => {
+                for (value, quantity) in row.iter_mut().zip(*quantities) {
+                    *value = quantity.of_jets(local, offset, jets);
+                }
+            }
+            Self::Slopes(slopes) => {
+                for (numbers, slope) in row.as_chunks_mut::<3>().0.iter_mut().zip(*slopes) {
+                    let found = slope.known(local, offset, jets);
+                    *numbers = [found.value, found.gradient.x, found.gradient.y];
+                }
+            }
+        }
+    }
+}
+
+/// Places that are put in order at a time; their numbers fit 16 bits of a key.
+const CHUNK: usize = 1 << 16;
+
+/// Points that several patches cover, evaluated together: the lanes of the widest processors.
+const LANES: usize = 8;
+
+/// What is wanted at each place, in rows: shape (places, [width](Wanted::width)), flattened; NaN outside the domain and
+/// where a quantity has no value.
+///
+/// Equal places have equal rows, to the last bit, whatever the other places are and their order. Places may stand in any
+/// order; those that are near each other are evaluated together.
+#[must_use]
+pub fn evaluate_each(field: &Field<'_>, wanted: Wanted<'_>, places: &[Place]) -> Vec<f64> {
+    let width = wanted.width();
+    let mut rows = vec![f64::NAN; places.len() * width];
+    if width > 0 {
+        let chunks = places.chunks(CHUNK).zip(rows.chunks_mut(CHUNK * width));
+        chunks.for_each(|(places, rows)| Chunk::new(field, places).evaluate(wanted, rows));
+    }
+    rows
+}
+
+/// Places with the patches that cover them.
+struct Chunk<'a, 'd> {
+    field: &'a Field<'d>,
+    places: &'a [Place],
+    /// All patches, those of each place from its start to that of the next.
+    patches: Vec<u32>,
+    starts: Vec<u32>,
+    /// Numbers of the places in the lowest bits, in the order of evaluation.
+    order: Vec<u64>,
+}
+
+/// How a place is covered.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cover {
+    Nowhere,
+    Alone(u32),
+    Shared,
+}
+
+impl<'a, 'd> Chunk<'a, 'd> {
+    fn new(field: &'a Field<'d>, places: &'a [Place]) -> Self {
+        let (mut patches, mut starts) = (Vec::with_capacity(2 * places.len()), vec![0]);
+        let mut order = Vec::with_capacity(places.len());
+        for (number, place) in (0..).zip(places) {
+            let start = patches.len();
+            field.tree.query_point(place.point, &mut patches);
+            starts.push(patches.len() as u32);
+            order.push((key(field, place, &patches[start..]) << 16) | number);
+        }
+        order.sort_unstable();
+        Self { field, places, patches, starts, order }
+    }
+
+    fn place(&self, key: u64) -> &'a Place {
+        &self.places[number(key)]
+    }
+
+    fn patches(&self, key: u64) -> &[u32] {
+        let number = number(key);
+        &self.patches[self.starts[number] as usize..self.starts[number + 1] as usize]
+    }
+
+    fn cover(&self, key: u64) -> Cover {
+        match self.patches(key) {
+            [] => Cover::Nowhere,
+            [patch] => Cover::Alone(*patch),
+            _ => Cover::Shared,
+        }
+    }
+
+    fn evaluate(&self, wanted: Wanted<'_>, rows: &mut [f64]) {
+        for run in self.order.chunk_by(|&a, &b| seat(self.place(a)) == seat(self.place(b))) {
+            let mut local = self.place(run[0]).seen(self.field);
+            for part in run.chunk_by(|&a, &b| self.cover(a) == self.cover(b)) {
+                match self.cover(part[0]) {
+                    Cover::Nowhere => {}
+                    Cover::Alone(patch) => self.together(&mut local, part, &[patch], wanted, rows),
+                    Cover::Shared => {
+                        for lanes in part.chunks(LANES) {
+                            self.together(&mut local, lanes, &self.union(lanes), wanted, rows);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The patches that cover one of the places.
+    fn union(&self, keys: &[u64]) -> Vec<u32> {
+        let mut all: Vec<u32> = keys.iter().flat_map(|&key| self.patches(key)).copied().collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Evaluates places of one seat over a list of patches.
+    fn together(
+        &self,
+        local: &mut LocalField<'_>,
+        keys: &[u64],
+        patches: &[u32],
+        wanted: Wanted<'_>,
+        rows: &mut [f64],
+    ) {
+        let (width, components) = (wanted.width(), self.field.components());
+        let offsets: Vec<Vec2> = keys.iter().map(|&key| self.place(key).offset).collect();
+        let mut jets = vec![Jet::constant(0.0); keys.len() * components];
+        wanted.jets(local, (&offsets, self.place(keys[0])), patches, &mut jets);
+        for ((&key, &offset), jets) in keys.iter().zip(&offsets).zip(jets.chunks(components)) {
+            if local.contains(offset) {
+                let row = &mut rows[number(key) * width..][..width];
+                wanted.row(local, offset, jets, row);
+            }
+        }
+    }
+}
+
+/// The place that a key belongs to.
+fn number(key: u64) -> usize {
+    (key & (CHUNK as u64 - 1)) as usize
+}
+
+/// Places of one seat are seen by one [`LocalField`].
+fn seat(place: &Place) -> ([u64; 2], Option<SegmentId>, bool) {
+    let Vec2 { x, y } = place.anchor;
+    ([x.to_bits(), y.to_bits()], place.on, place.side == Side::Above)
+}
+
+/// 48 bits that bring together places of one seat, in them those of one patch, and of these neighbours. That different
+/// ones have the same key takes a little time, and changes no value.
+fn key(field: &Field<'_>, place: &Place, patches: &[u32]) -> u64 {
+    let ([x, y], on, above) = seat(place);
+    let on = on.map_or(0, |on| ((u64::from(on.crack) << 32) | u64::from(on.segment)) + 1);
+    let side = (on << 1) ^ u64::from(above);
+    let seat = mixed(mixed(mixed(x) ^ y) ^ side) >> 32;
+    let Some(&patch) = patches.first() else { return seat << 16 };
+    let from_center = place.point - field.step.partition.center[patch as usize];
+    let quarter = u64::from(from_center.x > 0.0) | (u64::from(from_center.y > 0.0) << 1);
+    let is_shared = u64::from(patches.len() > 1);
+    (seat << 16) | (is_shared << 15) | ((u64::from(patch) & 0x1fff) << 2) | quarter
+}
+
+/// Bits that all depend on all (a step of Steele's SplitMix, 2014).
+fn mixed(bits: u64) -> u64 {
+    let bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}
