@@ -3,9 +3,10 @@
     pip install -r tests/python/requirements.txt
     python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
 
-Needs cargo: the problem is solved by the program.
+Needs cargo: the problem is solved by the program. What imports the package `ppum` runs where that is installed.
 """
 
+import importlib.util
 import pathlib
 import re
 import subprocess
@@ -28,13 +29,16 @@ def test_readme_snippets_run():
         subprocess.run(solve, cwd=ROOT, check=True, capture_output=True)
         (folder / "tests").symlink_to(ROOT / "tests")
         snippets = blocks("python")
-        assert len(snippets) == 2
+        assert len(snippets) == 3
         for snippet in snippets:
+            if re.search(r"import .*\bppum\b", snippet) and importlib.util.find_spec("ppum") is None:
+                print("SKIPPED 1 (so far): README's use of the package: it is not installed")
+                continue
             done = subprocess.run([sys.executable, "-c", snippet], cwd=folder, capture_output=True, text=True)
             assert done.returncode == 0, done.stderr
             assert done.stdout and not done.stderr, done.stderr
         assert "Slanted crack" in subprocess.run(
-            [sys.executable, "-c", snippets[0]], cwd=folder, capture_output=True, text=True
+            [sys.executable, "-c", snippets[1]], cwd=folder, capture_output=True, text=True
         ).stdout
 
 

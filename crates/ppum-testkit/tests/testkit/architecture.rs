@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 13] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
@@ -44,11 +44,15 @@ const ARROWS: [(&str, &[&str]); 12] = [
             "ppum-viewer",
         ],
     ),
+    (
+        "ppum-python",
+        &["ppum", "ppum-figure", "ppum-format", "ppum-render", "ppum-scene", "ppum-solve"],
+    ),
     ("ppum-testkit", &["ppum"]),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 23] = [
+const DOORS: [(&str, &str); 24] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
@@ -60,10 +64,11 @@ const DOORS: [(&str, &str); 23] = [
     ("hdf5-pure", "ppum-format"),
     ("miniz_oxide", "ppum-figure"),
     ("naga", "ppum-testkit"),
+    ("numpy", "ppum-python"),
     ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
+    ("pyo3", "ppum-python"),
     ("rfd", "ppum-viewer"),
-    ("self_cell", "ppum-viewer"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
     ("static_aabb2d_index", "ppum"),

@@ -1,0 +1,79 @@
+"""Two-dimensional fracture by the particle-partition of unity method: solve, evaluate exactly, draw.
+
+Numbers go in and come out as numpy arrays. Long calls work on all processors without Python's lock, and Ctrl-C ends them.
+
+Example:
+    >>> f = ds.field
+    >>> f.at([0.0, 0.5], 0.25).von_mises.shape
+    (2,)
+"""
+
+from . import _core
+from .errors import (
+    Finding,
+    FormatError,
+    InternalError,
+    PpumError,
+    ProblemError,
+    QuantityError,
+    RenderError,
+    SolveError,
+)
+from .dataset import (
+    Advance,
+    Crack,
+    Dataset,
+    Growth,
+    History,
+    Hole,
+    Reaction,
+    Step,
+    Table,
+    Tip,
+    Warning,
+    from_bytes,
+    open,
+)
+from .field import Field, Quantity, Values
+from .pictures import Extremum, Figure, View
+from .problem import Elastic, Poisson, Problem, solve
+
+__version__ = _core.VERSION
+
+#: Names of the colour maps of figures; with ``_r`` at the end they are reversed.
+COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
+
+__all__ = [
+    "COLORMAPS",
+    "Advance",
+    "Crack",
+    "Dataset",
+    "Elastic",
+    "Extremum",
+    "Field",
+    "Figure",
+    "Finding",
+    "FormatError",
+    "Growth",
+    "History",
+    "Hole",
+    "InternalError",
+    "Poisson",
+    "PpumError",
+    "Problem",
+    "ProblemError",
+    "Quantity",
+    "QuantityError",
+    "Reaction",
+    "RenderError",
+    "SolveError",
+    "Step",
+    "Table",
+    "Tip",
+    "Values",
+    "View",
+    "Warning",
+    "from_bytes",
+    "open",
+    "solve",
+]

@@ -1,0 +1,91 @@
+"""The compiled part of ppum; import ppum instead."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Floats = NDArray[np.float64]
+_Spot = tuple[tuple[float, float], float]
+_Progress = Callable[[str, int, int, int], object]
+
+__all__ = [
+    "VERSION",
+    "Dataset",
+    "Field",
+    "_panic",
+    "check",
+    "colormaps",
+    "extrema",
+    "figure",
+    "from_bytes",
+    "read",
+    "render",
+    "rgba",
+    "solve",
+]
+
+VERSION: Final[str]
+
+@final
+class Dataset:
+    def save(self, path: Path) -> None: ...
+    def to_bytes(self) -> bytes: ...
+    def about(self) -> dict[str, Any]: ...
+    def step(self, number: int) -> dict[str, Any]: ...
+    def attributes(self, number: int) -> list[tuple[str, _Floats]]: ...
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__ = None  # type: ignore[assignment]
+
+@final
+class Field:
+    def __new__(cls, dataset: Dataset, step: int, subject: str) -> Field: ...
+    def value(self, name: str, x: float, y: float, is_below: bool) -> float: ...
+    def evaluate(
+        self,
+        names: list[str],
+        x: _Floats,
+        y: _Floats,
+        is_below: bool,
+        anchor: tuple[float, float] | None,
+        gradient: bool,
+        out: _Floats | None = None,
+    ) -> _Floats | None: ...
+    def check(self, name: str) -> None: ...
+    def known(self) -> list[dict[str, Any]]: ...
+    def words(self, name: str) -> tuple[str, str]: ...
+    def default_quantity(self) -> str: ...
+    def components(self) -> list[str]: ...
+    def table(
+        self, along: str, count: int, names: list[str]
+    ) -> tuple[list[tuple[str, str]], _Floats]: ...
+
+def read(path: Path) -> Dataset: ...
+def from_bytes(bytes: bytes) -> Dataset: ...
+def check(text: str, name: str, folder: Path) -> list[dict[str, Any]]: ...
+def solve(
+    text: str,
+    name: str,
+    folder: Path,
+    memory: int | None = None,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> Dataset: ...
+def render(
+    this: Field,
+    name: str,
+    spot: _Spot,
+    size: tuple[int, int],
+    single: bool,
+    progress: _Progress | None,
+) -> NDArray[Any]: ...
+def rgba(this: Field, scene: str, spot: _Spot, size: tuple[int, int]) -> NDArray[np.uint8]: ...
+def figure(this: Field, scene: str, spot: _Spot | None, look: str, form: str) -> bytes: ...
+def extrema(
+    this: Field, name: str, spot: _Spot, size: tuple[int, int]
+) -> tuple[dict[str, Any], dict[str, Any]] | None: ...
+def colormaps() -> list[str]: ...
+def _panic(on_pool: bool) -> None: ...

@@ -1,0 +1,550 @@
+"""Datasets: solved problems, or fields from elsewhere in the same representation."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+
+if TYPE_CHECKING:
+    from .field import Field
+    from .problem import Problem
+
+__all__ = [
+    "Advance",
+    "Crack",
+    "Dataset",
+    "Growth",
+    "History",
+    "Hole",
+    "Reaction",
+    "Step",
+    "Table",
+    "Tip",
+    "Warning",
+    "from_bytes",
+    "open",
+]
+
+Point = tuple[float, float]
+_Row = TypeVar("_Row")
+
+
+@dataclass(frozen=True)
+class Crack:
+    """A crack: a polyline with a direction, whose left side is above.
+
+    Attributes:
+        index: Its number, from 0.
+        points: The vertices, shape (n, 2), lengths.
+        ends: The kinds of its ends: ``tip``, ``mouth`` or ``junction``.
+    """
+
+    index: int
+    points: NDArray[np.float64]
+    ends: tuple[str, str]
+
+    @property
+    def length(self) -> float:
+        """Arc length from end to end."""
+        return float(np.hypot(*np.diff(self.points, axis=0).T).sum())
+
+    def __repr__(self) -> str:
+        return f"<ppum.Crack {self.index}, {len(self.points)} points, {self.ends[0]} to {self.ends[1]}>"
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None."""
+
+    center: Point | None
+    radius: float | None
+    points: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True)
+class Tip:
+    """A crack tip with its stress intensity factors; what is not known is NaN.
+
+    Attributes:
+        crack: Number of its crack.
+        end: ``start`` or ``last``, the crack's first or last vertex.
+        xy: Its place.
+        angle: Direction of growth, the angle to the x axis, radians.
+        k1, k2: K_I and K_II, stress · length^½.
+        t_stress: T, a stress.
+        j: The J-integral, stress · length.
+        g: Energy released per length of growth, (K_I² + K_II²)/E′, stress · length.
+        growth_angle: Direction of the largest hoop stress, radians from `angle`.
+        error: Estimated error of (K_I, K_II), stress · length^½.
+        spread: Largest relative difference of two rings, a check and no estimate of the error.
+        rings: Of each ring inner and outer radius, K_I and K_II; shape (n, 4).
+    """
+
+    crack: int
+    end: str
+    xy: Point
+    angle: float
+    k1: float
+    k2: float
+    t_stress: float
+    j: float
+    g: float
+    growth_angle: float
+    error: float
+    spread: float
+    rings: NDArray[np.float64] = field(repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        x, y = self.xy
+        return f"<ppum.Tip at ({x:.6g}, {y:.6g}), K_I = {self.k1:.6g}, K_II = {self.k2:.6g}>"
+
+
+@dataclass(frozen=True)
+class Warning:
+    """A finding that does not make a solution wrong to have, but wrong to trust unread.
+
+    Attributes:
+        kind: A word, e.g. ``faces-overlap``.
+        at: The place, if it is about one.
+        value: The number that gave rise to it.
+        limit: The bound that the number passes.
+        message: What is wrong, and the remedy.
+    """
+
+    kind: str
+    at: Point | None
+    value: float
+    limit: float
+    message: str
+
+    def __repr__(self) -> str:
+        return f"<ppum.Warning {self.kind}: {self.message}>"
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """The resultant of what a support exerts on the plate.
+
+    Attributes:
+        on: The support in words, e.g. ``bottom``.
+        held: Of each component, whether the support holds it.
+        force: Force per thickness of each component, stress · length; zero where not held.
+        moment: About the centre of the domain's box, counter-clockwise, stress · length².
+    """
+
+    on: str
+    held: tuple[bool, ...]
+    force: tuple[float, ...]
+    moment: float
+
+
+@dataclass(frozen=True)
+class Advance:
+    """What one tip of a growing crack does next.
+
+    Attributes:
+        crack, end: The tip.
+        fate: In words, e.g. ``grows``, ``held``, ``meets crack 3``.
+        strength: What is compared with the toughness, stress · length^½.
+        direction: Of the path at the tip, angle to the x axis, radians.
+        curvature: Of the path, 1 / length.
+        path: The vertices that the crack gets, shape (n, 2).
+        length: Length of the path.
+        extension: Length of all growth at this end since the first step.
+    """
+
+    crack: int
+    end: str
+    fate: str
+    strength: float
+    direction: float
+    curvature: float
+    path: NDArray[np.float64] = field(repr=False, compare=False)
+    length: float
+    extension: float
+
+
+@dataclass(frozen=True)
+class Growth:
+    """How the cracks of a step grow on from there.
+
+    Attributes:
+        cycles: Load cycles up to the step; None where growth has no time.
+        stop: What ends the series with this step; None if it goes on.
+        tips: What each tip does.
+    """
+
+    cycles: float | None
+    stop: str | None
+    tips: Table[Advance]
+
+
+class Table(tuple[_Row, ...], Generic[_Row]):
+    """Rows of one kind, a tuple that pandas and notebooks show as a table."""
+
+    def to_pandas(self) -> Any:
+        """The rows as a `pandas.DataFrame`; those attributes that are arrays are left out."""
+        import pandas
+
+        return pandas.DataFrame(self._records(), columns=self._columns() or None)
+
+    def _columns(self) -> list[str]:
+        first: Any = self[0] if self else None
+        if first is None:
+            return []
+        plain = (f.name for f in fields(first))
+        return [n for n in plain if not isinstance(getattr(first, n), (np.ndarray, Table))]
+
+    def _records(self) -> list[dict[str, Any]]:
+        columns = self._columns()
+        return [{name: getattr(row, name) for name in columns} for row in self]
+
+    def _repr_html_(self) -> str:
+        columns = self._columns()
+        head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
+        rows = (
+            "".join(f"<td>{html.escape(_short(row[c]))}</td>" for c in columns)
+            for row in self._records()
+        )
+        body = "".join(f"<tr>{cells}</tr>" for cells in rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, tuple):
+        return "(" + ", ".join(_short(v) for v in value) + ")"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+class History(Mapping[str, float]):
+    """The numbers of the solver's report by name: unknowns, residual, energy, seconds of each phase.
+
+    `unit` has their units. Of several numbers with one name the first one counts; `records` has all.
+    """
+
+    def __init__(self, records: Sequence[tuple[str, float, str]]) -> None:
+        self.records = tuple(records)
+        self._first = {name: (value, unit) for name, value, unit in reversed(self.records)}
+
+    def __getitem__(self, name: str) -> float:
+        return self._first[name][0]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys(name for name, _, _ in self.records))
+
+    def __len__(self) -> int:
+        return len(self._first)
+
+    def unit(self, name: str) -> str:
+        """The unit of a number, e.g. ``s``; empty of plain numbers."""
+        return self._first[name][1]
+
+    def __repr__(self) -> str:
+        return f"<ppum.History, {len(self)} numbers>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(n)}</td><td>{v:.6g}</td><td>{html.escape(u)}</td></tr>"
+            for n, v, u in self.records
+        )
+        return f"<table><tbody>{rows}</tbody></table>"
+
+
+class Step:
+    """One state of a series. Made by `Dataset.steps`.
+
+    Example:
+        >>> step = ds.steps[-1]
+        >>> step.patches, step.unknowns
+        (512, 6600)
+        >>> sorted(step.history)[:2]
+        ['assembly', 'basis']
+    """
+
+    def __init__(self, dataset: Dataset, number: int) -> None:
+        self.dataset = dataset
+        #: Number of the step, from 0.
+        self.number = number
+
+    @cached_property
+    def _facts(self) -> dict[str, Any]:
+        return self.dataset._core.step(self.number)
+
+    @property
+    def load(self) -> float:
+        """Load factor or pseudo-time."""
+        return float(self._facts["load"])
+
+    @property
+    def patches(self) -> int:
+        """Number of patches."""
+        return int(self._facts["patches"])
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns of the solution."""
+        return int(self._facts["unknowns"])
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """Names of the functions that polynomials are multiplied with; `Field.with_function` takes them."""
+        return tuple(self._facts["functions"])
+
+    @cached_property
+    def cracks(self) -> tuple[Crack, ...]:
+        """The cracks."""
+        return tuple(
+            Crack(k, _points(c["points"]), tuple(c["ends"]))
+            for k, c in enumerate(self._facts["cracks"])
+        )
+
+    @cached_property
+    def tips(self) -> Table[Tip]:
+        """The crack tips with the factors that the solver found, in the order of cracks and ends."""
+        return Table(
+            Tip(**{**t, "rings": np.array(t["rings"], float).reshape(-1, 4)})
+            for t in self._facts["tips"]
+        )
+
+    @cached_property
+    def history(self) -> History:
+        """The solver's report."""
+        return History(self._facts["history"])
+
+    @cached_property
+    def warnings(self) -> Table[Warning]:
+        """What the diagnostics found."""
+        return Table(Warning(**w) for w in self._facts["warnings"])
+
+    @cached_property
+    def reactions(self) -> Table[Reaction]:
+        """What the supports exert on the plate."""
+        return Table(
+            Reaction(r["on"], tuple(r["held"]), tuple(r["force"]), r["moment"])
+            for r in self._facts["reactions"]
+        )
+
+    @cached_property
+    def growth(self) -> Growth | None:
+        """How the cracks grow on from here; None without growth."""
+        facts = self._facts["growth"]
+        if facts is None:
+            return None
+        tips = Table(Advance(**{**t, "path": _points(t["path"])}) for t in facts["tips"])
+        return Growth(facts["cycles"], facts["stop"], tips)
+
+    @cached_property
+    def attributes(self) -> dict[str, NDArray[np.float64]]:
+        """Stored values of the cover's cells by name, each of shape (patches,)."""
+        return dict(self.dataset._core.attributes(self.number))
+
+    @cached_property
+    def field(self) -> Field:
+        """The field of the step.
+
+        Raises:
+            FormatError: The step has none, or a function that cannot be compiled.
+        """
+        from .field import Field
+
+        return Field(self.dataset, self.number)
+
+    def __repr__(self) -> str:
+        return f"<ppum.Step {self.number}, {_count(self.patches, 'patch', 'patches')}, {_count(len(self.tips), 'tip')}>"
+
+
+def _points(points: Sequence[Point]) -> NDArray[np.float64]:
+    array = np.array(points, float).reshape(-1, 2)
+    array.flags.writeable = False
+    return array
+
+
+def _count(count: int, one: str, more: str | None = None) -> str:
+    return f"{count} {one if count == 1 else more or one + 's'}"
+
+
+class Dataset:
+    """A solved problem: all that is needed to evaluate its fields exactly. It never changes.
+
+    Datasets are equal if all their numbers and texts are; they can be pickled, and sent to other processes.
+
+    Example:
+        >>> ds
+        <ppum.Dataset 'Slanted crack', elasticity, 1 step, 512 patches, 2 tips>
+        >>> ds.tips[0]
+        <ppum.Tip at (-0.353553, -0.353553), K_I = 0.766738, K_II = 0.684074>
+        >>> ppum.from_bytes(ds.to_bytes()) == ds
+        True
+    """
+
+    def __init__(self, core: _core.Dataset) -> None:
+        self._core = core
+
+    @cached_property
+    def _facts(self) -> dict[str, Any]:
+        return self._core.about()
+
+    @property
+    def title(self) -> str:
+        """One line that names the problem."""
+        return str(self._facts["title"])
+
+    @property
+    def program(self) -> str:
+        """Name and version of the program that made it."""
+        return str(self._facts["program"])
+
+    @property
+    def equation(self) -> str:
+        """``elasticity`` or ``poisson``."""
+        return str(self._facts["equation"])
+
+    @property
+    def domain(self) -> tuple[Point, Point]:
+        """Lower left and upper right corner of the box; `holes` are cut out of it."""
+        low, high = self._facts["domain"]
+        return tuple(low), tuple(high)
+
+    @cached_property
+    def holes(self) -> tuple[Hole, ...]:
+        """The holes."""
+        return tuple(
+            Hole(h["center"], h["radius"], None if h["points"] is None else _points(h["points"]))
+            for h in self._facts["holes"]
+        )
+
+    @property
+    def problem(self) -> Problem | None:
+        """The problem that was solved, by its text; None if the dataset has none. Files that it names have to be where
+        they were."""
+        from .problem import Problem
+
+        text = self._facts["problem"]
+        return None if text is None else Problem.parse(text)
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps of the series, one or more."""
+        return tuple(Step(self, k) for k in range(len(self._core)))
+
+    @property
+    def field(self) -> Field:
+        """The field of the last step."""
+        return self.steps[-1].field
+
+    @property
+    def cracks(self) -> tuple[Crack, ...]:
+        """The cracks of the last step."""
+        return self.steps[-1].cracks
+
+    @property
+    def tips(self) -> Table[Tip]:
+        """The tips of the last step."""
+        return self.steps[-1].tips
+
+    @property
+    def warnings(self) -> Table[Warning]:
+        """The warnings of the last step."""
+        return self.steps[-1].warnings
+
+    @property
+    def history(self) -> History:
+        """The solver's report of the last step."""
+        return self.steps[-1].history
+
+    @property
+    def quantities(self) -> Mapping[str, Any]:
+        """All named quantities of the last step's field, see `Field.quantities`."""
+        return self.field.quantities
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file. What was there stays until the new one is complete.
+
+        Raises:
+            OSError: The system refuses; `FileNotFoundError` where there is no such folder.
+        """
+        self._core.save(Path(path))
+
+    def to_bytes(self) -> bytes:
+        """The bytes of a file."""
+        return self._core.to_bytes()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return from_bytes, (self.to_bytes(),)
+
+    def __eq__(self, other: object) -> bool:
+        return self._core == other._core if isinstance(other, Dataset) else NotImplemented
+
+    __hash__ = object.__hash__
+
+    def __repr__(self) -> str:
+        last = self.steps[-1]
+        counts = [
+            self.equation,
+            _count(len(self.steps), "step"),
+            _count(last.patches, "patch", "patches"),
+            _count(len(last.tips), "tip"),
+        ]
+        return f"<ppum.Dataset {self.title!r}, {', '.join(counts)}>"
+
+    def _repr_html_(self) -> str:
+        (x0, y0), (x1, y1) = self.domain
+        last = self.steps[-1]
+        rows = {
+            "equation": self.equation,
+            "domain": f"({x0:g}, {y0:g}) to ({x1:g}, {y1:g}), {_count(len(self.holes), 'hole')}",
+            "steps": str(len(self.steps)),
+            "patches, unknowns": f"{last.patches}, {last.unknowns}",
+            "cracks": str(len(last.cracks)),
+            "warnings": "; ".join(w.message for w in last.warnings) or "none",
+        }
+        body = "".join(
+            f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items()
+        )
+        tips = last.tips._repr_html_() if last.tips else ""
+        return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
+
+
+def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
+    """Opens a dataset, whole: no file stays open.
+
+    Args:
+        source: A path, the bytes of a file, or a file that is open for reading bytes.
+
+    Raises:
+        OSError: The file cannot be read; `FileNotFoundError` if there is none.
+        FormatError: It is no dataset, or a damaged one.
+
+    Example:
+        >>> ds.save("plate.h5")
+        >>> ppum.open("plate.h5") == ds
+        True
+    """
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return from_bytes(bytes(source))
+    if not isinstance(source, (str, os.PathLike)):
+        return from_bytes(source.read())
+    return Dataset(_core.read(Path(source)))
+
+
+def from_bytes(data: bytes) -> Dataset:
+    """The dataset of a file's bytes.
+
+    Raises:
+        FormatError: They are no dataset, or a damaged one.
+    """
+    return Dataset(_core.from_bytes(data))
+
+
+for _class in (Advance, Crack, Dataset, Growth, History, Hole, Reaction, Step, Table, Tip, Warning):
+    _class.__module__ = "ppum"

@@ -1,0 +1,546 @@
+"""Fields: values at points, along curves and on grids, and pictures."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from .errors import QuantityError
+from .pictures import Extremum, Figure, View, figure_scene, figure_look, spot
+
+if TYPE_CHECKING:
+    from .dataset import Dataset, Step
+
+__all__ = ["Field", "Quantity", "Values"]
+
+Floats = NDArray[np.float64]
+SideName = Literal["above", "below", "both"]
+_SIDES = ("above", "below", "both")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of a field.
+
+    Attributes:
+        name: Its name as the program writes it, e.g. ``von-mises``.
+        symbol: For labels, with subscripts as ``_{…}``.
+        unit: For labels; may be empty.
+        formula: The text, if it is one that the dataset names.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    formula: str | None
+
+
+class Values:
+    """A field at points; made by `Field.at`. Evaluates when it is asked.
+
+    Attributes are quantities with ``_`` for ``-``, items are quantities and formulas of them. Results have the
+    shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain.
+
+    Example:
+        >>> v = f.at([0.0, 0.5], [1.0, 0.25])
+        >>> v.ux.shape, v["sxx + syy"].shape
+        ((2,), (2,))
+    """
+
+    __slots__ = ("_anchor", "_field", "_shape", "_side", "_x", "_y")
+
+    def __init__(
+        self, field: Field, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None
+    ) -> None:
+        if side not in _SIDES:
+            raise ValueError(f"side: {side!r} is none; there are above, below, both")
+        self._field, self._side = field, side
+        self._anchor = None if anchor is None else _pair(anchor)
+        self._x: Any
+        self._y: Any
+        self._shape: tuple[int, ...]
+        if isinstance(x, (float, int)) and isinstance(y, (float, int)):
+            self._x, self._y, self._shape = x, y, ()
+            return
+        x, y = _floats(x), _floats(y)
+        if x.shape != y.shape:
+            x, y = np.broadcast_arrays(x, y)
+        self._shape = x.shape
+        self._x, self._y = np.ravel(x), np.ravel(y)
+
+    def __getattr__(self, name: str) -> Floats:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except QuantityError as error:
+            raise AttributeError(str(error)) from error
+
+    def __getitem__(self, quantity: str) -> Floats:
+        core = self._field._core
+        if self._shape == () and self._anchor is None and self._side != "both":
+            if not isinstance(self._x, np.ndarray):
+                below = self._side == "below"
+                return np.float64(core.value(quantity, self._x, self._y, below))  # type: ignore[return-value]
+        return self._evaluate([quantity], False, None)[..., 0]
+
+    def gradient(self, quantity: str) -> Floats:
+        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last."""
+        return self._evaluate([quantity], True, None)[..., 0, 1:]
+
+    def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
+        """Shape (..., q), (..., q, 3) with gradients; before these an axis of two for both sides."""
+        tail = (len(names), 3) if gradient else (len(names),)
+        if self._side == "both":
+            sides = [self._run(names, below, gradient, None) for below in (False, True)]
+            both = np.stack(sides, axis=-1).reshape(*self._shape, *tail, 2)
+            return np.moveaxis(both, -1, len(self._shape))
+        if out is not None:
+            _check_out(out, self._shape + tail)
+            self._run(names, self._side == "below", gradient, out.reshape(-1))
+            return out
+        return self._run(names, self._side == "below", gradient, None).reshape(self._shape + tail)
+
+    def _run(self, names: list[str], below: bool, gradient: bool, out: Floats | None) -> Floats:
+        x, y = np.atleast_1d(self._x), np.atleast_1d(self._y)
+        if self._shape == ():
+            x, y = x.astype(np.float64), y.astype(np.float64)
+        found = self._field._core.evaluate(names, x, y, below, self._anchor, gradient, out)
+        return found if found is not None else out  # type: ignore[return-value]
+
+    def __dir__(self) -> list[str]:
+        names = (name.replace("-", "_") for name in self._field.quantities)
+        return [*super().__dir__(), *(name for name in names if name.isidentifier())]
+
+    def __repr__(self) -> str:
+        return f"<ppum.Values at {'a point' if self._shape == () else f'points of shape {self._shape}'}>"
+
+
+def _floats(values: ArrayLike) -> Floats:
+    """An array of float64, one number after the other where that is so already; no copy where it need not be."""
+    if isinstance(values, np.ma.MaskedArray):
+        values = np.ma.filled(values.astype(np.float64), np.nan)
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"coordinates are real numbers, not {array.dtype}")
+    return np.asarray(array, dtype=np.float64)
+
+
+def _pair(point: ArrayLike) -> tuple[float, float]:
+    array = _floats(point)
+    if array.shape != (2,) or not np.isfinite(array).all():
+        raise ValueError("a point is two finite numbers: x, y")
+    return float(array[0]), float(array[1])
+
+
+def _check_out(out: Floats, shape: tuple[int, ...]) -> None:
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
+        raise ValueError(f"`out` has to be a float64 array of shape {shape}")
+    if not out.flags.c_contiguous or not out.flags.writeable:
+        raise ValueError("`out` has to be writeable and in C order")
+
+
+class _Quantities(Mapping[str, Quantity]):
+    """Quantities by name, found under names with `_` too."""
+
+    def __init__(self, all: list[Quantity]) -> None:
+        self._all = {quantity.name: quantity for quantity in all}
+
+    def __getitem__(self, name: str) -> Quantity:
+        return self._all[name if name in self._all else name.replace("_", "-")]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __repr__(self) -> str:
+        return f"<ppum quantities: {', '.join(self._all)}>"
+
+
+class Field:
+    """A field of one step, to be evaluated exactly wherever one likes. Made by `Step.field` and `Dataset.field`.
+
+    It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled.
+
+    Example:
+        >>> f = ds.field
+        >>> round(float(f.at(0.5, 0.25).von_mises), 6)
+        1.276572
+    """
+
+    def __init__(
+        self, dataset: Dataset, step: int = -1, _subject: Mapping[str, Any] | None = None
+    ) -> None:
+        count = len(dataset.steps)
+        #: The dataset.
+        self.dataset = dataset
+        self._number = step if step >= 0 else count + step
+        self._subject = dict(_subject or {})
+        self._core = _core.Field(dataset._core, self._number, json.dumps(self._subject))
+
+    @property
+    def step(self) -> Step:
+        """The step that the field belongs to."""
+        return self.dataset.steps[self._number]
+
+    @cached_property
+    def components(self) -> tuple[str, ...]:
+        """Names of the components: ``ux``, ``uy``, or ``u``."""
+        return tuple(self._core.components())
+
+    @cached_property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """All quantities that have a name. Formulas of them are quantities too."""
+        return _Quantities([Quantity(**q) for q in self._core.known()])
+
+    def at(
+        self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None
+    ) -> Values:
+        """The field at points.
+
+        A value depends on its point alone, to the last bit, whatever other points there are.
+
+        Args:
+            x, y: Coordinates, lengths; numbers or arrays, which are broadcast against each other.
+            side: Of points on a crack the side that is meant: ``above`` is on the left of the crack's
+                direction; ``both`` gives both along a last axis. Elsewhere sides are equal.
+            anchor: Where x and y are offsets from. They are not rounded by it: 1e-20 from a tip
+                is as exact as 1.
+
+        Raises:
+            TypeError: Coordinates that are no real numbers.
+            ValueError: Shapes that cannot be broadcast; no such side.
+
+        Example:
+            >>> f.at(0.0, 0.0, side="both").uy.shape
+            (2,)
+            >>> near = f.at(1e-20, 0.0, anchor=ds.tips[1].xy)
+            >>> bool(near.von_mises > 1e9)
+            True
+        """
+        return Values(self, x, y, side, anchor)
+
+    def evaluate(
+        self,
+        x: ArrayLike,
+        y: ArrayLike,
+        quantities: Sequence[str],
+        *,
+        side: SideName = "above",
+        anchor: ArrayLike | None = None,
+        gradient: bool = False,
+        out: Floats | None = None,
+    ) -> Any:
+        """Several quantities in one pass over the points.
+
+        Args:
+            x, y, side, anchor: As in `at`.
+            quantities: q names or formulas.
+            gradient: Whether gradients are wanted too.
+            out: An array for the result, float64 in C order, which is returned; not with gradients or both sides.
+
+        Returns:
+            Shape (..., q), or with both sides (..., 2, q). With `gradient` two arrays: this, and the gradients
+            of shape (..., q, 2).
+
+        Raises:
+            QuantityError: No quantity of the field.
+            ValueError: An `out` that does not fit.
+
+        Example:
+            >>> f.evaluate([0.0, 0.1], 0.5, ["ux", "sxx + syy"]).shape
+            (2, 2)
+        """
+        if isinstance(quantities, str):
+            raise TypeError("quantities: give a list of names; `at(x, y)[name]` takes one")
+        if out is not None and (gradient or side == "both"):
+            raise ValueError("`out` takes values of one side, without gradients")
+        values = self.at(x, y, side=side, anchor=anchor)
+        found = values._evaluate(list(quantities), gradient, out)
+        return (found[..., 0], found[..., 1:]) if gradient else found
+
+    def part(self, part: str) -> Field:
+        """A part of the field: ``smooth``, ``jump``, ``tip``, ``other``, or ``patch:N``. The parts add up to the whole.
+
+        Raises:
+            QuantityError: No such part.
+        """
+        return self._changed(part=part)
+
+    def with_function(self, functions: Mapping[str, str]) -> Field:
+        """The field with other functions in place of its own, by name or number: formulas of x, y, r, theta. The
+        coefficients stay.
+
+        Raises:
+            QuantityError: No such function, no formula.
+
+        Example:
+            >>> g = f.with_function({"westergaard 1": "r"})
+            >>> bool(g.at(0.4, 0.3).uy == f.at(0.4, 0.3).uy)
+            False
+        """
+        known = [tuple(pair) for pair in self._subject.get("functions", [])]
+        return self._changed(functions=[*known, *functions.items()])
+
+    def with_weight(self, weight: str) -> Field:
+        """The field with another weight function: one of the library by name, or a formula of t. The coefficients stay.
+
+        Raises:
+            QuantityError: No weight.
+        """
+        return self._changed(weight=weight)
+
+    def with_quantity(self, quantities: Mapping[str, str]) -> Field:
+        """The field with other formulas for quantities that the dataset names.
+
+        Raises:
+            QuantityError: No such quantity, no formula.
+        """
+        known = [tuple(pair) for pair in self._subject.get("quantities", [])]
+        return self._changed(quantities=[*known, *quantities.items()])
+
+    def _changed(self, **what: Any) -> Field:
+        return Field(self.dataset, self._number, {**self._subject, **what})
+
+    def line(
+        self, start: ArrayLike, end: ArrayLike, *, num: int = 201, quantities: Sequence[str] | None = None
+    ) -> Any:
+        """Values along a line, as an `xarray.Dataset` over the distance `s` from its start.
+
+        Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).
+
+        Example:
+            >>> line = f.line((-1, 0.1), (1, 0.1), num=5, quantities=["uy"])
+            >>> line.uy.shape
+            (6,)
+        """
+        along = {"line": {"from": _pair(start), "to": _pair(end)}}
+        return self._curve(along, num, quantities)
+
+    def circle(
+        self, center: ArrayLike, radius: float, *, num: int = 201, quantities: Sequence[str] | None = None
+    ) -> Any:
+        """Values on a circle, as an `xarray.Dataset` over the angle `theta`, degrees from the x axis."""
+        along = {"circle": {"center": _pair(center), "radius": radius}}
+        return self._curve(along, num, quantities)
+
+    def along(self, crack: Any, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
+        """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity `…_above`,
+        `…_below` and `…_jump`, and of a displacement `opening` and `sliding`.
+
+        Args:
+            crack: A `Crack` or its number.
+        """
+        return self._curve({"crack": {"index": getattr(crack, "index", crack)}}, num, quantities)
+
+    def around(
+        self, tip: int, radius: float | None = None, *, num: int = 201, quantities: Sequence[str] | None = None
+    ) -> Any:
+        """Values on a circle around a tip, as an `xarray.Dataset` over the angle `theta` from the crack's extension,
+        degrees; by default a hundredth of the crack's length away."""
+        return self._curve({"around": {"tip": tip, "radius": radius}}, num, quantities)
+
+    def ray(
+        self,
+        tip: int,
+        angle: float = 0.0,
+        length: float | None = None,
+        *,
+        num: int = 201,
+        quantities: Sequence[str] | None = None,
+    ) -> Any:
+        """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm; `angle` is
+        that from the crack's extension, degrees."""
+        along = {"ray": {"tip": tip, "angle": angle, "far": length}}
+        return self._curve(along, num, quantities)
+
+    def _curve(self, along: Any, num: int, quantities: Sequence[str] | None) -> Any:
+        from .xarrays import curve
+
+        return curve(self, json.dumps(along), num, self._names(quantities))
+
+    def grid(
+        self,
+        nx: int | None = None,
+        ny: int | None = None,
+        *,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        quantities: Sequence[str] | None = None,
+        side: SideName = "above",
+    ) -> Any:
+        """Values on a grid, as an `xarray.Dataset` over y and x, both rising.
+
+        Args:
+            nx, ny: Numbers of columns and rows, from border to border of the domain's box.
+            x, y: Or the coordinates themselves.
+            quantities: By default the components, for elasticity also the stresses.
+            side: As in `at`; ``both`` adds a dimension `side`.
+
+        Example:
+            >>> f.grid(3, 5, quantities=["s1"]).s1.dims
+            ('y', 'x')
+        """
+        from .xarrays import grid
+
+        return grid(self, (nx, x), (ny, y), self._names(quantities), side)
+
+    def _names(self, quantities: Sequence[str] | None) -> list[str]:
+        if isinstance(quantities, str):
+            raise TypeError("quantities: give a list of names")
+        if quantities is not None:
+            return list(quantities)
+        stresses = ["sxx", "syy", "sxy", "von-mises"]
+        return [*self.components, *(stresses if self.dataset.equation == "elasticity" else [])]
+
+    def render(
+        self, quantity: str | None = None, *, dtype: Any = np.float64, progress: Any = None, **view: Any
+    ) -> NDArray[Any]:
+        """Values at the centres of the pixels of a view: shape (rows, columns), rows from the top; NaN outside.
+
+        Args:
+            quantity: A quantity, a formula or a value of cells; by default von Mises' stress, of a potential itself.
+            dtype: float64 or float32, in which the values are computed too.
+            progress: Is called with phase, parts done, all parts, step.
+            view: `View`, or as in `view`: center, width, tip, zoom, size.
+
+        Example:
+            >>> f.render("uy", size=(40, 80)).shape
+            (80, 40)
+        """
+        kind = np.dtype(dtype)
+        if kind not in (np.dtype(np.float64), np.dtype(np.float32)):
+            raise ValueError(f"dtype: values are float64 or float32, not {kind}")
+        seen = self.view(**view)
+        name = quantity or self._core.default_quantity()
+        return _core.render(self._core, name, seen._spot, seen.size, kind == np.float32, progress)
+
+    def rgba(self, quantity: str | None = None, *, view: Any = None, **options: Any) -> NDArray[np.uint8]:
+        """The colours of a picture: shape (rows, columns, 4), rows from the top; transparent outside.
+
+        Args:
+            quantity: As in `render`.
+            view: A `View`; else center, width, tip, zoom, size as in `view`.
+            options: Colours and overlays as in `figure`.
+        """
+        keys = ("center", "width", "tip", "zoom", "size")
+        seen = self.view(view, **{k: options.pop(k) for k in keys if k in options})
+        scene = figure_scene(quantity, options)
+        return _core.rgba(self._core, scene, seen._spot, seen.size)
+
+    def figure(self, quantity: str | None = None, **options: Any) -> Figure:
+        """A figure with axes and a colour bar, as the program draws it; notebooks show it.
+
+        Args:
+            quantity: As in `render`.
+            options: What is seen: center, width, or tip, zoom. Colours: cmap, clim (``auto``, ``full``, two values or two
+                percentiles), norm (``linear``, ``log``, ``symlog``), bands, symmetric, contrast. Over them: overlays (a list
+                of cracks, cells, patches, boxes, points, centers, rings, supports, loads), isolines (``auto``, a number,
+                or values), level_labels, arrows, crosses (their distance, pixels). deformed (``auto`` or a factor), outline.
+                The page: size (pixels) or inches, dpi, font_size, theme (``light``, ``dark``), transparent, bar (``right``,
+                ``bottom``, ``none``).
+
+        Raises:
+            TypeError: No such option.
+
+        Example:
+            >>> figure = f.figure("von_mises", tip=0, zoom=1e6, norm="log")
+            >>> figure.save("tip.png")
+            >>> figure.png()[1:4]
+            b'PNG'
+        """
+        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
+        look = figure_look(options)
+        scene = figure_scene(quantity, options)
+        at = self._spot(look["size"], **seen) if seen else None
+        return Figure(self._core, scene, at, json.dumps(look))
+
+    def extrema(self, quantity: str | None = None, **view: Any) -> tuple[Extremum, Extremum]:
+        """The smallest and the largest value in a view, also between its pixels, at tips infinite.
+
+        Args:
+            quantity: A quantity or a formula.
+            view: `View`, or as in `view`: center, width, tip, zoom, size.
+
+        Raises:
+            RenderError: There is no value in the view.
+
+        Example:
+            >>> low, high = f.extrema("uy")
+            >>> low.value < 0 < high.value
+            True
+        """
+        from .errors import RenderError
+
+        seen = self.view(**view)
+        name = quantity or self._core.default_quantity()
+        found = _core.extrema(self._core, name, seen._spot, seen.size)
+        if found is None:
+            raise RenderError(f"`{name}` has no value in the view; show some of the plate")
+        low, high = (Extremum(**one) for one in found)
+        return low, high
+
+    def view(
+        self,
+        view: View | None = None,
+        *,
+        center: ArrayLike | None = None,
+        width: float | None = None,
+        tip: int | None = None,
+        zoom: float | None = None,
+        size: tuple[int, int] = (1024, 768),
+    ) -> View:
+        """A view of the plate: all of it, or a width around a center, or a tip enlarged `zoom` times (10)."""
+        if view is not None:
+            return view
+        at, width = self._spot(size, center=center, width=width, tip=tip, zoom=zoom)
+        return View(at, width, size)
+
+    def _spot(
+        self,
+        size: tuple[int, int],
+        center: ArrayLike | None = None,
+        width: float | None = None,
+        tip: int | None = None,
+        zoom: float | None = None,
+    ) -> tuple[tuple[float, float], float]:
+        at = None if center is None else _pair(center)
+        if tip is not None:
+            at = self.step.tips[tip].xy
+        return spot(self.dataset.domain, size, at, width, zoom)
+
+    def plot(self, quantity: str | None = None, **options: Any) -> Any:
+        """Draws the field into matplotlib axes: exact at every pixel of the device, on screen, in PNG and PDF, zoomed or not.
+
+        Args:
+            quantity: A quantity or a formula, as in `render`.
+            options: ax, cmap, norm, clim, colorbar, cracks, alpha, zorder; see `ppum.plotting.plot`.
+
+        Returns:
+            The artist, a `matplotlib.image.AxesImage`.
+        """
+        from .plotting import plot
+
+        return plot(self, quantity, **options)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Field, (self.dataset, self._number, self._subject)
+
+    def __repr__(self) -> str:
+        changes = [k if k != "part" else self._subject[k] for k in self._subject]
+        changed = f", changed: {', '.join(changes)}" if changes else ""
+        names = ", ".join(self.components)
+        return f"<ppum.Field {names} of {self.dataset.title!r}, step {self._number}{changed}>"
+
+
+for _class in (Field, Quantity, Values):
+    _class.__module__ = "ppum"

@@ -1,0 +1,208 @@
+"""What is seen of a plate, and figures."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import _core
+
+__all__ = ["Extremum", "Figure", "View"]
+
+Spot = tuple[tuple[float, float], float]
+
+
+@dataclass(frozen=True)
+class View:
+    """The part of the plane that a picture shows.
+
+    Attributes:
+        center: The middle of the picture.
+        width: From the left border to the right one, a length; down to 1e-12 of the plate.
+        size: Columns and rows of pixels; they are squares, so the height follows.
+
+    Example:
+        >>> ppum.View(center=(0.0, 0.0), width=2.0, size=(400, 300)).height
+        1.5
+    """
+
+    center: tuple[float, float]
+    width: float
+    size: tuple[int, int] = (1024, 768)
+
+    @property
+    def height(self) -> float:
+        """From the lower border to the upper one."""
+        return self.width * self.size[1] / self.size[0]
+
+    @property
+    def _spot(self) -> Spot:
+        return (float(self.center[0]), float(self.center[1])), float(self.width)
+
+
+@dataclass(frozen=True)
+class Extremum:
+    """An extreme value.
+
+    Attributes:
+        value: To about 1e-6 of its size; infinite at a singular point.
+        xy: Its place.
+        offset: The way there from the middle of the view, in all digits.
+        on: What it lies on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``.
+        side: Of a face, ``above`` or ``below``.
+    """
+
+    value: float
+    xy: tuple[float, float]
+    offset: tuple[float, float]
+    on: str
+    side: str | None
+
+
+def spot(
+    domain: tuple[tuple[float, float], tuple[float, float]],
+    size: tuple[int, int],
+    center: tuple[float, float] | None,
+    width: float | None,
+    zoom: float | None,
+) -> Spot:
+    """Center and width of a view, by default of all of the plate."""
+    (x0, y0), (x1, y1) = domain
+    whole = max(x1 - x0, (y1 - y0) * size[0] / max(size[1], 1))
+    if width is not None and zoom is not None:
+        raise ValueError("give a width or a zoom, not both")
+    if center is None:
+        center = (0.5 * x0 + 0.5 * x1, 0.5 * y0 + 0.5 * y1)
+    elif width is None:
+        zoom = zoom or 10.0
+    return center, width if width is not None else whole / (zoom or 1.0)
+
+
+def figure_scene(quantity: str | None, options: dict[str, Any]) -> str:
+    """What a picture shows, as the libraries read it; takes what it knows out of the options, which are all then."""
+    colors = {
+        "colormap": options.pop("cmap", None),
+        "range": _range(options.pop("clim", "auto")),
+        "scale": options.pop("norm", "linear"),
+        "contrast": bool(options.pop("contrast", False)),
+        "bands": options.pop("bands", None),
+        "symmetric": bool(options.pop("symmetric", False)),
+    }
+    isolines, deformed = options.pop("isolines", None), options.pop("deformed", None)
+    overlays = {
+        "shown": list(options.pop("overlays", ())),
+        "isolines": None if isolines is None else _levels(isolines),
+        "level_labels": bool(options.pop("level_labels", False)),
+        "arrows": options.pop("arrows", None),
+        "crosses": options.pop("crosses", None),
+    }
+    scene = {
+        "quantity": quantity,
+        "colors": colors,
+        "overlays": overlays,
+        "deformed": None if deformed is None else str(deformed),
+        "outline": bool(options.pop("outline", False)),
+    }
+    if options:
+        raise TypeError(f"no such option: {', '.join(sorted(options))}")
+    return json.dumps(scene)
+
+
+def figure_look(options: dict[str, Any]) -> dict[str, Any]:
+    """The look of a figure; takes it out of the options."""
+    theme = options.pop("theme", "light")
+    if theme not in ("light", "dark"):
+        raise ValueError(f"theme: {theme!r} is none; there are light, dark")
+    return {
+        "size": tuple(options.pop("size", (1024, 768))),
+        "inches": options.pop("inches", None),
+        "dpi": options.pop("dpi", None),
+        "font_size": options.pop("font_size", None),
+        "dark": theme == "dark",
+        "transparent": bool(options.pop("transparent", False)),
+        "bar": options.pop("bar", None),
+    }
+
+
+def _range(clim: Any) -> str:
+    if isinstance(clim, str):
+        return clim
+    low, high = clim
+    return f"{low},{high}" if isinstance(low, str) else f"{float(low)!r},{float(high)!r}"
+
+
+def _levels(isolines: Any) -> str:
+    if isinstance(isolines, Iterable) and not isinstance(isolines, str):
+        return ",".join(repr(float(level)) for level in isolines) + ","
+    return str(isolines)
+
+
+class Figure:
+    """A figure; drawn when its bytes are asked for. Made by `Field.figure`."""
+
+    def __init__(self, core: _core.Field, scene: str, spot: Spot | None, look: str) -> None:
+        self._core, self._scene, self._spot, self._look = core, scene, spot, look
+        self._known: dict[str, bytes] = {}
+
+    def to_bytes(self, form: str = "png") -> bytes:
+        """The bytes of its file, as ``png``, ``svg`` or ``pdf``.
+
+        Raises:
+            QuantityError, RenderError: What cannot be drawn.
+        """
+        if form not in self._known:
+            self._known[form] = _core.figure(self._core, self._scene, self._spot, self._look, form)
+        return self._known[form]
+
+    def png(self) -> bytes:
+        """Pixels."""
+        return self.to_bytes("png")
+
+    def svg(self) -> str:
+        """Vector lines and text, for the web."""
+        return self.to_bytes("svg").decode()
+
+    def pdf(self) -> bytes:
+        """Vector lines and text, for papers."""
+        return self.to_bytes("pdf")
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file, of the form that its name ends in: .png, .svg or .pdf. What was there stays until it is complete.
+
+        Raises:
+            ValueError: Another end.
+            OSError: The system refuses.
+        """
+        path = Path(path)
+        data = self.to_bytes(path.suffix[1:].lower())
+        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
+            try:
+                file.write(data)
+                file.close()
+                os.chmod(file.name, 0o666 & ~_umask())
+                os.replace(file.name, path)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+
+    def _repr_png_(self) -> bytes:
+        return self.png()
+
+    def __repr__(self) -> str:
+        size = json.loads(self._look)["size"]
+        return f"<ppum.Figure {json.loads(self._scene)['quantity'] or 'of a field'}, {size[0]}x{size[1]}>"
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+for _class in (Extremum, Figure, View):
+    _class.__module__ = "ppum"

@@ -1,0 +1,193 @@
+"""Fields in matplotlib, exact at every pixel of the device.
+
+`plot` puts an artist into axes. Whenever matplotlib draws, the artist evaluates the field at the pixels that are drawn: on screen, in
+a PNG of any resolution, in a PDF, zoomed or not. Colour maps, norms, colour bars and masks are matplotlib's own. Axes know
+places as double precision has them: below some 1e-12 of the coordinates use `Field.figure`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.image import AxesImage
+from matplotlib.transforms import Bbox
+
+from . import _core
+from .errors import QuantityError
+from .pictures import spot
+
+if TYPE_CHECKING:
+    from .field import Field
+
+__all__ = ["FieldImage", "plot"]
+
+#: Longer side of the picture that colours are chosen from, in pixels.
+COARSE = 256
+
+#: Percentiles that colours span by default where the field may be infinite.
+ROBUST = (0.5, 99.5)
+
+
+def plot(
+    field: Field,
+    quantity: str | None = None,
+    *,
+    ax: Any = None,
+    cmap: Any = None,
+    norm: Any = None,
+    clim: Any = "auto",
+    colorbar: bool = True,
+    cracks: bool = True,
+    **artist: Any,
+) -> FieldImage:
+    """Draws a quantity into axes.
+
+    Args:
+        field: The field.
+        quantity: A quantity or a formula.
+        ax: Axes; by default the current ones, which get equal scales.
+        cmap, norm: As matplotlib has them; a norm by its name, or an object.
+        clim: ``auto``: percentiles of a picture of the plate, robust against tips; ``full``: all its finite values; or two
+            values.
+        colorbar: Whether there is a colour bar, with the quantity's symbol.
+        cracks: Whether cracks and rims of holes are drawn.
+        artist: alpha, zorder and other properties of artists.
+
+    Returns:
+        The artist.
+
+    Raises:
+        QuantityError: No quantity of the field.
+    """
+    import matplotlib.pyplot as plt
+
+    ax = ax if ax is not None else plt.gca()
+    name = quantity or field._core.default_quantity()
+    image = FieldImage(ax, field, name, cmap=cmap, norm=norm, **artist)
+    image.set_clim(*_limits(image.get_array(), clim))
+    ax.add_image(image)
+    (x0, y0), (x1, y1) = field.dataset.domain
+    ax.set_aspect("equal")
+    ax.update_datalim([(x0, y0), (x1, y1)])
+    ax.autoscale_view()
+    if cracks:
+        _draw_lines(field, ax)
+    if colorbar:
+        bar = ax.figure.colorbar(image, ax=ax)
+        symbol, unit = field._core.words(name)
+        bar.set_label(f"{_math(symbol)} [{unit}]" if unit else _math(symbol))
+    return image
+
+
+def _limits(values: Any, clim: Any) -> tuple[float, float]:
+    finite = values.compressed()
+    finite = finite[np.isfinite(finite)]
+    if not isinstance(clim, str):
+        low, high = clim
+        return float(low), float(high)
+    if clim not in ("auto", "full"):
+        raise ValueError(f"clim: {clim!r} is none; give auto, full, or two values")
+    if finite.size == 0:
+        return 0.0, 1.0
+    ends = np.percentile(finite, ROBUST if clim == "auto" else (0, 100))
+    return float(ends[0]), float(ends[1])
+
+
+def _math(symbol: str) -> str:
+    """Subscripts as matplotlib's mathtext has them; words stay words."""
+    parts = []
+    while "_{" in symbol:
+        before, rest = symbol.split("_{", 1)
+        below, symbol = rest.split("}", 1)
+        parts.append(before + "$_{" + below + "}$")
+    return "".join(parts) + symbol
+
+
+def _draw_lines(field: Field, ax: Any) -> None:
+    for crack in field.step.cracks:
+        ax.plot(*_fine(crack.points).T, color="black", linewidth=1.0, scalex=False, scaley=False)
+    for hole in field.dataset.holes:
+        if hole.points is not None:
+            closed = np.vstack([hole.points, hole.points[:1]])
+        else:
+            angles = np.linspace(0.0, 2.0 * np.pi, 361)
+            around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+            closed = np.asarray(hole.center) + float(hole.radius or 0.0) * around
+        ax.plot(*_fine(closed).T, color="black", linewidth=1.0, scalex=False, scaley=False)
+
+
+def _fine(points: Any) -> Any:
+    """A polyline with more vertices on its lines: on logarithmic axes lines are curves."""
+    along = np.arange(len(points))
+    finer = np.linspace(0, len(points) - 1, 32 * (len(points) - 1) + 1)
+    return np.stack([np.interp(finer, along, points[:, k]) for k in (0, 1)], axis=-1)
+
+
+class FieldImage(AxesImage):
+    """A quantity of a field as an image that is never resampled: it is evaluated at the pixels that are drawn.
+
+    Its array is a coarse picture of the plate, for norms and colour bars to begin with.
+    """
+
+    def __init__(self, ax: Any, field: Field, quantity: str, **properties: Any) -> None:
+        (x0, y0), (x1, y1) = field.dataset.domain
+        super().__init__(
+            ax, interpolation="nearest", origin="upper", extent=(x0, x1, y0, y1), **properties
+        )
+        self._field, self._quantity = field, quantity
+        field._core.check(quantity)
+        longest = max(x1 - x0, y1 - y0)
+        size = tuple(max(1, round(COARSE * d / longest)) for d in (x1 - x0, y1 - y0))
+        at = spot(field.dataset.domain, size, None, None, None)  # type: ignore[arg-type]
+        coarse = _core.render(field._core, quantity, at, size, False, None)  # type: ignore[arg-type]
+        self.set_data(np.ma.masked_invalid(coarse))
+        self.set_clip_path(ax.patch)
+
+    def get_cursor_data(self, event: Any) -> Any:
+        """The exact value under the mouse."""
+        if event.xdata is None or event.ydata is None:
+            return None
+        try:
+            value = self._field.at(event.xdata, event.ydata)[self._quantity]
+        except QuantityError:
+            return None
+        return None if np.isnan(value) else value
+
+    def make_image(self, renderer: Any, magnification: float = 1.0, unsampled: bool = False) -> Any:
+        """The colours of the pixels of the device, the lowest row first, and the place of the lower left one."""
+        to_display = self.get_transform()
+        corners = Bbox.null()
+        x0, x1, y0, y1 = self.get_extent()
+        grid = [(x, y) for x in (x0, x1) for y in (y0, y1)]
+        corners.update_from_data_xy(to_display.transform(grid))
+        seen = Bbox.intersection(corners, self.axes.bbox)
+        if seen is None or seen.width <= 0 or seen.height <= 0:
+            return None, 0, 0, None
+        left, bottom = np.floor(np.array(seen.min) * magnification)
+        columns, rows = np.maximum(np.ceil(np.array(seen.max) * magnification) - (left, bottom), 1)
+        values = self._at_pixels(to_display, magnification, (left, bottom), (int(columns), int(rows)))
+        rgba = self.to_rgba(np.ma.masked_invalid(values), bytes=True, norm=True)
+        alpha: Any = self.get_alpha()
+        if alpha is not None:
+            rgba[..., 3] = np.where(rgba[..., 3] > 0, round(255 * float(alpha)), 0)
+        return rgba, left / magnification, bottom / magnification, None
+
+    def _at_pixels(
+        self, to_display: Any, scale: float, corner: tuple[float, float], size: tuple[int, int]
+    ) -> Any:
+        """Values at the centres of pixels, the lowest row first."""
+        x = (corner[0] + np.arange(size[0]) + 0.5) / scale
+        y = (corner[1] + np.arange(size[1]) + 0.5) / scale
+        to_data = to_display.inverted()
+        ends = to_data.transform([(x[0], y[0]), (x[-1], y[-1])])
+        if to_display.is_affine and to_display.is_separable and min(size) > 1:
+            steps = (ends[1] - ends[0]) / (np.array(size) - 1)
+            if steps[0] > 0 and abs(steps[1] / steps[0] - 1.0) < 1e-9:
+                center = (float(ends[:, 0].mean()), float(ends[:, 1].mean()))
+                at = (center, float(steps[0] * size[0]))
+                return _core.render(self._field._core, self._quantity, at, size, False, None)[::-1]
+        points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        data = to_data.transform(points)
+        values = self._field.at(data[:, 0], data[:, 1])[self._quantity]
+        return values.reshape(size[::-1])

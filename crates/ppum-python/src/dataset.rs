@@ -1,0 +1,79 @@
+//! Datasets: files, bytes, and what stands in them.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ppum_format::{from_bytes as decode, to_bytes, write};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::{unreadable, unwritable};
+use crate::facts::{About, StepFacts};
+use crate::watch::{guard, long};
+
+/// A dataset, which never changes.
+#[pyclass(frozen, module = "ppum._core")]
+pub(crate) struct Dataset(pub(crate) Arc<ppum::dataset::Dataset>);
+
+/// Reads a file with all its steps.
+#[pyfunction]
+pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Dataset> {
+    let name = path.display().to_string();
+    let read = long(py, None, None, |_| ppum_format::read(&path))?;
+    read.map(Dataset::new).map_err(|error| unreadable(&name, error))
+}
+
+/// Reads the bytes of a file.
+#[pyfunction]
+pub(crate) fn from_bytes(py: Python<'_>, bytes: Vec<u8>) -> PyResult<Dataset> {
+    let read = long(py, None, None, |_| decode(bytes))?;
+    read.map(Dataset::new).map_err(|error| unreadable("the bytes of a dataset", error))
+}
+
+impl Dataset {
+    pub(crate) fn new(dataset: ppum::dataset::Dataset) -> Self {
+        Self(Arc::new(dataset))
+    }
+}
+
+#[pymethods]
+impl Dataset {
+    /// Writes a file, in one step: what was there before stays until the new one is complete.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        long(py, None, None, |_| write(&self.0, &path))?.map_err(unwritable)
+    }
+
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = long(py, None, None, |_| to_bytes(&self.0))?.map_err(unwritable)?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.steps.len()
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+
+    /// What all steps have in common.
+    fn about(&self) -> PyResult<About> {
+        guard(|| Ok(About::new(&self.0)))
+    }
+
+    /// What stands in a step, but for its fields.
+    fn step(&self, number: usize) -> PyResult<StepFacts> {
+        guard(|| StepFacts::new(&self.0, number))
+    }
+
+    /// The stored values of cells, by their names.
+    fn attributes<'py>(
+        &self,
+        py: Python<'py>,
+        number: usize,
+    ) -> PyResult<Vec<(String, Bound<'py, numpy::PyArray1<f64>>)>> {
+        let step = StepFacts::step(&self.0, number)?;
+        let array = |values: &[f64]| numpy::PyArray1::from_slice(py, values);
+        Ok(step.attributes.iter().map(|a| (a.name.clone(), array(&a.values))).collect())
+    }
+}

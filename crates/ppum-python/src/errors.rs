@@ -1,0 +1,162 @@
+//! The exceptions, which are classes of `ppum` so that they can be pickled, and what becomes them.
+
+use std::convert::Infallible;
+use std::io;
+use std::path::Path;
+
+use ppum::field::FieldError;
+use ppum::progress::Cancelled;
+use ppum::quantity::QuantityError as BadQuantity;
+use ppum_format::{ReadError, WriteError};
+use ppum_scene::layers::LayersError;
+use ppum_scene::profile::ProfileError;
+use ppum_scene::scene::{ShownError, SubjectError};
+use ppum_scene::shot::ShotError;
+use ppum_solve::growth::GrowthError;
+use ppum_solve::problem::{Location, Mistake, ProblemError as Mistakes};
+use ppum_solve::solve::SolveError as Unsolved;
+use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyOSError};
+use pyo3::import_exception;
+use pyo3::prelude::*;
+
+import_exception!(ppum, FormatError);
+import_exception!(ppum, InternalError);
+import_exception!(ppum, ProblemError);
+import_exception!(ppum, QuantityError);
+import_exception!(ppum, RenderError);
+import_exception!(ppum, SolveError);
+
+/// `FileNotFoundError` and its like, with the file's name.
+fn file(path: &Path, error: &io::Error, message: String) -> PyErr {
+    let Some(number) = error.raw_os_error() else {
+        return io::Error::new(error.kind(), message).into();
+    };
+    // the words of the system, without the number that Rust adds and Python adds again
+    let words = error.to_string();
+    let words = words.split(" (os error").next().unwrap_or(&words).to_owned();
+    PyOSError::new_err((number, words, path.display().to_string()))
+}
+
+/// A dataset that cannot be read; `of` is where it comes from.
+pub(crate) fn unreadable(of: &str, error: ReadError) -> PyErr {
+    match error {
+        ReadError::Io { path, source } => {
+            file(&path, &source, format!("cannot read {}: {source}", path.display()))
+        }
+        error => FormatError::new_err(format!("{of}: {error}")),
+    }
+}
+
+/// A dataset that cannot be written.
+pub(crate) fn unwritable(error: WriteError) -> PyErr {
+    match error {
+        WriteError::Io { path, source } => {
+            file(&path, &source, format!("cannot write {}: {source}", path.display()))
+        }
+        error => FormatError::new_err(error.to_string()),
+    }
+}
+
+/// One mistake of a problem: file or key, line and column where they are known, what is wrong.
+#[derive(IntoPyObject)]
+pub(crate) struct Finding {
+    place: String,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: String,
+}
+
+impl Finding {
+    fn new(mistake: &Mistake) -> Self {
+        let (place, line, column) = match &mistake.location {
+            Location::File(file) => (file.clone(), None, None),
+            Location::Text { file, line, column } => (file.clone(), Some(*line), Some(*column)),
+            Location::Key(key) => (key.clone(), None, None),
+        };
+        Self { place, line, column, message: mistake.message.clone() }
+    }
+
+    pub(crate) fn all(mistakes: &Mistakes) -> Vec<Self> {
+        mistakes.mistakes().iter().map(Self::new).collect()
+    }
+}
+
+/// A problem that cannot be read, with its findings.
+pub(crate) fn problem(mistakes: &Mistakes) -> PyErr {
+    ProblemError::new_err((mistakes.to_string(), Finding::all(mistakes)))
+}
+
+/// Work that was stopped: by nobody but Python, which raises its own exception then.
+fn cancelled(error: Cancelled) -> PyErr {
+    PyKeyboardInterrupt::new_err(error.to_string())
+}
+
+/// A problem that cannot be solved.
+pub(crate) fn unsolved(error: Unsolved) -> PyErr {
+    match error {
+        Unsolved::Cancelled(error) => cancelled(error),
+        Unsolved::Problem(mistakes) => problem(&mistakes),
+        error => SolveError::new_err(error.to_string()),
+    }
+}
+
+/// A series that ends before its end.
+pub(crate) fn ungrown(error: GrowthError<Infallible>) -> PyErr {
+    match error {
+        GrowthError::Solve(error) => unsolved(error),
+        error => SolveError::new_err(error.to_string()),
+    }
+}
+
+/// A field that is not there, or that cannot be compiled.
+pub(crate) fn no_field(error: FieldError) -> PyErr {
+    match error {
+        FieldError::Step { .. } => PyIndexError::new_err(error.to_string()),
+        error => FormatError::new_err(error.to_string()),
+    }
+}
+
+/// What is no quantity of a field, nor a change that can be made in it.
+pub(crate) fn quantity(error: &BadQuantity) -> PyErr {
+    QuantityError::new_err(error.to_string())
+}
+
+pub(crate) fn subject(error: &SubjectError) -> PyErr {
+    QuantityError::new_err(error.to_string())
+}
+
+/// A picture that cannot be drawn.
+pub(crate) fn picture(error: ShotError) -> PyErr {
+    match error {
+        ShotError::Render(error) => rendering(error),
+        ShotError::Layers(layers) => match *layers {
+            LayersError::Render(error) => rendering(*error),
+            error => RenderError::new_err(error.to_string()),
+        },
+        ShotError::Shown(error) => not_shown(&error),
+        error => RenderError::new_err(error.to_string()),
+    }
+}
+
+pub(crate) fn not_shown(error: &ShownError) -> PyErr {
+    QuantityError::new_err(error.to_string())
+}
+
+pub(crate) fn rendering(error: ppum_render::RenderError) -> PyErr {
+    match error {
+        ppum_render::RenderError::Cancelled(error) => cancelled(error),
+        ppum_render::RenderError::Quantity(error) => quantity(&error),
+        error => RenderError::new_err(error.to_string()),
+    }
+}
+
+/// A curve that there are no values along.
+pub(crate) fn no_profile(error: ProfileError) -> PyErr {
+    match error {
+        ProfileError::Cancelled(error) => cancelled(error),
+        ProfileError::Crack { .. } | ProfileError::Tip { .. } => {
+            PyIndexError::new_err(error.to_string())
+        }
+        error => QuantityError::new_err(error.to_string()),
+    }
+}

@@ -1,0 +1,37 @@
+//! The compiled part of the Python package `ppum`: datasets, fields, problems and pictures as Python's objects.
+//!
+//! People import `ppum`, whose Python is beside this crate in `python/ppum`: names, defaults, shapes and documentation are
+//! there. Here is what has to be fast or is written already: every call reads numbers and texts, works without
+//! Python's lock, and gives back arrays, dictionaries or an exception. Nothing is computed here that the libraries do not
+//! compute. Without the feature `python` the crate is empty.
+#![cfg(feature = "python")]
+
+mod dataset;
+mod errors;
+mod facts;
+mod field;
+mod owned;
+mod picture;
+mod pool;
+mod problem;
+mod values;
+mod watch;
+
+/// The compiled part of ppum; import `ppum` instead.
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::dataset::{Dataset, from_bytes, read};
+    #[pymodule_export]
+    use crate::field::Field;
+    #[pymodule_export]
+    use crate::picture::{colormaps, extrema_in, figure, render, rgba};
+    #[pymodule_export]
+    use crate::problem::{check, solve};
+    #[pymodule_export]
+    use crate::watch::panic_for_tests;
+
+    /// The version of the package, that of all crates.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,52 @@
+//! A field with the dataset that it borrows.
+
+use std::sync::Arc;
+
+use ppum::dataset::Dataset;
+use ppum::field::{Field, FieldError};
+use ppum::sample::Seats;
+use self_cell::self_cell;
+
+/// A compiled field, and where its points are seen from.
+pub(crate) struct Seen<'d> {
+    pub(crate) field: Field<'d>,
+    pub(crate) seats: Seats<'d>,
+}
+
+impl<'d> Seen<'d> {
+    fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
+        let field = Field::new(dataset, step)?;
+        Ok(Self { seats: Seats::new(&field), field })
+    }
+}
+
+self_cell!(
+    struct Both {
+        owner: Arc<Dataset>,
+        #[covariant]
+        dependent: Seen,
+    }
+);
+
+/// The first field of a step, with its dataset.
+pub(crate) struct Owned(Both);
+
+impl Owned {
+    /// # Errors
+    /// No such step; functions that cannot be compiled.
+    pub(crate) fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
+        Both::try_new(dataset, |dataset| Seen::new(dataset, step)).map(Self)
+    }
+
+    pub(crate) fn dataset(&self) -> &Dataset {
+        self.0.borrow_owner()
+    }
+
+    pub(crate) fn seen(&self) -> &Seen<'_> {
+        self.0.borrow_dependent()
+    }
+
+    pub(crate) fn field(&self) -> &Field<'_> {
+        &self.seen().field
+    }
+}

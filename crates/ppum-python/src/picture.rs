@@ -1,0 +1,265 @@
+//! Pictures: values at pixels, colours, figures, extreme values.
+
+use numpy::{IntoPyArray as _, PyArray1, PyArray3, PyArrayMethods as _};
+use ppum::crack::Side;
+use ppum::progress::Watcher;
+use ppum::vec2::{Rect, Vec2};
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{BarPlace, Design, Theme, bare};
+use ppum_figure::form::Form;
+use ppum_render::colormap::NAMES;
+use ppum_render::extrema::{Extremum, On, extrema};
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::view::View;
+use ppum_scene::deformed;
+use ppum_scene::drawing::{Drawn, Shown, Values};
+use ppum_scene::scene::{Scene, shown};
+use ppum_scene::shot::{Shot, ShotError, page, shot, view_in};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::{RenderError, not_shown, picture, rendering};
+use crate::field::{Field, written};
+use crate::watch::long;
+
+/// Centre and width of a view.
+type Spot = ((f64, f64), f64);
+
+/// Names of the built-in colour maps.
+#[pyfunction]
+pub(crate) fn colormaps() -> Vec<&'static str> {
+    NAMES.to_vec()
+}
+
+/// The look of a figure.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Look {
+    /// Columns and rows; with `inches` they follow from the resolution.
+    size: [u32; 2],
+    inches: Option<[f64; 2]>,
+    dpi: Option<f64>,
+    font_size: Option<f64>,
+    dark: bool,
+    transparent: bool,
+    /// `right`, `bottom`, `none`, or what fits the plate.
+    bar: Option<String>,
+}
+
+/// Pixels per inch of figures for paper, as the program has it.
+const PAPER_DPI: f64 = 300.0;
+
+impl Look {
+    fn design(&self, plate: Rect) -> PyResult<Design> {
+        let mut design = match (self.inches, self.dpi) {
+            (Some(inches), dpi) => Design::inches(inches, dpi.unwrap_or(PAPER_DPI)),
+            (None, None) => Design::pixels(self.size),
+            (None, Some(dpi)) => Design::pixels(self.size).at(dpi),
+        };
+        design.font_size = self.font_size.unwrap_or(design.font_size);
+        design.theme = if self.dark { Theme::Dark } else { Theme::Light };
+        design.transparent = self.transparent;
+        let size = plate.size();
+        design.bar = match self.bar.as_deref() {
+            None => BarPlace::fitting(size.x / size.y),
+            Some("right") => BarPlace::Right,
+            Some("bottom") => BarPlace::Bottom,
+            Some("none") => BarPlace::None,
+            Some(other) => {
+                let known = "there are right, bottom, none";
+                return Err(PyValueError::new_err(format!("bar: `{other}` is no place; {known}")));
+            }
+        };
+        Ok(design)
+    }
+}
+
+fn view(((x, y), width): Spot, size: [u32; 2]) -> PyResult<View> {
+    View::new(Vec2 { x, y }, width, size).map_err(|error| RenderError::new_err(error.to_string()))
+}
+
+/// One extreme value.
+#[derive(IntoPyObject)]
+pub(crate) struct ExtremumFacts {
+    value: f64,
+    xy: (f64, f64),
+    offset: (f64, f64),
+    on: &'static str,
+    side: Option<&'static str>,
+}
+
+impl ExtremumFacts {
+    fn new(found: Extremum, center: Vec2) -> Self {
+        let (at, offset) = (center + found.offset, found.offset);
+        let side = match found.on {
+            On::Face(_, Side::Above) => Some("above"),
+            On::Face(_, Side::Below) => Some("below"),
+            _ => None,
+        };
+        let on = found.on.name();
+        Self { value: found.value, xy: (at.x, at.y), offset: (offset.x, offset.y), on, side }
+    }
+}
+
+impl Field {
+    fn shown(&self, name: &str) -> PyResult<Shown> {
+        shown(&self.spelled(name), self.owned.field()).map_err(|error| not_shown(&error))
+    }
+
+    /// A scene of Python's layer, its quantity spelled as the libraries do.
+    fn scene(&self, text: &str) -> PyResult<Scene> {
+        let scene = written::<Scene>(text)?;
+        Ok(Scene { quantity: scene.quantity.map(|name| self.spelled(&name)), ..scene })
+    }
+
+    fn raster<T: Sample>(
+        &self,
+        py: Python<'_>,
+        what: &Shown,
+        view: &View,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Values>
+    where
+        Values: From<Raster<T>>,
+    {
+        let field = self.owned.field();
+        match what {
+            Shown::Cells(_, values) => {
+                long(py, None, progress, |_| Drawn::of_cells(values, field, view).values)
+            }
+            Shown::Quantity(quantity) => {
+                let drawn = |watcher: &dyn Watcher| T::render(field, view, quantity, watcher);
+                Ok(long(py, None, progress, drawn)?.map_err(rendering)?.into())
+            }
+        }
+    }
+
+    /// The box that shows all of the plate, deformed or not.
+    fn whole(&self, scene: &Scene) -> PyResult<Rect> {
+        let field = self.owned.field();
+        let Some(factor) = scene.deformed else { return Ok(field.domain.bounds) };
+        let factor = factor.number(&[field]);
+        let bounds = factor.and_then(|factor| deformed::bounds(field, factor, scene.outline));
+        bounds.map_err(|error| picture(error.into()))
+    }
+
+    fn page(
+        &self,
+        scene: &Scene,
+        spot: Option<View>,
+        design: &Design,
+        watcher: &dyn Watcher,
+    ) -> PyResult<(Canvas, Shot)> {
+        let (dataset, field) = (self.owned.dataset(), self.owned.field());
+        let view = match spot {
+            Some(view) => view,
+            None => {
+                let (whole, bad) = (self.whole(scene)?, |error| picture(ShotError::View(error)));
+                let any = View::hug(whole, design.size).map_err(bad)?;
+                let room = view_in(dataset, field, scene, &any, design).map_err(picture)?;
+                View::fit(whole, room.pixels).map_err(bad)?
+            }
+        };
+        page(dataset, (field, None), scene, &view, Some(design), watcher).map_err(picture)
+    }
+}
+
+/// Values at the centres of pixels, rows from the top.
+#[pyfunction]
+pub(crate) fn render<'py>(
+    this: &Field,
+    py: Python<'py>,
+    name: &str,
+    spot: Spot,
+    size: [u32; 2],
+    single: bool,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
+    let values = match single {
+        true => this.raster::<f32>(py, &what, &view, progress.as_ref())?,
+        false => this.raster::<f64>(py, &what, &view, progress.as_ref())?,
+    };
+    let shape = [size[1] as usize, size[0] as usize];
+    Ok(match values {
+        Values::Double(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::Single(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
+    })
+}
+
+/// The colours of a scene, with what lies over them: rows from the top; red, green, blue, alpha.
+#[pyfunction]
+pub(crate) fn rgba<'py>(
+    this: &Field,
+    py: Python<'py>,
+    scene: &str,
+    spot: Spot,
+    size: [u32; 2],
+) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    let (scene, view) = (this.scene(scene)?, view(spot, size)?);
+    let (dataset, field) = (this.owned.dataset(), this.owned.field());
+    let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
+        let shot = shot(dataset, (field, None), &scene, &view, false, watcher).map_err(picture)?;
+        Ok(bare(&shot.picture, shot.layers.items).image())
+    };
+    let image = long(py, None, None, drawn)??;
+    let shape = [size[1] as usize, size[0] as usize, 4];
+    PyArray1::from_vec(py, image.rgba).reshape(shape)
+}
+
+/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`.
+#[pyfunction]
+pub(crate) fn figure<'py>(
+    this: &Field,
+    py: Python<'py>,
+    scene: &str,
+    spot: Option<Spot>,
+    look: &str,
+    form: &str,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let (scene, look) = (this.scene(scene)?, written::<Look>(look)?);
+    let design = look.design(this.owned.field().domain.bounds)?;
+    // as flat as can be: figures show more above and below, not beside
+    let spot = spot.map(|spot| view(spot, [design.size[0].max(1), 1])).transpose()?;
+    let (page, shot) = long(py, None, None, |watcher| this.page(&scene, spot, &design, watcher))??;
+    let title = &this.owned.dataset().title;
+    let quantity = scene.quantity.as_deref().unwrap_or_default();
+    let texts = shot.picture.description(title, title, quantity);
+    let form = match form {
+        "png" => Form::Png,
+        "svg" => Form::Svg,
+        "pdf" => Form::Pdf,
+        other => {
+            let known = "figures are png, svg or pdf";
+            return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));
+        }
+    };
+    let dpi = (look.inches.is_some() || look.dpi.is_some()).then_some(design.dpi);
+    let bytes = long(py, None, None, |_| form.bytes(&page, dpi, &texts))?;
+    Ok(PyBytes::new(py, &bytes?))
+}
+
+/// The smallest and the largest value in a view; none where there are no values.
+#[pyfunction]
+#[pyo3(name = "extrema")]
+pub(crate) fn extrema_in(
+    this: &Field,
+    py: Python<'_>,
+    name: &str,
+    spot: Spot,
+    size: [u32; 2],
+) -> PyResult<Option<(ExtremumFacts, ExtremumFacts)>> {
+    let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
+    let Shown::Quantity(quantity) = what else {
+        return Err(RenderError::new_err(format!("`{name}` is a value of cells: look at them")));
+    };
+    let field = this.owned.field();
+    let found = |watcher: &dyn Watcher| {
+        let raster = f64::render(field, &view, &quantity, watcher)?;
+        extrema(field, &view, &quantity, &raster, watcher)
+    };
+    let found = long(py, None, None, found)?.map_err(rendering)?;
+    let facts = |of| ExtremumFacts::new(of, view.center);
+    Ok(found.map(|found| (facts(found.min), facts(found.max))))
+}

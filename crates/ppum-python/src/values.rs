@@ -1,0 +1,64 @@
+//! Values at many points, on all threads.
+
+use ppum::crack::Side;
+use ppum::progress::{Cancelled, Phase, Progress, Watcher};
+use ppum::sample::{Place, Wanted, evaluate_each};
+use ppum::vec2::{Vec2, vec2};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::owned::Seen;
+
+/// Points that a thread takes at a time: enough that those of a patch come together, few enough that all threads have work.
+const PIECE: usize = 1 << 15;
+
+/// Points, as two arrays of one length.
+#[derive(Clone, Copy)]
+pub(crate) struct Points<'a> {
+    pub(crate) x: &'a [f64],
+    pub(crate) y: &'a [f64],
+    /// Where they are offsets from, if they are.
+    pub(crate) anchor: Option<Vec2>,
+    pub(crate) side: Side,
+}
+
+impl Points<'_> {
+    fn places(&self, seen: &Seen<'_>, from: usize, count: usize) -> Vec<Place> {
+        let points = self.x[from..].iter().zip(&self.y[from..]).take(count);
+        let place = |(&x, &y): (&f64, &f64)| self.place(seen, vec2(x, y));
+        points.map(place).collect()
+    }
+
+    fn place(&self, seen: &Seen<'_>, point: Vec2) -> Place {
+        match self.anchor {
+            Some(anchor) => seen.seats.offset(anchor, point, self.side),
+            None => seen.seats.at(&seen.field, point, self.side),
+        }
+    }
+
+    /// What is wanted at few points, here and now.
+    pub(crate) fn few(&self, seen: &Seen<'_>, wanted: Wanted<'_>) -> Vec<f64> {
+        evaluate_each(&seen.field, wanted, &self.places(seen, 0, self.x.len()))
+    }
+
+    /// What is wanted at all points, in rows one after the other.
+    pub(crate) fn fill(
+        &self,
+        seen: &Seen<'_>,
+        wanted: Wanted<'_>,
+        rows: &mut [f64],
+        watcher: &dyn Watcher,
+    ) -> Result<(), Cancelled> {
+        let (width, total) = (wanted.width(), self.x.len());
+        let done = AtomicUsize::new(0);
+        let piece = |(k, rows): (usize, &mut [f64])| {
+            let count = rows.len() / width;
+            let so_far = done.fetch_add(count, Ordering::Relaxed);
+            watcher.report(Progress::new(Phase::Evaluation, so_far, total))?;
+            let places = self.places(seen, k * PIECE, count);
+            rows.copy_from_slice(&evaluate_each(&seen.field, wanted, &places));
+            Ok(())
+        };
+        rows.par_chunks_mut((PIECE * width).max(1)).enumerate().try_for_each(piece)
+    }
+}

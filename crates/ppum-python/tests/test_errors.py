@@ -1,0 +1,117 @@
+"""Exceptions: what people catch, with remedies, and all of them can be pickled."""
+
+import io
+import pathlib
+import pickle
+
+import numpy as np
+import ppum
+import pytest
+from ppum import _core
+
+
+def caught(work):
+    with pytest.raises(Exception) as info:
+        work()
+    error = info.value
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error) and str(again) == str(error)
+    return error
+
+
+def test_files(tmp_path, ds):
+    missing = caught(lambda: ppum.open(tmp_path / "none.h5"))
+    assert isinstance(missing, FileNotFoundError) and missing.filename.endswith("none.h5")
+    assert isinstance(caught(lambda: ppum.open(tmp_path)), OSError)
+    assert isinstance(caught(lambda: ds.save(tmp_path / "no" / "a.h5")), FileNotFoundError)
+    (tmp_path / "bad.h5").write_bytes(b"no dataset")
+    for source in (tmp_path / "bad.h5", str(tmp_path / "bad.h5"), b"no dataset", io.BytesIO(b"")):
+        bad = caught(lambda: ppum.open(source))
+        assert type(bad) is ppum.FormatError and isinstance(bad, (ppum.PpumError, ValueError))
+    cut = ds.to_bytes()
+    for length in np.linspace(0, len(cut) - 1, 20).astype(int):
+        assert type(caught(lambda: ppum.from_bytes(cut[:length]))) is ppum.FormatError
+    assert isinstance(caught(lambda: ppum.open(5)), AttributeError)
+
+
+def test_quantities(f):
+    error = caught(lambda: f.evaluate(0, 0, ["von-misse"]))
+    assert isinstance(error, ppum.QuantityError) and "did you mean" in str(error)
+    for wrong in ("1 +", "", "sin(", "phi:99999", "error", "nothing", "ux;uy"):
+        assert isinstance(caught(lambda: f.at(0, 0)[wrong]), ppum.QuantityError), wrong
+        assert isinstance(caught(lambda: f.render(wrong or " ")), ppum.QuantityError), wrong
+
+
+def test_problems_name_keys(problem):
+    wrong = problem.crack((0, 0)).boundary("nowhere", traction=(0, 1)).discretization(ordr=3)
+    error = caught(lambda: ppum.solve(wrong))
+    assert type(error) is ppum.ProblemError and isinstance(error, ValueError)
+    assert error.findings == list(wrong.check())
+    places = [finding.place for finding in error.findings]
+    assert places and all(p.split(".")[0].split("[")[0] in ("crack", "boundary", "discretization") for p in places)
+    assert all(finding.line is None and finding.message for finding in error.findings)
+    again = pickle.loads(pickle.dumps(error))
+    assert again.findings == error.findings
+
+
+def test_files_of_problems_name_lines(tmp_path, problem):
+    path = tmp_path / "plate.toml"
+    path.write_text(problem.to_toml().replace("young", "yong"))
+    findings = ppum.Problem.read(path).check()
+    assert findings[0].place == str(path) and findings[0].line and "young" in str(findings[0])
+    error = caught(lambda: ppum.solve(path))
+    assert error.findings[0] == findings[0]
+    path.write_text("title = ")
+    error = caught(lambda: ppum.Problem.read(path))
+    assert type(error) is ppum.ProblemError and error.findings[0].line == 1
+    assert isinstance(caught(lambda: ppum.solve(tmp_path / "none.toml")), FileNotFoundError)
+
+
+def test_solutions(problem):
+    loose = problem.section("boundary") if False else problem.boundary("left", traction=(1, 0))
+    error = caught(lambda: ppum.solve(loose))
+    assert type(error) is ppum.SolveError and isinstance(error, RuntimeError) and "force" in str(error)
+    error = caught(lambda: ppum.solve(problem, memory=1000))
+    assert type(error) is ppum.SolveError and "memory" in str(error)
+    with pytest.raises(ValueError):
+        ppum.solve(problem, threads=0)
+
+
+def test_pictures(f):
+    for wrong in ({"center": (0, 0), "width": -1.0}, {"center": (0.3, 0), "width": 1e-17}, {"size": (0, 5)}):
+        assert isinstance(caught(lambda: f.render("ux", **wrong)), ppum.RenderError)
+    for options, kind in [
+        ({"cmap": "nothing"}, ppum.RenderError),
+        ({"norm": "log", "clim": (-1, 1)}, ppum.RenderError),
+        ({"clim": (2, 1)}, ValueError),
+        ({"norm": "cubic"}, ValueError),
+        ({"theme": "pink"}, ValueError),
+        ({"bar": "left"}, ValueError),
+        ({"overlays": ["clouds"]}, ValueError),
+        ({"nonsense": 1}, TypeError),
+        ({"width": 1.0, "zoom": 2.0}, ValueError),
+    ]:
+        assert isinstance(caught(lambda: f.figure("ux", **options).png()), kind), options
+    assert isinstance(caught(lambda: f.figure("ux").to_bytes("gif")), ValueError)
+    assert isinstance(caught(lambda: f.extrema("ux", center=(50, 50), width=1.0)), ppum.RenderError)
+    with pytest.raises(IndexError):
+        f.figure("ux", tip=9)
+
+
+@pytest.mark.parametrize("on_pool", [False, True])
+def test_panics_are_exceptions(on_pool):
+    error = caught(lambda: _core._panic(on_pool))
+    assert type(error) is ppum.InternalError and isinstance(error, Exception) and "on purpose" in str(error)
+
+
+def test_all_classes_are_of_the_package():
+    for name in ppum.__all__:
+        thing = getattr(ppum, name)
+        if isinstance(thing, type):
+            assert thing.__module__ == "ppum" and pickle.loads(pickle.dumps(thing)) is thing
+        assert thing.__doc__ or name == "COLORMAPS", name
+
+
+def test_the_version_is_that_of_the_crates():
+    cargo = (pathlib.Path(__file__).parents[3] / "Cargo.toml").read_text()
+    assert f'version = "{ppum.__version__}"' in cargo
