@@ -37,6 +37,7 @@ from .dataset import (
 from .field import Field, Quantity, Values
 from .pictures import Extremum, Figure, View
 from .problem import Elastic, Poisson, Problem, solve
+from .sweeping import Sweep, sweep
 
 __version__ = _core.VERSION
 
@@ -68,6 +69,7 @@ __all__ = [
     "RenderError",
     "SolveError",
     "Step",
+    "Sweep",
     "Table",
     "Tip",
     "Values",
@@ -76,4 +78,5 @@ __all__ = [
     "from_bytes",
     "open",
     "solve",
+    "sweep",
 ]
