@@ -9,8 +9,8 @@ import sys
 import tarfile
 import zipfile
 
-#: Longest wheel, in bytes.
-LONGEST = 6_000_000
+#: Longest wheel, in bytes: a little more than it has. A sixth of it are kernels, once for each set of vector instructions.
+LONGEST = 6_600_000
 LICENSES = ("LICENSE-MIT", "LICENSE-APACHE")
 
 

@@ -14,7 +14,7 @@ use ppum_render::view::View;
 use ppum_scene::deformed;
 use ppum_scene::drawing::{Drawn, Shown, Values};
 use ppum_scene::scene::{Scene, shown};
-use ppum_scene::shot::{Shot, ShotError, page, shot, view_in};
+use ppum_scene::shot::{Shot, ShotError, figure_of, page, shot, view_in};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -152,14 +152,14 @@ impl Field {
         watcher: &dyn Watcher,
     ) -> PyResult<(Canvas, Shot)> {
         let (dataset, field) = (self.owned.dataset(), self.owned.field());
-        let view = match spot {
-            Some(view) => view,
-            None => {
-                let (whole, bad) = (self.whole(scene)?, |error| picture(ShotError::View(error)));
-                let any = View::hug(whole, design.size).map_err(bad)?;
-                let room = view_in(dataset, field, scene, &any, design).map_err(picture)?;
-                View::fit(whole, room.pixels).map_err(bad)?
-            }
+        let Some(view) = spot else {
+            let (whole, bad) = (self.whole(scene)?, |error| picture(ShotError::View(error)));
+            let any = View::hug(whole, design.size).map_err(bad)?;
+            let room = view_in(dataset, field, scene, &any, design).map_err(picture)?.pixels;
+            // as tight about the plate as the program's
+            let view = View::hug(whole, room).map_err(bad)?;
+            return figure_of(dataset, (field, None), scene, &view, design, watcher)
+                .map_err(picture);
         };
         page(dataset, (field, None), scene, &view, Some(design), watcher).map_err(picture)
     }

@@ -115,6 +115,8 @@ def test_out(f):
     for wrong in (np.empty((2, 1000)).T, np.empty((1000, 3)), np.empty((1000, 2), np.float32), [0.0]):
         with pytest.raises(ValueError, match="out"):
             f.evaluate(x, y, ["ux", "s1"], out=wrong)
+    with pytest.raises(ValueError, match="memory"):
+        f.evaluate(x, y, ["ux"], out=x.reshape(-1, 1))
     out.flags.writeable = False
     with pytest.raises(ValueError, match="writeable"):
         f.evaluate(x, y, ["ux", "s1"], out=out)

@@ -204,8 +204,24 @@ pub fn page(
         return Ok((bare(&shot.picture, shot.layers.items.clone()), shot));
     };
     let view = view_in(dataset, field, scene, view, design)?;
+    figure_of(dataset, (field, left), scene, &view, design, watcher)
+}
+
+/// The page of a scene's picture as a figure of a design, the picture being that of the view, pixel for pixel: it need not fill the
+/// design's room.
+///
+/// # Errors
+/// As [`page`]; a picture that is larger than its room.
+pub fn figure_of(
+    dataset: &Dataset,
+    (field, left): (&Field<'_>, Option<Side<'_>>),
+    scene: &Scene,
+    view: &View,
+    design: &Design,
+    watcher: &dyn Watcher,
+) -> Result<(Canvas, Shot), ShotError> {
     let title = title(dataset, field, scene)?;
-    let shot = shot(dataset, (field, left), scene, &view, true, watcher)?;
+    let shot = shot(dataset, (field, left), scene, view, true, watcher)?;
     let labels = match left {
         None => labels(&shot.shown, title, field),
         Some(left) => {

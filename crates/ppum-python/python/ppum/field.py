@@ -54,7 +54,7 @@ class Values:
         ((2,), (2,))
     """
 
-    __slots__ = ("_anchor", "_field", "_shape", "_side", "_x", "_y")
+    __slots__ = ("_anchor", "_field", "_is_one", "_shape", "_side", "_x", "_y")
 
     def __init__(
         self, field: Field, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None
@@ -66,9 +66,12 @@ class Values:
         self._x: Any
         self._y: Any
         self._shape: tuple[int, ...]
+        self._is_one: bool
         if isinstance(x, (float, int)) and isinstance(y, (float, int)):
             self._x, self._y, self._shape = x, y, ()
+            self._is_one = anchor is None and side != "both"
             return
+        self._is_one = False
         x, y = _floats(x), _floats(y)
         if x.shape != y.shape:
             x, y = np.broadcast_arrays(x, y)
@@ -84,11 +87,9 @@ class Values:
             raise AttributeError(str(error)) from error
 
     def __getitem__(self, quantity: str) -> Floats:
-        core = self._field._core
-        if self._shape == () and self._anchor is None and self._side != "both":
-            if not isinstance(self._x, np.ndarray):
-                below = self._side == "below"
-                return np.float64(core.value(quantity, self._x, self._y, below))  # type: ignore[return-value]
+        if self._is_one:
+            value = self._field._core.value(quantity, self._x, self._y, self._side == "below")
+            return np.float64(value)  # type: ignore[return-value]
         return self._evaluate([quantity], False, None)[..., 0]
 
     def gradient(self, quantity: str) -> Floats:
@@ -104,6 +105,8 @@ class Values:
             return np.moveaxis(both, -1, len(self._shape))
         if out is not None:
             _check_out(out, self._shape + tail)
+            if any(np.may_share_memory(out, points) for points in (self._x, self._y)):
+                raise ValueError("`out` shares memory with the coordinates")
             self._run(names, self._side == "below", gradient, out.reshape(-1))
             return out
         return self._run(names, self._side == "below", gradient, None).reshape(self._shape + tail)
