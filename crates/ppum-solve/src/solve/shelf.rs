@@ -153,11 +153,9 @@ mod tests {
     fn bits_are_the_same_with_a_shelf() {
         let mut random = Random(17);
         for more in [PULLED, HELD] {
-            for _ in 0..2 {
-                let problems = plate(&mut random, 3, more);
-                let shelf = Shelf::default();
-                assert!(solved(&problems, None) == solved(&problems, Some(&shelf)), "{more}");
-            }
+            let problems = plate(&mut random, 3, more);
+            let shelf = Shelf::default();
+            assert!(solved(&problems, None) == solved(&problems, Some(&shelf)), "{more}");
         }
     }
 

@@ -241,7 +241,7 @@ fn a_junction_anywhere() {
     let places = [[0.0, 0.0], [0.0, 0.4], [0.15, 0.15], [0.15, -0.15]];
     let mut all = Vec::new();
     for (k, place) in places.into_iter().enumerate() {
-        for exponent in [1, 3, 6, 9, 12] {
+        for exponent in [1, 4, 12] {
             let off = 10f64.powi(-exponent);
             let centre = [place[0] + off, place[1] + 0.7 * off].map(|x| x * cell);
             let problem = plate(8.0, &star(centre, 3, 0.1 * k as f64), true, 4, 2);

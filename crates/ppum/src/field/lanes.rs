@@ -4,7 +4,7 @@ use super::LocalField;
 use crate::crack::Side;
 use crate::jet::Jet;
 use crate::vec2::Vec2;
-use ppum_formula::real::{Job, Real, Scalar};
+use ppum_formula::real::{Job, Lanes, Real, Scalar};
 
 /// [`LocalField::evaluate_into`] on lanes.
 struct Many<'a, 'f, const D: usize> {
@@ -62,12 +62,27 @@ impl<const D: usize> Job<f64> for Over<'_, '_, D> {
 const NOWHERE: Jet<f64> =
     Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
 
-/// Calls `f` with each lane's jet.
-fn scatter<R: Real<Scalar = f64>>(jet: &Jet<R>, mut f: impl FnMut(usize, Jet<f64>)) {
-    let lanes = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy].map(Real::lanes);
-    for k in 0..R::LANES {
-        let [v, x, y, xx, xy, yy] = lanes.map(|lane| lane[k]);
-        f(k, Jet { v, x, y, xx, xy, yy });
+/// Writes the first lanes of a jet, with `D` derivatives and zeros for others, into every `stride`-th of `out`.
+#[inline(always)]
+fn scatter<R: Real<Scalar = f64>, const D: usize>(
+    jet: &Jet<R>,
+    stride: usize,
+    out: &mut [Jet<f64>],
+) {
+    let mut lanes = [Lanes::default(); 6];
+    jet.v.store(&mut lanes[0]);
+    if D >= 1 {
+        jet.x.store(&mut lanes[1]);
+        jet.y.store(&mut lanes[2]);
+    }
+    if D >= 2 {
+        jet.xx.store(&mut lanes[3]);
+        jet.xy.store(&mut lanes[4]);
+        jet.yy.store(&mut lanes[5]);
+    }
+    let [v, x, y, xx, xy, yy] = lanes;
+    for (k, out) in out.iter_mut().step_by(stride).take(R::LANES).enumerate() {
+        *out = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
     }
 }
 
@@ -121,12 +136,9 @@ impl LocalField<'_> {
         let like = lanes[0].v;
         let offset = [like.with_lanes(|k| at(k).x), like.with_lanes(|k| at(k).y)];
         self.over_patches::<R, D>(offset, side, patches, lanes);
+        let out = &mut out[..points.len() * components];
         for (component, jet) in lanes.iter().enumerate() {
-            scatter(jet, |k, jet| {
-                if k < points.len() {
-                    out[k * components + component] = jet;
-                }
-            });
+            scatter::<R, D>(jet, components, &mut out[component..]);
         }
     }
 }

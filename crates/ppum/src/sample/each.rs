@@ -83,8 +83,10 @@ pub fn evaluate_each(field: &Field<'_>, wanted: Wanted<'_>, places: &[Place]) ->
     let width = wanted.width();
     let mut rows = vec![f64::NAN; places.len() * width];
     if width > 0 {
-        let chunks = places.chunks(CHUNK).zip(rows.chunks_mut(CHUNK * width));
-        chunks.for_each(|(places, rows)| Chunk::new(field, places).evaluate(wanted, rows));
+        let mut memory = Memory::default();
+        for (places, rows) in places.chunks(CHUNK).zip(rows.chunks_mut(CHUNK * width)) {
+            Chunk::new(field, places).evaluate(wanted, &mut memory, rows);
+        }
     }
     rows
 }
@@ -98,6 +100,14 @@ struct Chunk<'a, 'd> {
     starts: Vec<u32>,
     /// Numbers of the places in the lowest bits, in the order of evaluation.
     order: Vec<u64>,
+}
+
+/// Memory for places that are evaluated together.
+#[derive(Default)]
+struct Memory {
+    offsets: Vec<Vec2>,
+    jets: Vec<Jet<f64>>,
+    patches: Vec<u32>,
 }
 
 /// How a place is covered.
@@ -139,45 +149,50 @@ impl<'a, 'd> Chunk<'a, 'd> {
         }
     }
 
-    fn evaluate(&self, wanted: Wanted<'_>, rows: &mut [f64]) {
+    fn evaluate(&self, wanted: Wanted<'_>, memory: &mut Memory, rows: &mut [f64]) {
         for run in self.order.chunk_by(|&a, &b| seat(self.place(a)) == seat(self.place(b))) {
             let mut local = self.place(run[0]).seen(self.field);
             for part in run.chunk_by(|&a, &b| self.cover(a) == self.cover(b)) {
-                match self.cover(part[0]) {
-                    Cover::Nowhere => {}
-                    Cover::Alone(patch) => self.together(&mut local, part, &[patch], wanted, rows),
-                    Cover::Shared => {
-                        for lanes in part.chunks(LANES) {
-                            self.together(&mut local, lanes, &self.union(lanes), wanted, rows);
-                        }
-                    }
+                let most = match self.cover(part[0]) {
+                    Cover::Nowhere => continue,
+                    Cover::Alone(_) => part.len(),
+                    Cover::Shared => LANES,
+                };
+                for keys in part.chunks(most) {
+                    self.together(&mut local, keys, wanted, memory, rows);
                 }
             }
         }
     }
 
-    /// The patches that cover one of the places.
-    fn union(&self, keys: &[u64]) -> Vec<u32> {
-        let mut all: Vec<u32> = keys.iter().flat_map(|&key| self.patches(key)).copied().collect();
+    /// The patches that cover one of the places, ascending.
+    fn collect_patches(&self, keys: &[u64], all: &mut Vec<u32>) {
+        all.clear();
+        match self.cover(keys[0]) {
+            Cover::Alone(patch) => all.push(patch),
+            _ => keys.iter().for_each(|&key| all.extend_from_slice(self.patches(key))),
+        }
         all.sort_unstable();
         all.dedup();
-        all
     }
 
-    /// Evaluates places of one seat over a list of patches.
+    /// Evaluates places of one seat over the patches that cover them.
     fn together(
         &self,
         local: &mut LocalField<'_>,
         keys: &[u64],
-        patches: &[u32],
         wanted: Wanted<'_>,
+        memory: &mut Memory,
         rows: &mut [f64],
     ) {
         let (width, components) = (wanted.width(), self.field.components());
-        let offsets: Vec<Vec2> = keys.iter().map(|&key| self.place(key).offset).collect();
-        let mut jets = vec![Jet::constant(0.0); keys.len() * components];
-        wanted.jets(local, (&offsets, self.place(keys[0])), patches, &mut jets);
-        for ((&key, &offset), jets) in keys.iter().zip(&offsets).zip(jets.chunks(components)) {
+        let Memory { offsets, jets, patches } = memory;
+        self.collect_patches(keys, patches);
+        offsets.clear();
+        offsets.extend(keys.iter().map(|&key| self.place(key).offset));
+        jets.resize(keys.len() * components, Jet::constant(0.0));
+        wanted.jets(local, (offsets, self.place(keys[0])), patches, jets);
+        for ((&key, &offset), jets) in keys.iter().zip(&*offsets).zip(jets.chunks(components)) {
             if local.contains(offset) {
                 let row = &mut rows[number(key) * width..][..width];
                 wanted.row(local, offset, jets, row);

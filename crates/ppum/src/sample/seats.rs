@@ -18,6 +18,9 @@ use crate::field::Field;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
 
+/// As many tips are asked one by one in less time than a tree takes.
+const FEW: usize = 16;
+
 /// Seats of points in the plane of a field: their anchors, and the cracks that they lie on.
 ///
 /// ```
@@ -104,14 +107,14 @@ impl<'d> Seats<'d> {
 
     /// The nearest tip, none of those farther away than h in x or y; of several the first.
     fn tip_near(&self, point: Vec2, h: f64) -> Option<Vec2> {
-        if self.tips.is_empty() {
-            return None;
+        let window = Rect::around(point, vec2(h, h));
+        if self.tips.len() <= FEW {
+            let is_near = |&tip: &Vec2| Rect::new(tip, tip).overlaps(&window);
+            return nearest(point, self.tips.iter().copied().filter(is_near));
         }
         let mut near = Vec::new();
-        self.tree.query_box(&Rect::around(point, vec2(h, h)), &mut near);
-        let found = near.into_iter().map(|index| self.tips[index as usize]);
-        let away = |tip: &Vec2| (point - *tip).length();
-        found.min_by(|a, b| away(a).total_cmp(&away(b)))
+        self.tree.query_box(&window, &mut near);
+        nearest(point, near.into_iter().map(|index| self.tips[index as usize]))
     }
 
     /// True if rounding may decide whether the point is of the domain.
@@ -128,6 +131,12 @@ impl<'d> Seats<'d> {
             || is_near(point.y, max.y)
             || self.holes.iter().any(inflated)
     }
+}
+
+/// The first of those that are nearest to a point.
+fn nearest(point: Vec2, all: impl Iterator<Item = Vec2>) -> Option<Vec2> {
+    let away = |tip: &Vec2| (point - *tip).length();
+    all.min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
 /// The spacing that belongs to a patch: the power of two at or above its extent.
