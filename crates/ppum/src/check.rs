@@ -4,23 +4,25 @@
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
 
 mod domain;
+mod fields;
 mod formulas;
+mod functions;
 mod growth;
 mod marks;
+mod partition;
 mod ranks;
+mod results;
 mod tiling;
 mod work;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use crate::cover::OVERLAP;
-use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
-use crate::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Partition, Reaction, Step, TipIntensity, Warning,
-    monomials,
-};
-use crate::function::{Cut, Frame, Function, FunctionKind, Part};
+use crate::dataset::{Dataset, Equation, Step};
 use crate::vec2::{Rect, Vec2};
+use fields::check_field;
+use functions::{check_crack, check_function};
+use partition::check_partition;
+use results::{check_intensities, check_reaction, check_warning};
 
 /// The first thing found wrong in a dataset.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -202,288 +204,13 @@ fn check_step(step: &Step, equation: &Equation) -> Checked {
     Ok(())
 }
 
-/// Part of a cell's size that its support reaches beyond it on each side, below which strips of overlap are
-/// thinner than any cover's; a hair below the bound of covers, for rounding.
-const LEAST_REACH: f64 = 0.005 - 1e-9;
-
-/// Most patches: their borders are counted in 32 bits.
-const MOST_PATCHES: usize = 1 << 30;
-
-fn check_partition(partition: &Partition) -> Checked {
-    let n = partition.len();
-    require(n > 0, "center", || "there is no patch".into())?;
-    require(n <= MOST_PATCHES, "center", || format!("{n} patches are too many"))?;
-    for (name, length) in [
-        ("half", partition.half.len()),
-        ("origin", partition.origin.len()),
-        ("scale", partition.scale.len()),
-        ("cell", partition.cell.len()),
-        ("level", partition.level.len()),
-        ("point", partition.point.len()),
-    ] {
-        check_length(name, length, n, "one per patch")?;
-    }
-    check_points("center", &partition.center)?;
-    check_extents("half", &partition.half)?;
-    check_points("origin", &partition.origin)?;
-    check_extents("scale", &partition.scale)?;
-    check_points("points", &partition.points)?;
-    check_all("cell", &partition.cell, is_box, |c| {
-        format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
-    })?;
-    let reach = |patch: usize| thin_strip(&partition.support(patch), &partition.cell[patch]);
-    check_each(
-        "half",
-        n,
-        |patch| reach(patch).is_none(),
-        |patch| {
-            format!(
-                "makes the support reach {} times the cell's size beyond it: patches overlap in strips too thin \
-             for their numbers, give them {} times the cell at least",
-                reach(patch).unwrap_or_default(),
-                OVERLAP.start()
-            )
-        },
-    )?;
-    let meets = |patch: usize| partition.support(patch).overlaps(&partition.cell[patch]);
-    check_each("center", n, meets, |_| "puts the support beside its cell".into())?;
-    let points = partition.points.len();
-    check_all(
-        "point",
-        &partition.point,
-        |p| p.is_none_or(|p| (p as usize) < points),
-        |p| format!("index {}, but there are {points} points", p.unwrap_or_default()),
-    )
-}
-
-/// Farthest a support reaches beyond its cell, in units of the cell's size, where that is a strip too thin.
-/// Rounding is no strip.
-fn thin_strip(support: &Rect, cell: &Rect) -> Option<f64> {
-    let along = |inner: [f64; 2], outer: [f64; 2]| {
-        let rounding = 4.0 * f64::EPSILON * outer[0].abs().max(outer[1].abs());
-        let reaches = [inner[0] - outer[0], outer[1] - inner[1]].into_iter();
-        let strips = reaches.filter(move |reach| *reach > rounding);
-        strips.map(move |reach| reach / (inner[1] - inner[0])).find(|&part| part < LEAST_REACH)
-    };
-    along([cell.min.x, cell.max.x], [support.min.x, support.max.x])
-        .or_else(|| along([cell.min.y, cell.max.y], [support.min.y, support.max.y]))
-}
-
-fn check_crack(place: &str, crack: &Crack) -> Checked {
-    check_points(&format!("{place}.points"), &crack.points)?;
-    require(crack.points.len() >= 2, place, || {
-        format!("has {} points, a crack needs two or more", crack.points.len())
-    })?;
-    let segments: Vec<Vec2> = crack.points.windows(2).map(|p| p[1] - p[0]).collect();
-    check_all(
-        &format!("{place}.segment"),
-        &segments,
-        |s| s.length() > 0.0 && s.unit().is_finite(),
-        |_| "its two points are equal; leave one out".into(),
-    )
-}
-
-fn check_function(function: &Function, cracks: &[Crack]) -> Checked {
-    let count = cracks.len();
-    match &function.kind {
-        FunctionKind::One => Ok(()),
-        FunctionKind::Side { crack } => check_index("crack", *crack as usize, count, "cracks"),
-        FunctionKind::Component { cuts } => check_cuts(cuts, cracks),
-        FunctionKind::Formula { frame, parameters, declared, .. } => {
-            check_names("parameters", parameters.iter().map(|(name, _)| name))?;
-            for (name, value) in parameters {
-                check_number(&format!("parameters `{name}`"), *value)?;
-            }
-            check_points("declared.kinks", declared.kinks.as_flattened())?;
-            check_points("declared.singular", &declared.singular)?;
-            check_frame(frame, count)
-        }
-    }
-}
-
-/// Each cut is by a segment of a crack, and all that follow from it stand behind it.
-fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
-    require(!cuts.is_empty(), "cuts", || "a component needs at least one".into())?;
-    for (k, cut) in cuts.iter().enumerate() {
-        let SegmentId { crack, segment } = cut.segment;
-        check_index(&format!("cuts[{k}].crack"), crack as usize, cracks.len(), "cracks")?;
-        let segments = cracks[crack as usize].points.len().saturating_sub(1);
-        check_index(&format!("cuts[{k}].segment"), segment as usize, segments, "segments")?;
-        for (name, part) in [("left", cut.left), ("right", cut.right)] {
-            let Part::Cut(next) = part else { continue };
-            let place = format!("cuts[{k}].{name}");
-            check_index(&place, next as usize, cuts.len(), "cuts")?;
-            require(next as usize > k, &place, || {
-                format!("cut {next} follows from cut {k} and must stand behind it")
-            })?;
-        }
-    }
-    Ok(())
-}
-
-fn check_frame(frame: &Frame, cracks: usize) -> Checked {
-    match *frame {
-        Frame::World => Ok(()),
-        Frame::Fixed { origin, angle } => {
-            check_points("frame.origin", &[origin])?;
-            check_number("frame.angle", angle)
-        }
-        Frame::Tip(tip) => check_index("frame.crack", tip.crack as usize, cracks, "cracks"),
-    }
-}
-
-/// Most components of a field: each pixel of a picture holds all of them with their derivatives.
-const MAX_COMPONENTS: usize = 64;
-
-fn check_field(field: &FieldData, step: &Step, equation: &Equation) -> Checked {
-    let components = field.components.len();
-    require(components > 0, "components", || "a field needs at least one".into())?;
-    require(components <= MAX_COMPONENTS, "components", || {
-        format!("there are {components} components, but at most {MAX_COMPONENTS} may be")
-    })?;
-    check_names("components", field.components.iter())?;
-    if field.name == "displacement" || field.name == "potential" {
-        check_length("components", components, equation.components(), "those of the equation")?;
-    }
-    if !field.exact.is_empty() {
-        check_length("exact", field.exact.len(), components, "one per component, or none")?;
-    }
-    check_rows(field, step.partition.len())?;
-    check_coefficients(field)?;
-    check_blocks(field, step.functions.len())
-}
-
-/// Compressed rows: start at zero, never fall, end at the number of blocks.
-fn check_rows(field: &FieldData, patches: usize) -> Checked {
-    let rows = &field.patch_blocks;
-    check_length("patch_blocks", rows.len(), patches + 1, "one more than patches")?;
-    require(rows[0] == 0, "patch_blocks[0]", || format!("is {}, expected 0", rows[0]))?;
-    if let Some(k) = rows.windows(2).position(|w| w[0] > w[1]) {
-        return fail(
-            &format!("patch_blocks[{}]", k + 1),
-            format!("{} falls below {}; offsets must not fall", rows[k + 1], rows[k]),
-        );
-    }
-    let blocks = field.block_function.len();
-    require(rows[patches] as usize == blocks, &format!("patch_blocks[{patches}]"), || {
-        format!("is {}, but there are {blocks} blocks", rows[patches])
-    })?;
-    check_length("block_degree", field.block_degree.len(), blocks, "one per block")?;
-    check_length("block_offset", field.block_offset.len(), blocks, "one per block")
-}
-
-fn check_coefficients(field: &FieldData) -> Checked {
-    check_length("coefficients", field.coefficients.len(), field.components.len(), "components")?;
-    let count = field.coefficients[0].len();
-    for (k, values) in field.coefficients.iter().enumerate() {
-        let place = format!("coefficients[{k}]");
-        check_length(&place, values.len(), count, "as in component 0")?;
-        check_numbers(&place, values)?;
-    }
-    Ok(())
-}
-
-fn check_blocks(field: &FieldData, functions: usize) -> Checked {
-    let count = field.coefficients[0].len() as u64;
-    check_all(
-        "block_function",
-        &field.block_function,
-        |&f| (f as usize) < functions,
-        |f| format!("index {f}, but there are {functions} functions"),
-    )?;
-    check_all(
-        "block_degree",
-        &field.block_degree,
-        |&d| d as usize <= MAX_DEGREE,
-        |d| format!("degree {d} is above {MAX_DEGREE}"),
-    )?;
-    for (b, (&offset, &degree)) in field.block_offset.iter().zip(&field.block_degree).enumerate() {
-        let needed = monomials(degree as usize) as u64;
-        let fits = offset.checked_add(needed).is_some_and(|end| end <= count);
-        require(fits, &format!("block_offset[{b}]"), || {
-            format!("coefficients {offset} + {needed} reach beyond the {count} stored")
-        })?;
-    }
-    // blocks that shared theirs could ask for far more than a file holds
-    let sizes = field.block_degree.iter().map(|&degree| monomials(degree.into()) as u64);
-    let all: u64 = sizes.sum();
-    require(all <= count, "block_offset", || {
-        format!(
-            "the blocks take {all} coefficients, but {count} are stored; give each block its own"
-        )
-    })
-}
-
-/// Most rings of a tip: each is compared with all others.
-const MAX_RINGS: usize = 64;
-
-/// Each tip has one entry at most, and ends of other kinds have none.
-fn check_intensities(step: &Step) -> Checked {
-    let mut seen = BTreeMap::new();
-    for (k, intensity) in step.intensities.iter().enumerate() {
-        let place = format!("intensities[{k}]");
-        check_intensity(intensity, &step.cracks).map_err(|e| e.inside(&place))?;
-        if let Some(other) = seen.insert(intensity.tip, k) {
-            return fail(&place, format!("is of the same tip as intensities[{other}]; keep one"));
-        }
-    }
-    Ok(())
-}
-
-fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
-    let TipId { crack, end } = intensity.tip;
-    check_index("crack", crack as usize, cracks.len(), "cracks")?;
-    let kind = cracks[crack as usize].ends[usize::from(end == End::Last)];
-    require(kind == CrackEnd::Tip, "end", || {
-        format!("the {} of crack {crack} is no tip", end.name())
-    })?;
-    check_number("k1", intensity.k1)?;
-    check_number("k2", intensity.k2)?;
-    check_number("t_stress", intensity.t_stress.unwrap_or(0.0))?;
-    check_number("j", intensity.j.unwrap_or(0.0))?;
-    let error = intensity.error.unwrap_or(0.0);
-    require(error >= 0.0 && error.is_finite(), "error", || {
-        format!("the estimated error is {error}, but must be finite and not negative")
-    })?;
-    require(intensity.rings.len() <= MAX_RINGS, "rings", || {
-        format!("there are {} rings, but at most {MAX_RINGS} may be", intensity.rings.len())
-    })?;
-    check_all(
-        "rings",
-        &intensity.rings,
-        |r| [r.r1, r.r2, r.k1, r.k2].iter().all(|v| v.is_finite()) && 0.0 <= r.r1 && r.r1 < r.r2,
-        |r| format!("r1 = {}, r2 = {}: expected finite values and 0 ≤ r1 < r2", r.r1, r.r2),
-    )
-}
-
-fn check_warning(warning: &Warning) -> Checked {
-    require(!warning.kind.trim().is_empty(), "kind", || "is empty".into())?;
-    check_points("at", warning.at.as_slice())?;
-    check_number("value", warning.value)?;
-    check_number("limit", warning.limit)
-}
-
-fn check_reaction(reaction: &Reaction, components: usize, equation: &Equation) -> Checked {
-    require(!reaction.on.trim().is_empty(), "on", || "is empty".into())?;
-    let of = "one per component of the first field";
-    check_length("held", reaction.held.len(), components, of)?;
-    check_length("force", reaction.force.len(), components, of)?;
-    check_numbers("force", &reaction.force)?;
-    let mut free = reaction.held.iter().zip(&reaction.force).filter(|(held, _)| !**held);
-    require(free.all(|(_, &force)| force == 0.0), "force", || {
-        "must be 0 of components that are not held".into()
-    })?;
-    check_number("moment", reaction.moment)?;
-    require(equation.components() > 1 || reaction.moment == 0.0, "moment", || {
-        format!("is {}, but a potential has none: expected 0", reaction.moment)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::{Attribute, Ring};
+    use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
+    use crate::dataset::{Attribute, FieldData, Partition, Ring, TipIntensity};
     use crate::equation::{Material, StressState};
+    use crate::function::{Cut, Frame, FunctionKind, Part};
     use crate::vec2::vec2;
     use crate::weight::WeightFunction;
 
