@@ -1,21 +1,27 @@
 //! A static search tree over axis-parallel boxes: which of them contain a point or meet a box?
 //!
-//! A packed R-tree over the boxes in the order of a Hilbert curve, of the crate `static_aabb2d_index`. It
-//! serves patches of any cover, graded or not, without looking at the quadtree that made it. The tree finds
-//! closed boxes that touch; which borders count is decided here.
+//! Boxes that follow each other are a group, groups that follow each other a group of the next level; of each its bounds are
+//! kept, and nothing else. Patches come in Morton order, so their groups are compact as they are; boxes that come in another
+//! order are sorted into it. The tree serves patches of any cover, graded or not, without looking at the quadtree that made it.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use std::ops::Range;
 
-use crate::vec2::{Rect, Vec2};
+use crate::morton::morton;
+use crate::vec2::{Rect, Vec2, vec2};
+
+/// Boxes of a group: a query tests some more than with 4, and passes half as many levels.
+const GROUP: usize = 8;
 
 /// Boxes that are found by their places.
 ///
-/// Built in O(N log N); a query costs O(log N + k) for k boxes found when the boxes overlap a bounded
-/// number of others, as the patches of a cover do.
+/// Built in O(N), or O(N log N) if the boxes have to be sorted; a query costs O(log N + k) for k boxes found when the boxes
+/// overlap a bounded number of others, as the patches of a cover do. A query takes no memory but for what it finds.
 #[derive(Clone, Debug)]
 pub struct BoxTree {
-    boxes: Vec<Rect>,
-    tree: StaticAABB2DIndex<f64>,
+    /// The boxes, then the bounds of their groups, then those of the groups of these, and so on.
+    levels: Vec<Vec<Rect>>,
+    /// The index of each box, if they had to be sorted.
+    order: Option<Vec<u32>>,
 }
 
 impl BoxTree {
@@ -25,47 +31,130 @@ impl BoxTree {
     /// If there are more than `u32::MAX` boxes.
     #[must_use]
     pub fn new(boxes: &[Rect]) -> Self {
-        assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
-        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
-        for b in boxes {
-            // the library asks for boxes with min ≤ max
-            let Rect { min, max } =
-                if is_a_box(b) { *b } else { Rect::new(Vec2::ZERO, Vec2::ZERO) };
-            builder.add(min.x, min.y, max.x, max.y);
-        }
-        let tree = builder.build().expect("as many boxes as were announced");
-        Self { boxes: boxes.to_vec(), tree }
+        Self::from(boxes.to_vec())
     }
 
     /// Appends, in ascending order, the indices of the boxes that contain `p`; a box is taken closed
     /// on the left and below, open on the right and above.
     pub fn query_point(&self, p: Vec2, out: &mut Vec<u32>) {
-        let holds = |b: &Rect| p.x >= b.min.x && p.x < b.max.x && p.y >= b.min.y && p.y < b.max.y;
-        self.collect(&Rect::new(p, p), holds, out);
+        let holds =
+            |b: &Rect| (p.x >= b.min.x) & (p.x < b.max.x) & (p.y >= b.min.y) & (p.y < b.max.y);
+        self.collect(holds, out);
     }
 
     /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps) `query`:
     /// touching along a border is not enough.
     pub fn query_box(&self, query: &Rect, out: &mut Vec<u32>) {
-        self.collect(query, |b| b.overlaps(query), out);
+        let Rect { min, max } = *query;
+        let overlaps = |b: &Rect| {
+            (b.min.x < max.x) & (b.max.x > min.x) & (b.min.y < max.y) & (b.max.y > min.y)
+        };
+        self.collect(overlaps, out);
     }
 
-    /// Appends those of the boxes touching `query` that pass a `test`.
-    fn collect(&self, query: &Rect, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
+    /// Appends the boxes that pass a test, which the bounds of a group pass if a box in it does.
+    fn collect(&self, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
         let start = out.len();
-        let Rect { min, max } = *query;
-        self.tree.visit_query(min.x, min.y, max.x, max.y, &mut |index: usize| {
-            if is_a_box(&self.boxes[index]) && test(&self.boxes[index]) {
-                out.push(index as u32);
+        let top = self.levels.len() - 1;
+        self.descend(top, 0..self.levels[top].len(), &test, out);
+        if let Some(order) = &self.order {
+            out[start..].iter_mut().for_each(|place| *place = order[*place as usize]);
+            out[start..].sort_unstable();
+        }
+    }
+
+    /// Appends the places of boxes below some nodes, at most a group of them.
+    fn descend(
+        &self,
+        level: usize,
+        nodes: Range<usize>,
+        test: &impl Fn(&Rect) -> bool,
+        out: &mut Vec<u32>,
+    ) {
+        let first = nodes.start;
+        // all are tested before one is entered: tests without branches are done side by side
+        let mut hits = 0u32;
+        for (k, bounds) in self.levels[level][nodes].iter().enumerate() {
+            hits |= u32::from(test(bounds)) << k;
+        }
+        while hits != 0 {
+            let node = first + hits.trailing_zeros() as usize;
+            hits &= hits - 1;
+            if level == 0 {
+                out.push(node as u32);
+            } else {
+                let end = self.levels[level - 1].len().min((node + 1) * GROUP);
+                self.descend(level - 1, node * GROUP..end, test, out);
             }
-        });
-        out[start..].sort_unstable();
+        }
     }
 }
+
+impl From<Vec<Rect>> for BoxTree {
+    /// As [`BoxTree::new`], without a copy.
+    fn from(mut boxes: Vec<Rect>) -> Self {
+        assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
+        for b in &mut boxes {
+            if !is_a_box(b) {
+                *b = NOWHERE;
+            }
+        }
+        let levels = levels(boxes);
+        if is_compact(&levels) {
+            return Self { levels, order: None };
+        }
+        let order = morton_order(&levels);
+        let sorted = order.iter().map(|&k| levels[0][k as usize]).collect();
+        Self { levels: self::levels(sorted), order: Some(order) }
+    }
+}
+
+/// Contains no point and overlaps nothing; bounds with others are those of the others.
+const NOWHERE: Rect = Rect {
+    min: vec2(f64::INFINITY, f64::INFINITY),
+    max: vec2(f64::NEG_INFINITY, f64::NEG_INFINITY),
+};
 
 /// False for boxes with their borders in the wrong order, or undefined.
 fn is_a_box(b: &Rect) -> bool {
     b.min.x <= b.max.x && b.min.y <= b.max.y
+}
+
+/// The boxes and their groups, up to a level of one group.
+fn levels(boxes: Vec<Rect>) -> Vec<Vec<Rect>> {
+    let mut levels = vec![boxes];
+    while levels[levels.len() - 1].len() > GROUP {
+        let below = &levels[levels.len() - 1];
+        levels.push(below.chunks(GROUP).map(bounds).collect());
+    }
+    levels
+}
+
+/// The box around some.
+fn bounds(boxes: &[Rect]) -> Rect {
+    boxes.iter().fold(NOWHERE, |all, b| all.union(b))
+}
+
+/// True if the borders of all groups together are no longer than those of the boxes. Those of n cells in Morton order are
+/// some n · (8^−½ + 8^−1 + …), half as long; groups of far boxes have longer ones.
+fn is_compact(levels: &[Vec<Rect>]) -> bool {
+    let border = |b: &Rect| if is_a_box(b) { b.max.x - b.min.x + (b.max.y - b.min.y) } else { 0.0 };
+    let borders = |level: &Vec<Rect>| level.iter().map(border).sum::<f64>();
+    levels[1..].iter().map(borders).sum::<f64>() <= borders(&levels[0])
+}
+
+/// The boxes in the Morton order of their centres.
+fn morton_order(levels: &[Vec<Rect>]) -> Vec<u32> {
+    let all = bounds(&levels[levels.len() - 1]);
+    // saturates; undefined centres come first
+    let digits = |x: f64, lo: f64, hi: f64| (f64::from(u32::MAX) * ((x - lo) / (hi - lo))) as u32;
+    let code = |b: &Rect| {
+        let center = b.center();
+        morton(digits(center.x, all.min.x, all.max.x), digits(center.y, all.min.y, all.max.y))
+    };
+    let mut order: Vec<_> = levels[0].iter().map(code).zip(0u32..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, index)| index).collect()
 }
 
 #[cfg(test)]
@@ -83,7 +172,6 @@ mod tests {
         tree.query_point(Vec2::ZERO, &mut found);
         assert_eq!(found, [1, 1]);
     }
-    use crate::vec2::vec2;
     use ppum_testkit::random::Random;
 
     /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
@@ -114,7 +202,7 @@ mod tests {
     #[test]
     fn agrees_with_testing_every_box() {
         let mut random = Random(1);
-        for n in [1, 2, 3, 4, 5, 8, 17, 100, 1000] {
+        for n in [1, 2, 3, 4, 5, 7, 8, 9, 17, 63, 64, 65, 100, 512, 513, 1000] {
             let boxes = random_boxes(n, &mut random);
             let tree = BoxTree::new(&boxes);
             for _ in 0..200 {
@@ -212,6 +300,29 @@ mod tests {
             found.clear();
             tree.query_point(b.center(), &mut found);
             assert_eq!(found, [k]);
+        }
+    }
+
+    /// Cells in Morton order are left as they are, and are found in any other order too.
+    #[test]
+    fn order_is_made_where_it_is_missing() {
+        let cell = |code: u32| {
+            let bit = |k: u32| (code >> k) & 1;
+            let number = |first: u32| (0..5).map(|k| bit(first + 2 * k) << k).sum::<u32>();
+            Rect::around(vec2(f64::from(number(0)), f64::from(number(1))), vec2(0.65, 0.65))
+        };
+        let mut boxes: Vec<_> = (0..1024).map(cell).collect();
+        assert!(BoxTree::new(&boxes).order.is_none());
+        let mut random = Random(3);
+        for k in (1..boxes.len()).rev() {
+            boxes.swap(k, random.below(k + 1));
+        }
+        let tree = BoxTree::new(&boxes);
+        assert!(tree.order.is_some() && is_compact(&tree.levels));
+        for _ in 0..100 {
+            let (p, mut found) = (vec2(random.unit(), random.unit()) * 31.0, Vec::new());
+            tree.query_point(p, &mut found);
+            assert_eq!(found, containing(&boxes, p));
         }
     }
 }

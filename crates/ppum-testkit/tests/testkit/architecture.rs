@@ -71,7 +71,6 @@ const DOORS: [(&str, &str); 24] = [
     ("rfd", "ppum-viewer"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),
-    ("static_aabb2d_index", "ppum"),
     ("strsim", "ppum-formula"),
     ("sysinfo", "ppum-cli"),
     ("toml", "ppum-solve"),

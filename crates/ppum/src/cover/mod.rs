@@ -27,15 +27,14 @@
 
 mod coarser;
 mod grid;
-mod morton;
 #[cfg(test)]
 mod tests;
 
 use crate::dataset::Partition;
+use crate::morton::morton;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use grid::{Grid, TreeCell};
-use morton::morton;
 use std::ops::RangeInclusive;
 
 /// Deepest level of a cell, that is how often a root cell can be halved: a 10⁻⁹th of its width, finer than any cover needs.

@@ -121,7 +121,7 @@ impl<'d> Field<'d> {
             step,
             data,
             functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
-            tree: BoxTree::new(&supports),
+            tree: BoxTree::from(supports),
             exact: exact(data, &dataset.tables)?,
         })
     }

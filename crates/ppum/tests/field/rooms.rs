@@ -5,9 +5,9 @@ use std::path::Path;
 use ppum_testkit::rooms::{Floors, check, check_page};
 
 const FLOORS: Floors<'_> = &[
-    &[("jet", &[]), ("library", &[]), ("progress", &[]), ("vec2", &[])],
+    &[("jet", &[]), ("library", &[]), ("morton", &[]), ("progress", &[]), ("vec2", &[])],
     &[
-        ("box_tree", &["vec2"]),
+        ("box_tree", &["morton", "vec2"]),
         ("compensated", &["vec2"]),
         ("expression", &["vec2"]),
         ("segment", &["vec2"]),
@@ -23,7 +23,7 @@ const FLOORS: Floors<'_> = &[
     ],
     &[("dataset", &["crack", "domain", "equation", "function", "growth", "vec2", "weight"])],
     &[
-        ("cover", &["dataset", "vec2", "weight"]),
+        ("cover", &["dataset", "morton", "vec2", "weight"]),
         ("decompose", &["dataset", "function", "text"]),
         ("polynomial", &["dataset", "jet"]),
     ],
