@@ -32,7 +32,7 @@ impl Points<'_> {
     fn place(&self, seen: &Seen<'_>, point: Vec2) -> Place {
         match self.anchor {
             Some(anchor) => seen.seats.offset(anchor, point, self.side),
-            None => seen.seats.at(&seen.field, point, self.side),
+            None => seen.seats.at(point, self.side),
         }
     }
 

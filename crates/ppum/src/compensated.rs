@@ -3,10 +3,10 @@
 use crate::vec2::Vec2;
 
 /// A number as the sum of a rounded value and its rounding error.
-type Pair = (f64, f64);
+pub(crate) type Pair = (f64, f64);
 
 /// a − b.
-fn difference(a: f64, b: f64) -> Pair {
+pub(crate) fn difference(a: f64, b: f64) -> Pair {
     let d = a - b;
     let bb = a - d;
     (d, (a - (d + bb)) + (bb - b))

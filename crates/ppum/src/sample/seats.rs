@@ -2,24 +2,26 @@
 //!
 //! The last digits of a value depend on the anchor that it is seen from. Where anchors belong to lists of points, so do
 //! these digits; here they belong to the plane, and a point has the same value alone and amid others. An anchor is
-//! the tip that is near, else the nearest point of a lattice of powers of two,
+//! the tip that is near if the way from it is an f64 number, else the nearest point of a lattice of powers of two,
 //!
 //! ```text
-//! a = h round(p / h)        h = 2ᵏ, about the size of the patch
+//! a = h round(p / h)        h = 2ᵏ, about the size of the largest patch
 //! ```
 //!
-//! from which p − a is exact: a is zero, or the difference no longer than p.
+//! from which p − a is exact, too: a is zero, or the difference no longer than p. So smaller patches lose nothing by a lattice
+//! that is wider than they are.
 
 use super::{Place, ROUNDING, largest, settle};
 use crate::box_tree::BoxTree;
+use crate::compensated::difference;
 use crate::crack::{Side, TipId, tips};
 use crate::domain::{Domain, Hole};
 use crate::field::Field;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
 
-/// As many tips are asked one by one in less time than a tree takes.
-const FEW: usize = 16;
+/// Exponent of the widest lattice, of which some multiples are finite.
+const WIDEST: f64 = 1000.0;
 
 /// Seats of points in the plane of a field: their anchors, and the cracks that they lie on.
 ///
@@ -29,7 +31,7 @@ const FEW: usize = 16;
 /// use ppum::sample::{Seats, Wanted, evaluate_each};
 ///
 /// let seats = Seats::new(field);
-/// let places: Vec<_> = (0..9).map(|k| seats.at(field, vec2(0.1 * f64::from(k), 0.2), Side::Above)).collect();
+/// let places: Vec<_> = (0..9).map(|k| seats.at(vec2(0.1 * f64::from(k), 0.2), Side::Above)).collect();
 /// let wanted = [Quantity::Component(0)];
 /// let all = evaluate_each(field, Wanted::Values(&wanted), &places);
 /// for (place, value) in places.iter().zip(all) {
@@ -45,8 +47,8 @@ pub struct Seats<'d> {
     /// Finds the tips by their places.
     tree: BoxTree,
     holes: Vec<Rect>,
-    /// Spacing of the lattice, if it is the same everywhere.
-    spacing: Option<f64>,
+    /// Spacing of the lattice.
+    spacing: f64,
     /// What counts as on the border, at least.
     reach: f64,
 }
@@ -59,8 +61,7 @@ impl<'d> Seats<'d> {
         let at = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
         let tips: Vec<Vec2> = tips(cracks).map(at).collect();
         let boxes: Vec<_> = tips.iter().map(|&tip| Rect::new(tip, tip)).collect();
-        let mut spacings = half.iter().map(|&half| spacing(half));
-        let first = spacings.next();
+        let largest_half = half.iter().fold(f64::MIN_POSITIVE, |most, h| most.max(h.x).max(h.y));
         let Rect { min, max } = domain.bounds;
         Self {
             domain,
@@ -68,7 +69,7 @@ impl<'d> Seats<'d> {
             tree: BoxTree::new(&boxes),
             tips,
             holes: domain.holes.iter().map(Hole::bounds).collect(),
-            spacing: first.filter(|&first| spacings.all(|other| other == first)),
+            spacing: (1.0 + largest_half.log2()).ceil().min(WIDEST).exp2(),
             reach: 2.0 * ROUNDING * [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest),
         }
     }
@@ -76,10 +77,10 @@ impl<'d> Seats<'d> {
     /// The place of a point, on a side of the crack that it lies on. A point on a border of the domain, but for rounding,
     /// is of the domain.
     #[must_use]
-    pub fn at(&self, field: &Field<'_>, point: Vec2, side: Side) -> Place {
+    pub fn at(&self, point: Vec2, side: Side) -> Place {
         let mut place = self.offset(point, Vec2::ZERO, side);
         if place.on.is_none() {
-            place.anchor = self.anchor(field, point);
+            place.anchor = self.anchor(point);
             place.offset = point - place.anchor;
         }
         if self.is_near_border(point) {
@@ -96,25 +97,22 @@ impl<'d> Seats<'d> {
         Place { point: anchor + offset, anchor, offset, on, side }
     }
 
-    fn anchor(&self, field: &Field<'_>, point: Vec2) -> Vec2 {
-        let Some(h) = self.spacing.or_else(|| own_spacing(field, point)) else { return point };
-        if let Some(tip) = self.tip_near(point, h) {
-            return tip;
-        }
-        let nearest = |x: f64| (x / h).round() * h;
-        vec2(nearest(point.x), nearest(point.y))
+    fn anchor(&self, point: Vec2) -> Vec2 {
+        let nearest = |x: f64| (x / self.spacing).round() * self.spacing;
+        self.tip_near(point).unwrap_or_else(|| vec2(nearest(point.x), nearest(point.y)))
     }
 
-    /// The nearest tip, none of those farther away than h in x or y; of several the first.
-    fn tip_near(&self, point: Vec2, h: f64) -> Option<Vec2> {
-        let window = Rect::around(point, vec2(h, h));
-        if self.tips.len() <= FEW {
-            let is_near = |&tip: &Vec2| Rect::new(tip, tip).overlaps(&window);
-            return nearest(point, self.tips.iter().copied().filter(is_near));
-        }
+    /// The nearest tip, none of those farther away than the lattice's spacing in x or y or by a way that has to be rounded; of
+    /// several the first.
+    fn tip_near(&self, point: Vec2) -> Option<Vec2> {
         let mut near = Vec::new();
-        self.tree.query_box(&window, &mut near);
-        nearest(point, near.into_iter().map(|index| self.tips[index as usize]))
+        let reach = vec2(self.spacing, self.spacing);
+        self.tree.query_box(&Rect::around(point, reach), &mut near);
+        let exact = |a: f64, b: f64| difference(a, b).1 == 0.0;
+        let found = near.into_iter().map(|index| self.tips[index as usize]);
+        let found = found.filter(|tip| exact(point.x, tip.x) && exact(point.y, tip.y));
+        let away = |tip: &Vec2| (point - *tip).length();
+        found.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// True if rounding may decide whether the point is of the domain.
@@ -131,22 +129,4 @@ impl<'d> Seats<'d> {
             || is_near(point.y, max.y)
             || self.holes.iter().any(inflated)
     }
-}
-
-/// The first of those that are nearest to a point.
-fn nearest(point: Vec2, all: impl Iterator<Item = Vec2>) -> Option<Vec2> {
-    let away = |tip: &Vec2| (point - *tip).length();
-    all.min_by(|a, b| away(a).total_cmp(&away(b)))
-}
-
-/// The spacing that belongs to a patch: the power of two at or above its extent.
-fn spacing(half: Vec2) -> f64 {
-    (2.0 * half.x.max(half.y)).log2().ceil().exp2()
-}
-
-/// The spacing at a point, that of the first patch that covers it.
-fn own_spacing(field: &Field<'_>, point: Vec2) -> Option<f64> {
-    let mut patches = Vec::new();
-    field.tree.query_point(point, &mut patches);
-    patches.first().map(|&patch| spacing(field.step.partition.half[patch as usize]))
 }

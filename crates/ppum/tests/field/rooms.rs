@@ -56,7 +56,15 @@ const FLOORS: Floors<'_> = &[
         (
             "sample",
             &[
-                "box_tree", "crack", "domain", "field", "jet", "progress", "quantity", "sides",
+                "box_tree",
+                "compensated",
+                "crack",
+                "domain",
+                "field",
+                "jet",
+                "progress",
+                "quantity",
+                "sides",
                 "vec2",
             ],
         ),
