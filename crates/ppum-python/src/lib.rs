@@ -25,7 +25,7 @@ mod _core {
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]
-    use crate::picture::{colormaps, extrema_in, figure, render, rgba};
+    use crate::picture::{colormaps, extrema_in, figure, frame, render, rgba};
     #[pymodule_export]
     use crate::problem::{check, solve};
     #[pymodule_export]

@@ -7,8 +7,10 @@ use ppum::vec2::{Rect, Vec2};
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{BarPlace, Design, Theme, bare};
 use ppum_figure::form::Form;
+use ppum_figure::ticks;
 use ppum_render::colormap::NAMES;
 use ppum_render::extrema::{Extremum, On, extrema};
+use ppum_render::png::encode_quickly;
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_scene::deformed;
@@ -206,6 +208,76 @@ pub(crate) fn rgba<'py>(
     let image = long(py, None, None, drawn)??;
     let shape = [size[1] as usize, size[0] as usize, 4];
     PyArray1::from_vec(py, image.rgba).reshape(shape)
+}
+
+/// What a colour bar says.
+#[derive(IntoPyObject)]
+pub(crate) struct BarFacts {
+    /// The range of the colours.
+    range: (f64, f64),
+    /// Red, green and blue of each of its colours, the lowest first; bytes.
+    colors: Vec<u8>,
+    /// Positions from 0 to 1, and labels: (value − reference) / 10^exponent.
+    ticks: Vec<(f64, String)>,
+    reference: f64,
+    exponent: i32,
+    symbol: String,
+    unit: String,
+    /// Whether some value lies below the range, and above it.
+    beyond: (bool, bool),
+}
+
+/// Colours that a bar is made of.
+const BAR: usize = 256;
+
+/// Labels of a bar, about.
+const LABELS: usize = 7;
+
+impl BarFacts {
+    fn new(shot: &Shot, field: &Field) -> Self {
+        let (picture, field) = (&shot.picture, field.owned.field());
+        let norm = &picture.normalization;
+        let place = |k: usize| (k as f64 + 0.5) / BAR as f64;
+        let colors = (0..BAR).flat_map(|k| {
+            let [r, g, b, _] = picture.colormap.color(place(k));
+            [r, g, b]
+        });
+        let ticks = ticks::bar(norm, LABELS);
+        let [symbol, unit] = shot.shown.words(field);
+        Self {
+            range: (norm.min(), norm.max()),
+            colors: colors.collect(),
+            ticks: ticks.major.into_iter().map(|tick| (tick.at, tick.label)).collect(),
+            reference: ticks.reference,
+            exponent: ticks.exponent,
+            symbol,
+            unit,
+            beyond: (picture.has_below, picture.has_above),
+        }
+    }
+}
+
+/// The picture of [`rgba`] as a PNG that is made quickly, with its colour bar.
+#[pyfunction]
+pub(crate) fn frame<'py>(
+    this: &Field,
+    py: Python<'py>,
+    scene: &str,
+    spot: Spot,
+    size: [u32; 2],
+) -> PyResult<(Bound<'py, PyBytes>, BarFacts)> {
+    let (scene, view) = (this.scene(scene)?, view(spot, size)?);
+    let (dataset, field) = (this.owned.dataset(), this.owned.field());
+    let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
+        let mut shot =
+            shot(dataset, (field, None), &scene, &view, false, watcher).map_err(picture)?;
+        let layers = std::mem::take(&mut shot.layers.items);
+        let bytes = encode_quickly(&bare(&shot.picture, layers).image());
+        let bytes = bytes.map_err(|error| RenderError::new_err(error.to_string()))?;
+        Ok((bytes, BarFacts::new(&shot, this)))
+    };
+    let (bytes, bar) = long(py, None, None, drawn)??;
+    Ok((PyBytes::new(py, &bytes), bar))
 }
 
 /// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`.

@@ -25,7 +25,7 @@ def centers(view):
 @pytest.mark.parametrize("name", ["ux", "von_mises", "sxx + syy"])
 def test_pixels_are_values(f, name):
     for seen in ({}, {"tip": 1, "zoom": 50}, {"center": (0.1, 0.2), "width": 0.7}):
-        view = f.view(size=(61, 47), **seen)
+        view = f.view_at(size=(61, 47), **seen)
         found = f.render(name, view=view)
         expected = f.at(*centers(view))[name]
         assert found.shape == (47, 61) and found.dtype == np.float64
@@ -86,7 +86,7 @@ def test_extrema(ds, f):
     assert high.value == np.inf and high.on == "singular"
     assert min(np.hypot(*np.subtract(high.xy, tip.xy)) for tip in ds.tips) < 1e-12
     assert 0 < low.value < np.nanmin(f.render("von_mises")) * 1.001
-    view = f.view(center=(0.6, -0.9), width=0.3)
+    view = f.view_at(center=(0.6, -0.9), width=0.3)
     low, high = f.extrema("ux", view=view)
     values = f.render("ux", view=view)
     assert low.value <= np.nanmin(values) + 1e-9 and high.value >= np.nanmax(values) - 1e-9

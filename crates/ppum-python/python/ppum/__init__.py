@@ -35,6 +35,7 @@ from .dataset import (
     open,
 )
 from .field import Field, Quantity, Values
+from .linking import link
 from .pictures import Extremum, Figure, View
 from .problem import Elastic, Poisson, Problem, solve
 from .sweeping import Sweep, sweep
@@ -76,6 +77,7 @@ __all__ = [
     "View",
     "Warning",
     "from_bytes",
+    "link",
     "open",
     "solve",
     "sweep",

@@ -20,6 +20,7 @@ __all__ = [
     "colormaps",
     "extrema",
     "figure",
+    "frame",
     "from_bytes",
     "read",
     "render",
@@ -83,6 +84,9 @@ def render(
     progress: _Progress | None,
 ) -> NDArray[Any]: ...
 def rgba(this: Field, scene: str, spot: _Spot, size: tuple[int, int]) -> NDArray[np.uint8]: ...
+def frame(
+    this: Field, scene: str, spot: _Spot, size: tuple[int, int]
+) -> tuple[bytes, dict[str, Any]]: ...
 def figure(this: Field, scene: str, spot: _Spot | None, look: str, form: str) -> bytes: ...
 def extrema(
     this: Field, name: str, spot: _Spot, size: tuple[int, int]

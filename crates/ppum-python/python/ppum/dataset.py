@@ -18,6 +18,7 @@ from . import _core
 if TYPE_CHECKING:
     from .field import Field
     from .problem import Problem
+    from .widget import Viewer
 
 __all__ = [
     "Advance",
@@ -466,6 +467,16 @@ class Dataset:
     def quantities(self) -> Mapping[str, Any]:
         """All named quantities of the last step's field, see `Field.quantities`."""
         return self.field.quantities
+
+    def view(self, quantity: str | None = None, **options: Any) -> Viewer:
+        """A view in a notebook that follows the mouse, with a slider for the steps; options as in `Field.view`, and `step`.
+
+        Example:
+            >>> ds.view("von_mises", tip=1, zoom=100).step
+            0
+        """
+        step = int(options.pop("step", -1))
+        return self.steps[step].field.view(quantity, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file. What was there stays until the new one is complete.

@@ -17,6 +17,7 @@ from .pictures import Extremum, Figure, View, figure_scene, figure_look, spot
 
 if TYPE_CHECKING:
     from .dataset import Dataset, Step
+    from .widget import Viewer
 
 __all__ = ["Field", "Quantity", "Values"]
 
@@ -124,6 +125,16 @@ class Values:
 
     def __repr__(self) -> str:
         return f"<ppum.Values at {'a point' if self._shape == () else f'points of shape {self._shape}'}>"
+
+
+def _widget() -> Any:
+    """The module of views, whose needs are extra ones."""
+    try:
+        from . import widget
+    except ImportError as error:
+        remedy = "views in notebooks need anywidget: pip install 'ppum[notebook]'"
+        raise ImportError(remedy) from error
+    return widget
 
 
 def _floats(values: ArrayLike) -> Floats:
@@ -311,6 +322,12 @@ class Field:
         known = [tuple(pair) for pair in self._subject.get("quantities", [])]
         return self._changed(quantities=[*known, *quantities.items()])
 
+    def _of_step(self, number: int) -> Field:
+        """The field of another step, changed as this one is."""
+        if not self._subject:
+            return self.dataset.steps[number].field
+        return Field(self.dataset, number, self._subject)
+
     def _changed(self, **what: Any) -> Field:
         return Field(self.dataset, self._number, {**self._subject, **what})
 
@@ -414,7 +431,7 @@ class Field:
             quantity: A quantity, a formula or a value of cells; by default von Mises' stress, of a potential itself.
             dtype: float64 or float32, in which the values are computed too.
             progress: Is called with phase, parts done, all parts, step.
-            view: `View`, or as in `view`: center, width, tip, zoom, size.
+            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
         Example:
             >>> f.render("uy", size=(40, 80)).shape
@@ -423,7 +440,7 @@ class Field:
         kind = np.dtype(dtype)
         if kind not in (np.dtype(np.float64), np.dtype(np.float32)):
             raise ValueError(f"dtype: values are float64 or float32, not {kind}")
-        seen = self.view(**view)
+        seen = self.view_at(**view)
         name = quantity or self._core.default_quantity()
         return _core.render(self._core, name, seen._spot, seen.size, kind == np.float32, progress)
 
@@ -432,11 +449,11 @@ class Field:
 
         Args:
             quantity: As in `render`.
-            view: A `View`; else center, width, tip, zoom, size as in `view`.
+            view: A `View`; else center, width, tip, zoom, size as in `view_at`.
             options: Colours and overlays as in `figure`.
         """
         keys = ("center", "width", "tip", "zoom", "size")
-        seen = self.view(view, **{k: options.pop(k) for k in keys if k in options})
+        seen = self.view_at(view, **{k: options.pop(k) for k in keys if k in options})
         scene = figure_scene(quantity, options)
         return _core.rgba(self._core, scene, seen._spot, seen.size)
 
@@ -472,7 +489,7 @@ class Field:
 
         Args:
             quantity: A quantity or a formula.
-            view: `View`, or as in `view`: center, width, tip, zoom, size.
+            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
         Raises:
             RenderError: There is no value in the view.
@@ -484,7 +501,7 @@ class Field:
         """
         from .errors import RenderError
 
-        seen = self.view(**view)
+        seen = self.view_at(**view)
         name = quantity or self._core.default_quantity()
         found = _core.extrema(self._core, name, seen._spot, seen.size)
         if found is None:
@@ -492,7 +509,28 @@ class Field:
         low, high = (Extremum(**one) for one in found)
         return low, high
 
-    def view(
+    def view(self, quantity: str | None = None, **options: Any) -> Viewer:
+        """A view in a notebook that follows the mouse: pan, zoom, read values; exact in every frame.
+
+        Args:
+            quantity: As in `render`.
+            options: What is seen first: center, width, or tip, zoom. Traits of `ppum.widget.Viewer`: range, norm, cmap, cracks,
+                deformed, height.
+
+        Raises:
+            ImportError: The extra ``notebook`` is not installed.
+            traitlets.TraitError: No such option, or not such a value.
+
+        Example:
+            >>> view = f.view("uy", width=0.5, center=(0, 0))
+            >>> view.width *= 0.5
+            >>> view.width
+            0.25
+        """
+        made: Viewer = _widget().Viewer(self, quantity, **options)
+        return made
+
+    def view_at(
         self,
         view: View | None = None,
         *,
@@ -502,7 +540,7 @@ class Field:
         zoom: float | None = None,
         size: tuple[int, int] = (1024, 768),
     ) -> View:
-        """A view of the plate: all of it, or a width around a center, or a tip enlarged `zoom` times (10)."""
+        """What a picture shows: all of the plate, or a width around a center, or a tip enlarged `zoom` times (10)."""
         if view is not None:
             return view
         at, width = self._spot(size, center=center, width=width, tip=tip, zoom=zoom)

@@ -1,0 +1,353 @@
+"""Views in notebooks: fields that follow the mouse, exact in every frame.
+
+A view draws where the field is, in this process; the browser gets finished pixels, without loss, and sends what the mouse
+does. At most two frames are on their way at a time and what happens in between becomes one, so nothing piles up. Needs anywidget: the
+extra ``notebook``.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import anywidget
+import numpy as np
+import traitlets
+
+from . import _core
+from .errors import PpumError
+from .pictures import Figure, figure_scene, spot
+
+if TYPE_CHECKING:
+    from .field import Field
+
+__all__ = ["Viewer"]
+
+#: Most pixels of a frame: two screens of 4K.
+MOST_PIXELS = 1 << 24
+
+#: Least width of a view in units of its farthest coordinate; below, double precision has no neighbours.
+FINEST = 4.0 * sys.float_info.epsilon
+
+#: Least width of a view anywhere: pixels are normal numbers.
+SMALLEST = 1e-300
+
+#: Largest width of a view in plates.
+FARTHEST = 1e6
+
+#: Width of the view of all of the plate, in plates: its border is seen.
+MARGIN = 1.04
+
+#: Reach of the mouse to cracks, pixels.
+REACH = 6.0
+
+#: What makes another picture of the same place.
+_LOOK = ("quantity", "norm", "cmap", "step", "range", "cracks", "deformed")
+
+#: What the controls may set.
+_SETTABLE = ("quantity", "norm", "cmap", "step", "range", "deformed")
+
+_NORMS = ("linear", "log", "symlog")
+
+
+class Viewer(anywidget.AnyWidget):
+    """A view of a field in a notebook; made by `Dataset.view` and `Field.view`.
+
+    Drag to pan, turn the wheel to zoom about the mouse, point to read values: near a crack those of both faces. With the
+    picture in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
+
+    Attributes:
+        center: The middle of the picture, lengths.
+        width: From the left border to the right one, a length.
+        quantity: A quantity or a formula.
+        range: What the colours span: ``auto``, ``full``, or two values. An automatic one follows when the mouse rests.
+        norm: ``linear``, ``log`` or ``symlog``.
+        cmap: One of `COLORMAPS`, or ``auto`` for that of the quantity.
+        step: Number of the step.
+        cracks: Whether cracks are drawn.
+        deformed: None, ``auto`` or a factor: the plate moved by its displacement.
+        height: Of the picture on the page, pixels; its width is that of the cell.
+        error: What is wrong with the last frame, in words; empty if nothing is.
+
+    Raises:
+        traitlets.TraitError: A value that a trait cannot have, such as a center that is not finite.
+
+    Example:
+        >>> view = ds.view("von_mises", tip=1, zoom=1e6, norm="log")
+        >>> view.center == ds.tips[1].xy
+        True
+        >>> view.quantity = "(s1 - s2)/2"
+        >>> view.figure().png()[1:4]
+        b'PNG'
+    """
+
+    _esm = Path(__file__).parent / "widget.js"
+    _version = traitlets.Int(0).tag(sync=True)
+    _offers = traitlets.Dict().tag(sync=True)
+    height = traitlets.Int(480, min=40, max=4000).tag(sync=True)
+
+    center = traitlets.Tuple(traitlets.CFloat(), traitlets.CFloat())
+    width = traitlets.CFloat(1.0)
+    quantity = traitlets.Unicode()
+    range = traitlets.Any("auto")
+    norm = traitlets.Enum(_NORMS, "linear")
+    cmap = traitlets.Unicode("auto")
+    step = traitlets.Int(0)
+    cracks = traitlets.Bool(True)
+    deformed = traitlets.Any(None, allow_none=True)
+    error = traitlets.Unicode("")
+
+    def __init__(self, field: Field, quantity: str | None = None, **options: Any) -> None:
+        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
+        #: The field; its step is that of `step`.
+        self.field = field
+        self._fields = {field._number: field}
+        # what the center has beyond double precision
+        self._rest = (0.0, 0.0)
+        # the last range that was found, for frames of moving views
+        self._held: tuple[float, float] | None = None
+        # of the last frame; until the first the shape of the page is not known, and where nothing is said all of the plate is shown
+        self._size, self._is_new = (4, 3), not seen
+        center, width = field._spot(self._size, **seen) if seen else self._whole()
+        super().__init__(
+            center=center,
+            width=width,
+            quantity=quantity or field._core.default_quantity(),
+            step=field._number,
+            _offers=_offers(field),
+            **options,
+        )
+        self.on_msg(self._hear)
+
+    @traitlets.validate("center")
+    def _finite(self, proposal: Any) -> Any:
+        if not all(math.isfinite(x) for x in proposal["value"]):
+            raise traitlets.TraitError(f"center: {proposal['value']} are no two finite numbers")
+        return proposal["value"]
+
+    @traitlets.validate("width")
+    def _positive(self, proposal: Any) -> Any:
+        if not (math.isfinite(proposal["value"]) and proposal["value"] > 0):
+            raise traitlets.TraitError(f"width: {proposal['value']} is no positive length")
+        return proposal["value"]
+
+    @traitlets.validate("step")
+    def _known_step(self, proposal: Any) -> Any:
+        count = len(self.field.dataset.steps)
+        if not -count <= proposal["value"] < count:
+            raise traitlets.TraitError(f"step: {proposal['value']} is none; there are {count}, from 0")
+        return proposal["value"] % count
+
+    @traitlets.validate("range")
+    def _known_range(self, proposal: Any) -> Any:
+        return _checked_range(proposal["value"])
+
+    @traitlets.observe("center", "width")
+    def _moved(self, change: Any) -> None:
+        self._is_new = False
+
+    @traitlets.observe("center")
+    def _set_anew(self, change: Any) -> None:
+        self._rest = (0.0, 0.0)
+
+    @traitlets.observe(*_LOOK)
+    def _changed_look(self, change: Any) -> None:
+        self._held = None
+
+    @traitlets.observe("center", "width", *_LOOK)
+    def _changed(self, change: Any) -> None:
+        self._version += 1
+
+    def home(self) -> None:
+        """Shows all of the plate."""
+        self.center, self.width = self._whole()
+
+    def _whole(self) -> tuple[tuple[float, float], float]:
+        center, width = spot(self.field.dataset.domain, self._size, None, None, None)
+        return center, MARGIN * width
+
+    def go_to_tip(self, tip: int, zoom: float = 10.0) -> None:
+        """Shows a tip, enlarged `zoom` times.
+
+        Raises:
+            IndexError: There is no such tip.
+        """
+        self.center, self.width = self._at_step()._spot(self._size, tip=tip, zoom=zoom)
+
+    def figure(self, **options: Any) -> Figure:
+        """A figure of what is seen; options as in `Field.figure`."""
+        options = {**self._look(), "center": self.center, "width": self.width, **options}
+        return self._at_step().figure(self.quantity, **options)
+
+    def _look(self) -> dict[str, Any]:
+        overlays = ["cracks"] if self.cracks else []
+        return {
+            "cmap": None if self.cmap == "auto" else self.cmap,
+            "norm": self.norm,
+            "clim": self.range,
+            "overlays": overlays,
+            "deformed": self.deformed,
+        }
+
+    def _at_step(self) -> Field:
+        if self.step not in self._fields:
+            self._fields[self.step] = self.field._of_step(self.step)
+        return self._fields[self.step]
+
+    def _hear(self, _: Any, content: Any, buffers: Any) -> None:
+        """Answers a message of the browser: a frame, or what is under the mouse. The frame goes before the new version, so
+        that the browser does not ask for it again."""
+        if not isinstance(content, Mapping) or "from" not in content:
+            return
+        with self.hold_sync():
+            answer, parts = self._answer(content)
+            self.send({"to": content["from"], "version": self._version, **answer}, parts)
+
+    def _answer(self, content: Mapping[str, Any]) -> tuple[dict[str, Any], list[bytes]]:
+        try:
+            size = _size(content["size"])
+            if "probe" in content:
+                return {"kind": "probe", "text": self._probed(content["probe"], size)}, []
+            self._size = size
+            if self._is_new:
+                self.home()
+            self._is_new = False
+            self._obey(content, size)
+            png, facts = self._frame(size, bool(content.get("moving")))
+            self.error = ""
+            colors = bytes(facts.pop("colors"))
+            return {"kind": "frame", "bar": facts, **self._told()}, [png, colors]
+        except (PpumError, traitlets.TraitError, ValueError, TypeError, KeyError, IndexError) as error:
+            self.error = str(error)
+            return {"kind": "error", "error": self.error, **self._told()}, []
+
+    def _obey(self, content: Mapping[str, Any], size: tuple[int, int]) -> None:
+        for name, value in dict(content.get("set") or {}).items():
+            if name in _SETTABLE:
+                setattr(self, name, value)
+        if content.get("home"):
+            self.home()
+        if content.get("tip") is not None:
+            self.go_to_tip(int(content["tip"]))
+        if content.get("move"):
+            k, x, y = (float(number) for number in content["move"])
+            self._move(k, x, y, size)
+
+    def _move(self, k: float, x: float, y: float, size: tuple[int, int]) -> None:
+        """Pixel p of what is seen goes to k p + (x, y)."""
+        if not (k > 0 and all(map(math.isfinite, (k, x, y)))):
+            raise ValueError("a move is a positive factor and two finite numbers")
+        asked, width = k, self.width
+        k = width / min(max(width / k, self._least()), FARTHEST * self._whole()[1])
+        if k != asked:
+            x, y = ((1 - k) / (1 - asked) * v if asked != 1 else v for v in (x, y))
+        pixel, (columns, rows) = width / size[0], size
+        dx = (0.5 * columns - x) / k - 0.5 * columns
+        dy = 0.5 * rows - (0.5 * rows - y) / k
+        pairs = [_sum(a, b, d * pixel) for a, b, d in zip(self.center, self._rest, (dx, dy), strict=True)]
+        self.center, self.width = tuple(high for high, _ in pairs), width / k
+        self._rest = tuple(low for _, low in pairs)  # type: ignore[assignment]
+
+    def _least(self) -> float:
+        x, y = self.center
+        return float(max(FINEST * abs(x), FINEST * abs(y), SMALLEST))
+
+    def _frame(self, size: tuple[int, int], moving: bool) -> tuple[bytes, dict[str, Any]]:
+        """The bytes of a PNG, and what the colour bar says."""
+        look = self._look()
+        is_found = isinstance(self.range, str)
+        if moving and is_found and self._held:
+            look["clim"] = self._held
+        scene = figure_scene(self.quantity, look)
+        png, facts = _core.frame(self._at_step()._core, scene, (self.center, self.width), size)
+        self._held = facts["range"] if is_found else None
+        return png, facts
+
+    def _told(self) -> dict[str, Any]:
+        """What the controls show."""
+        state = {name: getattr(self, name) for name in _SETTABLE}
+        place = f"({self.center[0]:.9g}, {self.center[1]:.9g}), {self.width:.3g} wide"
+        return {"state": state, "place": place}
+
+    def _probed(self, pixel: Any, size: tuple[int, int]) -> str:
+        """Values under the mouse, near a crack those of its faces, in words."""
+        side = self.width / size[0]
+        offset = np.array([float(pixel[0]) - 0.5 * size[0], 0.5 * size[1] - float(pixel[1])]) * side
+        field, anchor = self._at_step(), np.array(self.center)
+        near = _nearest(field, anchor, offset, REACH * side) if self.deformed is None else None
+        x, y = anchor + offset
+        place = f"x = {x:.12g}, y = {y:.12g}"
+        if self.deformed is not None:
+            return place
+        if near is None:
+            return f"{place}: {field.at(*offset, anchor=anchor)[self.quantity]:.9g}"
+        above, below = field.at(*near[1], anchor=near[0], side="both")[self.quantity]
+        x, y = near[0] + near[1]
+        return f"x = {x:.12g}, y = {y:.12g}: {above:.9g} above, {below:.9g} below the crack"
+
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        """The widget, and a picture for where there is no kernel."""
+        bundle = super()._repr_mimebundle_(**options)
+        data, metadata = bundle if isinstance(bundle, tuple) else (dict(bundle or {}), {})
+        try:
+            data["image/png"] = base64.b64encode(self.figure(size=(640, 480)).png()).decode()
+        except (PpumError, ValueError) as error:
+            self.error = str(error)
+        return data, metadata
+
+    def __repr__(self) -> str:
+        return f"<ppum view of {self.quantity} around {self.center}, {self.width:g} wide>"
+
+
+def _offers(field: Field) -> dict[str, Any]:
+    from . import COLORMAPS
+
+    tips = [f"tip {k}" for k in range(len(field.step.tips))]
+    steps = len(field.dataset.steps) if len(field.dataset.steps) > 1 else 0
+    return {"quantities": list(field.quantities), "cmaps": ["auto", *COLORMAPS], "tips": tips, "steps": steps}
+
+
+def _checked_range(value: Any) -> Any:
+    if value in ("auto", "full"):
+        return value
+    try:
+        low, high = map(float, value)
+    except (TypeError, ValueError):
+        raise traitlets.TraitError(f"range: {value!r} is none; give auto, full, or two values") from None
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise traitlets.TraitError(f"range: from {low} to {high} lies none; give the smaller number first")
+    return low, high
+
+
+def _size(size: Any) -> tuple[int, int]:
+    columns, rows = (int(n) for n in size)
+    if columns < 1 or rows < 1 or columns * rows > MOST_PIXELS:
+        raise ValueError(f"a frame of {columns}x{rows} pixels")
+    return columns, rows
+
+
+def _sum(high: float, low: float, more: float) -> tuple[float, float]:
+    """high + low + more as a number and what it lacks of the sum (Knuth's sum of two)."""
+    total = high + more
+    part = total - high
+    lacks = (high - (total - part)) + (more - part) + low
+    again = total + lacks
+    return again, lacks - (again - total)
+
+
+def _nearest(field: Field, anchor: Any, offset: Any, reach: float) -> Any:
+    """The point of a crack within reach, as an offset from the nearer vertex of its segment, not rounded; None without."""
+    found = None
+    for crack in field.step.cracks:
+        for ends in zip(crack.points[:-1], crack.points[1:], strict=True):
+            near, far = sorted(ends, key=lambda end: np.hypot(*(anchor - end + offset)))
+            way, to = far - near, (anchor - near) + offset
+            along = min(max(float(to @ way) / float(way @ way), 0.0), 1.0)
+            distance = float(np.hypot(*(to - along * way)))
+            if distance <= reach:
+                found, reach = (near, along * way), distance
+    return found
