@@ -136,7 +136,7 @@ def marimo(folder, cells):
     port = free_port()
     body = "\n\n".join(f"@app.cell\ndef _():\n" + "".join(f"    {line}\n" for line in cell.splitlines()) for cell in cells)
     (folder / "a.py").write_text(f"import marimo\n\napp = marimo.App(width='full')\n\n{body}")
-    command = [sys.executable, "-m", "marimo", "-q", "run", "a.py", "--headless", f"--port={port}", "--host=127.0.0.1", "--no-token", "--no-check", "--skip-update-check"]
+    command = [sys.executable, "-m", "marimo", "-q", "run", "a.py", "--headless", f"--port={port}", "--host=127.0.0.1", "--no-token"]
     with server(command, f"http://127.0.0.1:{port}/health", folder):
         yield f"http://127.0.0.1:{port}"
 

@@ -29,6 +29,8 @@ def link(one: Any, other: Any, traits: tuple[str, ...] = ("center", "width")) ->
     """
     import traitlets
 
+    # of the first alone its page decides what fits
+    other._is_whole = False
     links = ExitStack()
     for name in traits:
         links.callback(traitlets.link((one, name), (other, name)).unlink)

@@ -134,6 +134,11 @@ function controls(row, offers, ask) {
     for (const [k, text] of ["go to …", ...offers.tips].entries()) make("option", tips, { value: k - 1, textContent: text });
     tips.onchange = () => { ask({ tip: Number(tips.value) }); tips.value = -1; };
   }
+  // notebooks take the key for themselves
+  row.onkeydown = (event) => {
+    if (event.key === "Enter") event.target.onchange?.();
+    event.stopPropagation();
+  };
   const step = offers.steps && make("input", row, { type: "range", min: 0, max: offers.steps - 1, title: "step", ariaLabel: "step" });
   if (step) step.oninput = () => ask({ set: { step: step.valueAsNumber } });
   const number = step && make("span", row);
@@ -232,7 +237,7 @@ function render({ model, el }) {
   let before = "";
   const resized = new ResizeObserver(() => {
     const now = String(size());
-    if (now !== before) { before = now; ask({}); }
+    if (now !== before) { before = now; ask({ fit: true }); }
   });
   resized.observe(canvas);
   return () => {

@@ -110,8 +110,8 @@ class Viewer(anywidget.AnyWidget):
         self._rest = (0.0, 0.0)
         # the last range that was found, for frames of moving views
         self._held: tuple[float, float] | None = None
-        # of the last frame; until the first the shape of the page is not known, and where nothing is said all of the plate is shown
-        self._size, self._is_new = (4, 3), not seen
+        # of the last frame
+        self._size = (4, 3)
         center, width = field._spot(self._size, **seen) if seen else self._whole()
         super().__init__(
             center=center,
@@ -121,6 +121,8 @@ class Viewer(anywidget.AnyWidget):
             _offers=_offers(field),
             **options,
         )
+        # whether all of the plate is shown, which then fits into the page however that changes
+        self._is_whole = not seen
         self.on_msg(self._hear)
 
     @traitlets.validate("center")
@@ -148,7 +150,7 @@ class Viewer(anywidget.AnyWidget):
 
     @traitlets.observe("center", "width")
     def _moved(self, change: Any) -> None:
-        self._is_new = False
+        self._is_whole = False
 
     @traitlets.observe("center")
     def _set_anew(self, change: Any) -> None:
@@ -165,6 +167,7 @@ class Viewer(anywidget.AnyWidget):
     def home(self) -> None:
         """Shows all of the plate."""
         self.center, self.width = self._whole()
+        self._is_whole = True
 
     def _whole(self) -> tuple[tuple[float, float], float]:
         center, width = spot(self.field.dataset.domain, self._size, None, None, None)
@@ -213,9 +216,8 @@ class Viewer(anywidget.AnyWidget):
             if "probe" in content:
                 return {"kind": "probe", "text": self._probed(content["probe"], size)}, []
             self._size = size
-            if self._is_new:
+            if content.get("fit") and self._is_whole:
                 self.home()
-            self._is_new = False
             self._obey(content, size)
             png, facts = self._frame(size, bool(content.get("moving")))
             self.error = ""
