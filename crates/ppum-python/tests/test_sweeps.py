@@ -1,6 +1,9 @@
 """Sweeps: here and on workers, what fails, what goes on."""
 
 import os
+import random
+import signal
+import threading
 
 import numpy as np
 import ppum
@@ -62,29 +65,38 @@ def test_names_of_results_are_taken():
         ppum.sweep(made)
 
 
-def dies_once(length, load):
-    return made(length, load)
-
-
-@pytest.fixture(scope="module")
-def cluster():
+@pytest.fixture
+def client():
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        with distributed.Client(cluster) as client:
-            yield client
+        with distributed.Client(cluster) as found:
+            yield found
 
 
-def test_on_workers(cluster, expected, tmp_path):
+def test_on_workers(client, expected, tmp_path):
     told = []
-    result = ppum.sweep(made, **CASES).run(cluster, threads=1, save=tmp_path, progress=lambda *p: told.append(p))
+    result = ppum.sweep(made, **CASES).run(client, threads=1, save=tmp_path, progress=lambda *p: told.append(p))
     assert result.identical(expected) and told[-1] == (6, 6)
     assert len(list(tmp_path.iterdir())) == 3
 
 
-def test_a_worker_that_is_killed_loses_nothing(cluster, expected):
-    def kill(done, total):
-        if done == 2:
-            process = next(iter(cluster.cluster.workers.values())).process
-            os.kill(process.pid, 9)
+def kill_one(client, chance):
+    """Kills a worker's process as the system would."""
+    worker = chance.choice(sorted(client.cluster.workers.values(), key=lambda worker: str(worker.name)))
+    if (process := worker.process) is not None and process.pid:
+        os.kill(process.pid, signal.SIGKILL)
 
-    assert ppum.sweep(made, **CASES).run(cluster, threads=1, progress=kill).identical(expected)
+
+#: How often a worker is killed at a random moment; PPUM_KILLS=20 for more than is done each time.
+KILLS = int(os.environ.get("PPUM_KILLS", 2))
+
+
+@pytest.mark.parametrize("seed", range(KILLS))
+def test_a_worker_that_is_killed_loses_nothing(client, expected, seed):
+    chance = random.Random(seed)
+    killer = threading.Timer(chance.uniform(0.0, 1.5), kill_one, (client, chance))
+    killer.start()  # the sweep takes longer
+    told = []
+    result = ppum.sweep(made, **CASES).run(client, threads=1, progress=lambda *p: told.append(p))
+    killer.join()
+    assert result.identical(expected) and [done for done, _ in told] == list(range(1, 7))
