@@ -29,9 +29,8 @@ class Browser:
         self.view._handle_msg({"content": {"data": {"method": "custom", "content": message}}, "buffers": []})
         (answer,) = [(d["content"], b) for d, b in self.sent if d["method"] == "custom"]
         assert answer[0]["to"] == "me"
-        # what the answer shows is known before the new version is told
-        told = [d["state"]["_version"] for d, _ in self.sent if d["method"] == "update" and "_version" in d["state"]]
-        assert all(version == answer[0]["version"] for version in told)
+        # nothing else is said, but by views that are linked
+        assert len(self.sent) == 1
         return answer
 
 
@@ -233,6 +232,14 @@ def test_views_are_linked(ds, f):
     links.close()
     left.width = 0.125
     assert right.width != 0.125 and right._version == version
+
+
+def test_what_python_changes_is_told(view, browser):
+    browser.sent.clear()
+    view.quantity, view.width = "ux", 0.5
+    told = [d["content"] for d, _ in browser.sent if d["method"] == "custom"]
+    assert [t["version"] for t in told] == [view._version - 1, view._version]
+    assert browser.ask()[0]["version"] == view._version
 
 
 def test_steps():

@@ -44,7 +44,10 @@ function courier(model, size, show) {
     }
   };
   const hear = (content, buffers) => {
-    if (content?.to !== me) return;
+    if (content?.to !== me) {
+      if (content?.version !== undefined && content.version !== shown && content.kind !== "probe") ask({});
+      return;
+    }
     if (content.kind === "probe") probing = false;
     else {
       flying -= 1;
@@ -53,7 +56,6 @@ function courier(model, size, show) {
     show(content, buffers);
     pump();
   };
-  const changed = () => model.get("_version") !== shown && ask({});
   const ask = (what) => {
     const { move, set, ...other } = what;
     const before = wanted ?? {};
@@ -67,11 +69,7 @@ function courier(model, size, show) {
     pump();
   };
   model.on("msg:custom", hear);
-  model.on("change:_version", changed);
-  const close = () => {
-    model.off("msg:custom", hear);
-    model.off("change:_version", changed);
-  };
+  const close = () => model.off("msg:custom", hear);
   return { ask, close, pump, probe: (at) => { probe = at; pump(); } };
 }
 

@@ -86,7 +86,6 @@ class Viewer(anywidget.AnyWidget):
     """
 
     _esm = Path(__file__).parent / "widget.js"
-    _version = traitlets.Int(0).tag(sync=True)
     _offers = traitlets.Dict().tag(sync=True)
     height = traitlets.Int(480, min=40, max=4000).tag(sync=True)
 
@@ -103,6 +102,8 @@ class Viewer(anywidget.AnyWidget):
 
     def __init__(self, field: Field, quantity: str | None = None, **options: Any) -> None:
         seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
+        # counts what is seen; views in browsers ask for a frame if it is not the one that they show
+        self._version, self._is_answering = 0, False
         #: The field; its step is that of `step`.
         self.field = field
         self._fields = {field._number: field}
@@ -163,6 +164,8 @@ class Viewer(anywidget.AnyWidget):
     @traitlets.observe("center", "width", *_LOOK)
     def _changed(self, change: Any) -> None:
         self._version += 1
+        if not self._is_answering:
+            self.send({"version": self._version})
 
     def home(self) -> None:
         """Shows all of the plate."""
@@ -202,13 +205,15 @@ class Viewer(anywidget.AnyWidget):
         return self._fields[self.step]
 
     def _hear(self, _: Any, content: Any, buffers: Any) -> None:
-        """Answers a message of the browser: a frame, or what is under the mouse. The frame goes before the new version, so
-        that the browser does not ask for it again."""
+        """Answers a message of the browser: a frame, or what is under the mouse. All views hear it, and ask for their own."""
         if not isinstance(content, Mapping) or "from" not in content:
             return
-        with self.hold_sync():
+        self._is_answering = True
+        try:
             answer, parts = self._answer(content)
-            self.send({"to": content["from"], "version": self._version, **answer}, parts)
+        finally:
+            self._is_answering = False
+        self.send({"to": content["from"], "version": self._version, **answer}, parts)
 
     def _answer(self, content: Mapping[str, Any]) -> tuple[dict[str, Any], list[bytes]]:
         try:
