@@ -30,7 +30,7 @@ ARGUMENTS = [
 
 #: The first cells of all notebooks.
 SETUP = """\
-import json, ppum
+import ppum
 ds = ppum.open("plate.h5")
 view = ds.view("von_mises", height=600)
 """

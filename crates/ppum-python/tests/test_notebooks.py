@@ -188,7 +188,7 @@ def test_jupyterlab(ds, folder):
 
 def test_marimo(ds, folder):
     needed("marimo", "playwright", "anywidget")
-    cell = SETUP.replace("json, ppum", "ppum") + "view"
+    cell = SETUP + "view"
     with chromium(device_scale_factor=1.5) as page, marimo(folder, [cell]) as url:
         page.goto(url)
         canvas = page.locator("canvas[data-frames]")

@@ -35,7 +35,7 @@ function courier(model, size, show) {
       flying += 1;
       const now = wanted;
       wanted = null;
-      send({ ...now, sent: performance.now() });
+      send(now);
     }
     if (probe && !probing) {
       probing = true;
