@@ -52,7 +52,7 @@ const ARROWS: [(&str, &[&str]); 13] = [
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
-const DOORS: [(&str, &str); 24] = [
+const DOORS: [(&str, &str); 23] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
