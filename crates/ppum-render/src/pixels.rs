@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::{Rect, Vec2};
 
 use crate::view::View;
 
@@ -26,16 +26,11 @@ impl<'v> Pixels<'v> {
         Self { view, density, margin }
     }
 
-    /// Some rows of the view in the world, enlarged by the margin.
+    /// The view in the world, enlarged by the margin.
     #[must_use]
-    pub fn window(&self, rows: Range<u32>) -> Rect {
-        let margin = (0.5 + self.margin) / self.density;
-        let center = self.view.center;
-        let [top, bottom] =
-            [rows.start, rows.end.saturating_sub(1)].map(|k| self.view.row_offset(k));
-        let half = self.view.half().x + margin;
-        let [min, max] = [vec2(-half, bottom - margin), vec2(half, top + margin)];
-        Rect::new(center + min, center + max)
+    pub fn window(&self) -> Rect {
+        let margin = self.margin / self.density;
+        Rect::around(self.view.center, self.view.half() + Vec2 { x: margin, y: margin })
     }
 
     /// The columns and rows whose pixels may lie in a box given relative to the view's centre.

@@ -8,11 +8,10 @@
 //!
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
-//! cover, any degree, any number of functions. Each band of tiles finds its patches itself (`lists`). On each row a patch's weight and polynomials collapse to polynomials in x
+//! cover, any degree, any number of functions. On each row a patch's weight and polynomials collapse to polynomials in x
 //! (module `collapse`), those of patches above each other to one (`strips`). Column by column of vectors (`sweep`) these are summed
 //! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
-//! evaluated once for a column, and only where a patch needs them. Patches of few pixels are summed pair by pair of patch and pixel
-//! instead (`grains`).
+//! evaluated once for a column, and only where a patch needs them.
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
 //! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
@@ -25,8 +24,6 @@
 
 mod collapse;
 mod finish;
-mod grains;
-mod lists;
 mod plan;
 mod strips;
 mod sums;
@@ -35,6 +32,8 @@ mod sweep;
 mod tests;
 mod tile;
 mod weights;
+
+use std::ops::Range;
 
 use ppum::field::Field;
 use ppum::function::LocalFunctions;
@@ -51,10 +50,10 @@ use crate::raster::{Raster, Sample, zeros};
 use crate::shades::Shades;
 use crate::view::View;
 use collapse::ROWS;
-use lists::{BANDS, Lists};
-use plan::Plan;
+use plan::{COLUMNS, Plan, strips};
 use strips::Savings;
 use tile::{Band, Scratch};
+use weights::Weights;
 
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
 /// pool that calls.
@@ -157,6 +156,8 @@ struct Scene<'f, T> {
     view: View,
     quantity: &'f Quantity,
     weight: &'f WeightFunction,
+    /// Its factors, if it is a formula.
+    weights: Weights<T>,
     functions: LocalFunctions<'f>,
     plan: Plan<'f>,
     /// Offsets of the columns from the view's centre, up to full tiles.
@@ -169,17 +170,19 @@ struct Scene<'f, T> {
 
 impl<'f, T: Sample> Scene<'f, T> {
     fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
-        let plan = Plan::new(field, view, quantity);
-        let [xs, ys] =
-            [0, 1].map(|axis| plan.offsets[axis].iter().map(|&x| T::from_f64(x)).collect());
+        let mut plan = Plan::new(field, view, quantity, ROWS);
+        let weight = &field.step.partition.weight;
+        let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
+        let rows = view.pixels[1].next_multiple_of(ROWS as u32);
         Self {
             view: *view,
             quantity,
-            weight: &field.step.partition.weight,
+            weight,
+            weights: Weights::new(weight, view, &mut plan.patches),
             functions: field.functions.at(&field.step.cracks, view.center),
             plan,
-            xs,
-            ys,
+            xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
+            ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
             savings: Savings::ALL,
             field,
         }
@@ -195,36 +198,36 @@ impl<'f, T: Sample> Scene<'f, T> {
     ) -> Result<(), Cancelled> {
         let [columns, rows] = self.view.pixels.map(|n| n as usize);
         let parts = Parts::start(watcher, rows.div_ceil(ROWS))?;
+        let entries = self.plan.entries_of_bands();
         for first in (0..rows).step_by(bands * ROWS) {
             let count = (rows - first).min(bands * ROWS);
             let mut values = zeros(columns * count);
-            self.draw_bands::<D>(first / ROWS, &mut values, &parts)?;
+            let mut rest = values.as_mut_slice();
+            for bands in strips(first / ROWS..(first + count).div_ceil(ROWS), &entries) {
+                let pixels = rest.len().min(bands.len() * columns * ROWS);
+                let (strip, later) = rest.split_at_mut(pixels);
+                self.draw_strip::<D>(bands, strip, &parts)?;
+                rest = later;
+            }
             take(values);
         }
         Ok(())
     }
 
-    fn draw_bands<const D: usize>(
+    fn draw_strip<const D: usize>(
         &self,
-        first: usize,
-        values: &mut [T],
+        bands: Range<usize>,
+        strip: &mut [T],
         parts: &Parts<'_>,
     ) -> Result<(), Cancelled> {
-        let band_len = self.view.pixels[0] as usize * ROWS;
-        let chunks = values.par_chunks_mut(band_len * BANDS).enumerate();
-        chunks.try_for_each_init(Default::default, |memory, (k, out)| {
-            let (lists, scratch): &mut (Lists<T>, Scratch<T>) = memory;
-            let first = first + k * BANDS;
-            let bands = first..first + out.len().div_ceil(band_len);
-            lists.fill(&self.plan, bands.clone(), self.savings.least_saving);
-            for (band, out) in bands.zip(out.chunks_mut(band_len)) {
-                let (scene, lists) = (self, &*lists);
-                T::dispatch(Band::<'_, '_, T, D> { scene, lists, band, scratch, out: &mut *out });
-                self.clear_outside(band * ROWS, out);
-                self.clear_holes(band * ROWS, out);
-                parts.finish_one()?;
-            }
-            Ok(())
+        let tiles = &self.plan.tiles(&bands);
+        let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
+        chunks.try_for_each_init(Scratch::default, |scratch, (k, out)| {
+            let (scene, band) = (self, bands.start + k);
+            T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });
+            self.clear_outside(band * ROWS, out);
+            self.clear_holes(band * ROWS, out);
+            parts.finish_one()
         })
     }
 

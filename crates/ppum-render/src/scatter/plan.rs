@@ -1,4 +1,4 @@
-//! What all bands of one view have in common, and the numbers of a patch as the view sees it.
+//! The parts of a field that one view needs: the patches in sight, their pixels, their blocks, their tiles.
 
 use std::ops::Range;
 
@@ -9,8 +9,6 @@ use ppum::function::Slot;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2};
 
-use super::collapse::ROWS;
-use super::lists::Seen;
 use crate::pixels::Pixels;
 use crate::view::View;
 
@@ -41,47 +39,44 @@ impl Block {
     const NOTHING: Self = Self { function: Slot::One, degree: 0, zero: true, offset: 0 };
 }
 
-/// A patch that is ready for strips.
+/// A patch in sight.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
-    /// Its index in the field.
-    pub(super) index: u32,
     /// Coordinates of the support, [−1, 1]².
     pub(super) support: [Affine; 2],
     /// Coordinates of the polynomials.
     pub(super) frame: [Affine; 2],
     /// Columns of pixels that may be covered.
     pub(super) columns: Range<u32>,
-    /// Rows of the bands that may be covered.
+    /// Rows of pixels that may be covered.
     pub(super) rows: Range<u32>,
     /// Its blocks; the first is of function 1, unless the plan has no components.
     pub(super) blocks: Range<u32>,
 }
 
 impl Patch {
-    /// Its blocks in the bands' list.
+    /// Its blocks in the plan's list.
     #[inline(always)]
     pub(super) fn blocks(&self) -> Range<usize> {
         self.blocks.start as usize..self.blocks.end as usize
     }
 }
 
-/// What all bands of one view have in common. The anchor is the view's centre.
+/// All data of one view, made once in f64. The anchor is the view's centre.
 #[derive(Debug)]
 pub(super) struct Plan<'f> {
-    pub(super) field: &'f Field<'f>,
-    pub(super) view: View,
-    quantity: &'f Quantity,
+    pub(super) patches: Vec<Patch>,
+    pub(super) blocks: Vec<Block>,
     /// Coefficients of each component.
     pub(super) coefficients: Vec<&'f [f64]>,
     /// Pixels inside the domain.
     pub(super) inside: [Range<usize>; 2],
     /// The holes in sight.
     pub(super) holes: Vec<HolePixels>,
-    /// Columns of tiles.
-    pub(super) columns: usize,
-    /// Offsets of the columns and rows of pixels from the view's centre, up to full tiles.
-    pub(super) offsets: [Vec<f64>; 2],
+    /// Columns of tiles, and rows of them: bands.
+    tiles: [usize; 2],
+    /// Rows of a tile.
+    rows: usize,
 }
 
 /// A hole seen from the view's centre, and the columns and rows of pixels that may lie in it.
@@ -93,23 +88,52 @@ pub(super) struct HolePixels {
 }
 
 impl<'f> Plan<'f> {
-    pub(super) fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
-        let [columns, rows] = [COLUMNS, ROWS].map(|n| n as u32);
-        let columns = 0..view.pixels[0].next_multiple_of(columns);
-        let rows = 0..view.pixels[1].next_multiple_of(rows);
-        Self {
-            field,
-            view: *view,
-            quantity,
+    /// The plan for tiles of `rows` rows.
+    pub(super) fn new(field: &'f Field, view: &View, quantity: &Quantity, rows: usize) -> Self {
+        let pixels = Pixels::new(view);
+        let mut visible = Vec::new();
+        field.tree.query_box(&pixels.window(), &mut visible);
+        let count = visible.iter().map(|&i| 1 + field.data.blocks(i as usize).len()).sum();
+        let mut plan = Self {
+            patches: Vec::with_capacity(visible.len()),
+            blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
             inside: view.inside(&field.domain.bounds),
-            holes: holes(&field.domain.holes, view.center, &Pixels::new(view)),
-            columns: columns.len() / COLUMNS,
-            offsets: [
-                columns.map(|k| view.column_offset(k)).collect(),
-                rows.map(|k| view.row_offset(k)).collect(),
+            holes: holes(&field.domain.holes, view.center, &pixels),
+            tiles: [
+                (view.pixels[0] as usize).div_ceil(COLUMNS),
+                (view.pixels[1] as usize).div_ceil(rows),
             ],
+            rows,
+        };
+        for &index in &visible {
+            let blocks = plan.add_blocks(field, index as usize, quantity);
+            plan.patches.push(patch(field, index as usize, view, &pixels, blocks));
         }
+        plan
+    }
+
+    /// Number of patches of the tiles of each band.
+    pub(super) fn entries_of_bands(&self) -> Vec<usize> {
+        let mut changes = vec![0i64; self.tiles[1] + 1];
+        for patch in &self.patches {
+            let (bands, columns) = (tiles(&patch.rows, self.rows), tiles(&patch.columns, COLUMNS));
+            if !bands.is_empty() {
+                changes[bands.start] += columns.len() as i64;
+                changes[bands.end] -= columns.len() as i64;
+            }
+        }
+        changes.pop();
+        let sums = changes.into_iter().scan(0, |sum, change| {
+            *sum += change;
+            Some(*sum as usize)
+        });
+        sums.collect()
+    }
+
+    /// The tiles of some bands.
+    pub(super) fn tiles(&self, bands: &Range<usize>) -> Tiles {
+        Tiles::new(&self.patches, self.tiles[0], bands, self.rows)
     }
 
     /// Coefficients of a block for one component.
@@ -121,71 +145,32 @@ impl<'f> Plan<'f> {
         &self.coefficients[component][block.offset as usize..]
     }
 
-    /// The constant coefficient of a patch's first block of function 1.
-    #[inline(always)]
+    /// The constant coefficient of a patch's first block.
     pub(super) fn constant(&self, patch: u32, component: usize) -> f64 {
-        let mut blocks = self.of_field(patch).map(|block| self.block(block));
-        let smooth = blocks.find(|block| block.function == Slot::One);
-        let smooth = smooth.or_else(|| self.of_partition(patch));
-        smooth.map_or(0.0, |block| self.block_coefficients(&block, component)[0])
-    }
-
-    /// The blocks of a patch in the field.
-    #[inline(always)]
-    pub(super) fn of_field(&self, patch: u32) -> Range<usize> {
-        let is_other = matches!(self.quantity, Quantity::PartitionFunction(_));
-        if is_other || self.coefficients.is_empty() {
-            return 0..0;
-        }
-        self.field.data.blocks(patch as usize)
-    }
-
-    /// A block of the field.
-    #[inline(always)]
-    pub(super) fn block(&self, block: usize) -> Block {
-        let data = self.field.data;
-        Block {
-            function: self.field.functions.of(data.block_function[block]),
-            degree: data.block_degree[block],
-            zero: false,
-            offset: data.block_offset[block],
-        }
-    }
-
-    /// The block of a patch where the field is a partition function.
-    #[inline(always)]
-    pub(super) fn of_partition(&self, patch: u32) -> Option<Block> {
-        let Quantity::PartitionFunction(of) = self.quantity else { return None };
-        Some(Block { zero: *of != patch, ..Block::NOTHING })
+        let block = &self.blocks[self.patches[patch as usize].blocks.start as usize];
+        self.block_coefficients(block, component)[0]
     }
 
     /// Adds the blocks of a patch, one of function 1 first.
-    pub(super) fn add_blocks(&self, patch: u32, blocks: &mut Vec<Block>) {
-        if self.coefficients.is_empty() {
-            return;
+    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: &Quantity) -> Range<u32> {
+        let start = self.blocks.len();
+        if let Quantity::PartitionFunction(of) = quantity {
+            self.blocks.push(Block { zero: *of as usize != patch, ..Block::NOTHING });
+        } else if !self.coefficients.is_empty() {
+            let data = field.data;
+            self.blocks.extend(data.blocks(patch).map(|block| Block {
+                function: field.functions.of(data.block_function[block]),
+                degree: data.block_degree[block],
+                zero: false,
+                offset: data.block_offset[block],
+            }));
+            let smooth = |block: &Block| block.function == Slot::One;
+            match self.blocks[start..].iter().position(smooth) {
+                Some(at) => self.blocks.swap(start, start + at),
+                None => self.blocks.insert(start, Block::NOTHING),
+            }
         }
-        let start = blocks.len();
-        blocks.extend(self.of_field(patch).map(|block| self.block(block)));
-        blocks.extend(self.of_partition(patch));
-        let smooth = |block: &Block| block.function == Slot::One;
-        match blocks[start..].iter().position(smooth) {
-            Some(at) => blocks.swap(start, start + at),
-            None => blocks.insert(start, Block::NOTHING),
-        }
-    }
-
-    /// A patch with its blocks.
-    pub(super) fn patch(&self, seen: &Seen, blocks: Range<u32>) -> Patch {
-        let (partition, anchor) = (&self.field.step.partition, self.view.center);
-        let k = seen.patch as usize;
-        Patch {
-            index: seen.patch,
-            support: affine(partition.center[k] - anchor, partition.half[k]),
-            frame: affine(partition.origin[k] - anchor, partition.scale[k]),
-            columns: seen.columns.clone(),
-            rows: seen.rows.clone(),
-            blocks,
-        }
+        start as u32..self.blocks.len() as u32
     }
 }
 
@@ -196,6 +181,14 @@ fn coefficients<'f>(data: &'f FieldData, quantity: &Quantity) -> Vec<&'f [f64]> 
         Quantity::WeightSum | Quantity::Overlap => Vec::new(),
         _ => data.coefficients.iter().map(Vec::as_slice).collect(),
     }
+}
+
+fn patch(field: &Field, index: usize, view: &View, pixels: &Pixels, blocks: Range<u32>) -> Patch {
+    let partition = &field.step.partition;
+    let (center, half) = (partition.center[index] - view.center, partition.half[index]);
+    let [columns, rows] = pixels.covered(&Rect::around(center, half));
+    let frame = affine(partition.origin[index] - view.center, partition.scale[index]);
+    Patch { support: affine(center, half), frame, columns, rows, blocks }
 }
 
 /// (x − origin) / scale as multiplication and addition.
@@ -217,4 +210,76 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
         HolePixels { hole: hole.at(anchor), columns, rows }
     });
     seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
+}
+
+/// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million patches that a picture
+/// resolves have two million entries.
+const MOST_ENTRIES: usize = 1 << 25;
+
+/// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be kept; all of
+/// them where they can be.
+pub(super) fn strips(bands: Range<usize>, entries: &[usize]) -> Vec<Range<usize>> {
+    let (mut strips, mut start, mut sum) = (Vec::new(), bands.start, 0);
+    for band in bands.clone() {
+        if band > start && sum + entries[band] > MOST_ENTRIES {
+            strips.push(start..band);
+            (start, sum) = (band, 0);
+        }
+        sum += entries[band];
+    }
+    strips.push(start..bands.end);
+    strips
+}
+
+/// The patches of each tile of a strip in compressed rows.
+#[derive(Debug)]
+pub(super) struct Tiles {
+    /// Number of tiles in a band.
+    pub(super) columns: usize,
+    first: usize,
+    starts: Vec<u32>,
+    patches: Vec<u32>,
+}
+
+impl Tiles {
+    fn new(patches: &[Patch], columns: usize, bands: &Range<usize>, rows: usize) -> Self {
+        let count = columns * bands.len();
+        let for_each_tile = |patch: &Patch, f: &mut dyn FnMut(usize)| {
+            let of = tiles(&patch.rows, rows);
+            for band in of.start.max(bands.start)..of.end.min(bands.end) {
+                tiles(&patch.columns, COLUMNS).for_each(|c| f((band - bands.start) * columns + c));
+            }
+        };
+        // Entry t + 2 counts tile t, becomes its start, and, after filling, its end: entry t + 1.
+        let mut starts = vec![0; count + 2];
+        for patch in patches {
+            for_each_tile(patch, &mut |tile| starts[tile + 2] += 1);
+        }
+        for tile in 0..count {
+            starts[tile + 2] += starts[tile + 1];
+        }
+        let mut entries = vec![0; starts[count + 1] as usize];
+        for (index, patch) in (0u32..).zip(patches) {
+            for_each_tile(patch, &mut |tile| {
+                entries[starts[tile + 1] as usize] = index;
+                starts[tile + 1] += 1;
+            });
+        }
+        Self { columns, first: bands.start, starts, patches: entries }
+    }
+
+    /// The patches that meet a tile, ascending.
+    pub(super) fn of(&self, column: usize, band: usize) -> &[u32] {
+        let tile = self.index(column, band);
+        &self.patches[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+    }
+
+    fn index(&self, column: usize, band: usize) -> usize {
+        (band - self.first) * self.columns + column
+    }
+}
+
+/// The tiles of `size` pixels that a range meets.
+fn tiles(pixels: &Range<u32>, size: usize) -> Range<usize> {
+    pixels.start as usize / size..(pixels.end as usize).div_ceil(size)
 }

@@ -14,8 +14,7 @@ use ppum::quantity::Quantity;
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{Factor, ROWS, Rows, collapse, polynomials, put, table_len};
-use super::lists::{LEAST_SAVING, Lists};
-use super::plan::{Affine, Block, Patch};
+use super::plan::{Affine, Block, Patch, Plan};
 use super::sums::{basis_len, size};
 use super::tile::{Active, Part, Scratch, Tile, union};
 
@@ -28,13 +27,10 @@ pub(super) struct Savings {
     pub(super) alone: bool,
     /// Numbers in the tables of strips that are kept at a time, more if one strip has them.
     pub(super) numbers: usize,
-    /// Pairs that grains must save a tile.
-    pub(super) least_saving: usize,
 }
 
 impl Savings {
-    pub(super) const ALL: Self =
-        Self { strips: true, alone: true, numbers: 1 << 20, least_saving: LEAST_SAVING };
+    pub(super) const ALL: Self = Self { strips: true, alone: true, numbers: 1 << 20 };
 }
 
 /// Groups of functions that are kept at a time for the strips of a tile, more if one strip has them: 6 MB.
@@ -98,13 +94,13 @@ impl<T: Scalar> Strips<T> {
     }
 
     /// The strip of a patch, or the slot for one.
-    fn find(&self, lists: &Lists<T>, patch: &Patch, joins: bool) -> Result<usize, usize> {
+    fn find(&self, plan: &Plan<'_>, patch: &Patch, joins: bool) -> Result<usize, usize> {
         let first = patch.columns.start as usize * TRIES % SLOTS;
         for slot in first..first + TRIES {
             let place = self.slots[slot] as usize;
             match self.all.get(place).filter(|_| joins) {
                 None => return Err(slot),
-                Some(strip) if are_same(lists, patch, &lists.patches[strip.patch as usize]) => {
+                Some(strip) if are_same(plan, patch, &plan.patches[strip.patch as usize]) => {
                     return Ok(place);
                 }
                 Some(_) => {}
@@ -128,8 +124,8 @@ impl<T: Scalar> Strips<T> {
 }
 
 /// True if two patches have the same a(x), ξ(x), functions and degrees.
-fn are_same<T>(lists: &Lists<T>, a: &Patch, b: &Patch) -> bool {
-    let mut blocks = lists.blocks[a.blocks()].iter().zip(&lists.blocks[b.blocks()]);
+fn are_same(plan: &Plan<'_>, a: &Patch, b: &Patch) -> bool {
+    let mut blocks = plan.blocks[a.blocks()].iter().zip(&plan.blocks[b.blocks()]);
     let is_same = |(a, b): (&Block, &Block)| a.function == b.function && a.degree == b.degree;
     a.support[0] == b.support[0]
         && a.frame[0] == b.frame[0]
@@ -174,15 +170,15 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         scratch: &mut Scratch<T>,
         zero: R,
     ) -> usize {
-        let lists = self.lists;
+        let plan = &self.scene.plan;
         let savings = self.scene.savings;
         scratch.strips.clear();
         scratch.active.clear();
         let mut count = 0;
         for &index in patches {
-            let patch = &lists.patches[index as usize];
+            let patch = &plan.patches[index as usize];
             let part = self.part::<R>(patch);
-            match scratch.strips.find(lists, patch, savings.strips) {
+            match scratch.strips.find(plan, patch, savings.strips) {
                 Ok(place) => {
                     self.collapse::<R, true>((patch, &part), place, scratch, zero);
                     let strip = &mut scratch.strips.all[place];
@@ -209,9 +205,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         scratch: &mut Scratch<T>,
     ) -> usize {
         let Scratch { strips, places, active, shift, .. } = scratch;
-        let patch = &self.lists.patches[index as usize];
+        let patch = &self.scene.plan.patches[index as usize];
         let (first, mut len) = (strips.terms.len(), 0);
-        for block in &self.lists.blocks[patch.blocks()] {
+        for block in &self.scene.plan.blocks[patch.blocks()] {
             let degree = block.degree.into();
             let function = match block.function {
                 Slot::One => None,
@@ -248,7 +244,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     ) {
         let Scratch { strips: Strips { all, terms, tables, .. }, shift, .. } = scratch;
         let (plan, strip) = (&self.scene.plan, &all[place]);
-        let blocks = &self.lists.blocks[patch.blocks()];
+        let blocks = &plan.blocks[patch.blocks()];
         let tables = &mut tables[strip.table..];
         if !ADD && (part.rows.start >= R::LANES || part.rows.end + R::LANES <= ROWS) {
             tables[..weight_len::<D>() + strip.len * shift.len()].fill(T::default());
@@ -292,7 +288,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let inside = R::select(xi.ge(-one), R::select(one.gt(xi), one, zero), zero);
             return Factor { value: inside, slope: zero };
         }
-        if let Some(factor) = self.lists.weights.factor(support, pixel, offset) {
+        if let Some(factor) = self.scene.weights.factor(support, pixel, offset) {
             return factor;
         }
         let [value, slope, _] = self.scene.weight.spline(xi);

@@ -68,12 +68,7 @@ fn pictures_without_savings() {
             let view = view(&dataset, &mut random);
             let all = drawn::<f64>(&field, &view, &quantity, Savings::ALL);
             let narrow = drawn::<f32>(&field, &view, &quantity, Savings::ALL);
-            let none = Savings {
-                strips: false,
-                alone: false,
-                numbers: usize::MAX,
-                least_saving: usize::MAX,
-            };
+            let none = Savings { strips: false, alone: false, numbers: usize::MAX };
             let plain = drawn::<f64>(&field, &view, &quantity, none);
             let text = format!("{seed} {quantity:?} {view:?}");
             for numbers in [1, 2000] {
@@ -93,13 +88,12 @@ fn counted(recipe: &Recipe) -> [usize; 2] {
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::new(dataset.domain.bounds.center(), 1.2, [64, 48]).expect("a view");
     let scene = Scene::<f64>::new(&field, &view, &Quantity::VonMises);
-    let mut lists = Lists::default();
-    lists.fill(&scene.plan, 1..2, usize::MAX);
-    let tile = Tile::<f64, 1>::new(&scene, &lists, [0, 1]);
+    let tiles = scene.plan.tiles(&(1..2));
+    let tile = Tile::<f64, 1>::new(&scene, 0, 1);
     let mut scratch = Scratch::default();
     scratch.shift.resize(2, 0.0);
     scratch.places.resize(scene.functions.table().groups(), 0);
-    let list = lists.of(0, 1).others;
+    let list = tiles.of(0, 1);
     assert_eq!(tile.gather(list, &mut scratch, 0.0f64), list.len());
     [list.len(), scratch.strips.all.len()]
 }

@@ -10,9 +10,7 @@ use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
 use super::collapse::{ROWS, splat};
-use super::grains::Grains;
-use super::lists::{List, Lists};
-use super::plan::{COLUMNS, Patch};
+use super::plan::{COLUMNS, Patch, Tiles};
 use super::strips::Strips;
 use super::sums::{Entry, TOGETHER, basis_len, basis_stride, size, store_jet};
 
@@ -32,7 +30,6 @@ pub(super) struct Scratch<T> {
     pub(super) places: Vec<u32>,
     /// The patches at hand.
     pub(super) strips: Strips<T>,
-    pub(super) grains: Grains<T>,
     /// The strips of a column of vectors.
     pub(super) entries: Vec<Entry>,
     /// Those of them that cover some rows.
@@ -68,7 +65,7 @@ pub(super) struct Batch {
 /// Draws a band: the tiles of some rows, with `D` derivatives.
 pub(super) struct Band<'a, 'f, T, const D: usize> {
     pub(super) scene: &'a Scene<'f, T>,
-    pub(super) lists: &'a Lists<T>,
+    pub(super) tiles: &'a Tiles,
     pub(super) band: usize,
     pub(super) scratch: &'a mut Scratch<T>,
     /// The band's rows of the raster.
@@ -81,9 +78,9 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
     #[inline(always)]
     fn run<R: Real<Scalar = T>>(self, zero: R) {
         let mut column = 0;
-        while column < self.scene.plan.columns {
-            let tile = Tile::<T, D>::new(self.scene, self.lists, [column, self.band]);
-            tile.draw(self.scratch, self.out, zero);
+        while column < self.tiles.columns {
+            let tile = Tile::<T, D>::new(self.scene, column, self.band);
+            tile.draw(self.tiles, self.scratch, self.out, zero);
             column += 1;
         }
     }
@@ -92,19 +89,14 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
 /// One tile.
 pub(super) struct Tile<'a, 'f, T, const D: usize> {
     pub(super) scene: &'a Scene<'f, T>,
-    pub(super) lists: &'a Lists<T>,
     column: usize,
     band: usize,
 }
 
 impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
     #[inline(always)]
-    pub(super) fn new(
-        scene: &'a Scene<'f, T>,
-        lists: &'a Lists<T>,
-        [column, band]: [usize; 2],
-    ) -> Self {
-        Self { scene, lists, column, band }
+    pub(super) fn new(scene: &'a Scene<'f, T>, column: usize, band: usize) -> Self {
+        Self { scene, column, band }
     }
 
     /// First column and row.
@@ -113,16 +105,19 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         [self.column * COLUMNS, self.band * ROWS]
     }
 
-    /// Sums over the patches, and finishes column by column. Grains are what is summed before the first batch.
+    /// Sums over the patches, and finishes column by column.
     #[inline(always)]
-    fn draw<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, out: &mut [T], zero: R) {
-        let List { grains, others: mut list } = self.lists.of(self.column, self.band);
-        self.choose_shift(&mut scratch.shift);
+    fn draw<R: Real<Scalar = T>>(
+        &self,
+        tiles: &Tiles,
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
+        let mut list = tiles.of(self.column, self.band);
+        self.choose_shift(list, &mut scratch.shift);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
-        let mut is_first = grains.is_empty();
-        if !is_first {
-            self.add_grains(grains, scratch, zero);
-        }
+        let mut is_first = true;
         loop {
             let count = self.gather(list, scratch, zero);
             list = &list[count..];
@@ -170,12 +165,18 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         size::<R, D>() * (1 + self.scene.plan.coefficients.len())
     }
 
-    /// Takes the constants to subtract. The partition of unity reproduces constants, and ∇U − u ∇S loses the fewer digits the
-    /// smaller u is.
-    fn choose_shift(&self, shift: &mut Vec<f64>) {
-        let (plan, list) = (&self.scene.plan, self.lists.of(self.column, self.band));
+    /// Takes the constants to subtract: midway between those of the first and the last patch, which
+    /// lie in opposite corners if the patches follow the Morton curve. The partition of unity
+    /// reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller u is.
+    #[inline(always)]
+    fn choose_shift(&self, list: &[u32], shift: &mut Vec<f64>) {
+        let plan = &self.scene.plan;
         shift.clear();
-        shift.extend((0..plan.coefficients.len()).map(|c| self.lists.middle(plan, list, c)));
+        shift.resize(plan.coefficients.len(), 0.0);
+        let (Some(&first), Some(&last)) = (list.first(), list.last()) else { return };
+        for (component, shift) in shift.iter_mut().enumerate() {
+            *shift = 0.5 * (plan.constant(first, component) + plan.constant(last, component));
+        }
     }
 
     /// The part of the tile a patch may cover.
