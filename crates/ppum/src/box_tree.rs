@@ -160,6 +160,7 @@ fn morton_order(levels: &[Vec<Rect>]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum_testkit::random::Random;
 
     /// Problems that are wrong have holes of negative radii; their boxes harm nobody.
     #[test]
@@ -172,7 +173,6 @@ mod tests {
         tree.query_point(Vec2::ZERO, &mut found);
         assert_eq!(found, [1, 1]);
     }
-    use ppum_testkit::random::Random;
 
     /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
     fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {
