@@ -257,7 +257,7 @@ fn damaged_files_are_errors() {
     let bytes = to_bytes(&original).unwrap();
     let mut random = Random(2);
     let mut found = 0;
-    for k in 0..2000 {
+    for k in 0..1000 {
         let mut damaged = bytes.clone();
         for _ in 0..=k % 4 {
             let at = random.below(damaged.len());
@@ -268,7 +268,7 @@ fn damaged_files_are_errors() {
             Ok(read) => assert!(same(&read, &original), "damage {k}"),
         }
     }
-    assert!(found > 1000, "only {found} of 2000 were found");
+    assert!(found > 500, "only {found} of 1000 were found");
 }
 
 /// Metadata is where damage could make the library allocate: bytes replaced by extreme values.
@@ -286,7 +286,7 @@ fn damaged_metadata_is_an_error() {
         .map(|(at, _)| at)
         .collect();
     assert!(headers.len() > 30, "{} headers", headers.len());
-    for _ in 0..4000 {
+    for _ in 0..2000 {
         let mut damaged = bytes.clone();
         let header = headers[random.below(headers.len())];
         let at = (header + random.below(200)).min(bytes.len() - 8);
@@ -309,7 +309,7 @@ fn forged_metadata_is_an_error() {
     let headers = object_headers(&bytes);
     assert!(headers.len() > 30, "{} headers", headers.len());
     let mut random = Random(4);
-    for _ in 0..6000 {
+    for _ in 0..2000 {
         let mut forged = bytes.clone();
         let header = &headers[random.below(headers.len())];
         let at = header.start + 6 + random.below(header.len() - 10);
@@ -332,7 +332,7 @@ fn forged_files_of_other_programs_are_errors() {
     let mut kinds = std::collections::BTreeSet::new();
     for (name, bytes) in files_of_h5py() {
         let parts = sealed_parts(&bytes);
-        for _ in 0..400 {
+        for _ in 0..200 {
             let mut forged = bytes.clone();
             // version 1 of trees and headers has no checksums
             let part = if parts.is_empty() {
@@ -401,7 +401,7 @@ fn damage_that_no_checksum_finds() {
     let headers = object_headers(&bytes);
     let mut random = Random(6);
     let mut readable = 0;
-    for k in 0..3000 {
+    for k in 0..1000 {
         let mut damaged = bytes.clone();
         if k % 2 == 0 {
             let header = &headers[random.below(headers.len())];
@@ -421,7 +421,7 @@ fn damage_that_no_checksum_finds() {
             }
         }
     }
-    assert!(readable > 100, "only {readable} of 3000 were readable: nothing was tested");
+    assert!(readable > 33, "only {readable} of 1000 were readable: nothing was tested");
 }
 
 fn position(bytes: &[u8], pattern: &[u8]) -> usize {

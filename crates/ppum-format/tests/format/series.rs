@@ -346,7 +346,7 @@ fn damaged_series_are_errors_or_what_they_hold() {
     let data = from_bytes(VERSION_1_4.to_vec()).unwrap();
     let mut random = Random(11);
     let (mut refused, mut whole) = (0, 0);
-    for round in 0..3000 {
+    for round in 0..1000 {
         let damaged = damaged(VERSION_1_4, &mut |below| random.below(below));
         fs::write(&path, &damaged.bytes).unwrap();
         let all = from_bytes(damaged.bytes).ok();
@@ -377,7 +377,7 @@ fn damaged_series_are_errors_or_what_they_hold() {
         }
         whole += usize::from(all.is_some());
         // to see a step to the disk takes its time
-        if let (0, Ok(mut writer)) = (round % 30, SeriesWriter::resume(&path)) {
+        if let (0, Ok(mut writer)) = (round % 10, SeriesWriter::resume(&path)) {
             let len = writer.len();
             if writer.append(&steps::step(len)).is_ok() {
                 drop(writer);
@@ -385,5 +385,5 @@ fn damaged_series_are_errors_or_what_they_hold() {
             }
         }
     }
-    assert!(refused > 300 && whole > 50, "{refused} refused, {whole} read");
+    assert!(refused > 100 && whole > 17, "{refused} refused, {whole} read");
 }
