@@ -169,7 +169,7 @@ fn weight() -> Dataset {
 
 /// A weight of some length on many patches.
 fn weight_of_patches() -> Dataset {
-    with_weight(plate(128, 0, middle()), 200)
+    with_weight(plate(64, 0, middle()), 200)
 }
 
 fn with_young(dataset: &mut Dataset, text: &str) {

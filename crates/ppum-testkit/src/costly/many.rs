@@ -277,7 +277,7 @@ fn intensities() -> Dataset {
 
 /// Holes that lie over each other, and cells beside them.
 fn holes() -> Dataset {
-    let mut dataset = plate(128, 0, middle());
+    let mut dataset = plate(64, 0, middle());
     let hole = |_| Hole::Circle { center: vec2(0.5, 0.875), radius: 0.25 };
     dataset.domain.holes = (0..1 << 14).map(hole).collect();
     dataset
@@ -285,7 +285,7 @@ fn holes() -> Dataset {
 
 /// A hole with many corners.
 fn polygon() -> Dataset {
-    let mut dataset = plate(128, 0, middle());
+    let mut dataset = plate(64, 0, middle());
     let comb = |k: u32| vec2(f64::from(k) / f64::from(1 << 14), 0.5 + 0.25 * f64::from(k % 2));
     let mut points: Vec<_> = (0..(1 << 14) - 2).map(comb).collect();
     points.extend([vec2(1.0, 0.875), vec2(0.0, 0.875)]);
