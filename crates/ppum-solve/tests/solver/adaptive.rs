@@ -30,18 +30,18 @@ fn course(dataset: &Dataset, energy: Option<f64>) -> Vec<[f64; 2]> {
 /// Rates of h-adaptive covers in unknowns^½: p, however singular the field. Those of the first steps, on which everything
 /// is coarse, do not count. Steps jump, and lines through ten of them are as good as 10 %, through the five of the crack as
 /// 15 %. The four corners of the hole lie somewhere in their cells: every other step divides them to little avail, so that
-/// lines through these few are as good as 25 %.
+/// lines through these few are as good as 25 %. Each order has two of the three plates.
 #[test]
 fn divided_cells_have_the_rate_of_smooth_fields() {
-    for order in 1..=3 {
-        let cases = [
-            ("corner", corner(), None, 0.9, 6_000, 400.0),
-            ("square hole", square_hole(), Some(SQUARE_HOLE), 0.75, 15_000, 1_000.0),
-            ("crack", crack(), Some(CRACK), 0.85, 18_000, 3_000.0),
-        ];
-        for (name, problem, energy, part, most, least) in cases {
+    let cases = [
+        ("corner", &[1, 2, 3][..], corner(), None, 0.9, 6_000, 400.0),
+        ("square hole", &[2], square_hole(), Some(SQUARE_HOLE), 0.75, 15_000, 1_000.0),
+        ("crack", &[1, 3], crack(), Some(CRACK), 0.85, 18_000, 3_000.0),
+    ];
+    for (name, orders, problem, energy, part, most, least) in cases {
+        for &order in orders {
             println!("{name}, order {order}");
-            let dataset = solved(&on(problem, order, set(AdaptKind::H, 20, most)));
+            let dataset = solved(&on(problem.clone(), order, set(AdaptKind::H, 20, most)));
             let points = course(&dataset, energy);
             let late = points.iter().filter(|[n, _]| *n > least);
             let [slope, _] = line(&late.map(|[n, e]| [0.5 * n.ln(), e.ln()]).collect::<Vec<_>>());
@@ -108,7 +108,7 @@ fn energies_of_random_plates_grow() {
             problem.domain.holes = vec![Hole::Circle { center, radius }];
         }
         let kind = [AdaptKind::H, AdaptKind::P, AdaptKind::Hp][case % 3];
-        let dataset = solved(&on(problem, 2, set(kind, 4, 30_000)));
+        let dataset = solved(&on(problem, 2, set(kind, 4, 12_000)));
         let energies: Vec<f64> = dataset.steps.iter().map(|s| record(s, "energy")).collect();
         let estimated = |k: usize| record(&dataset.steps[k], "estimated error");
         for (k, pair) in energies.windows(2).enumerate() {
@@ -181,7 +181,7 @@ fn what_has_ended_it_is_told() {
 fn memory_ends_it() {
     let problem = on(crack(), 1, set(AdaptKind::H, 8, 100_000));
     let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
-    let memory = (3.0 * plan.estimate().memory) as u64;
+    let memory = (2.0 * plan.estimate().memory) as u64;
     let plan = Plan::new(&problem, Some(memory), unwatched()).expect("a plan");
     let dataset = plan.solve(unwatched()).expect("a solution");
     assert_eq!(stop(&dataset), Some(Stop::Memory));

@@ -215,16 +215,11 @@ fn paths_do_not_depend_on_the_frame() {
     ];
     for (k, image) in images.iter().enumerate() {
         let size = (image.map)(vec2(1.0, 0.0)) - (image.map)(vec2(0.0, 0.0));
-        let found = plate(image, false, 1.0);
+        let found = plate(image, k % 2 == 0, [1.0, 1e6][k / 2]);
         let apart = found.iter().zip(&path).map(|(p, q)| (*p - (image.map)(*q)).length());
         let apart = apart.fold(0.0, f64::max) / size.length();
         println!("image {k}: {apart:.1e}");
         assert!(found.len() == path.len() && apart < 1e-8, "image {k}: {apart:.1e}");
-    }
-    for (reversed, load) in [(true, 1.0), (false, 1e6)] {
-        let found = plate(&plain, reversed, load);
-        let apart = found.iter().zip(&path).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max);
-        assert!(found.len() == path.len() && apart < 1e-8, "{reversed} {load}: {apart:.1e}");
     }
 }
 
@@ -545,7 +540,7 @@ fn series_go_on_from_their_steps() {
     let inclined = "[[-0.31, -0.13], [0.17, 0.2]]";
     let edge = "[[-1, 0.1], [-0.2, 0.15]]";
     let beside = "[[crack]]\npoints = [[0.4, 0.1], [0.7, -0.1]]";
-    let held = r#"steps = 3, criterion = "hoop", increment = 0.1"#;
+    let held = r#"steps = 2, criterion = "hoop", increment = 0.1"#;
     let bent = r#"steps = 2, criterion = "local-symmetry", increment = 0.05"#;
     for (crack, more, rule, number) in [(edge, beside, held, 1), (inclined, "", bent, 0)] {
         let text = pulled(crack, more, rule);
