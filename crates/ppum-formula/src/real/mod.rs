@@ -194,7 +194,7 @@ pub fn instructions() -> &'static str {
         let widest = [
             (level.as_avx512().is_some(), "AVX-512"),
             (level.as_avx2().is_some(), "AVX2"),
-            (level.as_sse2().is_some(), "SSE2"),
+            (level.as_sse2().is_some(), if cfg!(debug_assertions) { "scalar" } else { "SSE2" }),
         ];
         if let Some((_, name)) = widest.into_iter().find(|(has, _)| *has) {
             return name;
@@ -213,6 +213,7 @@ pub fn instructions() -> &'static str {
 
 /// Runs a job on the widest vectors of the processor. Every instruction set is all kernels compiled once more,
 /// so what has none of the newer ones (x86 before 2013) computes with SSE2 alone, to the same numbers.
+/// Debug builds compute with scalars there: SSE2, of the narrowest vectors, is half of all that is compiled.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! vectors {
     ($job:expr, $t:ident, $vector:ident) => {{
@@ -229,11 +230,14 @@ macro_rules! vectors {
                 || $job.run($vector::splat(simd, 0.0)),
             );
         }
-        let Some(simd) = level.as_sse2() else { return $job.run($t::default()) };
-        simd.vectorize(
-            #[inline(always)]
-            || $job.run($vector::splat(simd, 0.0)),
-        )
+        #[cfg(not(debug_assertions))]
+        if let Some(simd) = level.as_sse2() {
+            return simd.vectorize(
+                #[inline(always)]
+                || $job.run($vector::splat(simd, 0.0)),
+            );
+        }
+        $job.run($t::default())
     }};
 }
 
