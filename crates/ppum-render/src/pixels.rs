@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 use crate::view::View;
 
@@ -31,6 +31,17 @@ impl<'v> Pixels<'v> {
     pub fn window(&self) -> Rect {
         let margin = self.margin / self.density;
         Rect::around(self.view.center, self.view.half() + Vec2 { x: margin, y: margin })
+    }
+
+    /// Some columns and rows of the view in the world, enlarged by the margin; there is one of each at least.
+    #[must_use]
+    pub fn window_of(&self, [columns, rows]: [Range<usize>; 2]) -> Rect {
+        let margin = (0.5 + self.margin) / self.density;
+        let around = vec2(margin, margin);
+        let [first, last] = [columns.start, columns.end - 1];
+        let lower = self.view.offset(first as u32, (rows.end - 1) as u32) - around;
+        let upper = self.view.offset(last as u32, rows.start as u32) + around;
+        Rect::new(self.view.center + lower, self.view.center + upper)
     }
 
     /// The columns and rows whose pixels may lie in a box given relative to the view's centre.

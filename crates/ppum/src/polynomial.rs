@@ -2,13 +2,13 @@
 
 use crate::dataset::monomials;
 use crate::jet::Jet;
-use ppum_formula::real::Real;
+use ppum_formula::real::{Real, Scalar};
 
 /// Σ c_k ξ^a η^b over all monomials of total degree at most `degree`, with derivatives by (ξ, η),
 /// by nested Horner schemes: inner in ξ, outer in η.
 #[inline(always)]
 pub fn polynomial<R: Real, const D: usize>(
-    coefficients: &[f64],
+    coefficients: &[impl Scalar],
     degree: usize,
     xi: [R; 2],
 ) -> Jet<R> {
@@ -25,7 +25,7 @@ pub fn polynomial<R: Real, const D: usize>(
 
 /// The factor of η^`power`: Σ_a c ξ^a with its first two derivatives.
 #[inline(always)]
-fn inner<R: Real, const D: usize>(c: &[f64], degree: usize, power: usize, xi: R) -> [R; 3] {
+fn inner<R: Real, const D: usize>(c: &[impl Scalar], degree: usize, power: usize, xi: R) -> [R; 3] {
     let zero = xi.lit(0.0);
     let (mut p, mut px, mut pxx) = (zero, zero, zero);
     let mut a = degree - power + 1;
@@ -39,7 +39,7 @@ fn inner<R: Real, const D: usize>(c: &[f64], degree: usize, power: usize, xi: R)
         if D >= 1 {
             px = px.mul_add(xi, p);
         }
-        p = p.mul_add(xi, zero.lit(c[index]));
+        p = p.mul_add(xi, zero.lit(c[index].to_f64()));
     }
     [p, px, pxx]
 }

@@ -11,7 +11,8 @@
 //! cover, any degree, any number of functions. On each row a patch's weight and polynomials collapse to polynomials in x
 //! (module `collapse`), those of patches above each other to one (`strips`). Column by column of vectors (`sweep`) these are summed
 //! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
-//! evaluated once for a column, and only where a patch needs them.
+//! evaluated once for a column, and only where a patch needs them. Where patches are too small for that to pay they are summed one by
+//! one instead (`grains`).
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
 //! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
@@ -24,6 +25,7 @@
 
 mod collapse;
 mod finish;
+mod grains;
 mod plan;
 mod strips;
 mod sums;
@@ -50,6 +52,7 @@ use crate::raster::{Raster, Sample, zeros};
 use crate::shades::Shades;
 use crate::view::View;
 use collapse::ROWS;
+use grains::MOST_PIXELS;
 use plan::{COLUMNS, Plan, strips};
 use strips::Savings;
 use tile::{Band, Scratch};
@@ -170,7 +173,12 @@ struct Scene<'f, T> {
 
 impl<'f, T: Sample> Scene<'f, T> {
     fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
-        let mut plan = Plan::new(field, view, quantity, ROWS);
+        Self::with(field, view, quantity, MOST_PIXELS)
+    }
+
+    /// The scene, as grains if its patches have fewer pixels than so many.
+    fn with(field: &'f Field<'f>, view: &View, quantity: &'f Quantity, most_pixels: usize) -> Self {
+        let mut plan = Plan::new(field, view, quantity, ROWS, most_pixels);
         let weight = &field.step.partition.weight;
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
         let rows = view.pixels[1].next_multiple_of(ROWS as u32);

@@ -8,12 +8,16 @@ use ppum::field::Field;
 use ppum::function::Slot;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2};
+use ppum::weight::WeightFunction;
 
 use crate::pixels::Pixels;
 use crate::view::View;
 
 /// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
 pub(super) const COLUMNS: usize = 64;
+
+/// Patches whose pixels are counted, at most, to choose how a picture is drawn.
+const SAMPLE: usize = 1000;
 
 /// ξ = `scale` · offset + `shift` in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +46,8 @@ impl Block {
 /// A patch in sight.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
+    /// Its index in the field.
+    pub(super) index: u32,
     /// Coordinates of the support, [−1, 1]².
     pub(super) support: [Affine; 2],
     /// Coordinates of the polynomials.
@@ -65,6 +71,15 @@ impl Patch {
 /// All data of one view, made once in f64. The anchor is the view's centre.
 #[derive(Debug)]
 pub(super) struct Plan<'f> {
+    field: &'f Field<'f>,
+    view: View,
+    quantity: &'f Quantity,
+    /// The size of a pixel.
+    pub(super) pixel: f64,
+    /// True if the patches at a point are counted: their weights are 1.
+    pub(super) is_overlap: bool,
+    /// True if the patches are drawn as grains: then none is listed here.
+    pub(super) has_grains: bool,
     pub(super) patches: Vec<Patch>,
     pub(super) blocks: Vec<Block>,
     /// Coefficients of each component.
@@ -89,12 +104,28 @@ pub(super) struct HolePixels {
 
 impl<'f> Plan<'f> {
     /// The plan for tiles of `rows` rows.
-    pub(super) fn new(field: &'f Field, view: &View, quantity: &Quantity, rows: usize) -> Self {
+    pub(super) fn new(
+        field: &'f Field<'f>,
+        view: &View,
+        quantity: &'f Quantity,
+        rows: usize,
+        most_pixels: usize,
+    ) -> Self {
         let pixels = Pixels::new(view);
         let mut visible = Vec::new();
         field.tree.query_box(&pixels.window(), &mut visible);
+        let has_grains = has_grains(field, view.center, &pixels, &visible, most_pixels);
+        if has_grains {
+            visible.clear();
+        }
         let count = visible.iter().map(|&i| 1 + field.data.blocks(i as usize).len()).sum();
         let mut plan = Self {
+            field,
+            view: *view,
+            quantity,
+            pixel: view.pixel_size(),
+            is_overlap: *quantity == Quantity::Overlap,
+            has_grains,
             patches: Vec::with_capacity(visible.len()),
             blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
@@ -107,8 +138,10 @@ impl<'f> Plan<'f> {
             rows,
         };
         for &index in &visible {
-            let blocks = plan.add_blocks(field, index as usize, quantity);
-            plan.patches.push(patch(field, index as usize, view, &pixels, blocks));
+            let start = plan.blocks.len() as u32;
+            add_blocks(field, index as usize, quantity, &mut plan.blocks);
+            let blocks = start..plan.blocks.len() as u32;
+            plan.patches.push(Patch { blocks, ..plan.patch(index, &pixels) });
         }
         plan
     }
@@ -145,32 +178,84 @@ impl<'f> Plan<'f> {
         &self.coefficients[component][block.offset as usize..]
     }
 
-    /// The constant coefficient of a patch's first block.
-    pub(super) fn constant(&self, patch: u32, component: usize) -> f64 {
-        let block = &self.blocks[self.patches[patch as usize].blocks.start as usize];
-        self.block_coefficients(block, component)[0]
-    }
-
-    /// Adds the blocks of a patch, one of function 1 first.
-    fn add_blocks(&mut self, field: &Field, patch: usize, quantity: &Quantity) -> Range<u32> {
-        let start = self.blocks.len();
-        if let Quantity::PartitionFunction(of) = quantity {
-            self.blocks.push(Block { zero: *of as usize != patch, ..Block::NOTHING });
-        } else if !self.coefficients.is_empty() {
-            let data = field.data;
-            self.blocks.extend(data.blocks(patch).map(|block| Block {
-                function: field.functions.of(data.block_function[block]),
-                degree: data.block_degree[block],
-                zero: false,
-                offset: data.block_offset[block],
-            }));
-            let smooth = |block: &Block| block.function == Slot::One;
-            match self.blocks[start..].iter().position(smooth) {
-                Some(at) => self.blocks.swap(start, start + at),
-                None => self.blocks.insert(start, Block::NOTHING),
+    /// The constants of patches that a tile subtracts: midway between those of the first and the last patch, which
+    /// lie in opposite corners if the patches follow the Morton curve. The partition of unity
+    /// reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller u is.
+    pub(super) fn middle(&self, patches: &[u32], shift: &mut Vec<f64>) {
+        shift.clear();
+        shift.resize(self.coefficients.len(), 0.0);
+        let [Some(&first), Some(&last)] = [patches.first(), patches.last()] else { return };
+        let mut blocks = Vec::new();
+        for patch in [first, last] {
+            blocks.clear();
+            add_blocks(self.field, patch as usize, self.quantity, &mut blocks);
+            for (component, shift) in shift.iter_mut().enumerate() {
+                *shift += 0.5 * self.block_coefficients(&blocks[0], component)[0];
             }
         }
-        start as u32..self.blocks.len() as u32
+    }
+
+    /// A patch, without its blocks.
+    #[inline(always)]
+    pub(super) fn patch(&self, index: u32, pixels: &Pixels<'_>) -> Patch {
+        let (partition, k, anchor) = (&self.field.step.partition, index as usize, self.view.center);
+        let (center, half) = (partition.center[k] - anchor, partition.half[k]);
+        let [columns, rows] = pixels.covered(&Rect::around(center, half));
+        let support = affine(center, half);
+        let has_frame = partition.origin[k] != partition.center[k] || partition.scale[k] != half;
+        let frame = if has_frame {
+            affine(partition.origin[k] - anchor, partition.scale[k])
+        } else {
+            support
+        };
+        Patch { index, support, frame, columns, rows, blocks: 0..0 }
+    }
+}
+
+/// True if patches are drawn as grains: if on average those of a sample have fewer pixels than so many. Weights by formula are found
+/// for many pixels of strips at a time, and would be dear one by one.
+fn has_grains(
+    field: &Field,
+    anchor: Vec2,
+    pixels: &Pixels<'_>,
+    visible: &[u32],
+    most: usize,
+) -> bool {
+    let partition = &field.step.partition;
+    let count = |&k: &u32| {
+        let (center, half) = (partition.center[k as usize], partition.half[k as usize]);
+        let [columns, rows] = pixels.covered(&Rect::around(center - anchor, half));
+        columns.len() * rows.len()
+    };
+    let sample = visible.iter().step_by(visible.len().div_ceil(SAMPLE).max(1));
+    let (patches, sum) = (sample.len(), sample.map(count).sum::<usize>());
+    !matches!(partition.weight, WeightFunction::Formula(_)) && sum < patches.saturating_mul(most)
+}
+
+/// Adds the blocks of a patch, one of function 1 first; none if there is nothing to sum but weights.
+#[inline(always)]
+pub(super) fn add_blocks(
+    field: &Field,
+    patch: usize,
+    quantity: &Quantity,
+    blocks: &mut Vec<Block>,
+) {
+    let start = blocks.len();
+    if let Quantity::PartitionFunction(of) = quantity {
+        blocks.push(Block { zero: *of as usize != patch, ..Block::NOTHING });
+    } else if !matches!(quantity, Quantity::WeightSum | Quantity::Overlap) {
+        let data = field.data;
+        blocks.extend(data.blocks(patch).map(|block| Block {
+            function: field.functions.of(data.block_function[block]),
+            degree: data.block_degree[block],
+            zero: false,
+            offset: data.block_offset[block],
+        }));
+        let smooth = |block: &Block| block.function == Slot::One;
+        match blocks[start..].iter().position(smooth) {
+            Some(at) => blocks.swap(start, start + at),
+            None => blocks.insert(start, Block::NOTHING),
+        }
     }
 }
 
@@ -181,14 +266,6 @@ fn coefficients<'f>(data: &'f FieldData, quantity: &Quantity) -> Vec<&'f [f64]> 
         Quantity::WeightSum | Quantity::Overlap => Vec::new(),
         _ => data.coefficients.iter().map(Vec::as_slice).collect(),
     }
-}
-
-fn patch(field: &Field, index: usize, view: &View, pixels: &Pixels, blocks: Range<u32>) -> Patch {
-    let partition = &field.step.partition;
-    let (center, half) = (partition.center[index] - view.center, partition.half[index]);
-    let [columns, rows] = pixels.covered(&Rect::around(center, half));
-    let frame = affine(partition.origin[index] - view.center, partition.scale[index]);
-    Patch { support: affine(center, half), frame, columns, rows, blocks }
 }
 
 /// (x − origin) / scale as multiplication and addition.

@@ -10,7 +10,6 @@
 use std::ops::Range;
 
 use ppum::function::Slot;
-use ppum::quantity::Quantity;
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{Factor, ROWS, Rows, collapse, polynomials, put, table_len};
@@ -283,7 +282,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         pixel: usize,
     ) -> Factor<R> {
         let xi = place_of(offset, support);
-        if *self.scene.quantity == Quantity::Overlap {
+        if self.scene.plan.is_overlap {
             let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
             let inside = R::select(xi.ge(-one), R::select(one.gt(xi), one, zero), zero);
             return Factor { value: inside, slope: zero };

@@ -8,14 +8,25 @@ use ppum_testkit::synthetic::{Coefficients, Recipe};
 use super::tile::Tile;
 use super::*;
 
-/// A picture with some savings only.
+/// A picture of strips with some savings only.
 fn drawn<T: Sample>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     savings: Savings,
 ) -> Vec<f64> {
-    let scene = Scene::<T> { savings, ..Scene::new(field, view, quantity) };
+    values(&Scene::<T> { savings, ..Scene::with(field, view, quantity, 0) })
+}
+
+/// A picture of grains, whatever the number of patches.
+fn grains<T: Sample>(field: &Field<'_>, view: &View, quantity: &Quantity) -> Vec<f64> {
+    let scene = Scene::<T>::with(field, view, quantity, usize::MAX);
+    assert!(scene.plan.has_grains && scene.plan.patches.is_empty());
+    values(&scene)
+}
+
+fn values<T: Sample>(scene: &Scene<'_, T>) -> Vec<f64> {
+    let (view, quantity) = (&scene.view, scene.quantity);
     let mut all = Vec::new();
     let mut take = |values: Vec<T>| all = values.into_iter().map(Into::into).collect();
     let bands = view.pixels[1] as usize;
@@ -79,6 +90,89 @@ fn pictures_without_savings() {
             let share = differing(&narrow, &plain, 2e-5);
             assert!(share < 0.01, "{share} in f32, {text}");
         }
+    }
+}
+
+/// Of large cells as well as of small ones, with all kinds of blocks, frames and functions.
+#[test]
+fn pictures_of_grains_are_those_of_strips() {
+    let mut random = Random(29);
+    let none = Savings { strips: false, alone: false, numbers: usize::MAX };
+    for seed in 0..24 {
+        let dataset = recipe(seed, &mut random).dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let patch = random.below(field.step.partition.len()) as u32;
+        let quantities = [
+            Quantity::VonMises,
+            Quantity::Component(1),
+            Quantity::WeightSum,
+            Quantity::Overlap,
+            Quantity::PartitionFunction(patch),
+        ];
+        for quantity in quantities {
+            let view = view(&dataset, &mut random);
+            let plain = drawn::<f64>(&field, &view, &quantity, none);
+            let text = format!("{seed} {quantity:?} {view:?}");
+            assert_eq!(
+                differing(&grains::<f64>(&field, &view, &quantity), &plain, 1e-11),
+                0.0,
+                "{text}"
+            );
+            let share = differing(&grains::<f32>(&field, &view, &quantity), &plain, 2e-5);
+            assert!(share < 0.01, "{share} in f32, {text}");
+        }
+    }
+}
+
+/// The reference's values where a picture has fewer pixels than patches, or a few for each: on views that cut the cells
+/// anyhow, about tips, and with a tip at the centre of a pixel. In f32 within the digits that strips have, too.
+#[test]
+fn cells_of_a_pixel_and_less() {
+    let mut random = Random(31);
+    let fine = Recipe { level: 5, tip_level: 7, ..Recipe::default() };
+    for recipe in [fine.clone(), Recipe { own_frames: true, degrees: vec![1, 3], ..fine }] {
+        let dataset = recipe.dataset();
+        let field = Field::new(&dataset, 0).expect("a field");
+        let bounds = &dataset.domain.bounds;
+        let tip = dataset.steps[0].cracks[0].points[0];
+        for (center, width, pixels) in [
+            (bounds.center(), 1.5, [61, 47]),
+            (random.point(bounds), 0.7, [90, 33]),
+            (tip, 0.1, [65, 31]),
+            (tip, 0.01, [17, 7]),
+        ] {
+            let view = View::new(center, width, pixels).expect("a view");
+            for quantity in [Quantity::VonMises, Quantity::Component(0)] {
+                let right = crate::reference::reference(&field, &view, &quantity, unwatched());
+                let right = right.expect("not stopped").values;
+                let text = format!("{quantity:?} {view:?}");
+                assert_eq!(
+                    differing(&grains::<f64>(&field, &view, &quantity), &right, 1e-11),
+                    0.0,
+                    "{text}"
+                );
+                let share = differing(&grains::<f32>(&field, &view, &quantity), &right, 2e-5);
+                assert!(share < 0.01, "{share} in f32, {text}");
+            }
+        }
+    }
+}
+
+/// Grains are for pictures of many patches; whichever way it is drawn, strips of a picture are the picture.
+#[test]
+fn many_patches_are_grains() {
+    let dataset = Recipe { level: 5, tip_level: 5, ..Recipe::default() }.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    for (size, has_grains) in [([48, 36], true), ([480, 360], false)] {
+        let view = View::fit(dataset.domain.bounds, size).expect("a view");
+        let scene = Scene::<f64>::new(&field, &view, &Quantity::VonMises);
+        assert_eq!(scene.plan.has_grains, has_grains);
+        let (whole, mut strips) = (values(&scene), Vec::new());
+        let mut take = |some: Vec<f64>| strips.extend(some);
+        render_strips(&field, &view, &Quantity::VonMises, 20, unwatched(), &mut take)
+            .expect("not stopped");
+        let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        assert!(whole.len() == strips.len() && whole.iter().zip(&strips).all(is_same));
     }
 }
 

@@ -10,6 +10,7 @@ use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
 use super::collapse::{ROWS, splat};
+use super::grains::Grains;
 use super::plan::{COLUMNS, Patch, Tiles};
 use super::strips::Strips;
 use super::sums::{Entry, TOGETHER, basis_len, basis_stride, size, store_jet};
@@ -30,6 +31,7 @@ pub(super) struct Scratch<T> {
     pub(super) places: Vec<u32>,
     /// The patches at hand.
     pub(super) strips: Strips<T>,
+    pub(super) grains: Grains<T>,
     /// The strips of a column of vectors.
     pub(super) entries: Vec<Entry>,
     /// Those of them that cover some rows.
@@ -115,9 +117,14 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         zero: R,
     ) {
         let mut list = tiles.of(self.column, self.band);
-        self.choose_shift(list, &mut scratch.shift);
-        scratch.places.resize(self.scene.functions.table().groups(), 0);
         let mut is_first = true;
+        if self.scene.plan.has_grains {
+            self.sum_grains(scratch, zero);
+            is_first = false;
+        } else {
+            self.choose_shift(list, &mut scratch.shift);
+        }
+        scratch.places.resize(self.scene.functions.table().groups(), 0);
         loop {
             let count = self.gather(list, scratch, zero);
             list = &list[count..];
@@ -165,26 +172,25 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         size::<R, D>() * (1 + self.scene.plan.coefficients.len())
     }
 
-    /// Takes the constants to subtract: midway between those of the first and the last patch, which
-    /// lie in opposite corners if the patches follow the Morton curve. The partition of unity
-    /// reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller u is.
-    #[inline(always)]
+    /// Takes the constants to subtract.
     fn choose_shift(&self, list: &[u32], shift: &mut Vec<f64>) {
         let plan = &self.scene.plan;
-        shift.clear();
-        shift.resize(plan.coefficients.len(), 0.0);
-        let (Some(&first), Some(&last)) = (list.first(), list.last()) else { return };
-        for (component, shift) in shift.iter_mut().enumerate() {
-            *shift = 0.5 * (plan.constant(first, component) + plan.constant(last, component));
-        }
+        let ends = [list.first(), list.last()].into_iter().flatten();
+        let ends: Vec<_> = ends.map(|&place| plan.patches[place as usize].index).collect();
+        plan.middle(&ends, shift);
+    }
+
+    /// The columns and rows of the tile that a patch may cover.
+    #[inline(always)]
+    pub(super) fn within(&self, patch: &Patch) -> [Range<usize>; 2] {
+        let [column, row] = self.corner();
+        [within(&patch.columns, column, COLUMNS), within(&patch.rows, row, ROWS)]
     }
 
     /// The part of the tile a patch may cover.
     #[inline(always)]
     pub(super) fn part<R: Real<Scalar = T>>(&self, patch: &Patch) -> Part {
-        let [column, row] = self.corner();
-        let columns = within(&patch.columns, column, COLUMNS);
-        let rows = within(&patch.rows, row, ROWS);
+        let [columns, rows] = self.within(patch);
         Part {
             vectors: columns.start / R::LANES..columns.end.div_ceil(R::LANES),
             rows: rows.start / TOGETHER * TOGETHER..rows.end.next_multiple_of(TOGETHER),
@@ -291,8 +297,9 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
 /// The part of a range in `start .. start + count`, relative to the start.
 #[inline(always)]
 fn within(range: &Range<u32>, start: usize, count: usize) -> Range<usize> {
-    let [from, to] = [range.start as usize, range.end as usize];
-    from.max(start) - start..to.min(start + count) - start
+    let [from, to] =
+        [range.start as usize, range.end as usize].map(|k| k.clamp(start, start + count));
+    from - start..to - start
 }
 
 #[inline(always)]

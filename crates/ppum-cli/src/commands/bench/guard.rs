@@ -144,6 +144,8 @@ impl Bench {
             self.frames((name, FLOOR), &recipe.dataset()?, "von-mises")?;
         }
         let dataset = coarse.dataset()?;
+        let grains = Recipe::new(8, 8).dataset()?;
+        self.frames(("cells of a pixel", FLOOR_OF_PARTS), &grains, "von-mises")?;
         let formula = "sqrt(sxx^2 - sxx*syy + syy^2 + 3*sxy^2)";
         self.frames(("quantity by its formula", FLOOR_OF_PARTS), &dataset, formula)?;
         self.formulas::<f64>("f64")?;
