@@ -7,6 +7,7 @@ use ppum_render::RenderError;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Range, RangeError, Span};
 use ppum_render::raster::Raster;
+use ppum_render::resample::need::{Needed, Obstacle};
 use ppum_render::resample::norms::{Norms, norms};
 use ppum_render::resample::{Grid, GridError, Interpolation, Samples, cells};
 use ppum_render::scale::Scale;
@@ -89,6 +90,33 @@ impl Resampled {
         let raster = cells(field, view, quantity, watcher)?;
         let (bytes, norms) = (8 * field.step.partition.len() as u64, norms(direct, &raster));
         Ok(Self { interpolation: None, grid: None, bytes, norms, raster })
+    }
+}
+
+/// The words for the grid that an error needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeededGrid {
+    /// `measured`, `extrapolated` or `none`.
+    pub kind: &'static str,
+    /// Its columns and rows; whole numbers, but of extrapolated ones larger than any grid.
+    pub size: Option<[f64; 2]>,
+    /// `singular`, `jump` or `stalled`, where there is none.
+    pub reason: Option<&'static str>,
+}
+
+impl NeededGrid {
+    /// The words for what was found.
+    #[must_use]
+    pub fn new(needed: Needed) -> Self {
+        let never = |reason| ("none", None, Some(reason));
+        let (kind, size, reason) = match needed {
+            Needed::Grid(size) => ("measured", Some(size.map(f64::from)), None),
+            Needed::Extrapolated(size) => ("extrapolated", Some(size.map(f64::round)), None),
+            Needed::Never(Obstacle::Singular) => never("singular"),
+            Needed::Never(Obstacle::Jump) => never("jump"),
+            Needed::Never(Obstacle::Stalled) => never("stalled"),
+        };
+        Self { kind, size, reason }
     }
 }
 

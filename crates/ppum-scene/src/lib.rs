@@ -16,9 +16,12 @@ pub mod minus;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
+#[cfg(feature = "problem")]
+pub mod plots;
 pub mod profile;
 pub mod range;
 pub mod scene;
+pub mod shared;
 pub mod shot;
 mod stations;
 pub mod table;
@@ -46,18 +49,20 @@ mod tests {
             ("deformed", &["drawing"]),
             ("profile", &["table"]),
             ("range", &["drawing"]),
+            ("shared", &["drawing"]),
             ("stations", &["notice"]),
         ],
         &[
             ("layers", &["drawing", "notice", "overlays", "stations"]),
             ("minus", &["colors", "drawing"]),
+            ("plots", &["profile", "table"]),
             ("scene", &["colors", "deformed", "drawing", "overlays"]),
         ],
         &[
             ("command", &["scene"]),
-            ("shot", &["deformed", "drawing", "layers", "minus", "range", "scene"]),
+            ("shot", &["deformed", "drawing", "layers", "minus", "range", "scene", "shared"]),
         ],
-        &[("moving", &["deformed", "scene", "shot"])],
+        &[("moving", &["deformed", "drawing", "scene", "shared", "shot"])],
     ];
 
     #[test]

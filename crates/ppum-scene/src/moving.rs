@@ -3,14 +3,18 @@
 use ppum::dataset::Dataset;
 use ppum::field::{Field, FieldError};
 use ppum::progress::Watcher;
-use ppum_figure::figure::Design;
+use ppum::vec2::Rect;
+use ppum_figure::figure::{Design, plot_area};
+use ppum_render::deform::AutomaticFactor;
 use ppum_render::image::Image;
-use ppum_render::range::{Range, Span};
+use ppum_render::picture::Style;
 use ppum_render::view::View;
 
-use crate::deformed::Factor;
+use crate::deformed::{self, Factor};
+use crate::drawing::{classes, united};
 use crate::scene::{Scene, SubjectError};
-use crate::shot::{ShotError, page, reshaped, shot};
+use crate::shared::{Coloring, Found};
+use crate::shot::{ShotError, page_by, reshaped, title, uncolored};
 
 /// What moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +35,9 @@ pub enum MovingError {
     /// A part or a replacement.
     #[error(transparent)]
     Subject(#[from] SubjectError),
+    /// No pictures.
+    #[error("a moving picture needs one step at least")]
+    Empty,
     /// A picture.
     #[error(transparent)]
     Shot(Box<ShotError>),
@@ -41,9 +48,6 @@ impl From<ShotError> for MovingError {
         Self::Shot(Box::new(error))
     }
 }
-
-/// Columns of the pictures that the range is found from; extrema between pixels are found besides.
-const COLUMNS: u32 = 320;
 
 impl Moving {
     /// The number of pictures.
@@ -69,7 +73,8 @@ impl Moving {
         scene
     }
 
-    /// Draws the pictures, one after the other, and gives each to `take`.
+    /// Draws the pictures, one after the other, and gives each to `take`: first all values, from which their one range follows, then
+    /// the pictures. All have the pixels that the view has, or those that a design has room for.
     ///
     /// # Errors
     /// As those of one picture; a watcher that stops it.
@@ -82,40 +87,106 @@ impl Moving {
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Image),
     ) -> Result<(), MovingError> {
-        let mut scene = scene.clone();
-        if scene.colors.range.is_found() {
-            scene.colors.range = self.range(dataset, &scene, view, watcher)?;
-        }
-        self.each(dataset, &scene, |dataset, field, scene| {
-            let (page, _) = page(dataset, (field, None), scene, view, design, watcher)?;
+        let scene = self.settled(dataset, scene)?;
+        let view = match design {
+            Some(design) => {
+                reshaped(view, self.room(dataset, &scene, design)?).map_err(ShotError::from)?
+            }
+            None => *view,
+        };
+        self.draw_in(dataset, &scene, &view, design, watcher, take)
+    }
+
+    /// The same where the view is that of the pictures, pixel for pixel, and the factor of the deformed plate is a number.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn draw_in(
+        &self,
+        dataset: &Dataset,
+        scene: &Scene,
+        view: &View,
+        design: Option<&Design>,
+        watcher: &dyn Watcher,
+        take: &mut dyn FnMut(Image),
+    ) -> Result<(), MovingError> {
+        let coloring = self.coloring(dataset, scene, view, watcher)?;
+        self.each(dataset, scene, |dataset, field, scene| {
+            let page = page_by(&coloring, dataset, field, scene, view, design, watcher)?;
             take(page.image());
             Ok(())
         })
     }
 
-    /// One range for all pictures; that of the scene where nothing has a value.
-    fn range(
+    /// The scene with the factor of the deformed plate as a number, the same for all pictures.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    pub fn settled(&self, dataset: &Dataset, scene: &Scene) -> Result<Scene, MovingError> {
+        let mut scene = scene.clone();
+        if scene.deformed == Some(Factor::Auto) {
+            let mut found = AutomaticFactor::default();
+            self.each(dataset, &scene, |_, field, _| Ok(found.add(field, &field.domain.bounds)?))?;
+            scene.deformed = Some(Factor::Given(found.factor()));
+        }
+        Ok(scene)
+    }
+
+    /// The box that shows the plate in all pictures.
+    ///
+    /// # Errors
+    /// As [`deformed::bounds`].
+    pub fn bounds(&self, dataset: &Dataset, scene: &Scene) -> Result<Rect, MovingError> {
+        let mut all: Option<Rect> = None;
+        self.each(dataset, scene, |_, field, scene| {
+            let bounds = match scene.deformed {
+                None => field.domain.bounds,
+                Some(factor) => deformed::bounds(field, factor.number(&[field])?, scene.outline)?,
+            };
+            all = Some(all.map_or(bounds, |all| all.union(&bounds)));
+            Ok(())
+        })?;
+        Ok(all.unwrap_or(dataset.domain.bounds))
+    }
+
+    /// Columns and rows that a design has room for under all titles.
+    ///
+    /// # Errors
+    /// A design without room.
+    pub fn room(
+        &self,
+        dataset: &Dataset,
+        scene: &Scene,
+        design: &Design,
+    ) -> Result<[u32; 2], MovingError> {
+        let mut room = design.size;
+        self.each(dataset, scene, |dataset, field, scene| {
+            let [columns, rows] = plot_area(&title(dataset, field, scene)?, design)?;
+            room = [room[0].min(columns), room[1].min(rows)];
+            Ok(())
+        })?;
+        Ok(room)
+    }
+
+    /// One way to colours for all pictures.
+    fn coloring(
         &self,
         dataset: &Dataset,
         scene: &Scene,
         view: &View,
         watcher: &dyn Watcher,
-    ) -> Result<Range, MovingError> {
-        let [columns, rows] = view.pixels.map(f64::from);
-        let down = ((rows / columns * f64::from(COLUMNS)).round() as u32).clamp(1, 4 * COLUMNS);
-        let small = reshaped(view, [COLUMNS, down]).map_err(ShotError::from)?;
-        let mut spans = Vec::new();
-        let mut is_symmetric = false;
-        self.each(dataset, scene, |dataset, field, scene| {
-            let shot = shot(dataset, (field, None), scene, &small, false, watcher)?;
-            is_symmetric |= shot.picture.colormap.diverging;
-            // a step that has one value everywhere, as before any load, says nothing of the range
-            let has_range = shot.picture.has_values && shot.picture.one_value.is_none();
-            spans.extend(has_range.then_some(shot.picture.span));
+    ) -> Result<Coloring, MovingError> {
+        let (mut found, mut style_of, mut all) = (Found::default(), None, Vec::new());
+        self.each(dataset, scene, |_, field, scene| {
+            let (shown, drawn, style, span) = uncolored(field, scene, view, watcher)?;
+            found.add(span, &drawn, style.scale);
+            all.push(classes([(&shown, &drawn.values)]));
+            style_of.get_or_insert(style);
             Ok(())
         })?;
-        let shared = Span::shared(&spans, is_symmetric);
-        Ok(shared.map_or(scene.colors.range, |span| Range::Fixed(span.min, span.max)))
+        let style: Style = style_of.ok_or(MovingError::Empty)?;
+        let classes = all.into_iter().collect::<Option<Vec<_>>>().and_then(united);
+        Ok(found.coloring(scene.colors.classed(style.clone(), classes), style))
     }
 
     /// Does something for each picture, with its field.

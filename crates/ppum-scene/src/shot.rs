@@ -1,8 +1,11 @@
 //! A picture of a scene from a view, made in one go.
 
+use std::fmt::Write as _;
+
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::Watcher;
+use ppum::text::trimmed;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, FigureError, Labels, Panel, bare, figure, plot_area};
 use ppum_render::RenderError;
@@ -21,6 +24,7 @@ use crate::layers::{Ground, Layers, LayersError};
 use crate::minus::{self, Minus, Side};
 use crate::range;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
+use crate::shared::Coloring;
 
 /// A picture with what lies over it.
 #[derive(Debug)]
@@ -81,16 +85,33 @@ pub fn shot(
     is_figure: bool,
     watcher: &dyn Watcher,
 ) -> Result<Shot, ShotError> {
+    shot_by(None, dataset, (field, left), scene, view, is_figure, watcher)
+}
+
+/// The shot, its colours being those that are given.
+fn shot_by(
+    coloring: Option<&Coloring>,
+    dataset: &Dataset,
+    (field, left): (&Field<'_>, Option<Side<'_>>),
+    scene: &Scene,
+    view: &View,
+    is_figure: bool,
+    watcher: &dyn Watcher,
+) -> Result<Shot, ShotError> {
     let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
     let minus = left.map(|left| Minus { right: Side { field, shown: &shown }, left });
     let deformed = scene.deformed.filter(|_| minus.is_none());
     let factor = deformed.map(|factor| factor.number(&[field])).transpose()?;
     let seen = seen(field, view, factor, watcher)?;
-    let (drawn, style, span) = match minus {
-        Some(minus) => subtracted(minus, scene, view, watcher)?,
-        None => colored(field, &seen, &shown, scene, watcher)?,
+    let (drawn, picture) = match (minus, coloring) {
+        (Some(minus), _) => subtracted(minus, scene, view, watcher)?,
+        (None, None) => colored(field, &seen, &shown, scene, watcher)?,
+        (None, Some(coloring)) => {
+            let drawn = drawn(field, &seen, &shown, watcher)?;
+            let picture = coloring.picture(&drawn)?;
+            (drawn, picture)
+        }
     };
-    let picture = drawn.picture(&style, span)?;
     // isolines are found of one field
     let (quantity, values) = (shown.quantity().filter(|_| minus.is_none()), &drawn.values);
     let ground = Ground {
@@ -114,15 +135,45 @@ fn colored(
     shown: &Shown,
     scene: &Scene,
     watcher: &dyn Watcher,
-) -> Result<(Drawn, Style, Span), ShotError> {
+) -> Result<(Drawn, Picture), ShotError> {
     let drawn = drawn(field, seen, shown, watcher)?;
     let colormap = scene.colors.built_in(shown.quantity())?;
     let style = scene.colors.style_of([(shown, &drawn.values)], colormap);
-    let span = match shown.quantity() {
-        Some(quantity) => range::found(field, seen, quantity, &drawn, &style, watcher)?,
-        None => drawn.span(&style, None),
-    };
-    Ok((drawn, style, span))
+    let span = span(field, seen, shown, &drawn, &style, watcher)?;
+    let picture = drawn.picture(&style, span)?;
+    Ok((drawn, picture))
+}
+
+/// The range of what is shown.
+fn span(
+    field: &Field<'_>,
+    seen: &Seen<'_>,
+    shown: &Shown,
+    drawn: &Drawn,
+    style: &Style,
+    watcher: &dyn Watcher,
+) -> Result<Span, ShotError> {
+    Ok(match shown.quantity() {
+        Some(quantity) => range::found(field, seen, quantity, drawn, style, watcher)?,
+        None => drawn.span(style, None),
+    })
+}
+
+/// What the values of a picture are, before it has colours: what is shown, its values, the style for it alone, its range.
+pub(crate) fn uncolored(
+    field: &Field<'_>,
+    scene: &Scene,
+    view: &View,
+    watcher: &dyn Watcher,
+) -> Result<(Shown, Drawn, Style, Span), ShotError> {
+    let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
+    let factor = scene.deformed.map(|factor| factor.number(&[field])).transpose()?;
+    let seen = seen(field, view, factor, watcher)?;
+    let drawn = drawn(field, &seen, &shown, watcher)?;
+    let style = scene.colors.style(shown.quantity(), scene.colors.built_in(shown.quantity())?);
+    let span = span(field, &seen, &shown, &drawn, &style, watcher)?;
+    drop(seen);
+    Ok((shown, drawn, style, span))
 }
 
 /// A difference with its colours.
@@ -131,11 +182,11 @@ fn subtracted(
     scene: &Scene,
     view: &View,
     watcher: &dyn Watcher,
-) -> Result<(Drawn, Style, Span), ShotError> {
+) -> Result<(Drawn, Picture), ShotError> {
     let drawn = minus.draw(view, watcher)?.drawn;
     let style = minus.style(&scene.colors)?;
-    let span = minus::span(&drawn, &style);
-    Ok((drawn, style, span))
+    let picture = drawn.picture(&style, minus::span(&drawn, &style))?;
+    Ok((drawn, picture))
 }
 
 fn seen<'f>(
@@ -220,8 +271,40 @@ pub fn figure_of(
     design: &Design,
     watcher: &dyn Watcher,
 ) -> Result<(Canvas, Shot), ShotError> {
+    figure_by(None, dataset, (field, left), scene, view, design, watcher)
+}
+
+/// The page of a scene's picture, its colours being those that are given, of a view: as a figure of a design that has room for it, or
+/// bare.
+pub(crate) fn page_by(
+    coloring: &Coloring,
+    dataset: &Dataset,
+    field: &Field<'_>,
+    scene: &Scene,
+    view: &View,
+    design: Option<&Design>,
+    watcher: &dyn Watcher,
+) -> Result<Canvas, ShotError> {
+    let coloring = Some(coloring);
+    if let Some(design) = design {
+        let made = figure_by(coloring, dataset, (field, None), scene, view, design, watcher)?;
+        return Ok(made.0);
+    }
+    let shot = shot_by(coloring, dataset, (field, None), scene, view, false, watcher)?;
+    Ok(bare(&shot.picture, shot.layers.items))
+}
+
+fn figure_by(
+    coloring: Option<&Coloring>,
+    dataset: &Dataset,
+    (field, left): (&Field<'_>, Option<Side<'_>>),
+    scene: &Scene,
+    view: &View,
+    design: &Design,
+    watcher: &dyn Watcher,
+) -> Result<(Canvas, Shot), ShotError> {
     let title = title(dataset, field, scene)?;
-    let shot = shot(dataset, (field, left), scene, view, true, watcher)?;
+    let shot = shot_by(coloring, dataset, (field, left), scene, view, true, watcher)?;
     let labels = match left {
         None => labels(&shot.shown, title, field),
         Some(left) => {
@@ -242,12 +325,13 @@ pub fn figure_of(
 }
 
 /// The title of a figure: that of the dataset, with the step of a series, the part, and the factor of the deformed plate.
-fn title(dataset: &Dataset, field: &Field<'_>, scene: &Scene) -> Result<String, DeformError> {
-    let mut title = dataset.title.clone();
+pub(crate) fn title(
+    dataset: &Dataset,
+    field: &Field<'_>,
+    scene: &Scene,
+) -> Result<String, DeformError> {
+    let mut title = of_step(dataset, scene.subject.step_of(dataset));
     let mut add = |text: String| title = format!("{title} ({text})").trim_start().to_owned();
-    if dataset.steps.len() > 1 {
-        add(format!("step {}", scene.subject.step_of(dataset)));
-    }
     if let Some(part) = &scene.subject.part {
         add(format!("{part} only"));
     }
@@ -255,6 +339,21 @@ fn title(dataset: &Dataset, field: &Field<'_>, scene: &Scene) -> Result<String, 
         add(words(factor.number(&[field])?));
     }
     Ok(title)
+}
+
+/// A dataset's title with the step, if there are several, and its load, if loads differ.
+#[must_use]
+pub fn of_step(dataset: &Dataset, step: usize) -> String {
+    let mut title = dataset.title.clone();
+    let Some(shown) = dataset.steps.get(step).filter(|_| dataset.steps.len() > 1) else {
+        return title;
+    };
+    let gap = if title.is_empty() { "" } else { ", " };
+    let _ = write!(title, "{gap}step {step}");
+    if dataset.steps.iter().any(|other| other.load != shown.load) {
+        let _ = write!(title, ", load {}", trimmed(shown.load));
+    }
+    title
 }
 
 /// The words of a figure of what is shown.

@@ -34,6 +34,8 @@ use ppum_scene::deformed::words;
 use ppum_scene::drawing::{Drawn, Job, Seen, Shown};
 use ppum_scene::layers::{Ground, Layers};
 use ppum_scene::range::{self, Telling};
+use ppum_scene::shared::Coloring;
+use ppum_scene::shot::of_step;
 use series::Series;
 
 /// Draw a quantity, exactly at every pixel
@@ -139,14 +141,6 @@ struct Common {
 type Each<'a> = dyn Fn(&mut Visit<'_>) -> anyhow::Result<()> + 'a;
 type Visit<'a> = dyn FnMut(&Plate<'_>) -> anyhow::Result<()> + 'a;
 
-/// The way values become colours.
-struct Coloring {
-    style: Style,
-    span: Span,
-    /// Of a series: true if values of some step lie below the range, and above it, so that all bars are alike.
-    ends: Option<[bool; 2]>,
-}
-
 /// A page with what is told of it.
 struct Sheet {
     page: Canvas,
@@ -224,7 +218,7 @@ impl Args {
     }
 
     fn plate<'a>(&self, dataset: &'a Dataset, field: &'a Field<'a>, step: usize) -> Plate<'a> {
-        let title = series::title(dataset, step);
+        let title = of_step(dataset, step);
         let shown = self.subject.replacements.title(&title);
         Plate { dataset, field, shown, step: (dataset.steps.len() > 1).then_some(step) }
     }
@@ -441,17 +435,6 @@ impl Scene<'_> {
             Self::Still(view) => view,
             Self::Moved(seen) => &seen.view,
         }
-    }
-}
-
-impl Coloring {
-    fn picture(&self, drawn: &Drawn) -> anyhow::Result<Picture> {
-        let mut picture = drawn.picture(&self.style, self.span.clone())?;
-        if let Some(ends) = self.ends {
-            [picture.has_below, picture.has_above] = ends;
-            picture.one_value = None;
-        }
-        Ok(picture)
     }
 }
 

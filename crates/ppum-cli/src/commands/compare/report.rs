@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use ppum::text::trimmed_to;
-use ppum_render::resample::need::{Convergence, Needed, Obstacle};
+use ppum_render::resample::need::{Convergence, Needed};
 use ppum_render::resample::norms::{NAMES, Norms};
 use ppum_render::view::View;
 use serde::Serialize;
@@ -69,12 +69,11 @@ struct NeededRow {
     measured: Vec<Measured>,
 }
 
+/// See [`ppum_scene::compare::NeededGrid`].
 #[derive(Serialize)]
 struct NeededGrid {
-    /// `measured`, `extrapolated` or `none`.
     kind: &'static str,
     grid: Option<[Number; 2]>,
-    /// `singular`, `jump` or `stalled`, where there is none.
     reason: Option<&'static str>,
 }
 
@@ -129,16 +128,8 @@ impl NeededRow {
 
 impl NeededGrid {
     fn new(needed: Needed) -> Self {
-        let (kind, grid, reason) = match needed {
-            Needed::Grid(size) => ("measured", Some(size.map(|n| Number(n.into()))), None),
-            Needed::Extrapolated(size) => {
-                ("extrapolated", Some(size.map(|n| Number(n.round()))), None)
-            }
-            Needed::Never(Obstacle::Singular) => ("none", None, Some("singular")),
-            Needed::Never(Obstacle::Jump) => ("none", None, Some("jump")),
-            Needed::Never(Obstacle::Stalled) => ("none", None, Some("stalled")),
-        };
-        Self { kind, grid, reason }
+        let words = ppum_scene::compare::NeededGrid::new(needed);
+        Self { kind: words.kind, grid: words.size.map(|n| n.map(Number)), reason: words.reason }
     }
 
     fn text(&self) -> String {

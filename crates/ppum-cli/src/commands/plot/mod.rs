@@ -1,27 +1,20 @@
 //! `ppum plot`: curves of exact values, of convergence and of the solver's work.
 
-mod convergence;
-mod history;
-mod profiles;
-mod seen;
-mod series;
-
 use std::path::{Path, PathBuf};
 
-use anyhow::ensure;
+use anyhow::{anyhow, ensure};
 use ppum::dataset::Dataset;
 use ppum_figure::plot::{LEAST, Plot, plot};
+use ppum_scene::plots::{self, PlotError, Profiles};
 
 use crate::arguments::page as page_size;
-use crate::dataset::{open, open_results, open_step};
+use crate::dataset::{field, open, open_results, open_step, quantities};
 use crate::given::{self, parts};
-use crate::output::Output;
+use crate::output::{Output, tell};
 use crate::page;
 use crate::profile::Profile;
 use crate::standard::{self, is_standard};
 use crate::target;
-use history::What;
-use series::Over;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
 ///
@@ -89,10 +82,72 @@ enum Axis {
     Y,
 }
 
+/// What of the solver's work is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum What {
+    /// Seconds of the phases, of a series their sums
+    #[default]
+    Seconds,
+    /// Megabytes that the phases make and keep, of a series the most
+    Bytes,
+    /// Residuals after each iteration of the multilevel solver; of one file those that reach each level too
+    Residuals,
+    /// Patches, unknowns and values of the matrix on each level of the multilevel solver
+    Levels,
+}
+
+impl From<What> for plots::Work {
+    fn from(what: What) -> Self {
+        match what {
+            What::Seconds => Self::Seconds,
+            What::Bytes => Self::Bytes,
+            What::Residuals => Self::Residuals,
+            What::Levels => Self::Levels,
+        }
+    }
+}
+
+/// What steps are drawn over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Over {
+    /// Their numbers
+    #[default]
+    Step,
+    /// Their load factors or times
+    Load,
+    /// The length of all cracks
+    Length,
+    /// The growth of the tip since the first step, of load and length that of all tips
+    Extension,
+    /// Load cycles
+    Cycles,
+}
+
+impl From<Over> for plots::Over {
+    fn from(over: Over) -> Self {
+        match over {
+            Over::Step => Self::Step,
+            Over::Load => Self::Load,
+            Over::Length => Self::Length,
+            Over::Extension => Self::Extension,
+            Over::Cycles => Self::Cycles,
+        }
+    }
+}
+
 /// A dataset with the name of its file.
 struct Named {
     name: String,
     dataset: Dataset,
+}
+
+impl Named {
+    fn all(datasets: &[Self]) -> Vec<plots::Named<'_>> {
+        datasets
+            .iter()
+            .map(|named| plots::Named { name: &named.name, dataset: &named.dataset })
+            .collect()
+    }
 }
 
 impl Args {
@@ -109,22 +164,49 @@ impl Args {
             let axis = if *axis == Axis::X { &mut drawn.x } else { &mut drawn.y };
             *axis = std::mem::take(axis).logarithmic();
         }
-        seen::check(&drawn)?;
+        for warning in plots::check(&drawn)? {
+            tell(&format!("warning: {warning}"));
+        }
         let page = plot(&drawn, self.size);
-        page::save(&self.output, &page, None, &texts(&datasets, &drawn), &curves(&drawn), out)
+        let names: Vec<&str> = datasets.iter().map(|named| named.name.as_str()).collect();
+        let texts = plots::texts(&names, &drawn);
+        page::save(&self.output, &page, None, &texts, &plots::curves(&drawn), out)
     }
 
     fn plot(&self, datasets: &[Named]) -> anyhow::Result<Plot> {
-        if self.convergence {
-            return convergence::plot(datasets, self.step);
+        let named = Named::all(datasets);
+        let plot = match (self.convergence, self.history) {
+            (true, _) => plots::convergence(&named, self.step),
+            (_, Some(what)) => plots::history(&named, what.into(), self.step),
+            _ if self.series => plots::series(&named, &self.numbers()?, self.over.into()),
+            _ => return self.profiles(&named),
+        };
+        plot.map_err(told)
+    }
+
+    /// The numbers of --series, by default K_I and K_II.
+    fn numbers(&self) -> anyhow::Result<Vec<plots::Number>> {
+        let words: Vec<&str> = self.quantity.iter().flat_map(|list| parts(list)).collect();
+        if words.is_empty() {
+            return Ok(vec![plots::Number::K1, plots::Number::K2]);
         }
-        if let Some(what) = self.history {
-            return history::plot(datasets, what, self.step);
+        words.iter().map(|word| word.parse().map_err(told)).collect()
+    }
+
+    /// A curve for each quantity of each dataset.
+    fn profiles(&self, datasets: &[plots::Named<'_>]) -> anyhow::Result<Plot> {
+        let jumps = self.quantity.is_empty() && self.profile.is_crack();
+        let mut all = Profiles::new(self.profile.variable(), jumps, datasets.len() > 1);
+        for named in datasets {
+            let field = field(named.dataset, self.step)?;
+            let wanted = match self.quantity.is_empty() && !jumps {
+                true => &[plots::usual(&field).to_owned()][..],
+                false => &self.quantity,
+            };
+            let quantities = quantities(&field, wanted)?;
+            all.add(*named, &field, &quantities, &self.profile.drawn(&field, &quantities)?);
         }
-        if self.series {
-            return series::plot(datasets, &self.quantity, self.over);
-        }
-        profiles::plot(datasets, &self.profile, &self.quantity, self.step)
+        Ok(all.plot())
     }
 
     /// What of a dataset is drawn: all of it, what its solver tells of all steps, or one step.
@@ -156,36 +238,26 @@ impl Args {
     }
 }
 
-/// What a plot's file says of itself.
-fn texts(datasets: &[Named], plot: &Plot) -> Vec<(String, String)> {
-    let names: Vec<_> = datasets.iter().map(|named| named.name.as_str()).collect();
-    let summary = format!("{} of {}, evaluated exactly", curves(plot), names.join(", "));
-    [
-        ("Title", plot.title.clone()),
-        ("Software", concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned()),
-        ("Description", summary),
-    ]
-    .map(|(key, text)| (key.to_owned(), text))
-    .into()
-}
-
-/// The names of the curves.
-fn curves(plot: &Plot) -> String {
-    plot.curves.iter().map(|curve| plain(&curve.label)).collect::<Vec<_>>().join(", ")
-}
-
-/// A label of a plot as it is told in messages: `K_I` for `K_{I}`.
-fn plain(label: &str) -> String {
-    let mut parts = label.split("_{");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (subscript, rest) = part.split_once('}').unwrap_or((part, ""));
-        text.extend(["_", subscript, rest]);
+/// A reason in the program's words.
+fn told(error: PlotError) -> anyhow::Error {
+    match error {
+        PlotError::FewDatasets => anyhow!(
+            "--convergence compares three datasets or more, or the steps of one that has three or more"
+        ),
+        PlotError::FewSizes(_) | PlotError::OtherProblem { .. } => {
+            anyhow!("--convergence: {error}")
+        }
+        PlotError::Grown(name) => anyhow!(
+            "--convergence compares solutions of one problem, but the cracks of {name} grow from step to step; \
+             --series draws what becomes of them"
+        ),
+        PlotError::OneStep(name) => {
+            anyhow!("{name}: --series draws over steps, but there is one alone")
+        }
+        PlotError::UnknownNumber { name, known } => {
+            anyhow!("--series draws {known}, not `{name}`")
+        }
+        PlotError::NoGrowth(_) => anyhow!("{error} (--over length)"),
+        error => error.into(),
     }
-    text
-}
-
-/// A label of several curves: with the dataset's name where there are several datasets.
-fn label(datasets: &[Named], dataset: &Named, name: &str) -> String {
-    if datasets.len() > 1 { format!("{}: {name}", dataset.name) } else { name.to_owned() }
 }

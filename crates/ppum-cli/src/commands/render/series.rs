@@ -1,24 +1,19 @@
 //! Several steps: numbered pictures or a moving one, with one range, one size, one factor of deformation.
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::{Context as _, ensure};
-use ppum::dataset::Dataset;
 use ppum::text::{apart, trimmed};
 use ppum_figure::figure::Labels;
 use ppum_render::animation::{Apng, Colors, Gif};
 use ppum_render::image::Image;
-use ppum_render::picture::Style;
 use ppum_render::png::Text;
-use ppum_render::range::{Basis, Range, Span};
-use ppum_render::scale::Scale;
 use ppum_render::view::View;
 
-use super::{Args, Coloring, Common, Plate, Sheet, Visit, warn};
+use super::{Args, Common, Plate, Sheet, Visit, warn};
 use crate::arguments::positive;
 use crate::dataset::{field, named, series};
 use crate::number::count;
@@ -29,6 +24,7 @@ use crate::standard::is_standard;
 use crate::subject::Asked;
 use crate::target;
 use ppum_scene::drawing::{Drawn, classes, united};
+use ppum_scene::shared::{Coloring, Found};
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
@@ -148,20 +144,6 @@ pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
         path.display()
     );
     Ok(())
-}
-
-/// The title with the step, if there are several, and its load, if loads differ.
-pub(super) fn title(dataset: &Dataset, step: usize) -> String {
-    let mut title = dataset.title.clone();
-    let Some(shown) = dataset.steps.get(step).filter(|_| dataset.steps.len() > 1) else {
-        return title;
-    };
-    let gap = if title.is_empty() { "" } else { ", " };
-    let _ = write!(title, "{gap}step {step}");
-    if dataset.steps.iter().any(|other| other.load != shown.load) {
-        let _ = write!(title, ", load {}", trimmed(shown.load));
-    }
-    title
 }
 
 impl Plate<'_> {
@@ -349,7 +331,7 @@ impl<'a> Film<'a> {
         let ((asked, by), style) = first.zip(style_of).context("--steps: there is no step")?;
         warn(&asked, found.undefined);
         let classes = classes_of.into_iter().collect::<Option<Vec<_>>>().and_then(united);
-        let coloring = coloring(args.colours.classed(style.clone(), classes), found, style);
+        let coloring = found.coloring(args.colours.classed(style.clone(), classes), style);
         Ok(Self { args, reel, common, coloring, drawn, views, asked, by, bars })
     }
 
@@ -467,64 +449,5 @@ impl<'a> Film<'a> {
         let list: Vec<String> = steps.iter().map(usize::to_string).collect();
         texts.push(("ppum:step".to_owned(), list.join(",")));
         texts
-    }
-}
-
-/// The way the values of all steps become colours: classes have theirs, else it follows from the range.
-fn coloring(classed: Style, found: Found, style: Style) -> Coloring {
-    match classed.range {
-        Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
-            let span = Span { min, max, basis: Basis::Given, values: None };
-            Coloring { style: classed, span, ends: Some([false; 2]) }
-        }
-        _ => found.coloring(style),
-    }
-}
-
-/// What the first pass finds.
-#[derive(Default)]
-struct Found {
-    spans: Vec<Span>,
-    /// Those of steps that have one value everywhere.
-    even: Vec<Span>,
-    /// Smallest and largest value.
-    values: Option<[f64; 2]>,
-    /// Number of pixels of the plate without a value, and of all of them.
-    undefined: [usize; 2],
-}
-
-impl Found {
-    /// Adds a step. One without values says nothing of the range; one that has one value everywhere, as before any load, no more
-    /// than this value.
-    fn add(&mut self, mut span: Span, drawn: &Drawn, scale: Scale) {
-        let [without, all] = drawn.undefined();
-        self.undefined = [self.undefined[0] + without, self.undefined[1] + all];
-        let found = drawn.values.statistics();
-        if found.finite + found.infinite == 0 {
-            return;
-        }
-        let ends = drawn.values.ends();
-        let known = self.values.unwrap_or(ends);
-        self.values = Some([known[0].min(ends[0]), known[1].max(ends[1])]);
-        match drawn.values.one_value() {
-            Some(value) if span.basis != Basis::Given && (scale != Scale::Log || value > 0.0) => {
-                self.even.push(span.clone());
-                [span.min, span.max] = [value; 2];
-            }
-            _ => {}
-        }
-        self.spans.push(span);
-    }
-
-    fn coloring(self, style: Style) -> Coloring {
-        let symmetric = style.colormap.diverging;
-        let shared = Span::shared(&self.spans, symmetric);
-        let is_range = |span: &Span| span.normalization(style.scale).is_ok();
-        let span = shared.filter(is_range).or_else(|| Span::shared(&self.even, symmetric));
-        let nothing = Span { min: 0.1, max: 1.0, basis: Basis::All, values: None };
-        let span = span.or_else(|| self.spans.into_iter().next()).unwrap_or(nothing);
-        let varies = self.values.filter(|[min, max]| min < max);
-        let ends = varies.map(|[min, max]| [min < span.min, max > span.max]);
-        Coloring { style, span, ends }
     }
 }

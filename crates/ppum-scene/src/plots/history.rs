@@ -1,16 +1,14 @@
 //! The solver's work: what its phases take, and how its iteration goes.
 
-use anyhow::ensure;
-use clap::ValueEnum;
 use ppum::dataset::{Record, Step};
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
 use ppum_solve::report::{SolverReport, is_of_phase};
 
-use super::{Named, label};
+use super::{Named, PlotError, label};
 
 /// What of the solver's work is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum What {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Work {
     /// Seconds of the phases, of a series their sums
     #[default]
     Seconds,
@@ -23,28 +21,33 @@ pub(super) enum What {
 }
 
 /// A plot of the work of one step, by default the last; of seconds and bytes that of all steps.
-pub(super) fn plot(datasets: &[Named], what: What, step: Option<usize>) -> anyhow::Result<Plot> {
+///
+/// # Errors
+/// No such step; a history that does not tell it.
+pub fn history(datasets: &[Named<'_>], what: Work, step: Option<usize>) -> Result<Plot, PlotError> {
     let mut plot = match what {
-        What::Seconds => phases(datasets, step, ("s", PlotAxis::new("time", "s"), 1.0))?,
-        What::Bytes => phases(datasets, step, ("B", PlotAxis::new("memory", "MB"), 1e-6))?,
-        What::Residuals => residuals(datasets, step)?,
-        What::Levels => levels(datasets, step)?,
+        Work::Seconds => phases(datasets, step, ("s", PlotAxis::new("time", "s"), 1.0))?,
+        Work::Bytes => phases(datasets, step, ("B", PlotAxis::new("memory", "MB"), 1e-6))?,
+        Work::Residuals => residuals(datasets, step)?,
+        Work::Levels => levels(datasets, step)?,
     };
-    plot.title.clone_from(&datasets[0].dataset.title);
+    plot.title = datasets.first().map_or_else(String::new, |first| first.dataset.title.clone());
     Ok(plot)
 }
 
 /// Bars phase by phase, a colour for each dataset: of seconds the sum over the steps, of bytes the most.
 fn phases(
-    datasets: &[Named],
+    datasets: &[Named<'_>],
     step: Option<usize>,
     (unit, axis, scale): (&str, PlotAxis, f64),
-) -> anyhow::Result<Plot> {
+) -> Result<Plot, PlotError> {
     let mut names: Vec<String> = Vec::new();
     let mut curves = Vec::new();
-    for Named { name, dataset } in datasets {
+    for &Named { name, dataset } in datasets {
         let last = step.unwrap_or(0);
-        ensure!(last < dataset.steps.len(), "{name}: there is no step {last}");
+        if last >= dataset.steps.len() {
+            return Err(PlotError::Step { name: name.to_owned(), step: last });
+        }
         let wanted = |k: usize| step.is_none_or(|step| step == k);
         let steps = dataset.steps.iter().enumerate().filter(|(k, _)| wanted(*k));
         let mut points: Vec<[f64; 2]> = Vec::new();
@@ -63,33 +66,37 @@ fn phases(
             }
         }
         let word = if unit == "s" { "seconds" } else { "bytes of phases" };
-        ensure!(!points.is_empty(), "{name}: its history has no {word}");
-        curves.push(Curve::new(name.clone(), points).with_look(Look::Bars));
+        if points.is_empty() {
+            return Err(PlotError::NoRecords { name: name.to_owned(), what: word });
+        }
+        curves.push(Curve::new(name, points).with_look(Look::Bars));
     }
     let x = PlotAxis { names, ..PlotAxis::default() };
     Ok(Plot { x, y: axis, curves, ..Plot::default() })
 }
 
 /// The report of a step, by default of the last one.
-fn report(named: &Named, step: Option<usize>) -> anyhow::Result<SolverReport> {
+fn report(named: &Named<'_>, step: Option<usize>) -> Result<SolverReport, PlotError> {
     let steps = &named.dataset.steps;
     let found: Option<&Step> = step.map_or(steps.last(), |step| steps.get(step));
-    ensure!(found.is_some(), "{}: there is no step {}", named.name, step.unwrap_or(0));
-    Ok(SolverReport::of(found.map_or(&[], |step| &step.history)))
+    let none = || PlotError::Step { name: named.name.to_owned(), step: step.unwrap_or(0) };
+    found.map(|step| SolverReport::of(&step.history)).ok_or_else(none)
+}
+
+fn not_iterated(named: &Named<'_>, what: &'static str) -> PlotError {
+    PlotError::NotIterated { name: named.name.to_owned(), what }
 }
 
 /// The residual after each iteration as a part of the first one, on a logarithmic axis; of one dataset also what of it reaches
 /// each level, as a part of what did at first.
-fn residuals(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+fn residuals(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut curves = Vec::new();
     for named in datasets {
         let report = report(named, step)?;
-        ensure!(
-            report.residuals.len() > 1,
-            "{}: no iterations are told in its history; the multilevel solver has them (`kind = \"multilevel\"` in [solver])",
-            named.name
-        );
-        let name = label(datasets, named, "residual");
+        if report.residuals.len() < 2 {
+            return Err(not_iterated(named, "iterations"));
+        }
+        let name = label(datasets.len() > 1, named.name, "residual");
         curves.push(Curve::new(name, numbered(&report.residuals)).with_look(Look::Dotted));
         if datasets.len() == 1 {
             curves.extend(on_levels(&report));
@@ -123,22 +130,20 @@ fn numbered(values: &[f64]) -> Vec<[f64; 2]> {
 }
 
 /// What the levels hold, the finest being level 0, on a logarithmic axis.
-fn levels(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+fn levels(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut curves = Vec::new();
     let mut most = 0;
     for named in datasets {
         let report = report(named, step)?;
-        ensure!(
-            !report.levels.is_empty(),
-            "{}: no levels are told in its history; the multilevel solver has them (`kind = \"multilevel\"` in [solver])",
-            named.name
-        );
+        if report.levels.is_empty() {
+            return Err(not_iterated(named, "levels"));
+        }
         most = most.max(report.levels.len());
         let values = |number: fn(&ppum_solve::report::LevelSize) -> f64| {
             numbered(&report.levels.iter().map(number).collect::<Vec<_>>())
         };
         let curve = |name: &str, points| {
-            Curve::new(label(datasets, named, name), points).with_look(Look::Dotted)
+            Curve::new(label(datasets.len() > 1, named.name, name), points).with_look(Look::Dotted)
         };
         curves.push(curve("values of the matrix", values(|level| level.values)));
         curves.push(curve("unknowns", values(|level| level.unknowns)));

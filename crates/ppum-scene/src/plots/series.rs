@@ -1,17 +1,16 @@
 //! What the solver found in each step of a series.
 
-use anyhow::{bail, ensure};
-use clap::ValueEnum;
+use std::str::FromStr;
+
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Dataset, Step};
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
 
-use super::{Named, label};
-use crate::given::parts;
+use super::{Named, PlotError, label, title};
 
 /// What steps are drawn over.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum Over {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Over {
     /// Their numbers
     #[default]
     Step,
@@ -27,15 +26,20 @@ pub(super) enum Over {
 
 /// A number of a step, or of each of its tips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Number {
+pub enum Number {
+    /// K_I of each tip.
     K1,
+    /// K_II of each tip.
     K2,
+    /// The load factor or time.
     Load,
+    /// The length of all cracks.
     Length,
+    /// The growth of each tip since the first step.
     Extension,
 }
 
-/// Their names in options.
+/// Their words.
 const NAMES: [(&str, Number); 5] = [
     ("k1", Number::K1),
     ("k2", Number::K2),
@@ -44,45 +48,43 @@ const NAMES: [(&str, Number); 5] = [
     ("extension", Number::Extension),
 ];
 
+impl FromStr for Number {
+    type Err = PlotError;
+
+    fn from_str(text: &str) -> Result<Self, PlotError> {
+        let found = NAMES.iter().find(|(known, _)| *known == text).map(|(_, number)| *number);
+        found.ok_or_else(|| {
+            let known = NAMES.map(|(name, _)| name);
+            let [others @ .., last] = &known;
+            let known = format!("{} and {last}", others.join(", "));
+            PlotError::UnknownNumber { name: text.to_owned(), known }
+        })
+    }
+}
+
 /// A curve for each number of each dataset, of stress intensity factors for each tip.
-pub(super) fn plot(datasets: &[Named], wanted: &[String], over: Over) -> anyhow::Result<Plot> {
-    let numbers = asked(wanted)?;
-    let mut plot = Plot { x: axis(over), y: value_axis(&numbers), ..Plot::default() };
+///
+/// # Errors
+/// A dataset of one step, or one that does not know the number.
+pub fn series(datasets: &[Named<'_>], numbers: &[Number], over: Over) -> Result<Plot, PlotError> {
+    let mut plot = Plot { x: axis(over), y: value_axis(numbers), ..Plot::default() };
     for named in datasets {
-        ensure!(
-            named.dataset.steps.len() > 1,
-            "{}: --series draws over steps, but there is one alone",
-            named.name
-        );
-        needs(named, &numbers, over)?;
-        for &number in &numbers {
-            for (name, points) in curves(&named.dataset, number, over) {
-                let curve = Curve::new(label(datasets, named, &name), points);
+        if named.dataset.steps.len() < 2 {
+            return Err(PlotError::OneStep(named.name.to_owned()));
+        }
+        needs(named, numbers, over)?;
+        for &number in numbers {
+            for (name, points) in curves(named.dataset, number, over) {
+                let curve = Curve::new(label(datasets.len() > 1, named.name, &name), points);
                 plot.curves.push(curve.with_look(Look::Dotted));
             }
         }
-        plot.title.clone_from(&named.dataset.title);
     }
-    ensure!(!plot.curves.is_empty(), "the steps hold no stress intensity factors");
-    if datasets.iter().any(|named| named.dataset.title != plot.title) {
-        plot.title.clear();
+    if plot.curves.is_empty() {
+        return Err(PlotError::NoIntensities);
     }
+    plot.title = title(datasets.iter().map(|named| named.dataset.title.as_str()));
     Ok(plot)
-}
-
-/// The numbers that are asked for, by default K_I and K_II.
-fn asked(wanted: &[String]) -> anyhow::Result<Vec<Number>> {
-    if wanted.is_empty() {
-        return Ok(vec![Number::K1, Number::K2]);
-    }
-    let mut numbers = Vec::new();
-    for name in wanted.iter().flat_map(|list| parts(list)) {
-        let Some((_, number)) = NAMES.iter().find(|(known, _)| *known == name) else {
-            bail!("--series draws k1, k2, load, length and extension, not `{name}`");
-        };
-        numbers.push(*number);
-    }
-    Ok(numbers)
 }
 
 fn axis(over: Over) -> PlotAxis {
@@ -113,22 +115,14 @@ fn length(step: &Step) -> f64 {
 }
 
 /// Refuses what a dataset does not know: extensions and cycles are those of cracks that grow.
-fn needs(named: &Named, numbers: &[Number], over: Over) -> anyhow::Result<()> {
-    let Named { name, dataset } = named;
-    let growth = || dataset.steps.iter().filter_map(|step| step.growth.as_ref());
-    if over == Over::Extension || numbers.contains(&Number::Extension) {
-        ensure!(
-            growth().next().is_some(),
-            "{name}: extensions are known of cracks that grow ([growth] in the problem file), and the steps of this file \
-             hold no growth; --over length is known of all cracks"
-        );
+fn needs(named: &Named<'_>, numbers: &[Number], over: Over) -> Result<(), PlotError> {
+    let growth = || named.dataset.steps.iter().filter_map(|step| step.growth.as_ref());
+    let needs_growth = over == Over::Extension || numbers.contains(&Number::Extension);
+    if needs_growth && growth().next().is_none() {
+        return Err(PlotError::NoGrowth(named.name.to_owned()));
     }
-    if over == Over::Cycles {
-        ensure!(
-            growth().any(|growth| growth.cycles.is_some()),
-            "{name}: load cycles are known of growth by Paris' law (`paris` of [growth] in the problem file), and the steps \
-             of this file hold none"
-        );
+    if over == Over::Cycles && !growth().any(|growth| growth.cycles.is_some()) {
+        return Err(PlotError::NoCycles(named.name.to_owned()));
     }
     Ok(())
 }

@@ -1,34 +1,32 @@
 //! Whether a plot shows what was asked for.
 
-use anyhow::bail;
 use ppum_figure::plot::{Curve, Plot};
 use ppum_render::scale::Scale;
 
-use super::plain;
-use crate::output::tell;
+use super::{PlotError, plain};
 
 /// Refuses a plot that shows nothing, and warns of curves that miss points which have a value.
 ///
 /// # Errors
 /// If no curve has a point that can be seen.
-pub(super) fn check(plot: &Plot) -> anyhow::Result<()> {
+pub fn check(plot: &Plot) -> Result<Vec<String>, PlotError> {
     let logs = [&plot.x, &plot.y].map(|axis| axis.scale == Scale::Log);
     if plot.curves.iter().all(|curve| counts(curve, logs).seen == 0) {
-        bail!("the plot would show nothing: {}", why(&plot.curves, logs));
+        return Err(PlotError::Nothing(why(&plot.curves, logs)));
     }
-    for curve in &plot.curves {
-        let Counts { seen, finite } = counts(curve, logs);
-        let name = plain(&curve.label);
-        if seen == 0 {
-            tell(&format!("warning: `{name}` shows nothing: {}", why([curve], logs)));
-        } else if seen < finite {
-            let lost = finite - seen;
-            tell(&format!(
-                "warning: `{name}` is not positive at {lost} of {finite} points, which a logarithmic axis leaves out"
-            ));
-        }
+    Ok(plot.curves.iter().filter_map(|curve| missed(curve, logs)).collect())
+}
+
+/// What a curve does not show.
+fn missed(curve: &Curve, logs: [bool; 2]) -> Option<String> {
+    let (name, Counts { seen, finite }) = (plain(&curve.label), counts(curve, logs));
+    if seen == 0 {
+        return Some(format!("`{name}` shows nothing: {}", why([curve], logs)));
     }
-    Ok(())
+    let lost = finite - seen;
+    (lost > 0).then(|| {
+        format!("`{name}` is not positive at {lost} of {finite} points, which a logarithmic axis leaves out")
+    })
 }
 
 /// Points of a curve: those whose coordinates are finite, and those that the axes have a place for.

@@ -1,6 +1,5 @@
 //! Errors of solutions of one problem, against their unknowns.
 
-use anyhow::{bail, ensure};
 use ppum::dataset::{Dataset, Step};
 use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, Scope};
@@ -11,11 +10,14 @@ use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope, with_slope};
 use ppum_solve::norms::norms;
 use ppum_solve::space::Space;
 
-use super::Named;
+use super::{Named, PlotError};
 
 /// A curve for each error: those of the exact solution if all datasets have them, else the distances of energy and
 /// stress intensity factors from those of the dataset with most unknowns. Of one dataset alone all steps are compared.
-pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Plot> {
+///
+/// # Errors
+/// Fewer than three solutions of different sizes; solutions of several problems.
+pub fn convergence(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut solutions = match datasets {
         [Named { dataset, .. }] if dataset.steps.len() >= 3 && step.is_none() => all_steps(dataset),
         _ => one_step_each(datasets, step)?,
@@ -24,16 +26,16 @@ pub(super) fn plot(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Pl
     solutions.sort_by(|a, b| unknowns(a.step).total_cmp(&unknowns(b.step)));
     let mut sizes: Vec<f64> = solutions.iter().map(|solution| unknowns(solution.step)).collect();
     sizes.dedup();
-    ensure!(
-        sizes.len() >= 3,
-        "--convergence compares solutions of three different numbers of unknowns or more; these have {}",
-        sizes.iter().map(f64::to_string).collect::<Vec<_>>().join(" and ")
-    );
+    if sizes.len() < 3 {
+        return Err(PlotError::FewSizes(sizes));
+    }
     let mut curves = exact(&solutions)?;
     if curves.is_empty() {
         curves = distances(&solutions.iter().map(|solution| solution.step).collect::<Vec<_>>());
     }
-    ensure!(!curves.is_empty(), "the datasets have no numbers to compare");
+    if curves.is_empty() {
+        return Err(PlotError::Incomparable);
+    }
     let mut plot = Plot {
         x: PlotAxis::new("unknowns", "").logarithmic(),
         y: PlotAxis::new("relative error", "").logarithmic(),
@@ -51,29 +53,27 @@ fn all_steps(dataset: &Dataset) -> Vec<Solution<'_>> {
 }
 
 /// One step of each dataset, the last one unless another is asked for.
-fn one_step_each(datasets: &[Named], step: Option<usize>) -> anyhow::Result<Vec<Solution<'_>>> {
-    ensure!(
-        datasets.len() >= 3,
-        "--convergence compares three datasets or more, or the steps of one that has three or more"
-    );
-    let mut solutions = Vec::new();
-    for Named { name, dataset } in datasets {
-        let index = step.unwrap_or(dataset.steps.len() - 1);
-        let found = dataset.steps.get(index);
-        ensure!(found.is_some(), "{name}: there is no step {index}");
-        solutions.extend(found.map(|step| Solution { dataset, index, step }));
+fn one_step_each<'d>(
+    datasets: &[Named<'d>],
+    step: Option<usize>,
+) -> Result<Vec<Solution<'d>>, PlotError> {
+    if datasets.len() < 3 {
+        return Err(PlotError::FewDatasets);
     }
-    Ok(solutions)
+    let one = |&Named { name, dataset }: &Named<'d>| {
+        let index = step.unwrap_or(dataset.steps.len().saturating_sub(1));
+        let found = dataset.steps.get(index).map(|step| Solution { dataset, index, step });
+        found.ok_or_else(|| PlotError::Step { name: name.to_owned(), step: index })
+    };
+    datasets.iter().map(one).collect()
 }
 
 /// Datasets of different problems have no common solution that they could come near.
-fn of_one_problem(datasets: &[Named]) -> anyhow::Result<()> {
+fn of_one_problem(datasets: &[Named<'_>]) -> Result<(), PlotError> {
     for Named { name, dataset } in datasets {
-        ensure!(
-            dataset.steps.windows(2).all(|pair| pair[0].cracks == pair[1].cracks),
-            "--convergence compares solutions of one problem, but the cracks of {name} grow from step to step; \
-             --series draws what becomes of them"
-        );
+        if dataset.steps.windows(2).any(|pair| pair[0].cracks != pair[1].cracks) {
+            return Err(PlotError::Grown((*name).to_owned()));
+        }
     }
     let [Named { name, dataset: first }, others @ ..] = datasets else { return Ok(()) };
     for Named { name: other, dataset } in others {
@@ -85,10 +85,8 @@ fn of_one_problem(datasets: &[Named]) -> anyhow::Result<()> {
             () if exact_texts(dataset) != exact_texts(first) => "the exact solution",
             () => continue,
         };
-        bail!(
-            "--convergence compares solutions of one problem, but {name} and {other} are of two: {what} differ{}",
-            if what.ends_with("cracks") { "" } else { "s" }
-        );
+        let [first, other] = [name, other].map(|name| (*name).to_owned());
+        return Err(PlotError::OtherProblem { first, other, what });
     }
     Ok(())
 }
@@ -111,7 +109,7 @@ struct Solution<'d> {
 }
 
 /// Relative errors in the energy norm and in L² where all exact solutions are known.
-fn exact(solutions: &[Solution<'_>]) -> anyhow::Result<Vec<Curve>> {
+fn exact(solutions: &[Solution<'_>]) -> Result<Vec<Curve>, PlotError> {
     let mut points = [Vec::new(), Vec::new()];
     for solution in solutions {
         let Some(errors) = errors(solution)? else { return Ok(Vec::new()) };
@@ -124,15 +122,16 @@ fn exact(solutions: &[Solution<'_>]) -> anyhow::Result<Vec<Curve>> {
 }
 
 /// Errors relative to the exact solution, in the energy norm and in L²; none if it is not known.
-fn errors(Solution { dataset, index, step }: &Solution<'_>) -> anyhow::Result<Option<[f64; 2]>> {
-    let field = Field::new(dataset, *index)?;
+fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f64; 2]>, PlotError> {
+    let field = Field::new(dataset, *index).map_err(PlotError::of)?;
     if !field.has_exact() {
         return Ok(None);
     }
-    let scope = Scope::cartesian().with_tables(&dataset.tables)?;
+    let scope = Scope::cartesian().with_tables(&dataset.tables).map_err(PlotError::of)?;
     let parse = |text: &String| Formula::parse(text, &scope);
-    let formulas = field.data.exact.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
-    let jets = FormulaJets::new(&formulas.iter().collect::<Vec<_>>(), 1)?;
+    let formulas = field.data.exact.iter().map(parse).collect::<Result<Vec<_>, _>>();
+    let formulas = formulas.map_err(PlotError::of)?;
+    let jets = FormulaJets::new(&formulas.iter().collect::<Vec<_>>(), 1).map_err(PlotError::of)?;
     let exact = |anchor: Vec2, offset: Vec2| {
         let (p, mut out) = (anchor + offset, vec![0.0; 3 * formulas.len()]);
         jets.evaluate(&[p.x, p.y], &mut Vec::new(), &mut out);
@@ -141,7 +140,8 @@ fn errors(Solution { dataset, index, step }: &Solution<'_>) -> anyhow::Result<Op
         both.iter_mut().zip(out.chunks(3)).for_each(|(jet_of, d)| *jet_of = jet(d));
         both
     };
-    let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables)?;
+    let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables);
+    let space = space.map_err(PlotError::of)?;
     let [_, reference, difference] = norms(&field, &space, &exact);
     let (energy, l2) = difference.relative_to(&reference);
     Ok(Some([energy, l2]))
