@@ -11,6 +11,7 @@ use ppum::sample::Wanted;
 use ppum::vec2::Vec2;
 use ppum_scene::profile::Along;
 use ppum_scene::scene::{Subject, default_quantity};
+use ppum_scene::shot::of_step;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -31,6 +32,8 @@ const KEPT: usize = 256;
 #[pyclass(frozen, module = "ppum._core")]
 pub(crate) struct Field {
     pub(crate) owned: Owned,
+    /// What titles tell of it: its step, where the dataset has several, and the part.
+    pub(crate) told: Subject,
     quantities: Mutex<HashMap<String, Quantity>>,
 }
 
@@ -66,7 +69,7 @@ impl Field {
         if !is_known(name.trim()) && is_known(&dashed) { dashed } else { name.to_owned() }
     }
 
-    fn quantities(&self, names: &[String]) -> PyResult<Vec<Quantity>> {
+    pub(crate) fn quantities(&self, names: &[String]) -> PyResult<Vec<Quantity>> {
         names.iter().map(|name| self.quantity(name)).collect()
     }
 
@@ -112,7 +115,10 @@ impl Field {
         let subject = written::<Subject>(subject)?;
         let data = dataset.0.clone();
         let owned = long(py, None, None, |_| changed(data, step, &subject))??;
-        Ok(Self { owned, quantities: Mutex::default() })
+        // what is changed is a copy of one step
+        let step = subject.is_whole().then_some(step);
+        let told = Subject { step, part: subject.part, ..Subject::default() };
+        Ok(Self { owned, told, quantities: Mutex::default() })
     }
 
     /// A quantity at one point.
@@ -218,7 +224,7 @@ fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<Owned> {
     }
     let Some(only) = data.steps.get(step) else { return Owned::new(data, step).map_err(no_field) };
     let mut copy = Data::new(data.domain.clone(), data.equation.clone());
-    copy.title.clone_from(&data.title);
+    copy.title = of_step(&data, step);
     copy.problem.clone_from(&data.problem);
     copy.quantities.clone_from(&data.quantities);
     copy.tables.clone_from(&data.tables);

@@ -6,12 +6,16 @@
 //! compute. Without the feature `python` the crate is empty.
 #![cfg(feature = "python")]
 
+mod compare;
 mod dataset;
 mod errors;
 mod facts;
 mod field;
+mod material;
+mod moving;
 mod owned;
 mod picture;
+mod plot;
 mod pool;
 mod problem;
 mod values;
@@ -21,11 +25,19 @@ mod watch;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
+    use crate::compare::{compare, resample};
+    #[pymodule_export]
     use crate::dataset::{Dataset, from_bytes, read};
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]
+    use crate::material::material;
+    #[pymodule_export]
+    use crate::moving::animation;
+    #[pymodule_export]
     use crate::picture::{colormaps, extrema_in, figure, frame, render, rgba};
+    #[pymodule_export]
+    use crate::plot::{Curves, profiles, told};
     #[pymodule_export]
     use crate::problem::{check, solve};
     #[pymodule_export]

@@ -26,7 +26,7 @@ use crate::field::{Field, written};
 use crate::watch::long;
 
 /// Centre and width of a view.
-type Spot = ((f64, f64), f64);
+pub(crate) type Spot = ((f64, f64), f64);
 
 /// Names of the built-in colour maps.
 #[pyfunction]
@@ -37,7 +37,7 @@ pub(crate) fn colormaps() -> Vec<&'static str> {
 /// The look of a figure.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Look {
+pub(crate) struct Look {
     /// Columns and rows; with `inches` they follow from the resolution.
     size: [u32; 2],
     inches: Option<[f64; 2]>,
@@ -53,7 +53,7 @@ struct Look {
 const PAPER_DPI: f64 = 300.0;
 
 impl Look {
-    fn design(&self, plate: Rect) -> PyResult<Design> {
+    pub(crate) fn design(&self, plate: Rect) -> PyResult<Design> {
         let mut design = match (self.inches, self.dpi) {
             (Some(inches), dpi) => Design::inches(inches, dpi.unwrap_or(PAPER_DPI)),
             (None, None) => Design::pixels(self.size),
@@ -77,7 +77,7 @@ impl Look {
     }
 }
 
-fn view(((x, y), width): Spot, size: [u32; 2]) -> PyResult<View> {
+pub(crate) fn view(((x, y), width): Spot, size: [u32; 2]) -> PyResult<View> {
     View::new(Vec2 { x, y }, width, size).map_err(|error| RenderError::new_err(error.to_string()))
 }
 
@@ -105,14 +105,15 @@ impl ExtremumFacts {
 }
 
 impl Field {
-    fn shown(&self, name: &str) -> PyResult<Shown> {
+    pub(crate) fn shown(&self, name: &str) -> PyResult<Shown> {
         shown(&self.spelled(name), self.owned.field()).map_err(|error| not_shown(&error))
     }
 
     /// A scene of Python's layer, its quantity spelled as the libraries do.
-    fn scene(&self, text: &str) -> PyResult<Scene> {
+    pub(crate) fn scene(&self, text: &str) -> PyResult<Scene> {
         let scene = written::<Scene>(text)?;
-        Ok(Scene { quantity: scene.quantity.map(|name| self.spelled(&name)), ..scene })
+        let quantity = scene.quantity.map(|name| self.spelled(&name));
+        Ok(Scene { quantity, subject: self.told.clone(), ..scene })
     }
 
     fn raster<T: Sample>(
@@ -280,6 +281,19 @@ pub(crate) fn frame<'py>(
     Ok((PyBytes::new(py, &bytes), bar))
 }
 
+/// The form of figures that a name's end says.
+pub(crate) fn form(name: &str) -> PyResult<Form> {
+    match name {
+        "png" => Ok(Form::Png),
+        "svg" => Ok(Form::Svg),
+        "pdf" => Ok(Form::Pdf),
+        other => {
+            let known = "figures are png, svg or pdf";
+            Err(PyValueError::new_err(format!("`{other}` is no form: {known}")))
+        }
+    }
+}
+
 /// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`.
 #[pyfunction]
 pub(crate) fn figure<'py>(
@@ -298,15 +312,7 @@ pub(crate) fn figure<'py>(
     let title = &this.owned.dataset().title;
     let quantity = scene.quantity.as_deref().unwrap_or_default();
     let texts = shot.picture.description(title, title, quantity);
-    let form = match form {
-        "png" => Form::Png,
-        "svg" => Form::Svg,
-        "pdf" => Form::Pdf,
-        other => {
-            let known = "figures are png, svg or pdf";
-            return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));
-        }
-    };
+    let form = self::form(form)?;
     let dpi = (look.inches.is_some() || look.dpi.is_some()).then_some(design.dpi);
     let bytes = long(py, None, None, |_| form.bytes(&page, dpi, &texts))?;
     Ok(PyBytes::new(py, &bytes?))

@@ -67,6 +67,19 @@ def potential():
 
 
 @pytest.fixture(scope="session")
+def grown():
+    """Three steps of a crack that grows."""
+    return ppum.solve(
+        ppum.Problem(domain=((0, 0), (2, 1)), material=ppum.Elastic(1.0, 0.3), title="Grown")
+        .crack((0, 0.5), (0.5, 0.5))
+        .boundary("bottom", traction=(0, -1))
+        .boundary("top", traction=(0, 1))
+        .section("growth", steps=2, increment=0.05)
+        .discretization(cells=(16, 8), order=1)
+    )
+
+
+@pytest.fixture(scope="session")
 def program():
     """Runs the program, where it has been built."""
     path = pathlib.Path(os.environ.get("PPUM", ROOT / "target/debug/ppum"))

@@ -14,6 +14,12 @@ const FLOORS: Floors<'_> = &[
         ("problem", &["dataset", "errors", "watch"]),
     ],
     &[("picture", &["errors", "field", "watch"])],
+    &[
+        ("compare", &["errors", "field", "picture", "watch"]),
+        ("material", &["errors", "field", "picture", "watch"]),
+        ("moving", &["dataset", "errors", "field", "picture", "watch"]),
+        ("plot", &["dataset", "errors", "field", "picture", "watch"]),
+    ],
 ];
 
 #[test]

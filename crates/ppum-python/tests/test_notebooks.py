@@ -116,6 +116,12 @@ def test_jupyterlab(ds, folder):
         now = np.array(center) + np.array([x - box["width"] / 2, box["height"] / 2 - y]) * side
         assert width < 1e-6 and np.abs(now - under).max() < 1e-12
         assert_shows(canvas, f, "von_mises", center, width)
+        # values that differ in their last digits have a long heading, which stays beside the picture, and the bar below it
+        bar = page.locator(".ppum-bar").first
+        beside, heading, scale = (part.bounding_box() for part in (canvas, bar.locator("b"), bar.locator("canvas")))
+        assert len(bar.locator("b").inner_text()) > 20 and heading["height"] > 20
+        assert heading["y"] >= beside["y"] - 1 and scale["y"] >= heading["y"] + heading["height"] - 1
+        assert 0.5 * beside["height"] < scale["height"] < beside["height"] + 1 - (scale["y"] - beside["y"])
         before = frames(canvas)
         box = canvas.bounding_box()
         page.mouse.move(box["x"] + 300, box["y"] + 200)

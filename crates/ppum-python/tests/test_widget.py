@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 
 import numpy as np
 import ppum
@@ -287,7 +288,45 @@ def test_potentials_and_cells(potential, holed):
         content, buffers = browser.ask()
         assert content["kind"] == "frame" and content["bar"]["symbol"]
     assert browser.ask(set={"deformed": "auto"})[0]["kind"] == "frame"
-    assert "x = " in browser.ask(probe=[3, 4])[0]["text"]
+    assert "the deformed plate is not here" in browser.ask(probe=[3, 4])[0]["text"]
+
+
+def test_values_of_cells_are_told_too(holed):
+    """On cracks as well: they have no sides."""
+    view = holed.field.view("level")
+    browser = Browser(view)
+    (x, y), columns = holed.field.step.cracks[0].points[1], SIZE[0]
+    browser.ask(set={}), view.set_trait("width", 1.0), view.set_trait("center", (x, y))
+    for pixel in ([columns / 2, SIZE[1] / 2], [10, 20]):
+        text = browser.ask(probe=pixel)[0]["text"]
+        at = [float(part.split(" = ")[1]) for part in text.split(": ")[0].split(", ")]
+        assert float(text.split(": ")[1]) == holed.field.render("level", center=at, width=1e-9, size=(1, 1))[0, 0]
+
+
+@pytest.mark.parametrize("factor", [-2.0, 0.0, 0.25, "auto"])
+def test_a_deformed_view_tells_the_values_of_points_of_the_plate(f, factor):
+    """A point is moved by its displacement, and what lies there is that point, on its side of the crack."""
+    view = f.view("von_mises", deformed=factor)
+    browser = Browser(view)
+    browser.ask()
+    times = factor if factor != "auto" else told_factor(f)
+    # in the plate, and beside the faces of the crack
+    for x, y in [(0.6, 1.1), (-0.7, -0.4), (0.1, 0.1 + 1e-6), (0.1, 0.1 - 1e-6)]:
+        moved = np.array([x, y]) + times * f.evaluate(x, y, ["ux", "uy"])
+        view.center, view.width = tuple(moved), 1e-7 * SIZE[0]
+        text = browser.ask(probe=[SIZE[0] / 2, SIZE[1] / 2])[0]["text"]
+        value, was = text.split(": ")[1].split(", moved from ")
+        found = [float(part.split(" = ")[1]) for part in was.split(", over")[0].split(", ")[:2]]
+        assert found == pytest.approx((x, y), abs=2e-7), text
+        assert float(value) == pytest.approx(float(f.at(*found).von_mises), rel=1e-6)
+    view.center = (1e3, 0.0)
+    assert browser.ask(probe=[0, 0])[0]["text"].endswith("the deformed plate is not here")
+
+
+def told_factor(f):
+    """What `auto` is, of a figure's title."""
+    title = re.search(r"deformed ×([0-9.e-]+)", f.figure("ux", deformed="auto").svg())
+    return float(title[1])
 
 
 def test_the_remedy_is_named(f, monkeypatch):

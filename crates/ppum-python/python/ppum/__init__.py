@@ -8,7 +8,7 @@ Example:
     (2,)
 """
 
-from . import _core
+from . import _core, plots
 from .errors import (
     Finding,
     FormatError,
@@ -19,6 +19,7 @@ from .errors import (
     RenderError,
     SolveError,
 )
+from .comparing import Comparison, Needed, Norms, Resampling
 from .dataset import (
     Advance,
     Crack,
@@ -36,7 +37,7 @@ from .dataset import (
 )
 from .field import Field, Quantity, Values
 from .linking import link
-from .pictures import Extremum, Figure, View
+from .pictures import Animation, Extremum, Figure, View
 from .problem import Elastic, Poisson, Problem, solve
 from .sweeping import Sweep, sweep
 
@@ -48,6 +49,8 @@ COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 __all__ = [
     "COLORMAPS",
     "Advance",
+    "Animation",
+    "Comparison",
     "Crack",
     "Dataset",
     "Elastic",
@@ -60,6 +63,8 @@ __all__ = [
     "History",
     "Hole",
     "InternalError",
+    "Needed",
+    "Norms",
     "Poisson",
     "PpumError",
     "Problem",
@@ -68,6 +73,7 @@ __all__ = [
     "QuantityError",
     "Reaction",
     "RenderError",
+    "Resampling",
     "SolveError",
     "Step",
     "Sweep",
@@ -79,6 +85,7 @@ __all__ = [
     "from_bytes",
     "link",
     "open",
+    "plots",
     "solve",
     "sweep",
 ]

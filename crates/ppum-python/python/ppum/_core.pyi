@@ -13,19 +13,26 @@ _Progress = Callable[[str, int, int, int], object]
 
 __all__ = [
     "VERSION",
+    "Curves",
     "Dataset",
     "Field",
     "_panic",
+    "animation",
     "check",
     "colormaps",
+    "compare",
     "extrema",
     "figure",
     "frame",
     "from_bytes",
+    "material",
+    "profiles",
     "read",
     "render",
+    "resample",
     "rgba",
     "solve",
+    "told",
 ]
 
 VERSION: Final[str]
@@ -64,6 +71,20 @@ class Field:
         self, along: str, count: int, names: list[str]
     ) -> tuple[list[tuple[str, str]], _Floats]: ...
 
+@final
+class Curves:
+    def bytes(self, size: tuple[int, int], name: str) -> bytes: ...
+    def curves(self) -> list[tuple[str, list[list[float]]]]: ...
+    def warnings(self) -> list[str]: ...
+
+def profiles(
+    named: list[tuple[str, Field]],
+    along: str,
+    count: int,
+    quantities: list[str] | None,
+    log: str,
+) -> Curves: ...
+def told(named: list[tuple[str, Dataset]], kind: str, log: str) -> Curves: ...
 def read(path: Path) -> Dataset: ...
 def from_bytes(bytes: bytes) -> Dataset: ...
 def check(text: str, name: str, folder: Path) -> list[dict[str, Any]]: ...
@@ -88,6 +109,36 @@ def frame(
     this: Field, scene: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[bytes, dict[str, Any]]: ...
 def figure(this: Field, scene: str, spot: _Spot | None, look: str, form: str) -> bytes: ...
+def compare(
+    this: Field,
+    other: Field,
+    name: str,
+    spot: _Spot,
+    size: tuple[int, int],
+    progress: _Progress | None,
+) -> tuple[_Floats, dict[str, Any], list[str]]: ...
+def resample(
+    this: Field,
+    name: str,
+    way: dict[str, Any],
+    spot: _Spot,
+    size: tuple[int, int],
+    progress: _Progress | None,
+) -> tuple[_Floats, _Floats, dict[str, Any], dict[str, Any]]: ...
+def material(this: Field, factor: str, spot: _Spot) -> dict[str, Any] | None: ...
+def animation(
+    this: Field,
+    dataset: Dataset,
+    changes: str,
+    scene: str,
+    steps: list[int],
+    spot: _Spot | None,
+    size: tuple[int, int],
+    look: str | None,
+    milliseconds: int,
+    form: str,
+    progress: _Progress | None,
+) -> bytes: ...
 def extrema(
     this: Field, name: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[dict[str, Any], dict[str, Any]] | None: ...

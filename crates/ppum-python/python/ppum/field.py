@@ -13,9 +13,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import QuantityError
-from .pictures import Extremum, Figure, View, figure_scene, figure_look, spot
+from .pictures import (
+    Animation,
+    Extremum,
+    Figure,
+    View,
+    figure_look,
+    figure_scene,
+    milliseconds,
+    spot,
+)
 
 if TYPE_CHECKING:
+    from .comparing import Comparison, Resampling
     from .dataset import Dataset, Step
     from .widget import Viewer
 
@@ -23,6 +33,7 @@ __all__ = ["Field", "Quantity", "Values"]
 
 Floats = NDArray[np.float64]
 SideName = Literal["above", "below", "both"]
+ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 _SIDES = ("above", "below", "both")
 
 
@@ -484,6 +495,55 @@ class Field:
         at = self._spot(look["size"], **seen) if seen else None
         return Figure(self._core, scene, at, json.dumps(look))
 
+    def animate(
+        self,
+        quantity: str | None = None,
+        *,
+        steps: Sequence[int] | slice | None = None,
+        fps: float = 5.0,
+        bare: bool = False,
+        progress: Any = None,
+        **options: Any,
+    ) -> Animation:
+        """A moving picture of the steps of a series, as the program's: one range of colours, one factor of deformation, one place.
+
+        Args:
+            quantity: As in `render`.
+            steps: Numbers of steps, or a slice of them; by default all.
+            fps: Steps shown in a second, up to 50.
+            bare: Whether axes and colour bar are left out: the picture has the size in pixels.
+            progress: As in `render`.
+            options: As for `figure`.
+
+        Raises:
+            IndexError: There is no such step.
+            ValueError: No steps; a rate that programs do not show.
+            TypeError: No such option.
+
+        Example:
+            >>> moving = f.animate("uy", deformed="auto", size=(240, 320))
+            >>> moving.save("moving.gif")
+            >>> moving.gif()[:6]
+            b'GIF89a'
+        """
+        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
+        look = figure_look(options)
+        scene, size = figure_scene(quantity, options), look["size"]
+        at = self._spot(size, **seen) if seen else None
+        drawn = None if bare else json.dumps(look)
+        what = (json.dumps(self._subject), scene, self._numbers(steps), at, size, drawn)
+        return Animation(self._core, self.dataset._core, what, milliseconds(fps), progress)
+
+    def _numbers(self, steps: Sequence[int] | slice | None) -> list[int]:
+        count = len(self.dataset.steps)
+        if steps is None or isinstance(steps, slice):
+            numbers = list(range(count)[steps or slice(None)])
+        else:
+            numbers = [range(count)[step] for step in steps]
+        if not numbers:
+            raise ValueError("steps: a moving picture needs one step at least")
+        return numbers
+
     def extrema(self, quantity: str | None = None, **view: Any) -> tuple[Extremum, Extremum]:
         """The smallest and the largest value in a view, also between its pixels, at tips infinite.
 
@@ -508,6 +568,81 @@ class Field:
             raise RenderError(f"`{name}` has no value in the view; show some of the plate")
         low, high = (Extremum(**one) for one in found)
         return low, high
+
+    def compare(
+        self, other: Field, quantity: str | None = None, *, progress: Any = None, **view: Any
+    ) -> Comparison:
+        """This field minus another at the pixels of a view: how far they are from each other, and where.
+
+        Both are evaluated at the centre of each pixel; covers, functions and steps may be any.
+
+        Args:
+            other: A field, of this dataset or another: another step, part, weight or cover.
+            quantity: A quantity or formula that both have, or a value of cells; by default as in `render`.
+            progress: As in `render`.
+            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
+
+        Raises:
+            QuantityError: One of them does not have the quantity.
+            RenderError: No pixel has a value in both.
+
+        Example:
+            >>> found = f.compare(f.part("smooth"), "uy", size=(100, 200))
+            >>> found.compared, found.values.shape, found.relative.l2 > 0.1
+            (20000, (200, 100), True)
+            >>> f.compare(f).absolute
+            Norms(l1=0.0, l2=0.0, max=0.0)
+        """
+        from .comparing import compare
+
+        name = quantity or self._core.default_quantity()
+        return compare(self, other, name, self.view_at(**view), progress)
+
+    def resampled(
+        self,
+        quantity: str | None = None,
+        *,
+        grid: int | tuple[int, int] = 64,
+        method: ResamplingMethod = "bilinear",
+        over: Literal["domain", "view"] = "domain",
+        error: float | None = None,
+        progress: Any = None,
+        **view: Any,
+    ) -> Resampling:
+        """What resampling makes of the field, as other programs draw it, and how far that is from it.
+
+        Exact values at the points of a grid are interpolated at the pixels of a view, as `ppum compare` does.
+
+        Args:
+            quantity: A quantity or formula; by default as in `render`.
+            grid: Points of the grid, borders included: as many columns as rows, or both.
+            method: The nearest point's value; ``bilinear`` of four points; ``bicubic`` of sixteen; or ``cells``: the value at
+                the centre of each cell of the cover, without a grid.
+            over: The rectangle of the grid: the box of the domain, or what the view shows.
+            error: A relative error for which the grid is looked for too, see `Resampling.needed`.
+            progress: As in `render`.
+            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
+
+        Raises:
+            QuantityError: No quantity of the field.
+            RenderError: No grid: fewer than 2x2 points, or too many.
+            ValueError: No such method, no such rectangle.
+
+        Example:
+            >>> coarse, fine = (f.resampled("uy", grid=n, size=(100, 200)) for n in (16, 256))
+            >>> fine.relative.l1 < coarse.relative.l1, fine.bytes
+            (True, 524288)
+        """
+        from .comparing import resample
+
+        if over not in ("domain", "view"):
+            raise ValueError(f"over: {over!r} is none; there are domain, view")
+        if error is not None and not error > 0:
+            raise ValueError(f"error: {error!r} is none; give a positive number, e.g. 0.01")
+        size = (grid, grid) if isinstance(grid, int) else tuple(grid)
+        way = {"method": method, "grid": size, "over_view": over == "view", "error": error}
+        name = quantity or self._core.default_quantity()
+        return resample(self, name, self.view_at(**view), way, progress)
 
     def view(self, quantity: str | None = None, **options: Any) -> Viewer:
         """A view in a notebook that follows the mouse: pan, zoom, read values; exact in every frame.

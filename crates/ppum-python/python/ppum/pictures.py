@@ -12,7 +12,7 @@ from typing import Any
 
 from . import _core
 
-__all__ = ["Extremum", "Figure", "View"]
+__all__ = ["Animation", "Extremum", "Figure", "View"]
 
 Spot = tuple[tuple[float, float], float]
 
@@ -179,16 +179,7 @@ class Figure:
             OSError: The system refuses.
         """
         path = Path(path)
-        data = self.to_bytes(path.suffix[1:].lower())
-        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
-            try:
-                file.write(data)
-                file.close()
-                os.chmod(file.name, 0o666 & ~_umask())
-                os.replace(file.name, path)
-            except BaseException:
-                os.unlink(file.name)
-                raise
+        replace(path, self.to_bytes(path.suffix[1:].lower()))
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -198,11 +189,85 @@ class Figure:
         return f"<ppum.Figure {json.loads(self._scene)['quantity'] or 'of a field'}, {size[0]}x{size[1]}>"
 
 
+class Animation:
+    """A moving picture; drawn when its bytes are asked for. Made by `Field.animate`. Notebooks show it."""
+
+    def __init__(
+        self,
+        core: _core.Field,
+        dataset: _core.Dataset,
+        what: tuple[str, str, list[int], Spot | None, tuple[int, int], str | None],
+        milliseconds: int,
+        progress: Any,
+    ) -> None:
+        self._core, self._dataset, self._what = core, dataset, what
+        self._time, self._progress = milliseconds, progress
+        self._known: dict[str, bytes] = {}
+
+    def to_bytes(self, form: str = "gif") -> bytes:
+        """The bytes of its file, as ``gif``, in 256 colours, or ``apng``, without loss.
+
+        Raises:
+            QuantityError, RenderError: What cannot be drawn.
+            ValueError: Another form.
+        """
+        if form not in self._known:
+            made = _core.animation(self._core, self._dataset, *self._what, self._time, form, self._progress)
+            self._known[form] = made
+        return self._known[form]
+
+    def gif(self) -> bytes:
+        """In 256 colours, for programs that know no other."""
+        return self.to_bytes("gif")
+
+    def apng(self) -> bytes:
+        """Without loss."""
+        return self.to_bytes("apng")
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file, of the form that its name ends in: .gif or .apng. What was there stays until it is complete.
+
+        Raises:
+            ValueError: Another end.
+            OSError: The system refuses.
+        """
+        path = Path(path)
+        replace(path, self.to_bytes(path.suffix[1:].lower()))
+
+    def _repr_png_(self) -> bytes:
+        return self.apng()
+
+    def __repr__(self) -> str:
+        (columns, rows), steps = self._what[4], len(self._what[2])
+        name = json.loads(self._what[1])["quantity"] or "a field"
+        return f"<ppum.Animation of {name}, {steps} step{'s' if steps > 1 else ''}, {columns}x{rows}>"
+
+
+def milliseconds(fps: float) -> int:
+    """The time for which a picture is shown, where so many are shown in a second."""
+    if not 1 / 60 <= fps <= 50:
+        raise ValueError(f"fps: {fps} is no rate; give a number of steps a second, from 1/60 to 50")
+    return int(1000 / fps + 0.5)
+
+
+def replace(path: Path, data: bytes) -> None:
+    """Puts bytes in the place of a file: what was there stays until they are all written."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
+        try:
+            file.write(data)
+            file.close()
+            os.chmod(file.name, 0o666 & ~_umask())
+            os.replace(file.name, path)
+        except BaseException:
+            os.unlink(file.name)
+            raise
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
 
 
-for _class in (Extremum, Figure, View):
+for _class in (Animation, Extremum, Figure, View):
     _class.__module__ = "ppum"

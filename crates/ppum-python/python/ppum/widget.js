@@ -12,10 +12,11 @@ const STYLE = `
 .ppum-stage { display: flex; gap: 8px; }
 .ppum-stage > canvas { flex: 1 1 0; min-width: 0; width: 100%; touch-action: none; cursor: crosshair; background: #fff; outline: 1px solid #8888; }
 .ppum-stage > canvas:focus-visible { outline: 2px solid #27c; }
-.ppum-bar { position: relative; flex: 0 0 84px; }
-.ppum-bar > canvas { position: absolute; top: 28px; left: 0; width: 16px; height: calc(100% - 40px); }
-.ppum-bar > span { position: absolute; left: 22px; transform: translateY(-50%); white-space: nowrap; }
-.ppum-bar > b { position: absolute; bottom: calc(100% - 26px); left: 0; right: 0; font-weight: normal; font-size: 11px; line-height: 1.1; }
+.ppum-bar { display: flex; flex-direction: column; flex: 0 0 84px; min-width: 0; }
+.ppum-bar > b { flex: none; min-height: 14px; padding-bottom: 12px; overflow-wrap: anywhere; font-weight: normal; font-size: 11px; line-height: 1.1; }
+.ppum-scale { position: relative; flex: 1 1 0; min-height: 0; margin-bottom: 12px; }
+.ppum-scale > canvas { position: absolute; top: 0; left: 0; width: 16px; height: 100%; }
+.ppum-scale > span { position: absolute; left: 22px; transform: translateY(-50%); white-space: nowrap; }
 .ppum-row { display: flex; flex-wrap: wrap; gap: 6px; align-items: center; margin: 4px 0; }
 .ppum-row input[type=text] { width: 12em; } .ppum-row input[type=number] { width: 7em; }
 .ppum-told { min-height: 1.4em; font-variant-numeric: tabular-nums; }
@@ -85,7 +86,7 @@ function power(n) {
   return String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
 }
 
-function drawBar(bar, canvas, facts, colors) {
+function drawBar(heading, scale, facts, colors) {
   const count = colors.byteLength / 3;
   const image = new ImageData(1, count);
   for (let k = 0; k < count; k += 1) {
@@ -93,16 +94,15 @@ function drawBar(bar, canvas, facts, colors) {
     for (let c = 0; c < 3; c += 1) image.data[row + c] = colors.getUint8(3 * k + c);
     image.data[row + 3] = 255;
   }
-  Object.assign(canvas, { width: 1, height: count });
+  const canvas = Object.assign(scale.querySelector("canvas"), { width: 1, height: count });
   canvas.getContext("2d").putImageData(image, 0, 0);
-  for (const old of bar.querySelectorAll(":scope > span, :scope > b")) old.remove();
+  for (const old of scale.querySelectorAll(":scope > span")) old.remove();
   for (const [at, label] of facts.ticks) {
-    const mark = make("span", bar, { textContent: label });
-    mark.style.top = `calc(28px + ${1 - at} * (100% - 40px))`;
+    make("span", scale, { textContent: label }).style.top = `${100 * (1 - at)}%`;
   }
   const unit = [facts.exponent ? `×10${power(facts.exponent)}` : "", facts.unit].filter(Boolean).join(" ");
   const less = facts.reference ? ` ${facts.reference > 0 ? "−" : "+"} ${Math.abs(facts.reference)}` : "";
-  words(make("b", bar), facts.symbol + less + (unit ? ` [${unit}]` : ""));
+  words(heading, facts.symbol + less + (unit ? ` [${unit}]` : ""));
 }
 
 function controls(row, offers, ask) {
@@ -195,7 +195,9 @@ function render({ model, el }) {
   const stage = make("div", root, { className: "ppum-stage" });
   const canvas = make("canvas", stage, { tabIndex: 0, width: 1, height: 1, role: "img", ariaLabel: "field; arrows move, + and - zoom, 0 shows all" });
   const bar = make("div", stage, { className: "ppum-bar" });
-  const scale = make("canvas", bar);
+  const heading = make("b", bar);
+  const scale = make("div", bar, { className: "ppum-scale" });
+  make("canvas", scale);
   const told = make("div", root, { className: "ppum-told" });
   const error = make("div", root, { className: "ppum-error", role: "status" });
   const size = () => [canvas.clientWidth, canvas.clientHeight].map((n) => Math.round(n * (window.devicePixelRatio || 1)));
@@ -215,7 +217,7 @@ function render({ model, el }) {
     const context = canvas.getContext("2d");
     context.clearRect(0, 0, image.width, image.height);
     context.drawImage(image, 0, 0);
-    drawBar(bar, scale, content.bar, buffers[1]);
+    drawBar(heading, scale, content.bar, buffers[1]);
     told.textContent = place;
     canvas.dataset.version = content.version;
     canvas.dataset.frames = Number(canvas.dataset.frames ?? 0) + 1;

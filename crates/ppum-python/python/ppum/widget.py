@@ -19,7 +19,7 @@ import numpy as np
 import traitlets
 
 from . import _core
-from .errors import PpumError
+from .errors import PpumError, QuantityError
 from .pictures import Figure, figure_scene, spot
 
 if TYPE_CHECKING:
@@ -284,17 +284,45 @@ class Viewer(anywidget.AnyWidget):
         """Values under the mouse, near a crack those of its faces, in words."""
         side = self.width / size[0]
         offset = np.array([float(pixel[0]) - 0.5 * size[0], 0.5 * size[1] - float(pixel[1])]) * side
-        field, anchor = self._at_step(), np.array(self.center)
-        near = _nearest(field, anchor, offset, REACH * side) if self.deformed is None else None
+        anchor = np.array(self.center)
         x, y = anchor + offset
         place = f"x = {x:.12g}, y = {y:.12g}"
         if self.deformed is not None:
-            return place
+            return f"{place}: {self._on_deformed((x, y), side)}"
+        near = _nearest(self._at_step(), anchor, offset, REACH * side)
         if near is None:
-            return f"{place}: {field.at(*offset, anchor=anchor)[self.quantity]:.9g}"
-        above, below = field.at(*near[1], anchor=near[0], side="both")[self.quantity]
+            return f"{place}: {self._value(anchor, offset, side):.9g}"
         x, y = near[0] + near[1]
-        return f"x = {x:.12g}, y = {y:.12g}: {above:.9g} above, {below:.9g} below the crack"
+        place = f"x = {x:.12g}, y = {y:.12g}"
+        if self._is_of_cells():
+            return f"{place}: {self._value(near[0], near[1], side):.9g}"
+        above, below = self._at_step().at(*near[1], anchor=near[0], side="both")[self.quantity]
+        return f"{place}: {above:.9g} above, {below:.9g} below the crack"
+
+    def _on_deformed(self, place: tuple[float, float], side: float) -> str:
+        """What a pixel of the deformed plate shows: the value, and where that point of the plate was before."""
+        found = _core.material(self._at_step()._core, str(self.deformed), (place, side))
+        if found is None:
+            return "the deformed plate is not here"
+        anchor, offset = np.array(found["anchor"]), np.array(found["offset"])
+        x, y = anchor + offset
+        told = f"{self._value(anchor, offset, side):.9g}, moved from x = {x:.12g}, y = {y:.12g}"
+        others = found["count"] - 1
+        return f"{told}, over {others} more point{'s' if others > 1 else ''} of the plate" if others else told
+
+    def _value(self, anchor: Any, offset: Any, side: float) -> float:
+        """The quantity at a point; of cells that of the cell."""
+        field = self._at_step()
+        if self._is_of_cells():
+            return float(field.render(self.quantity, center=anchor + offset, width=side, size=(1, 1))[0, 0])
+        return float(field.at(*offset, anchor=anchor)[self.quantity])
+
+    def _is_of_cells(self) -> bool:
+        try:
+            self._at_step()._core.check(self.quantity)
+        except QuantityError:
+            return True
+        return False
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
         """The widget, and a picture for where there is no kernel."""

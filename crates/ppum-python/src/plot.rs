@@ -1,0 +1,176 @@
+//! The program's plots: curves over axes, as the bytes of files.
+
+use std::sync::Arc;
+
+use ppum::dataset::Dataset as Data;
+use ppum::progress::Watcher;
+use ppum_figure::plot::{LEAST, Plot, plot};
+use ppum_scene::plots::{self, Named, Number, Over, PlotError, Profiles, Work};
+use ppum_scene::profile::Along;
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::dataset::Dataset;
+use crate::errors::{RenderError, no_profile};
+use crate::field::{Field, written};
+use crate::picture::form;
+use crate::watch::long;
+
+/// Curves over axes, ready to be drawn.
+#[pyclass(frozen, module = "ppum._core")]
+pub(crate) struct Curves {
+    plot: Plot,
+    names: Vec<String>,
+    warnings: Vec<String>,
+}
+
+/// The label of a curve and its points.
+type Points = (String, Vec<[f64; 2]>);
+
+#[pymethods]
+impl Curves {
+    /// The bytes of a file: `png`, `svg` or `pdf`.
+    fn bytes<'py>(
+        &self,
+        py: Python<'py>,
+        size: [u32; 2],
+        name: &str,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let (form, [least, lowest]) = (form(name)?, LEAST);
+        if size[0] < least || size[1] < lowest {
+            let [width, height] = size;
+            return Err(RenderError::new_err(format!(
+                "a plot of {width}x{height} pixels leaves no room; give at least {least}x{lowest}"
+            )));
+        }
+        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        let texts = plots::texts(&names, &self.plot);
+        let bytes = long(py, None, None, |_| form.bytes(&plot(&self.plot, size), None, &texts))?;
+        Ok(PyBytes::new(py, &bytes?))
+    }
+
+    /// The labels of the curves as they are told, and their points.
+    fn curves(&self) -> Vec<Points> {
+        let curves = self.plot.curves.iter();
+        curves.map(|curve| (plots::plain(&curve.label), curve.points.clone())).collect()
+    }
+
+    /// What curves do not show.
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
+    }
+}
+
+/// Makes logarithmic the axes whose letters are given, and looks for what cannot be seen.
+fn finished(mut plot: Plot, names: Vec<String>, log: &str) -> PyResult<Curves> {
+    for letter in log.chars() {
+        let axis = match letter {
+            'x' => &mut plot.x,
+            'y' => &mut plot.y,
+            other => {
+                let known = "there are x, y, xy";
+                return Err(PyValueError::new_err(format!("log: `{other}` is no axis; {known}")));
+            }
+        };
+        *axis = std::mem::take(axis).logarithmic();
+    }
+    let warnings = plots::check(&plot).map_err(unplotted)?;
+    Ok(Curves { plot, names, warnings })
+}
+
+/// A plot that cannot be.
+fn unplotted(error: PlotError) -> PyErr {
+    match error {
+        PlotError::Step { .. } => PyIndexError::new_err(error.to_string()),
+        error => RenderError::new_err(error.to_string()),
+    }
+}
+
+/// Quantities of fields along one curve.
+#[pyfunction]
+pub(crate) fn profiles(
+    py: Python<'_>,
+    named: Vec<(String, Py<Field>)>,
+    along: &str,
+    count: usize,
+    quantities: Option<Vec<String>>,
+    log: &str,
+) -> PyResult<Curves> {
+    let along = written::<Along>(along)?;
+    let jumps = quantities.is_none() && matches!(along, Along::Crack { .. });
+    let mut all = Profiles::new(along.variable(), jumps, named.len() > 1);
+    for (name, field) in &named {
+        let (this, field) = (field.get(), field.get().owned.field());
+        let wanted = match (&quantities, jumps) {
+            (Some(wanted), _) => wanted.clone(),
+            (None, true) => Vec::new(),
+            (None, false) => vec![plots::usual(field).to_owned()],
+        };
+        let wanted: Vec<_> =
+            wanted.iter().map(|name| this.spelled(name)).zip(this.quantities(&wanted)?).collect();
+        let drawn = |watcher: &dyn Watcher| along.drawn(field, &wanted, count, watcher);
+        let profile = long(py, None, None, drawn)?.map_err(no_profile)?;
+        let dataset = this.owned.dataset();
+        all.add(Named { name, dataset }, field, &wanted, &profile.table);
+    }
+    let plot = all.plot();
+    finished(plot, named.into_iter().map(|(name, _)| name).collect(), log)
+}
+
+/// What is drawn of datasets.
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum Kind {
+    Convergence { step: Option<usize> },
+    History { what: String, step: Option<usize> },
+    Series { numbers: Vec<String>, over: String },
+}
+
+/// A word of a list, or a `ValueError` that tells them all.
+fn word<T: Copy>(what: &str, name: &str, known: &[(&str, T)]) -> PyResult<T> {
+    let found = known.iter().find(|(word, _)| *word == name).map(|(_, value)| *value);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        PyValueError::new_err(format!("{what}: `{name}` is none; there are {}", known.join(", ")))
+    })
+}
+
+const WORK: [(&str, Work); 4] = [
+    ("seconds", Work::Seconds),
+    ("bytes", Work::Bytes),
+    ("residuals", Work::Residuals),
+    ("levels", Work::Levels),
+];
+
+const OVER: [(&str, Over); 5] = [
+    ("step", Over::Step),
+    ("load", Over::Load),
+    ("length", Over::Length),
+    ("extension", Over::Extension),
+    ("cycles", Over::Cycles),
+];
+
+/// What the solver and the steps of datasets tell.
+#[pyfunction]
+pub(crate) fn told(
+    py: Python<'_>,
+    named: Vec<(String, Py<Dataset>)>,
+    kind: &str,
+    log: &str,
+) -> PyResult<Curves> {
+    let (names, datasets): (Vec<String>, Vec<Arc<Data>>) =
+        named.into_iter().map(|(name, dataset)| (name, dataset.get().0.clone())).unzip();
+    let pairs = names.iter().zip(&datasets);
+    let named: Vec<_> = pairs.map(|(name, dataset)| Named { name, dataset }).collect();
+    let plot = match written::<Kind>(kind)? {
+        Kind::Convergence { step } => long(py, None, None, |_| plots::convergence(&named, step))?,
+        Kind::History { what, step } => plots::history(&named, word("what", &what, &WORK)?, step),
+        Kind::Series { numbers, over } => {
+            let numbers: Result<Vec<Number>, _> = numbers.iter().map(|n| n.parse()).collect();
+            let over = word("over", &over, &OVER)?;
+            numbers.and_then(|numbers| plots::series(&named, &numbers, over))
+        }
+    };
+    finished(plot.map_err(unplotted)?, names, log)
+}
